@@ -1,0 +1,127 @@
+# One helper for every target: standard, warnings, precompiled header, sanitizers and clang-tidy are set here alone.
+
+option(HOMEWARD_ASAN "Address and undefined behaviour sanitizers" OFF)
+option(HOMEWARD_TSAN "Thread sanitizer" OFF)
+option(HOMEWARD_TIDY "Run clang-tidy on every source" OFF)
+option(HOMEWARD_NATIVE "Use the instructions of this machine's processor" OFF)
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${CMAKE_COMMAND} -E env
+      CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+      ${CCACHE_PROGRAM})
+endif()
+
+add_library(homeward_options INTERFACE)
+target_compile_features(homeward_options INTERFACE cxx_std_20)
+target_compile_options(
+  homeward_options
+  INTERFACE -Wall
+            -Wextra
+            -Wpedantic
+            -Wshadow
+            -Wnon-virtual-dtor
+            -Wold-style-cast
+            -Woverloaded-virtual
+            -Werror
+            -fno-math-errno
+            -ffp-contract=off)
+target_compile_definitions(homeward_options INTERFACE BOOST_ASIO_SEPARATE_COMPILATION
+                                                      BOOST_BEAST_SEPARATE_COMPILATION)
+target_include_directories(homeward_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+if(HOMEWARD_NATIVE)
+  target_compile_options(homeward_options INTERFACE -march=native)
+endif()
+if(HOMEWARD_ASAN)
+  target_compile_options(homeward_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+                                                    -fno-omit-frame-pointer)
+  target_link_options(homeward_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(HOMEWARD_TSAN)
+  # GCC warns that atomic_thread_fence is not modelled; Asio uses it.
+  target_compile_options(homeward_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer -Wno-tsan)
+  target_link_options(homeward_options INTERFACE -fsanitize=thread)
+endif()
+
+# Headers that nearly every source reads, compiled once.
+file(WRITE ${PROJECT_BINARY_DIR}/pch.cpp "// only a carrier of the precompiled header\n")
+add_library(homeward_pch OBJECT ${PROJECT_BINARY_DIR}/pch.cpp)
+target_link_libraries(homeward_pch PRIVATE homeward_options Eigen3::Eigen Threads::Threads)
+target_precompile_headers(
+  homeward_pch
+  PRIVATE
+  <algorithm>
+  <array>
+  <cmath>
+  <cstdint>
+  <functional>
+  <map>
+  <memory>
+  <optional>
+  <span>
+  <string>
+  <unordered_map>
+  <utility>
+  <variant>
+  <vector>
+  <tl/expected.hpp>
+  <Eigen/Core>
+  <Eigen/Geometry>)
+
+function(_homeward_finish target)
+  target_link_libraries(${target} PRIVATE homeward_options Eigen3::Eigen Threads::Threads)
+  target_precompile_headers(${target} REUSE_FROM homeward_pch)
+  if(HOMEWARD_TIDY)
+    set_target_properties(${target} PROPERTIES CXX_CLANG_TIDY "clang-tidy;--quiet")
+  endif()
+endfunction()
+
+# homeward_add_library(name SOURCES a.cpp ... [PUBLIC targets] [PRIVATE targets]): target homeward_<name>, alias
+# homeward::<name>. Without sources it is headers only.
+function(homeward_add_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  if(ARG_SOURCES)
+    add_library(homeward_${name} STATIC ${ARG_SOURCES})
+    target_include_directories(homeward_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+    target_link_libraries(homeward_${name} PUBLIC Eigen3::Eigen ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+    _homeward_finish(homeward_${name})
+  else()
+    add_library(homeward_${name} INTERFACE)
+    target_include_directories(homeward_${name} INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+    target_link_libraries(homeward_${name} INTERFACE Eigen3::Eigen ${ARG_PUBLIC})
+  endif()
+  add_library(homeward::${name} ALIAS homeward_${name})
+endfunction()
+
+# homeward_add_program(homeward-server SOURCES main.cpp LINK targets)
+function(homeward_add_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  _homeward_finish(${name})
+endfunction()
+
+# homeward_add_test(camera/mirror SOURCES mirror_test.cpp LINK targets [LABELS unit]): a GoogleTest program that is one
+# ctest entry named "camera/mirror".
+function(homeward_add_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  string(REPLACE "/" "_" target "test_${name}")
+  add_executable(${target} ${ARG_SOURCES})
+  target_link_libraries(${target} PRIVATE ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  _homeward_finish(${target})
+  target_compile_definitions(
+    ${target} PRIVATE HOMEWARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}" HOMEWARD_BINARY_DIR="${PROJECT_BINARY_DIR}"
+                      HOMEWARD_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  add_test(NAME ${name} COMMAND ${target})
+  if(NOT ARG_LABELS)
+    set(ARG_LABELS unit)
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+endfunction()

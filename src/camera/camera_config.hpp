@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <variant>
+
+namespace homeward::camera {
+
+/// Focal lengths and principal point; pixel (0,0) is the centre of the first pixel.
+struct Intrinsics {
+  double fx_px = 0.0;
+  double fy_px = 0.0;
+  double cx_px = 0.0;
+  double cy_px = 0.0;
+};
+
+/// A perspective camera looking into a hyperbolic mirror (Svoboda & Pajdla; Goedemé 2007, eq. 13-20).
+struct HyperbolicMirror {
+  Intrinsics intrinsics;
+  double a_mm = 0.0;  // (z+e)^2/a^2 - (x^2+y^2)/b^2 = 1, e = sqrt(a^2+b^2)
+  double b_mm = 0.0;
+  double valid_radius_min_px = 0.0;  // inside: the camera's own picture
+  double valid_radius_max_px = 0.0;  // outside: the rim
+};
+
+/// Columns are azimuth, rows elevation, full sphere; z through the centre column at the horizon. No intrinsics.
+struct Equirectangular {};
+
+/// Perspective camera with Brown distortion, order k1 k2 p1 p2 k3.
+struct Pinhole {
+  Intrinsics intrinsics;
+  std::array<double, 5> distortion{};
+};
+
+using CameraModel = std::variant<HyperbolicMirror, Equirectangular, Pinhole>;
+
+/// One camera as `camera.json` describes it. Camera frame: x right in the picture, y down, z along the optical axis.
+struct CameraConfig {
+  int width_px = 0;
+  int height_px = 0;
+  CameraModel model;
+  Eigen::Vector3d robot_from_camera_translation_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond robot_from_camera_rotation = Eigen::Quaterniond::Identity();
+  bool nominal = false;  // a guessed camera: good for recognition, not for geometry
+};
+
+}  // namespace homeward::camera

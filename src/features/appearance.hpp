@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace homeward::features {
+
+/// Everything that decides how a picture becomes features. Part of every map and path by its id.
+struct FeatureConfig {
+  int panorama_width_px = 1024;
+  double elevation_max_rad = 0.34;   // top row of the panorama
+  double elevation_min_rad = -0.95;  // bottom row
+  int max_sift = 300;                // strongest kept, spread over azimuth
+  double sift_contrast_threshold = 0.02;
+  int max_columns = 0;               // invariant column segments: none in version 1
+};
+
+/// Short text that is equal exactly when features are comparable, for example "hw1-w1024-e0.34_-0.95-s300-c0".
+std::string feature_config_id(const FeatureConfig& config);
+
+/// One kind of local features of one picture. Row i of all members belongs to feature i.
+struct FeatureSet {
+  Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> bearings;  // N x 3 unit vectors, robot frame
+  Eigen::VectorXf scales_rad;                                         // N, size of the feature seen from the camera
+  Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> descriptors;  // N x D (SIFT: 128)
+  Eigen::Matrix<std::int8_t, Eigen::Dynamic, 3, Eigen::RowMajor> colours;  // N x 3, C_RG C_RB C_GB times 127
+
+  [[nodiscard]] int size() const { return static_cast<int>(bearings.rows()); }
+};
+
+/// What is kept of one picture: enough to recognise it and to home to it; its pixels are never needed again.
+struct Appearance {
+  FeatureSet sift;
+  FeatureSet columns;                        // empty in version 1
+  std::array<float, 9> colour_moments{};     // mean, spread, skewness of R, G, B over the panorama's valid pixels
+
+  [[nodiscard]] int size() const { return sift.size() + columns.size(); }
+};
+
+}  // namespace homeward::features

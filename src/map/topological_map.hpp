@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camera/camera_config.hpp"
+#include "core/ids.hpp"
+#include "core/pose2.hpp"
+#include "core/time.hpp"
+#include "features/appearance.hpp"
+
+namespace homeward::map {
+
+/// One picture of a tour, in tour order. Its pixels live elsewhere.
+struct MapImage {
+  ImageId id;
+  std::optional<TimeUs> t_us;
+  std::optional<Pose2> odometry;  // tour frame, drifts
+};
+
+/// A distinct place: images that show it, one of them the prototype.
+struct Place {
+  PlaceId id;
+  std::string label;               // empty unless a person named it or a tour mark did
+  ImageId prototype;
+  std::vector<ImageId> members;    // tour order, the prototype among them
+  std::vector<features::Appearance> appearances;  // the prototype's first; later: by night, ...
+};
+
+/// A drivable transition seen on a tour or added by a person.
+struct Edge {
+  PlaceId from;
+  PlaceId to;
+  std::optional<double> bearing_rad;  // direction of `to` in `from`'s prototype frame
+  std::optional<double> turn_rad;     // prototype heading of `to` minus that of `from`
+  double length_m = 1.0;              // from odometry when known, else in units of median tour steps
+  double confidence = 0.0;            // of the verified pose between the prototypes
+  bool weak = false;                  // homing along it is likely to fail
+  bool blocked = false;               // by a person or because driving failed
+  std::string by = "method";          // "method" or "person"
+};
+
+/// Dempster-Shafer masses over {true, false, unknown}; they sum to 1.
+struct Masses {
+  double is_true = 0.0;
+  double is_false = 0.0;
+  double unknown = 1.0;
+};
+
+enum class Decision { kAccepted, kRejected, kUndecided };
+
+/// "These two subclusters are one place": a loop-closing hypothesis with all its evidence (Goedemé 2006 §3.4-3.6).
+struct Hypothesis {
+  ImageId prototype_a;
+  ImageId prototype_b;
+  double similarity = 0.0;  // s_V in [0,1]
+  Masses masses_before;
+  Masses masses_after;
+  double support = 0.0;
+  double plausibility = 1.0;
+  Decision decision = Decision::kUndecided;
+  std::string by = "method";  // "method" or "person"
+};
+
+/// What a person picks and what arrival is measured to. Docking heading = the heading of `image`.
+struct Destination {
+  DestinationId id;
+  PlaceId place;
+  ImageId image;
+  std::string label;
+  features::Appearance appearance;
+};
+
+/// Spreads measured on the map, used by localisation (Goedemé 2007 §5).
+struct MotionStatistics {
+  double hop_spread = 1.0;       // graph distance between consecutive tour images, root mean square, >= 0.5
+  double distance_spread = 1.0;  // of the visual distance D within a place
+  double distance_scale = 1.0;   // D0 in s = 1/(1 + D/D0)
+};
+
+enum class EditKind { kRename, kMerge, kSplit, kDelete, kMove, kAddEdge, kRemoveEdge, kBlockEdge, kDecide };
+
+/// One edit by a person, keyed to images so that it outlives a rebuild.
+struct Edit {
+  EditKind kind = EditKind::kRename;
+  ImageId image_a;       // any image of the first place concerned (or the first prototype of a hypothesis)
+  ImageId image_b;       // of the second one, where there is one
+  std::string text;      // the new label for kRename, "accept"/"reject" for kDecide, "true"/"false" for kBlockEdge
+  std::vector<ImageId> images;  // for kSplit and kMove: the images that go
+  std::string by;        // user name
+  TimeUs t_us = 0;
+  bool undone = false;
+};
+
+/// A map: places joined by drivable edges, and why it is so. Plain data; algorithms are in graph.hpp.
+struct TopologicalMap {
+  int version = 1;                     // of this structure
+  std::string name;
+  std::int64_t revision = 1;           // rises with every change; missions and paths name it
+  camera::CameraConfig camera;
+  features::FeatureConfig feature_config;
+  std::string feature_config_id;
+  std::vector<MapImage> images;        // all images of all tours, tour order
+  std::vector<Place> places;
+  std::vector<Edge> edges;             // directed
+  std::vector<Hypothesis> hypotheses;
+  std::vector<Destination> destinations;
+  MotionStatistics motion;
+  std::vector<Edit> edits;             // oldest first
+  std::int64_t next_place_number = 1;  // ids are never reused
+  std::int64_t next_destination_number = 1;
+  double build_seconds = 0.0;
+};
+
+}  // namespace homeward::map

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "core/image.hpp"
+#include "core/result.hpp"
+#include "localisation/localiser.hpp"
+#include "map/topological_map.hpp"
+#include "pipeline/eye.hpp"
+
+namespace homeward::pipeline {
+
+/// A belief from a stream of pictures: camera, features and localiser of one map together.
+class BeliefTracker {
+ public:
+  /// `camera`: the camera of the stream; it may differ from the map's as long as the feature configuration agrees.
+  /// Errors: kFeatureConfigMismatch, kInvalidInput.
+  static Result<BeliefTracker> create(std::shared_ptr<const map::TopologicalMap> map, const camera::CameraConfig& camera,
+                                      const localisation::LocaliserConfig& config = {});
+  /// A belief with the map's own camera.
+  static Result<BeliefTracker> create(std::shared_ptr<const map::TopologicalMap> map);
+  ~BeliefTracker();
+  BeliefTracker(BeliefTracker&&) noexcept;
+  BeliefTracker& operator=(BeliefTracker&&) noexcept;
+
+  /// Errors: kWrongImageSize. A black or covered picture is no error: the belief says lost.
+  Result<localisation::Belief> update(const Image& picture);
+  void restart();
+  [[nodiscard]] const map::TopologicalMap& map() const;
+
+ private:
+  struct State;
+  BeliefTracker();
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace homeward::pipeline
