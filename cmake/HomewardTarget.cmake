@@ -103,6 +103,10 @@ function(homeward_add_program name)
   _homeward_finish(${name})
 endfunction()
 
+# What the sanitizer builds need: all unit tests, or the server's alone.
+add_custom_target(unit_tests)
+add_custom_target(server_tests)
+
 # homeward_add_test(camera/mirror SOURCES mirror_test.cpp LINK targets [LABELS unit]): a GoogleTest program that is one
 # ctest entry named "camera/mirror".
 function(homeward_add_test name)
@@ -124,4 +128,10 @@ function(homeward_add_test name)
     set(ARG_TIMEOUT 300)
   endif()
   set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+  if("unit" IN_LIST ARG_LABELS)
+    add_dependencies(unit_tests ${target})
+  endif()
+  if(name MATCHES "^server/")
+    add_dependencies(server_tests ${target})
+  endif()
 endfunction()
