@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "db/map_file.hpp"
+#include "db/sqlite/map_file_schema.hpp"
+#include "wire/appearance_blob.hpp"
+#include "wire/camera_json.hpp"
+
+namespace homeward::db {
+namespace {
+
+using nlohmann::json;
+
+void put_meta(SQLite::Database& database, const map::TopologicalMap& map) {
+  SQLite::Statement insert(database, "INSERT INTO meta(key, value) VALUES (?, ?)");
+  const auto put = [&](const std::string& key, const json& value) {
+    insert.bind(1, key);
+    insert.bind(2, value.dump());
+    insert.exec();
+    insert.reset();
+  };
+  put("version", map.version);
+  put("name", map.name);
+  put("revision", map.revision);
+  put("camera", wire::camera_to_json(map.camera));
+  const features::FeatureConfig& features = map.feature_config;
+  put("feature_config", {{"panorama_width_px", features.panorama_width_px},
+                         {"elevation_max_rad", features.elevation_max_rad},
+                         {"elevation_min_rad", features.elevation_min_rad},
+                         {"max_sift", features.max_sift},
+                         {"sift_contrast_threshold", features.sift_contrast_threshold},
+                         {"max_columns", features.max_columns}});
+  put("feature_config_id", map.feature_config_id);
+  put("motion", {{"hop_spread", map.motion.hop_spread},
+                 {"distance_spread", map.motion.distance_spread},
+                 {"distance_scale", map.motion.distance_scale}});
+  put("next_place_number", map.next_place_number);
+  put("next_destination_number", map.next_destination_number);
+  put("build_seconds", map.build_seconds);
+}
+
+void bind_optional(SQLite::Statement& statement, int index, const std::optional<double>& value) {
+  if (value) {
+    statement.bind(index, *value);
+  } else {
+    statement.bind(index);
+  }
+}
+
+void put_images(SQLite::Database& database, const map::TopologicalMap& map) {
+  SQLite::Statement insert(database, "INSERT INTO images VALUES (?, ?, ?, ?, ?, ?)");
+  std::int64_t position = 0;
+  for (const map::MapImage& image : map.images) {
+    insert.bind(1, position++);
+    insert.bind(2, image.id.str());
+    if (image.t_us) {
+      insert.bind(3, *image.t_us);
+    } else {
+      insert.bind(3);
+    }
+    bind_optional(insert, 4, image.odometry ? std::optional(image.odometry->x_m) : std::nullopt);
+    bind_optional(insert, 5, image.odometry ? std::optional(image.odometry->y_m) : std::nullopt);
+    bind_optional(insert, 6, image.odometry ? std::optional(image.odometry->theta_rad) : std::nullopt);
+    insert.exec();
+    insert.reset();
+  }
+}
+
+void bind_blob(SQLite::Statement& statement, int index, const std::vector<std::uint8_t>& bytes) {
+  statement.bind(index, bytes.data(), static_cast<int>(bytes.size()));
+}
+
+void put_places(SQLite::Database& database, const map::TopologicalMap& map) {
+  SQLite::Statement place_insert(database, "INSERT INTO places VALUES (?, ?, ?, ?)");
+  SQLite::Statement member_insert(database, "INSERT INTO place_members VALUES (?, ?, ?)");
+  SQLite::Statement appearance_insert(database, "INSERT INTO place_appearances VALUES (?, ?, ?)");
+  std::int64_t position = 0;
+  for (const map::Place& place : map.places) {
+    place_insert.bind(1, position++);
+    place_insert.bind(2, place.id.str());
+    place_insert.bind(3, place.label);
+    place_insert.bind(4, place.prototype.str());
+    place_insert.exec();
+    place_insert.reset();
+    std::int64_t member_position = 0;
+    for (const ImageId& member : place.members) {
+      member_insert.bind(1, place.id.str());
+      member_insert.bind(2, member_position++);
+      member_insert.bind(3, member.str());
+      member_insert.exec();
+      member_insert.reset();
+    }
+    std::int64_t appearance_position = 0;
+    for (const features::Appearance& appearance : place.appearances) {
+      appearance_insert.bind(1, place.id.str());
+      appearance_insert.bind(2, appearance_position++);
+      bind_blob(appearance_insert, 3, wire::encode_appearance(appearance));
+      appearance_insert.exec();
+      appearance_insert.reset();
+    }
+  }
+}
+
+void put_edges(SQLite::Database& database, const map::TopologicalMap& map) {
+  SQLite::Statement insert(database, "INSERT INTO edges VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  std::int64_t position = 0;
+  for (const map::Edge& edge : map.edges) {
+    insert.bind(1, position++);
+    insert.bind(2, edge.from.str());
+    insert.bind(3, edge.to.str());
+    bind_optional(insert, 4, edge.bearing_rad);
+    bind_optional(insert, 5, edge.turn_rad);
+    insert.bind(6, edge.length_m);
+    insert.bind(7, edge.confidence);
+    insert.bind(8, edge.weak ? 1 : 0);
+    insert.bind(9, edge.blocked ? 1 : 0);
+    insert.bind(10, edge.by);
+    insert.exec();
+    insert.reset();
+  }
+}
+
+void put_hypotheses(SQLite::Database& database, const map::TopologicalMap& map) {
+  SQLite::Statement insert(database, "INSERT INTO hypotheses VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  std::int64_t position = 0;
+  for (const map::Hypothesis& hypothesis : map.hypotheses) {
+    insert.bind(1, position++);
+    insert.bind(2, hypothesis.prototype_a.str());
+    insert.bind(3, hypothesis.prototype_b.str());
+    int index = 4;
+    for (const double value :
+         {hypothesis.similarity, hypothesis.masses_before.is_true, hypothesis.masses_before.is_false,
+          hypothesis.masses_before.unknown, hypothesis.masses_after.is_true, hypothesis.masses_after.is_false,
+          hypothesis.masses_after.unknown, hypothesis.support, hypothesis.plausibility}) {
+      insert.bind(index++, value);
+    }
+    insert.bind(13, static_cast<int>(hypothesis.decision));
+    insert.bind(14, hypothesis.by);
+    insert.exec();
+    insert.reset();
+  }
+}
+
+void put_destinations(SQLite::Database& database, const map::TopologicalMap& map) {
+  SQLite::Statement insert(database, "INSERT INTO destinations VALUES (?, ?, ?, ?, ?, ?)");
+  std::int64_t position = 0;
+  for (const map::Destination& destination : map.destinations) {
+    insert.bind(1, position++);
+    insert.bind(2, destination.id.str());
+    insert.bind(3, destination.place.str());
+    insert.bind(4, destination.image.str());
+    insert.bind(5, destination.label);
+    bind_blob(insert, 6, wire::encode_appearance(destination.appearance));
+    insert.exec();
+    insert.reset();
+  }
+}
+
+void put_edits(SQLite::Database& database, const map::TopologicalMap& map) {
+  SQLite::Statement insert(database, "INSERT INTO edits VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  std::int64_t position = 0;
+  for (const map::Edit& edit : map.edits) {
+    json images = json::array();
+    for (const ImageId& image : edit.images) images.push_back(image.str());
+    insert.bind(1, position++);
+    insert.bind(2, static_cast<int>(edit.kind));
+    insert.bind(3, edit.image_a.str());
+    insert.bind(4, edit.image_b.str());
+    insert.bind(5, edit.text);
+    insert.bind(6, images.dump());
+    insert.bind(7, edit.by);
+    insert.bind(8, edit.t_us);
+    insert.bind(9, edit.undone ? 1 : 0);
+    insert.exec();
+    insert.reset();
+  }
+}
+
+void put_thumbnails(SQLite::Database& database, const Thumbnails& thumbnails) {
+  SQLite::Statement insert(database, "INSERT INTO thumbnails VALUES (?, ?)");
+  for (const auto& [image, jpeg] : thumbnails) {
+    insert.bind(1, image.str());
+    bind_blob(insert, 2, jpeg);
+    insert.exec();
+    insert.reset();
+  }
+}
+
+void write_database(const std::filesystem::path& file, const map::TopologicalMap& map, const Thumbnails& thumbnails) {
+  SQLite::Database database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  database.exec("PRAGMA synchronous = FULL");
+  database.exec("PRAGMA foreign_keys = ON");
+  SQLite::Transaction transaction(database);
+  database.exec(kMapFileSchema);
+  database.exec("PRAGMA application_id = " + std::to_string(kMapApplicationId));
+  database.exec("PRAGMA user_version = " + std::to_string(kMapFileVersion));
+  put_meta(database, map);
+  put_images(database, map);
+  put_places(database, map);
+  put_edges(database, map);
+  put_hypotheses(database, map);
+  put_destinations(database, map);
+  put_edits(database, map);
+  put_thumbnails(database, thumbnails);
+  transaction.commit();
+}
+
+/// A rename is on the disk only when its folder is.
+bool flush_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool flushed = ::fsync(descriptor) == 0;
+  ::close(descriptor);
+  return flushed;
+}
+
+}  // namespace
+
+Status save_map(const std::filesystem::path& file, const map::TopologicalMap& map, const Thumbnails& thumbnails) {
+  std::filesystem::path folder = file.parent_path();
+  if (folder.empty()) folder = ".";
+  std::filesystem::path part = file;
+  part += ".part-" + std::to_string(::getpid());
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);
+  try {
+    write_database(part, map, thumbnails);
+    std::filesystem::rename(part, file);
+  } catch (const std::exception& failure) {
+    std::filesystem::remove(part, ignored);
+    return fail(ErrorCode::kIo, std::string("The map could not be written: ") + failure.what() + ".", file.string());
+  }
+  if (!flush_folder(folder)) {
+    return fail(ErrorCode::kIo, "The map's folder could not be flushed to the disk.", folder.string());
+  }
+  return {};
+}
+
+}  // namespace homeward::db

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace homeward::db {
+
+/// "HWMP" in SQLite's application_id field: what makes an SQLite file a Homeward map.
+inline constexpr int kMapApplicationId = 0x48574D50;
+/// user_version of the map file. A released schema is never edited; a newer file is refused.
+inline constexpr int kMapFileVersion = 1;
+
+inline constexpr const char* kMapFileSchema = R"sql(
+CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT;
+CREATE TABLE images (
+  position INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE, t_us INTEGER,
+  odometry_x_m REAL, odometry_y_m REAL, odometry_theta_rad REAL) STRICT;
+CREATE TABLE places (
+  position INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE, label TEXT NOT NULL, prototype TEXT NOT NULL) STRICT;
+CREATE TABLE place_members (
+  place TEXT NOT NULL REFERENCES places(id), position INTEGER NOT NULL, image TEXT NOT NULL REFERENCES images(id),
+  PRIMARY KEY (place, position)) STRICT;
+CREATE TABLE place_appearances (
+  place TEXT NOT NULL REFERENCES places(id), position INTEGER NOT NULL, appearance BLOB NOT NULL,
+  PRIMARY KEY (place, position)) STRICT;
+CREATE TABLE edges (
+  position INTEGER PRIMARY KEY, from_place TEXT NOT NULL REFERENCES places(id),
+  to_place TEXT NOT NULL REFERENCES places(id), bearing_rad REAL, turn_rad REAL, length_m REAL NOT NULL,
+  confidence REAL NOT NULL, weak INTEGER NOT NULL, blocked INTEGER NOT NULL, by TEXT NOT NULL) STRICT;
+CREATE TABLE hypotheses (
+  position INTEGER PRIMARY KEY, prototype_a TEXT NOT NULL, prototype_b TEXT NOT NULL, similarity REAL NOT NULL,
+  before_true REAL NOT NULL, before_false REAL NOT NULL, before_unknown REAL NOT NULL,
+  after_true REAL NOT NULL, after_false REAL NOT NULL, after_unknown REAL NOT NULL,
+  support REAL NOT NULL, plausibility REAL NOT NULL, decision INTEGER NOT NULL, by TEXT NOT NULL) STRICT;
+CREATE TABLE destinations (
+  position INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE, place TEXT NOT NULL, image TEXT NOT NULL,
+  label TEXT NOT NULL, appearance BLOB NOT NULL) STRICT;
+CREATE TABLE edits (
+  position INTEGER PRIMARY KEY, kind INTEGER NOT NULL, image_a TEXT NOT NULL, image_b TEXT NOT NULL,
+  text TEXT NOT NULL, images_json TEXT NOT NULL, by TEXT NOT NULL, t_us INTEGER NOT NULL,
+  undone INTEGER NOT NULL) STRICT;
+CREATE TABLE thumbnails (image TEXT PRIMARY KEY, jpeg BLOB NOT NULL) STRICT;
+)sql";
+
+}  // namespace homeward::db

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/appearance_blob.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace homeward::wire {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "blobs are copied as they lie in memory");
+
+constexpr char kMagic[4] = {'H', 'W', 'A', 'P'};
+constexpr std::uint16_t kVersion = 1;
+constexpr std::uint16_t kMaxDescriptorBytes = 1024;
+constexpr float kBearingUnits = 32767.0F;
+constexpr float kScaleUnitsPerRad = 32768.0F;
+
+class Writer {
+ public:
+  template <class T>
+  void put(const T* values, std::size_t count) {
+    const auto* first = reinterpret_cast<const std::uint8_t*>(values);
+    bytes_.insert(bytes_.end(), first, first + count * sizeof(T));
+  }
+  template <class T>
+  void put(T value) {
+    put(&value, 1);
+  }
+  std::vector<std::uint8_t> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::uint8_t> bytes_;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  template <class T>
+  bool get(T* values, std::size_t count) {
+    const std::size_t size = count * sizeof(T);
+    if (size > bytes_.size()) return false;
+    if (size > 0) std::memcpy(values, bytes_.data(), size);
+    bytes_ = bytes_.subspan(size);
+    return true;
+  }
+  [[nodiscard]] std::size_t left() const { return bytes_.size(); }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+};
+
+void put_set(Writer& writer, const features::FeatureSet& set) {
+  const auto count = static_cast<std::size_t>(set.size());
+  writer.put(static_cast<std::uint32_t>(count));
+  writer.put(static_cast<std::uint16_t>(set.descriptors.cols()));
+  writer.put(std::uint16_t{0});
+  for (Eigen::Index i = 0; i < set.bearings.size(); ++i) {
+    const float value = std::clamp(set.bearings.data()[i], -1.0F, 1.0F);
+    writer.put(static_cast<std::int16_t>(std::lround(value * kBearingUnits)));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const float scale = set.scales_rad[static_cast<Eigen::Index>(i)] * kScaleUnitsPerRad;
+    writer.put(static_cast<std::uint16_t>(std::lround(std::clamp(scale, 0.0F, 65535.0F))));
+  }
+  writer.put(set.descriptors.data(), static_cast<std::size_t>(set.descriptors.size()));
+  writer.put(set.colours.data(), static_cast<std::size_t>(set.colours.size()));
+}
+
+Status get_set(Reader& reader, features::FeatureSet& set, const std::string& where) {
+  const auto too_short = [&] { return fail(ErrorCode::kCorruptFile, "The appearance ends too early.", where); };
+  std::uint32_t count = 0;
+  std::uint16_t dimension = 0;
+  std::uint16_t zero = 0;
+  if (!reader.get(&count, 1) || !reader.get(&dimension, 1) || !reader.get(&zero, 1)) return too_short();
+  if (count > kMaxBlobFeatures || dimension > kMaxDescriptorBytes) {
+    return fail(ErrorCode::kCorruptFile, "The appearance claims more features than the limit.", where);
+  }
+  const std::size_t feature_bytes = 3 * sizeof(std::int16_t) + sizeof(std::uint16_t) + dimension + 3;
+  if (reader.left() < count * feature_bytes) return too_short();
+
+  const auto rows = static_cast<Eigen::Index>(count);
+  std::vector<std::int16_t> bearings(std::size_t{3} * count);
+  std::vector<std::uint16_t> scales(count);
+  set.bearings.resize(rows, 3);
+  set.scales_rad.resize(rows);
+  set.descriptors.resize(rows, dimension);
+  set.colours.resize(rows, 3);
+  const bool complete = reader.get(bearings.data(), bearings.size()) && reader.get(scales.data(), scales.size()) &&
+                        reader.get(set.descriptors.data(), static_cast<std::size_t>(set.descriptors.size())) &&
+                        reader.get(set.colours.data(), static_cast<std::size_t>(set.colours.size()));
+  if (!complete) return too_short();
+  std::transform(bearings.begin(), bearings.end(), set.bearings.data(),
+                 [](std::int16_t value) { return static_cast<float>(value) / kBearingUnits; });
+  std::transform(scales.begin(), scales.end(), set.scales_rad.data(),
+                 [](std::uint16_t value) { return static_cast<float>(value) / kScaleUnitsPerRad; });
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_appearance(const features::Appearance& appearance) {
+  Writer writer;
+  writer.put(kMagic, 4);
+  writer.put(kVersion);
+  writer.put(std::uint16_t{0});
+  writer.put(appearance.colour_moments.data(), appearance.colour_moments.size());
+  put_set(writer, appearance.sift);
+  put_set(writer, appearance.columns);
+  return writer.take();
+}
+
+Result<features::Appearance> decode_appearance(std::span<const std::uint8_t> bytes, const std::string& where) {
+  Reader reader(bytes);
+  char magic[4] = {};
+  std::uint16_t version = 0;
+  std::uint16_t zero = 0;
+  if (!reader.get(magic, 4) || std::memcmp(magic, kMagic, 4) != 0) {
+    return fail(ErrorCode::kUnsupportedFormat, "These bytes are not an appearance.", where);
+  }
+  if (!reader.get(&version, 1) || !reader.get(&zero, 1)) {
+    return fail(ErrorCode::kCorruptFile, "The appearance ends too early.", where);
+  }
+  if (version != kVersion) {
+    return fail(ErrorCode::kUnsupportedFormat,
+                "The appearance has version " + std::to_string(version) + "; this program reads version 1.", where);
+  }
+  features::Appearance appearance;
+  if (!reader.get(appearance.colour_moments.data(), appearance.colour_moments.size())) {
+    return fail(ErrorCode::kCorruptFile, "The appearance ends too early.", where);
+  }
+  const bool finite = std::all_of(appearance.colour_moments.begin(), appearance.colour_moments.end(),
+                                  [](float moment) { return std::isfinite(moment); });
+  if (!finite) return fail(ErrorCode::kCorruptFile, "A colour moment is not a number.", where);
+  for (features::FeatureSet* set : {&appearance.sift, &appearance.columns}) {
+    const Status status = get_set(reader, *set, where);
+    if (!status) return pass_on(status);
+  }
+  if (reader.left() != 0) {
+    return fail(ErrorCode::kCorruptFile, "The appearance has bytes after its end.", where);
+  }
+  return appearance;
+}
+
+}  // namespace homeward::wire

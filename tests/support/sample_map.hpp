@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <random>
+
+#include "map/topological_map.hpp"
+
+namespace homeward::testing {
+
+/// An appearance of `count` random features; the same seed gives the same one.
+inline features::Appearance random_appearance(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> uniform(-1.0F, 1.0F);
+  std::uniform_int_distribution<int> byte(0, 255);
+  features::Appearance appearance;
+  features::FeatureSet& sift = appearance.sift;
+  sift.bearings.resize(count, 3);
+  sift.scales_rad.resize(count);
+  sift.descriptors.resize(count, 128);
+  sift.colours.resize(count, 3);
+  for (int i = 0; i < count; ++i) {
+    sift.bearings.row(i) = Eigen::Vector3f(uniform(random), uniform(random), uniform(random)).normalized();
+    sift.scales_rad[i] = 0.01F + 0.1F * (1.0F + uniform(random));
+    for (int d = 0; d < 128; ++d) sift.descriptors(i, d) = static_cast<std::uint8_t>(byte(random));
+    for (int d = 0; d < 3; ++d) sift.colours(i, d) = static_cast<std::int8_t>(byte(random) - 128);
+  }
+  for (float& moment : appearance.colour_moments) moment = uniform(random);
+  return appearance;
+}
+
+/// A small valid map with one of everything: 3 images, 2 places, 2 edges, a hypothesis, a destination, an edit.
+inline map::TopologicalMap sample_map() {
+  map::TopologicalMap map;
+  map.name = "sample";
+  map.revision = 4;
+  map.camera.width_px = 1024;
+  map.camera.height_px = 512;
+  map.camera.model = camera::Equirectangular{};
+  map.camera.robot_from_camera_translation_m = {0.0, 0.0, 1.2};
+  map.camera.robot_from_camera_rotation = Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5);
+  map.feature_config_id = "hw1-sample";
+  for (int i = 0; i < 3; ++i) {
+    map::MapImage image{ImageId("tour/0000" + std::to_string(i) + ".jpg"), 1'000'000 * i, {}};
+    if (i < 2) image.odometry = Pose2{0.4 * i, 0.1, -0.2 * i};
+    map.images.push_back(image);
+  }
+  const auto place = [&](const char* id, int prototype, std::vector<int> members) {
+    map::Place made;
+    made.id = PlaceId(id);
+    made.prototype = map.images[static_cast<std::size_t>(prototype)].id;
+    for (const int member : members) made.members.push_back(map.images[static_cast<std::size_t>(member)].id);
+    made.appearances.push_back(random_appearance(20, static_cast<unsigned>(prototype)));
+    return made;
+  };
+  map.places = {place("p1", 0, {0, 1}), place("p2", 2, {2})};
+  map.places[1].label = "kitchen";
+  map.edges = {{PlaceId("p1"), PlaceId("p2"), 0.5, -0.25, 1.5, 0.9, false, false, "method"},
+               {PlaceId("p2"), PlaceId("p1"), std::nullopt, std::nullopt, 1.5, 0.1, true, true, "person"}};
+  map::Hypothesis hypothesis;
+  hypothesis.prototype_a = map.images[0].id;
+  hypothesis.prototype_b = map.images[2].id;
+  hypothesis.similarity = 0.4;
+  hypothesis.masses_before = {0.3, 0.45, 0.25};
+  hypothesis.masses_after = {0.1, 0.8, 0.1};
+  hypothesis.support = 0.1;
+  hypothesis.plausibility = 0.2;
+  hypothesis.decision = map::Decision::kRejected;
+  map.hypotheses = {hypothesis};
+  map.destinations = {{DestinationId("d1"), PlaceId("p2"), map.images[2].id, "kitchen", random_appearance(15, 9)}};
+  map::Edit edit;
+  edit.kind = map::EditKind::kRename;
+  edit.image_a = map.images[2].id;
+  edit.text = "kitchen";
+  edit.images = {map.images[2].id};
+  edit.by = "anna";
+  edit.t_us = 1'700'000'000'000'000;
+  map.edits = {edit};
+  map.next_place_number = 3;
+  map.next_destination_number = 2;
+  map.build_seconds = 1.25;
+  return map;
+}
+
+}  // namespace homeward::testing

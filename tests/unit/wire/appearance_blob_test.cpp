@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/appearance_blob.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/sample_map.hpp"
+
+namespace homeward::wire {
+namespace {
+
+using homeward::testing::random_appearance;
+
+TEST(AppearanceBlob, KeepsDescriptorsExactlyAndBearingsWithinItsUnits) {
+  const features::Appearance before = random_appearance(57, 3);
+  const auto after = decode_appearance(encode_appearance(before), "test");
+  ASSERT_TRUE(after) << after.error().message;
+  EXPECT_EQ(after->sift.descriptors, before.sift.descriptors);
+  EXPECT_EQ(after->sift.colours, before.sift.colours);
+  EXPECT_EQ(after->colour_moments, before.colour_moments);
+  EXPECT_LT((after->sift.bearings - before.sift.bearings).cwiseAbs().maxCoeff(), 2e-5F);
+  EXPECT_LT((after->sift.scales_rad - before.sift.scales_rad).cwiseAbs().maxCoeff(), 2e-5F);
+  EXPECT_EQ(after->columns.size(), 0);
+}
+
+TEST(AppearanceBlob, GivesTheSameBytesWhenEncodedAgain) {
+  const std::vector<std::uint8_t> bytes = encode_appearance(random_appearance(40, 5));
+  EXPECT_EQ(encode_appearance(*decode_appearance(bytes, "test")), bytes);
+}
+
+TEST(AppearanceBlob, AnAppearanceWithoutFeaturesIsFine) {
+  const auto after = decode_appearance(encode_appearance(features::Appearance{}), "test");
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->size(), 0);
+}
+
+TEST(AppearanceBlob, RefusesEveryTruncationAndAnyByteTooMany) {
+  std::vector<std::uint8_t> bytes = encode_appearance(random_appearance(3, 1));
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_FALSE(decode_appearance(std::span(bytes).first(size), "test")) << "at " << size << " bytes";
+  }
+  bytes.push_back(0);
+  EXPECT_EQ(decode_appearance(bytes, "test").error().code, ErrorCode::kCorruptFile);
+}
+
+TEST(AppearanceBlob, RefusesANewerVersionAndAHugeCountWithoutReservingMemory) {
+  std::vector<std::uint8_t> bytes = encode_appearance(random_appearance(3, 1));
+  std::vector<std::uint8_t> newer = bytes;
+  newer[4] = 2;
+  EXPECT_EQ(decode_appearance(newer, "test").error().code, ErrorCode::kUnsupportedFormat);
+  constexpr std::size_t kCountOffset = 8 + 9 * 4;
+  for (std::size_t i = 0; i < 4; ++i) bytes[kCountOffset + i] = 0xFF;
+  EXPECT_EQ(decode_appearance(bytes, "places/p1").error().where, "places/p1");
+}
+
+}  // namespace
+}  // namespace homeward::wire
