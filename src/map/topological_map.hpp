@@ -24,9 +24,9 @@ struct MapImage {
 /// A distinct place: images that show it, one of them the prototype.
 struct Place {
   PlaceId id;
-  std::string label;               // empty unless a person named it or a tour mark did
+  std::string label;  // empty unless a person named it or a tour mark did
   ImageId prototype;
-  std::vector<ImageId> members;    // tour order, the prototype among them
+  std::vector<ImageId> members;                   // tour order, the prototype among them
   std::vector<features::Appearance> appearances;  // the prototype's first; later: by night, ...
 };
 
@@ -86,26 +86,26 @@ enum class EditKind { kRename, kMerge, kSplit, kDelete, kMove, kAddEdge, kRemove
 /// One edit by a person, keyed to images so that it outlives a rebuild.
 struct Edit {
   EditKind kind = EditKind::kRename;
-  ImageId image_a;       // any image of the first place concerned (or the first prototype of a hypothesis)
-  ImageId image_b;       // of the second one, where there is one
-  std::string text;      // the new label for kRename, "accept"/"reject" for kDecide, "true"/"false" for kBlockEdge
+  ImageId image_a;   // any image of the first place concerned (or the first prototype of a hypothesis)
+  ImageId image_b;   // of the second one, where there is one
+  std::string text;  // the new label for kRename, "accept"/"reject" for kDecide, "true"/"false" for kBlockEdge
   std::vector<ImageId> images;  // for kSplit and kMove: the images that go
-  std::string by;        // user name
+  std::string by;               // user name
   TimeUs t_us = 0;
   bool undone = false;
 };
 
 /// A map: places joined by drivable edges, and why it is so. Plain data; algorithms are in graph.hpp.
 struct TopologicalMap {
-  int version = 1;                     // of this structure
+  int version = 1;  // of this structure
   std::string name;
-  std::int64_t revision = 1;           // rises with every change; missions and paths name it
+  std::int64_t revision = 1;  // rises with every change; missions and paths name it
   camera::CameraConfig camera;
   features::FeatureConfig feature_config;
   std::string feature_config_id;
-  std::vector<MapImage> images;        // all images of all tours, tour order
+  std::vector<MapImage> images;  // all images of all tours, tour order
   std::vector<Place> places;
-  std::vector<Edge> edges;             // directed
+  std::vector<Edge> edges;  // directed
   std::vector<Hypothesis> hypotheses;
   std::vector<Destination> destinations;
   MotionStatistics motion;

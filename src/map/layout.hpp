@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "map/topological_map.hpp"
+
+namespace homeward::map {
+
+/// Where to draw each place, in the order of map.places: x to the right, y downwards, both in [0,1], proportions kept.
+/// For people only: drawn from what edges say about direction, turn and length, and from odometry where the tour has
+/// it, so that the graph looks like the building's floor plan up to a turn. Components stand side by side.
+/// Same map, same drawing.
+std::vector<Eigen::Vector2d> layout(const TopologicalMap& map);
+
+}  // namespace homeward::map

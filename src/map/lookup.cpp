@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "map/lookup.hpp"
+
+#include <algorithm>
+
+namespace homeward::map {
+
+const Place* find_place(const TopologicalMap& map, const PlaceId& id) {
+  const auto found = std::ranges::find(map.places, id, &Place::id);
+  return found == map.places.end() ? nullptr : &*found;
+}
+
+Place* find_place(TopologicalMap& map, const PlaceId& id) {
+  return const_cast<Place*>(find_place(std::as_const(map), id));
+}
+
+const Place* find_place_of(const TopologicalMap& map, const ImageId& image) {
+  const auto found = std::ranges::find_if(
+      map.places, [&](const Place& place) { return std::ranges::find(place.members, image) != place.members.end(); });
+  return found == map.places.end() ? nullptr : &*found;
+}
+
+Place* find_place_of(TopologicalMap& map, const ImageId& image) {
+  return const_cast<Place*>(find_place_of(std::as_const(map), image));
+}
+
+const Edge* find_edge(const TopologicalMap& map, const PlaceId& from, const PlaceId& to) {
+  const auto found =
+      std::ranges::find_if(map.edges, [&](const Edge& edge) { return edge.from == from && edge.to == to; });
+  return found == map.edges.end() ? nullptr : &*found;
+}
+
+Edge* find_edge(TopologicalMap& map, const PlaceId& from, const PlaceId& to) {
+  return const_cast<Edge*>(find_edge(std::as_const(map), from, to));
+}
+
+std::unordered_map<PlaceId, int> place_indices(const TopologicalMap& map) {
+  std::unordered_map<PlaceId, int> indices;
+  for (std::size_t i = 0; i < map.places.size(); ++i) indices.emplace(map.places[i].id, static_cast<int>(i));
+  return indices;
+}
+
+std::unordered_map<ImageId, int> image_indices(const TopologicalMap& map) {
+  std::unordered_map<ImageId, int> indices;
+  for (std::size_t i = 0; i < map.images.size(); ++i) indices.emplace(map.images[i].id, static_cast<int>(i));
+  return indices;
+}
+
+}  // namespace homeward::map
