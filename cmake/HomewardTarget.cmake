@@ -25,6 +25,8 @@ target_compile_options(
             -Wold-style-cast
             -Woverloaded-virtual
             -Werror
+            # False alarms of GCC 12's optimiser inside the standard library's string and Eigen (GCC PR 105329, 105651).
+            $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-maybe-uninitialized>
             -fno-math-errno
             -ffp-contract=off)
 target_compile_definitions(homeward_options INTERFACE BOOST_ASIO_SEPARATE_COMPILATION

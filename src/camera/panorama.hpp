@@ -20,14 +20,14 @@ struct PanoramaGeometry {
   double elevation_min_rad = -0.95;
 
   [[nodiscard]] int height_px() const;
-  [[nodiscard]] Eigen::Vector3d bearing(const Eigen::Vector2d& pixel_px) const;          // unit, robot frame
-  [[nodiscard]] Eigen::Vector2d pixel(const Eigen::Vector3d& bearing_in_robot) const;    // u in [-0.5, width - 0.5)
+  [[nodiscard]] Eigen::Vector3d bearing(const Eigen::Vector2d& pixel_px) const;        // unit, robot frame
+  [[nodiscard]] Eigen::Vector2d pixel(const Eigen::Vector3d& bearing_in_robot) const;  // u in [-0.5, width - 0.5)
 };
 
 struct Panorama {
   PanoramaGeometry geometry;
-  Image rgb;                              // height x width x 3
-  std::vector<std::uint8_t> valid;        // height x width, 1 = seen by the camera
+  Image rgb;                        // height x width x 3
+  std::vector<std::uint8_t> valid;  // height x width, 1 = seen by the camera
 };
 
 /// Unwraps pictures of one camera; the look-up tables are computed once.
