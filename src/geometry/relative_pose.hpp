@@ -14,9 +14,9 @@ struct PlanarMotion {
 /// A relative pose that enough correspondences agree with.
 struct RelativePose {
   PlanarMotion motion;
-  std::vector<int> inliers;       // indices into the correspondences given
-  int correspondences = 0;        // how many were given
-  double confidence = 0.0;        // probability that the direction is right within 15 degrees
+  std::vector<int> inliers;          // indices into the correspondences given
+  int correspondences = 0;           // how many were given
+  double confidence = 0.0;           // probability that the direction is right within 15 degrees
   double median_parallax_rad = 0.0;  // over inliers, after taking the turn out; near 0: the two views coincide
 };
 
