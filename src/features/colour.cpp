@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "features/colour.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace homeward::features {
+
+std::array<float, 9> colour_moments(const camera::Panorama& panorama) {
+  std::array<double, 3> sum{};
+  std::array<double, 3> square_sum{};
+  std::array<double, 3> cube_sum{};
+  std::size_t count = 0;
+  const std::uint8_t* pixel = panorama.rgb.data.data();
+  for (std::size_t i = 0; i < panorama.valid.size(); ++i, pixel += 3) {
+    if (panorama.valid[i] == 0) continue;
+    ++count;
+    for (std::size_t band = 0; band < 3; ++band) {
+      const double value = pixel[band] / 255.0;
+      sum[band] += value;
+      square_sum[band] += value * value;
+      cube_sum[band] += value * value * value;
+    }
+  }
+  std::array<float, 9> moments{};
+  if (count == 0) return moments;
+  const auto n = static_cast<double>(count);
+  for (std::size_t band = 0; band < 3; ++band) {
+    const double mean = sum[band] / n;
+    const double variance = std::max(0.0, square_sum[band] / n - mean * mean);
+    const double third = cube_sum[band] / n - 3.0 * mean * square_sum[band] / n + 2.0 * mean * mean * mean;
+    moments[3 * band] = static_cast<float>(mean);
+    moments[3 * band + 1] = static_cast<float>(std::sqrt(variance));
+    moments[3 * band + 2] = static_cast<float>(std::cbrt(third));
+  }
+  return moments;
+}
+
+double colour_moment_distance(const std::array<float, 9>& a, const std::array<float, 9>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double difference = static_cast<double>(a[i]) - static_cast<double>(b[i]);
+    sum += difference * difference;
+  }
+  return std::sqrt(sum);
+}
+
+std::array<std::int8_t, 3> colour_invariants(const Image& rgb, double centre_u_px, double centre_v_px,
+                                             double radius_px) {
+  constexpr int kSamplesPerSide = 9;
+  std::array<std::array<double, kSamplesPerSide * kSamplesPerSide>, 3> bands{};
+  std::array<double, 3> mean{};
+  std::size_t sample = 0;
+  for (int row = 0; row < kSamplesPerSide; ++row) {
+    for (int column = 0; column < kSamplesPerSide; ++column, ++sample) {
+      const double right = (2.0 * column / (kSamplesPerSide - 1) - 1.0) * radius_px;
+      const double down = (2.0 * row / (kSamplesPerSide - 1) - 1.0) * radius_px;
+      int u = static_cast<int>(std::lround(centre_u_px + right)) % rgb.width_px;
+      if (u < 0) u += rgb.width_px;
+      const int v = std::clamp(static_cast<int>(std::lround(centre_v_px + down)), 0, rgb.height_px - 1);
+      const std::uint8_t* pixel = rgb.at(u, v);
+      for (std::size_t band = 0; band < 3; ++band) {
+        bands[band][sample] = pixel[band];
+        mean[band] += pixel[band];
+      }
+    }
+  }
+  constexpr double kSamples = kSamplesPerSide * kSamplesPerSide;
+  for (double& value : mean) value /= kSamples;
+  const auto product = [&](std::size_t p, std::size_t q) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < bands[p].size(); ++i) sum += (bands[p][i] - mean[p]) * (bands[q][i] - mean[q]);
+    return sum;
+  };
+  // Less than one grey level of spread is noise, not colour.
+  const auto invariant = [&](std::size_t p, std::size_t q) {
+    const double pp = product(p, p);
+    const double qq = product(q, q);
+    if (pp < kSamples || qq < kSamples) return std::int8_t{0};
+    return static_cast<std::int8_t>(std::lround(127.0 * std::clamp(product(p, q) / std::sqrt(pp * qq), -1.0, 1.0)));
+  };
+  return {invariant(0, 1), invariant(0, 2), invariant(1, 2)};
+}
+
+}  // namespace homeward::features

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "camera/panorama.hpp"
+
+namespace homeward::features {
+
+/// Mean, standard deviation and cube root of the third central moment of R, G and B, each over 0..1, in the order
+/// R mean, R spread, R skewness, G ..., B ... . Rotation of the robot does not change them.
+std::array<float, 9> colour_moments(const camera::Panorama& panorama);
+
+/// Euclidean distance of two sets of moments.
+double colour_moment_distance(const std::array<float, 9>& a, const std::array<float, 9>& b);
+
+/// C_PQ = integral of PQ / sqrt(integral of P^2 times integral of Q^2) of the bands centred on their means, for RG, RB,
+/// GB, over a square patch whose columns wrap, times 127 (Goedemé 2007 §3.1). A band without variation gives 0.
+std::array<std::int8_t, 3> colour_invariants(const Image& rgb, double centre_u_px, double centre_v_px,
+                                             double radius_px);
+
+}  // namespace homeward::features

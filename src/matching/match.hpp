@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "features/appearance.hpp"
+
+namespace homeward::matching {
+
+struct MatchConfig {
+  double ratio = 0.85;              // to the second best, of descriptor distances
+  int max_colour_difference = 100;  // largest difference of one colour invariant, of 254
+};
+
+/// Feature `current` of one picture and feature `target` of another that look alike.
+struct Match {
+  int current = 0;
+  int target = 0;
+};
+
+/// Mutual nearest neighbours that pass the ratio test in one direction and the colour check. Ascending in `current`.
+/// (Goedemé 2007 §3.3; Lowe 2004.)
+std::vector<Match> match(const features::FeatureSet& current, const features::FeatureSet& target,
+                         const MatchConfig& config);
+
+}  // namespace homeward::matching

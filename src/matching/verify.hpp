@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/result.hpp"
+#include "features/appearance.hpp"
+#include "geometry/planar_motion.hpp"
+#include "geometry/relative_pose.hpp"
+#include "matching/match.hpp"
+
+namespace homeward::matching {
+
+struct VerifyConfig {
+  MatchConfig match;
+  geometry::PlanarRansacConfig ransac;
+  int min_inliers = 8;
+};
+
+/// Matches that one planar motion explains, and that motion.
+struct VerifiedMatch {
+  std::vector<Match> matches;   // all that looked alike, of both kinds of features
+  geometry::RelativePose pose;  // of the target seen from the current view; inliers index `matches`
+};
+
+/// Matches two appearances and verifies them by planar epipolar geometry. Deterministic by `seed`.
+/// Errors: kTooFewFeatures, kTooLittleSupport.
+Result<VerifiedMatch> verify(const features::Appearance& current, const features::Appearance& target,
+                             const VerifyConfig& config, std::uint64_t seed);
+
+}  // namespace homeward::matching
