@@ -10,7 +10,7 @@
 namespace homeward::homing {
 
 struct HomingConfig {
-  int min_inliers = 12;             // fewer: no answer
+  int min_inliers = 12;                // fewer: no answer
   double arrived_parallax_rad = 0.03;  // median parallax below which the target is reached
 };
 
@@ -22,7 +22,7 @@ struct HomeVector {
   double median_parallax_rad = 0.0;  // small when near: monotone proxy of distance over scene depth
   int matches = 0;
   int inliers = 0;
-  double confidence = 0.0;           // probability that bearing_rad is right within 15 degrees
+  double confidence = 0.0;  // probability that bearing_rad is right within 15 degrees
 };
 
 /// The home vector from two appearances alone (no memory of former frames).

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/eye.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/angles.hpp"
+#include "features/extract.hpp"
+
+namespace homeward::pipeline {
+
+struct Eye::Parts {
+  std::shared_ptr<const camera::Camera> camera;
+  features::FeatureConfig feature_config;
+  camera::PanoramaUnwrapper unwrapper;
+};
+
+Eye::Eye() = default;
+Eye::~Eye() = default;
+Eye::Eye(Eye&&) noexcept = default;
+Eye& Eye::operator=(Eye&&) noexcept = default;
+
+Result<Eye> Eye::create(const camera::CameraConfig& camera, const features::FeatureConfig& features) {
+  auto made = camera::Camera::create(camera);
+  if (!made) return pass_on(made);
+  const camera::PanoramaGeometry geometry{features.panorama_width_px, features.elevation_max_rad,
+                                          features.elevation_min_rad};
+  constexpr int kLeastHeight_px = 16;
+  constexpr int kMaxWidth_px = 8192;
+  if (geometry.width_px < kLeastHeight_px || geometry.width_px > kMaxWidth_px ||
+      geometry.height_px() < kLeastHeight_px || geometry.height_px() > geometry.width_px) {
+    return fail(ErrorCode::kInvalidInput, "The feature configuration gives a panorama of no useful size.",
+                "feature_config");
+  }
+  Eye eye;
+  eye.parts_ = std::make_unique<Parts>(Parts{*made, features, camera::PanoramaUnwrapper(**made, geometry)});
+  return eye;
+}
+
+Result<features::Appearance> Eye::look(const Image& picture) const {
+  const auto panorama = parts_->unwrapper.unwrap(picture);
+  if (!panorama) return pass_on(panorama);
+  return features::extract(*panorama, parts_->feature_config);
+}
+
+Result<camera::Panorama> Eye::unwrap(const Image& picture) const { return parts_->unwrapper.unwrap(picture); }
+
+const camera::Camera& Eye::camera() const { return *parts_->camera; }
+
+const features::FeatureConfig& Eye::feature_config() const { return parts_->feature_config; }
+
+features::FeatureConfig suited_feature_config(const camera::Camera& camera) {
+  // The rows that the camera sees at some azimuth, between the sky straight above and the robot's own feet.
+  constexpr double kHighest_deg = 60.0;
+  constexpr double kLowest_deg = -55.0;
+  constexpr double kStep_deg = 0.5;
+  constexpr int kAzimuths = 72;
+  double highest_deg = -90.0;
+  double lowest_deg = 90.0;
+  for (double elevation_deg = kLowest_deg; elevation_deg <= kHighest_deg; elevation_deg += kStep_deg) {
+    bool seen = false;
+    for (int i = 0; i < kAzimuths && !seen; ++i) {
+      const double azimuth_rad = 2.0 * kPi * i / kAzimuths;
+      const double elevation_rad = radians(elevation_deg);
+      seen = camera
+                 .pixel({std::cos(elevation_rad) * std::cos(azimuth_rad),
+                         std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad)})
+                 .has_value();
+    }
+    if (!seen) continue;
+    highest_deg = std::max(highest_deg, elevation_deg);
+    lowest_deg = std::min(lowest_deg, elevation_deg);
+  }
+  features::FeatureConfig config;
+  if (highest_deg > lowest_deg) {
+    config.elevation_max_rad = radians(highest_deg);
+    config.elevation_min_rad = radians(lowest_deg);
+  }
+  return config;
+}
+
+}  // namespace homeward::pipeline
