@@ -15,62 +15,12 @@ import signal
 import subprocess
 import sys
 import time
-import urllib.error
-import urllib.request
-import uuid
+
+from rest_client import Failed, Server
 
 ROOMS = "hall,living_room,kitchen,dining_room,bedroom,bathroom,study,hall"
 WORLD = "house:1"
 ARRIVED_WITHIN_M = 0.5
-
-
-class Failed(Exception):
-    """The demo cannot go on; the message says why."""
-
-
-class Server:
-    """The REST calls of the demo, signed in with a bearer token or a session cookie."""
-
-    def __init__(self, address):
-        self.address = address
-        self.cookie = None
-
-    def call(self, method, path, body=None, expect=(200, 201, 202, 204)):
-        headers = {"Origin": self.address, "Accept": "application/json"}
-        data = None
-        if body is not None:
-            data = json.dumps(body).encode()
-            headers["Content-Type"] = "application/json"
-        if method == "POST":
-            headers["Idempotency-Key"] = str(uuid.uuid4())
-        if self.cookie:
-            headers["Cookie"] = self.cookie
-        request = urllib.request.Request(self.address + path, data, headers, method=method)
-        try:
-            with urllib.request.urlopen(request, timeout=30) as answer:
-                if answer.headers.get("Set-Cookie"):
-                    self.cookie = answer.headers["Set-Cookie"].split(";")[0]
-                text = answer.read()
-                status = answer.status
-        except urllib.error.HTTPError as error:
-            text, status = error.read(), error.code
-        parsed = json.loads(text) if text else {}
-        if status not in expect:
-            detail = parsed.get("detail") or parsed.get("title") or text[:200]
-            raise Failed(f"{method} {path} was refused with {status}: {detail}")
-        return parsed
-
-    def wait_until_up(self, process, seconds=20):
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            if process.poll() is not None:
-                raise Failed(f"the server ended with {process.returncode}; see its log above")
-            try:
-                with urllib.request.urlopen(self.address + "/healthz", timeout=2):
-                    return
-            except OSError:
-                time.sleep(0.1)
-        raise Failed("the server did not come up")
 
 
 def bar(label, share):

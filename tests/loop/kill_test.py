@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+"""What survives SIGKILL: the server is killed during an upload, a build and a mission.
+
+Nothing that was acknowledged may be lost, the killed build must end, the chair must stop by itself within 0.5 s, and
+nothing may move again until a person says so. Real programs, real pictures, a folder of its own.
+usage: kill_test.py BIN_FOLDER WEB_FOLDER
+"""
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "deploy"))
+from rest_client import Server  # noqa: E402
+
+BIN = pathlib.Path(sys.argv[1]).resolve()
+WEB = pathlib.Path(sys.argv[2]).resolve()
+PORT = 18473
+STOPPED_BELOW_MPS = 0.01
+LIMIT_S = 0.5
+
+
+class Kill(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="homeward-kill-")
+        cls.data = pathlib.Path(cls.folder.name)
+        cls.tour = cls.data / "tour"
+        subprocess.run([BIN / "homeward", "simulate", "tour", "--world", "house:1", "--rooms",
+                        "hall,kitchen,living_room,hall", "--marks", "--seed", "3", "--out", cls.tour], check=True,
+                       stdout=subprocess.DEVNULL)
+        cls.pictures = sorted(cls.tour.glob("*.jpg"))
+        cls.server = Server(f"http://127.0.0.1:{PORT}")
+        cls.process = None
+        cls.agent = None
+        cls.start_server()
+        token = (cls.data / "setup-link").read_text().strip().split("token=")[-1]
+        cls.login = {"name": "anna", "password": "correct horse battery"}
+        cls.server.call("POST", "/api/v1/setup", {"token": token, **cls.login})
+        cls.server.call("POST", "/api/v1/login", cls.login)
+
+    @classmethod
+    def tearDownClass(cls):
+        for process in (cls.agent, cls.process):
+            if process and process.poll() is None:
+                process.kill()
+                process.wait()
+        cls.folder.cleanup()
+
+    @classmethod
+    def start_server(cls):
+        log = open(cls.data / "server.log", "ab")
+        cls.process = subprocess.Popen([BIN / "homeward-server", "--data", cls.data / "server", "--listen",
+                                        f"127.0.0.1:{PORT}", "--web", WEB, "--print-setup-file",
+                                        cls.data / "setup-link"], stdout=log, stderr=subprocess.STDOUT)
+        cls.server.wait_until_up(cls.process)
+
+    @classmethod
+    def kill_server(cls):
+        cls.process.send_signal(signal.SIGKILL)
+        cls.process.wait()
+
+    def put(self, tour, number):
+        picture = self.pictures[number]
+        return self.server.send("PUT", f"/api/v1/tours/{tour}/images/{number}", picture.read_bytes(), "image/jpeg",
+                                {"X-Homeward-Filename": picture.name})[0]
+
+    def test_1_upload_keeps_every_acknowledged_picture(self):
+        camera = json.loads((self.tour / "camera.json").read_text())
+        tour = self.server.call("POST", "/api/v1/tours", {"name": "house", "camera": camera})["id"]
+        half = len(self.pictures) // 2
+        for number in range(half):
+            self.assertIn(self.put(tour, number), (200, 201))
+        self.kill_server()
+        self.start_server()
+        self.assertGreaterEqual(self.server.call("GET", f"/api/v1/tours/{tour}")["images"], half)
+        for number in range(half):
+            self.assertEqual(self.put(tour, number), 200, "an acknowledged picture was lost")
+        for number in range(half, len(self.pictures)):
+            self.assertIn(self.put(tour, number), (200, 201))
+        marks = json.loads((self.tour / "tour.json").read_text())["marks"]
+        self.server.call("PUT", f"/api/v1/tours/{tour}/marks", {"marks": marks})
+        self.server.call("POST", f"/api/v1/tours/{tour}/complete", {})
+        type(self).tour_id = tour
+
+    def test_2_a_killed_build_ends_after_the_restart(self):
+        answer = self.server.call("POST", "/api/v1/maps", {"name": "house", "tours": [self.tour_id]})
+        job = answer["job"]["id"]
+        end = time.monotonic() + 60
+        while time.monotonic() < end:
+            state = self.server.call("GET", f"/api/v1/jobs/{job}")
+            if state["state"] == "running" and (state["progress"] or {}).get("share", 0) > 0.05:
+                break
+            self.assertNotEqual(state["state"], "done", "the build was over before it could be killed")
+            time.sleep(0.02)
+        self.kill_server()
+        self.start_server()
+        end = time.monotonic() + 300
+        state = {}
+        while time.monotonic() < end:
+            state = self.server.call("GET", f"/api/v1/jobs/{job}")
+            if state["state"] in ("done", "failed", "cancelled"):
+                break
+            time.sleep(0.5)
+        self.assertEqual(state["state"], "done", state)
+        type(self).map_id = answer["map"]["id"]
+        graph = self.server.call("GET", f"/api/v1/maps/{self.map_id}/graph")
+        self.assertEqual(sum(len(place["members"]) for place in graph["places"]), len(self.pictures))
+
+    def truths(self):
+        file = self.data / "truth.jsonl"
+        lines = file.read_text().splitlines() if file.exists() else []
+        return [json.loads(line) for line in lines if line.endswith("}")]
+
+    def wait_for(self, what, seconds, condition):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            if condition():
+                return
+            time.sleep(0.05)
+        self.fail(f"{what} did not happen within {seconds} s; agent log:\n" + (self.data / "agent.log").read_text()[-3000:])
+
+    def test_3_the_chair_stops_by_itself_and_stays(self):
+        robot = self.server.call("POST", "/api/v1/robots", {"name": "chair"})
+        (self.data / "robot-token").write_text(robot["token"])
+        self.server.call("PUT", f"/api/v1/robots/{robot['id']}/map", {"map": self.map_id})
+        type(self).agent = subprocess.Popen(
+            [BIN / "homeward-agent", "run", "--server", self.server.address, "--robot", robot["id"], "--token-file",
+             self.data / "robot-token", "--driver", "simulator", "--world", "house:1", "--start-room", "living_room",
+             "--truth-file", self.data / "truth.jsonl"], stdout=open(self.data / "agent.log", "ab"),
+            stderr=subprocess.STDOUT)
+
+        def located():
+            belief = self.server.call("GET", f"/api/v1/robots/{robot['id']}").get("belief")
+            return belief and not belief["lost"] and belief["updates"] >= 3
+
+        self.wait_for("knowing where it is", 120, located)
+        graph = self.server.call("GET", f"/api/v1/maps/{self.map_id}/graph")
+        kitchen = next(d["id"] for d in graph["destinations"] if d["label"] == "kitchen")
+        lease = self.server.call("POST", f"/api/v1/robots/{robot['id']}/lease", {"take_over": True})["lease"]["id"]
+        mission = self.server.call("POST", f"/api/v1/robots/{robot['id']}/missions",
+                                   {"lease_id": lease, "destination": kitchen})["id"]
+        self.wait_for("driving", 60, lambda: self.truths() and abs(self.truths()[-1]["speed_mps"]) > 0.1)
+        self.kill_server()
+        killed_us = time.time_ns() // 1000
+        time.sleep(2.0)
+        moving_s = [(t["t_us"] - killed_us) / 1e6 for t in self.truths()
+                    if t["t_us"] > killed_us and (abs(t["speed_mps"]) > STOPPED_BELOW_MPS)]
+        latest = max(moving_s, default=0.0)
+        print(f"the chair stood {latest:.2f} s after the server was killed", file=sys.stderr)
+        self.assertLessEqual(latest, LIMIT_S)
+        self.start_server()
+        restarted_us = time.time_ns() // 1000
+        after = self.server.call("GET", f"/api/v1/robots/{robot['id']}/missions/{mission}")
+        self.assertIn(after["state"], ("stopped", "failed"), after)
+        self.wait_for("reconnecting", 60, lambda: self.server.call("GET", f"/api/v1/robots/{robot['id']}")["online"])
+        time.sleep(3.0)
+        moved = [t for t in self.truths() if t["t_us"] > restarted_us and abs(t["speed_mps"]) > STOPPED_BELOW_MPS]
+        self.assertEqual(moved, [], "the chair moved without a person's word")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
