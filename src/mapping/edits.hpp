@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/result.hpp"
+#include "map/topological_map.hpp"
+
+namespace homeward::mapping {
+
+/// Applies a person's edit to a map, appends it to the log and raises the revision by one. Places are named by any
+/// image they hold, so that the same edit can be replayed on a rebuilt map.
+///   kRename      image_a's place gets label `text`
+///   kMerge       the place of image_b joins that of image_a
+///   kSplit       `images` leave the place of image_a and become one of their own
+///   kMove        `images` leave their places for that of image_a
+///   kDelete      the place of image_a goes, with its edges and destinations
+///   kAddEdge     an edge both ways between the places of image_a and image_b, if there is none
+///   kRemoveEdge  both edges between these two places go
+///   kBlockEdge   the edge from image_a's to image_b's place is blocked ("true") or opened again ("false")
+///   kDecide      the hypothesis image_a, image_b is accepted or rejected; the two places merge or split accordingly
+/// Errors: kInvalidInput (what is wrong with the edit), kNotFound (image, edge or hypothesis); the map is then
+/// unchanged.
+Status apply_edit(map::TopologicalMap& map, const map::Edit& edit);
+
+/// Takes back the latest edit that still stands: it stays in the log, marked undone; the revision rises by one.
+/// Labels, blocked edges and added edges return to what the edits before them say. Errors: kNotFound (no edit to undo),
+/// kConflict (the edit changed which images make up a place: only a rebuild can take it back).
+Status undo_last_edit(map::TopologicalMap& map);
+
+/// Applies the edits of `log` that stand to a rebuilt map, oldest first, and makes `log` its log. Edits whose images or
+/// edges are gone are kept in the log and skipped. The revision is left as it is.
+void replay_edits(map::TopologicalMap& map, const std::vector<map::Edit>& log);
+
+}  // namespace homeward::mapping

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping/hypotheses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "mapping/dempster_shafer.hpp"
+
+namespace homeward::mapping {
+namespace {
+
+map::Decision decide(const map::Masses& masses, const HypothesisConfig& config) {
+  if (support(masses) > config.accept_support) return map::Decision::kAccepted;
+  if (plausibility(masses) < config.reject_plausibility) return map::Decision::kRejected;
+  return map::Decision::kUndecided;
+}
+
+/// Merged subclusters, and which of them must stay apart.
+class Groups {
+ public:
+  explicit Groups(int items) : group_(static_cast<std::size_t>(items)) { std::iota(group_.begin(), group_.end(), 0); }
+  [[nodiscard]] int of(int item) const { return group_[static_cast<std::size_t>(item)]; }
+  [[nodiscard]] std::vector<int> members(int group) const {
+    std::vector<int> items;
+    for (std::size_t i = 0; i < group_.size(); ++i) {
+      if (group_[i] == group) items.push_back(static_cast<int>(i));
+    }
+    return items;
+  }
+  void merge(int a, int b) {
+    const int kept = std::min(of(a), of(b));
+    const int gone = std::max(of(a), of(b));
+    std::ranges::replace(group_, gone, kept);
+  }
+  [[nodiscard]] std::vector<int> numbered() const {
+    std::vector<int> number(group_.size(), -1);
+    std::vector<int> result;
+    int next = 0;
+    for (const int group : group_) {
+      int& n = number[static_cast<std::size_t>(group)];
+      if (n < 0) n = next++;
+      result.push_back(n);
+    }
+    return result;
+  }
+
+ private:
+  std::vector<int> group_;
+};
+
+}  // namespace
+
+std::vector<LoopHypothesis> formulate_hypotheses(std::span<const Subcluster> subclusters,
+                                                 const SimilarityFunction& similarity, const HypothesisConfig& config) {
+  std::vector<LoopHypothesis> hypotheses;
+  for (std::size_t a = 0; a < subclusters.size(); ++a) {
+    for (std::size_t b = a + 1; b < subclusters.size(); ++b) {
+      if (subclusters[a].cluster != subclusters[b].cluster) continue;
+      LoopHypothesis hypothesis;
+      hypothesis.a = static_cast<int>(a);
+      hypothesis.b = static_cast<int>(b);
+      hypothesis.similarity = std::clamp(similarity(hypothesis.a, hypothesis.b), 0.0, 1.0);
+      hypothesis.before = hypothesis.after = evidence(hypothesis.similarity, config.own_weight);
+      hypotheses.push_back(hypothesis);
+    }
+  }
+  return hypotheses;
+}
+
+void collect_evidence(std::span<LoopHypothesis> hypotheses, std::span<const Subcluster> subclusters,
+                      std::span<const double> position_of, const HypothesisConfig& config) {
+  const auto position = [&](int subcluster) {
+    return position_of[static_cast<std::size_t>(subclusters[static_cast<std::size_t>(subcluster)].prototype)];
+  };
+  for (LoopHypothesis& hypothesis : hypotheses) {
+    hypothesis.after = hypothesis.before;
+    for (const LoopHypothesis& neighbour : hypotheses) {
+      if (&neighbour == &hypothesis) continue;
+      const double distance = std::abs(position(hypothesis.a) - position(neighbour.a)) +
+                              std::abs(position(hypothesis.b) - position(neighbour.b));
+      const double weight = neighbour_weight(distance, config.neighbour_threshold_images);
+      if (weight > 0.0) hypothesis.after = combine(hypothesis.after, evidence(neighbour.similarity, weight));
+    }
+    if (hypothesis.by == "method") hypothesis.decision = decide(hypothesis.after, config);
+  }
+}
+
+std::vector<int> merge_accepted(int subclusters, std::span<LoopHypothesis> hypotheses,
+                                const std::function<bool(int, int)>& apart) {
+  std::set<std::pair<int, int>> rejected;
+  std::vector<LoopHypothesis*> accepted;
+  for (LoopHypothesis& hypothesis : hypotheses) {
+    if (hypothesis.decision == map::Decision::kRejected) rejected.insert(std::minmax(hypothesis.a, hypothesis.b));
+    if (hypothesis.decision == map::Decision::kAccepted) accepted.push_back(&hypothesis);
+  }
+  // A person's word first, then by support; equal support keeps the order of the list.
+  std::ranges::stable_sort(accepted, [](const LoopHypothesis* x, const LoopHypothesis* y) {
+    const bool x_by_person = x->by != "method";
+    const bool y_by_person = y->by != "method";
+    if (x_by_person != y_by_person) return x_by_person;
+    return support(x->after) > support(y->after);
+  });
+  Groups groups(subclusters);
+  for (LoopHypothesis* hypothesis : accepted) {
+    if (groups.of(hypothesis->a) == groups.of(hypothesis->b)) continue;
+    const std::vector<int> left = groups.members(groups.of(hypothesis->a));
+    const std::vector<int> right = groups.members(groups.of(hypothesis->b));
+    const bool conflict = std::ranges::any_of(left, [&](int x) {
+      return std::ranges::any_of(right, [&](int y) { return rejected.contains(std::minmax(x, y)) || apart(x, y); });
+    });
+    if (conflict) {
+      hypothesis->decision = map::Decision::kUndecided;
+    } else {
+      groups.merge(hypothesis->a, hypothesis->b);
+    }
+  }
+  return groups.numbered();
+}
+
+}  // namespace homeward::mapping

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "map/topological_map.hpp"
+
+namespace homeward::mapping {
+
+/// Gives places and destinations of a freshly built map their lasting ids: those of `previous` where the images agree
+/// (a place: by the most shared images, each old id at most once; a destination: by its image), new ones otherwise. Ids
+/// of places that are gone are not used again. `previous` may be null. Edges and destinations follow.
+/// Before the call the ids in `map` need only be distinct.
+void keep_identity(map::TopologicalMap& map, const map::TopologicalMap* previous);
+
+}  // namespace homeward::mapping

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping/map_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "map/graph.hpp"
+#include "map/lookup.hpp"
+#include "mapping/clustering.hpp"
+#include "mapping/dempster_shafer.hpp"
+#include "mapping/edits.hpp"
+#include "mapping/identity.hpp"
+#include "mapping/similarity.hpp"
+#include "mapping/subclusters.hpp"
+
+namespace homeward::mapping {
+namespace {
+
+constexpr double kToursApartImages = 1e6;  // so far apart along the way are images of different tours
+constexpr double kLongestEdgeM = 20.0;     // odometry of prototypes further apart than this has drifted too much
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// Labels of marks by image; images without one have none.
+std::vector<const std::string*> labels_by_image(const MappingInput& input) {
+  std::vector<const std::string*> labels(input.images.size(), nullptr);
+  for (const MarkedImage& mark : input.marks) labels[at(mark.image)] = &mark.label;
+  return labels;
+}
+
+/// D, but infinite between two images that carry different marks: each stands for a place of its own.
+DistanceFunction clustering_distance(const MappingInput& input, const std::vector<const std::string*>& labels) {
+  return [&input, &labels](int a, int b) {
+    const bool marks_differ = labels[at(a)] != nullptr && labels[at(b)] != nullptr && *labels[at(a)] != *labels[at(b)];
+    return marks_differ ? std::numeric_limits<float>::infinity() : input.pairs->distance(a, b);
+  };
+}
+
+/// Distances between images that certainly show one place: a place extent or less of one tour apart.
+UsualDistances usual_distances(const MappingInput& input, const TourPath& path, const MappingConfig& config) {
+  const double extent = path.metric() ? config.place_extent_m : config.place_extent_images;
+  std::vector<float> distances;
+  for (int i = 0; i < static_cast<int>(input.images.size()); ++i) {
+    for (int j = i + 1; j < static_cast<int>(input.images.size()); ++j) {
+      if (input.tour_of[at(i)] != input.tour_of[at(j)] || path.length(i, j) > extent * (1.0 + 1e-9)) break;
+      distances.push_back(input.pairs->distance(i, j));
+    }
+  }
+  return UsualDistances(std::move(distances));
+}
+
+std::vector<double> positions_of_evidence(const MappingInput& input) {
+  std::vector<double> positions;
+  for (std::size_t i = 0; i < input.images.size(); ++i) {
+    positions.push_back(static_cast<double>(i) + kToursApartImages * input.tour_of[i]);
+  }
+  return positions;
+}
+
+/// A person's decisions on hypotheses, keyed to images, hold for the pair of subclusters that hold these images.
+void apply_decisions(std::vector<LoopHypothesis>& hypotheses, std::span<const Subcluster> subclusters,
+                     const MappingInput& input, const map::TopologicalMap* previous) {
+  if (previous == nullptr) return;
+  const auto holds = [&](int subcluster, const ImageId& id) {
+    return std::ranges::any_of(subclusters[at(subcluster)].images,
+                               [&](int image) { return input.images[at(image)].id == id; });
+  };
+  for (const map::Edit& edit : previous->edits) {
+    if (edit.kind != map::EditKind::kDecide || edit.undone) continue;
+    for (LoopHypothesis& hypothesis : hypotheses) {
+      const bool concerned = (holds(hypothesis.a, edit.image_a) && holds(hypothesis.b, edit.image_b)) ||
+                             (holds(hypothesis.a, edit.image_b) && holds(hypothesis.b, edit.image_a));
+      if (!concerned) continue;
+      hypothesis.decision = edit.text == "accept" ? map::Decision::kAccepted : map::Decision::kRejected;
+      hypothesis.by = "person";
+    }
+  }
+}
+
+/// Places from subclusters: members, prototype (a marked image if there is one, else the new medoid), appearance,
+/// label.
+std::vector<map::Place> form_places(const MappingInput& input, std::span<const Subcluster> subclusters,
+                                    std::span<const int> place_of_subcluster,
+                                    const std::vector<const std::string*>& labels) {
+  const int count = place_of_subcluster.empty() ? 0 : *std::ranges::max_element(place_of_subcluster) + 1;
+  std::vector<std::vector<int>> images(at(count));
+  for (std::size_t s = 0; s < subclusters.size(); ++s) {
+    auto& members = images[at(place_of_subcluster[s])];
+    members.insert(members.end(), subclusters[s].images.begin(), subclusters[s].images.end());
+  }
+  std::vector<map::Place> places;
+  for (const std::vector<int>& members : images) {
+    const auto marked = std::ranges::find_if(members, [&](int image) { return labels[at(image)] != nullptr; });
+    const int prototype =
+        marked != members.end() ? *marked : medoid(members, [&](int a, int b) { return input.pairs->distance(a, b); });
+    map::Place place;
+    place.id = PlaceId("new" + std::to_string(places.size()));
+    if (marked != members.end()) place.label = *labels[at(*marked)];
+    place.prototype = input.images[at(prototype)].id;
+    for (const int image : members) place.members.push_back(input.images[at(image)].id);
+    place.appearances.push_back(input.appearances[at(prototype)]);
+    places.push_back(std::move(place));
+  }
+  return places;
+}
+
+/// A stretch of a tour inside one place.
+struct Run {
+  int place = 0;
+  int first = 0;  // image indices
+  int last = 0;
+};
+
+std::vector<Run> runs(const MappingInput& input, std::span<const int> place_of_image) {
+  std::vector<Run> result;
+  for (int i = 0; i < static_cast<int>(place_of_image.size()); ++i) {
+    const bool continues = !result.empty() && result.back().place == place_of_image[at(i)] &&
+                           input.tour_of[at(i)] == input.tour_of[at(i - 1)];
+    if (continues) {
+      result.back().last = i;
+    } else {
+      result.push_back({place_of_image[at(i)], i, i});
+    }
+  }
+  return result;
+}
+
+/// How long the way between two prototypes is: by odometry where it can be trusted, else by the middle of the runs.
+double edge_length(const MappingInput& input, const TourPath& path, const Run& from, const Run& to, int from_prototype,
+                   int to_prototype) {
+  const auto& a = input.images[at(from_prototype)].odometry;
+  const auto& b = input.images[at(to_prototype)].odometry;
+  const auto within = [](const Run& run, int image) { return run.first <= image && image <= run.last; };
+  if (path.metric() && a && b && within(from, from_prototype) && within(to, to_prototype)) {
+    const double straight_m = std::hypot(b->x_m - a->x_m, b->y_m - a->y_m);
+    if (straight_m <= kLongestEdgeM) return std::max(straight_m, 0.05);
+  }
+  const double from_middle = path.length(from.first, from.last) / 2.0 + path.length(from.last, to.first);
+  const double length = from_middle + path.length(to.first, to.last) / 2.0;
+  return std::max(length / (path.metric() ? 1.0 : path.step()), path.metric() ? 0.05 : 0.5);
+}
+
+map::Edge make_edge(const MappingInput& input, const MappingConfig& config, int from_prototype, int to_prototype) {
+  map::Edge edge;
+  const PairRelation relation = input.pairs->relation(from_prototype, to_prototype);
+  if (relation.verified()) {
+    edge.bearing_rad = static_cast<double>(relation.direction_rad);
+    edge.turn_rad = static_cast<double>(relation.turn_rad);
+    edge.confidence = static_cast<double>(relation.confidence);
+  }
+  edge.weak = !relation.verified() || edge.confidence < config.weak_below_confidence;
+  return edge;
+}
+
+/// Every transition between places that a tour drove, in both directions.
+std::vector<map::Edge> form_edges(const MappingInput& input, const TourPath& path, const MappingConfig& config,
+                                  std::span<const map::Place> places, std::span<const int> place_of_image) {
+  std::unordered_map<ImageId, int> index;
+  for (std::size_t i = 0; i < input.images.size(); ++i) index.emplace(input.images[i].id, static_cast<int>(i));
+  const auto prototype = [&](int place) { return index.at(places[at(place)].prototype); };
+  std::map<std::pair<int, int>, map::Edge> edges;
+  const std::vector<Run> stretches = runs(input, place_of_image);
+  for (std::size_t r = 1; r < stretches.size(); ++r) {
+    const Run& before = stretches[r - 1];
+    const Run& after = stretches[r];
+    if (before.place == after.place || input.tour_of[at(before.last)] != input.tour_of[at(after.first)]) continue;
+    const double length_m = edge_length(input, path, before, after, prototype(before.place), prototype(after.place));
+    for (const auto& [from, to] : {std::pair(before.place, after.place), std::pair(after.place, before.place)}) {
+      const auto [known, is_new] = edges.try_emplace({from, to});
+      map::Edge& edge = known->second;
+      if (is_new) {
+        edge = make_edge(input, config, prototype(from), prototype(to));
+        edge.from = places[at(from)].id;
+        edge.to = places[at(to)].id;
+        edge.length_m = length_m;
+      }
+      edge.length_m = std::min(edge.length_m, length_m);
+    }
+  }
+  std::vector<map::Edge> result;
+  for (auto& [ends, edge] : edges) result.push_back(std::move(edge));
+  return result;
+}
+
+std::vector<map::Destination> form_destinations(const MappingInput& input, std::span<const map::Place> places,
+                                                std::span<const int> place_of_image) {
+  std::vector<map::Destination> destinations;
+  std::set<std::pair<int, std::string>> known;
+  for (const MarkedImage& mark : input.marks) {
+    // Marked again on the way back: one destination is enough where it is one place.
+    if (!known.emplace(place_of_image[at(mark.image)], mark.label).second) continue;
+    map::Destination destination;
+    destination.place = places[at(place_of_image[at(mark.image)])].id;
+    destination.image = input.images[at(mark.image)].id;
+    destination.label = mark.label;
+    destination.appearance = input.appearances[at(mark.image)];
+    destinations.push_back(std::move(destination));
+  }
+  return destinations;
+}
+
+map::MotionStatistics measure_statistics(const MappingInput& input, const map::TopologicalMap& map,
+                                         std::span<const int> place_of_image, const UsualDistances& usual) {
+  map::MotionStatistics statistics;
+  const map::PlaceGraph graph(map);
+  double hops_squared = 0.0;
+  int hops = 0;
+  for (std::size_t i = 1; i < place_of_image.size(); ++i) {
+    if (input.tour_of[i] != input.tour_of[i - 1]) continue;
+    hops_squared += place_of_image[i] == place_of_image[i - 1] ? 0.0 : 1.0;
+    ++hops;
+  }
+  if (hops > 0) statistics.hop_spread = std::max(0.5, std::sqrt(hops_squared / hops));
+
+  const auto index = map::image_indices(map);
+  std::vector<float> within;
+  for (const map::Place& place : map.places) {
+    const int prototype = index.at(place.prototype);
+    for (const ImageId& member : place.members) {
+      if (member == place.prototype) continue;
+      within.push_back(input.pairs->distance(prototype, index.at(member)));
+    }
+  }
+  std::erase_if(within, [](float distance) { return !std::isfinite(distance); });
+  double squared = 0.0;
+  for (const float distance : within) squared += static_cast<double>(distance) * static_cast<double>(distance);
+  if (!within.empty()) {
+    statistics.distance_spread = std::max(1e-3, std::sqrt(squared / static_cast<double>(within.size())));
+  }
+  if (!usual.empty()) statistics.distance_scale = std::max(1e-3, static_cast<double>(usual.quantile(0.5)));
+  return statistics;
+}
+
+}  // namespace
+
+TourPath::TourPath(const MappingInput& input) : along_(input.images.size(), 0.0) {
+  metric_ = std::ranges::all_of(input.images, [](const map::MapImage& image) { return image.odometry.has_value(); });
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < along_.size(); ++i) {
+    double step = 1.0;
+    if (metric_) {
+      const Pose2& a = *input.images[i - 1].odometry;
+      const Pose2& b = *input.images[i].odometry;
+      step = std::hypot(b.x_m - a.x_m, b.y_m - a.y_m);
+    }
+    along_[i] = along_[i - 1] + step;
+    steps.push_back(step);
+  }
+  if (steps.empty()) return;
+  std::ranges::sort(steps);
+  step_ = std::max(steps[steps.size() / 2], 1e-3);
+}
+
+double TourPath::length(int a, int b) const { return std::abs(along_[at(b)] - along_[at(a)]); }
+
+float place_distance_threshold(const MappingInput& input, const TourPath& path, const MappingConfig& config) {
+  const double extent = path.metric() ? config.place_extent_m : config.place_extent_images;
+  const double step = path.metric() ? path.step() : 1.0;
+  // The median over the tour of D at one extent; where half of these pairs have nothing in common, at a shorter one.
+  for (double wanted = extent; wanted > 0.5 * step; wanted -= step) {
+    std::vector<float> distances;
+    for (int i = 0; i < static_cast<int>(input.images.size()); ++i) {
+      int j = i;
+      while (j + 1 < static_cast<int>(input.images.size()) && input.tour_of[at(j + 1)] == input.tour_of[at(i)] &&
+             path.length(i, j) < wanted - 0.5 * step) {
+        ++j;
+      }
+      if (j > i && path.length(i, j) >= wanted - 0.5 * step) distances.push_back(input.pairs->distance(i, j));
+    }
+    if (distances.empty()) continue;
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    if (std::isfinite(*middle)) return *middle;
+  }
+  return 0.0F;
+}
+
+map::TopologicalMap make_map(const MappingInput& input, const MappingConfig& config,
+                             const map::TopologicalMap* previous) {
+  const int images = static_cast<int>(input.images.size());
+  const TourPath path(input);
+  const std::vector<const std::string*> labels = labels_by_image(input);
+  const DistanceFunction distance = clustering_distance(input, labels);
+  const float threshold = place_distance_threshold(input, path, config);
+  const UsualDistances usual = usual_distances(input, path, config);
+
+  const std::vector<int> cluster_of = complete_linkage(images, distance, threshold);
+  std::vector<int> marked;
+  for (const MarkedImage& mark : input.marks) marked.push_back(mark.image);
+  const std::vector<Subcluster> parts = subclusters(cluster_of, input.tour_of, marked, distance);
+
+  const auto similarity = [&](int a, int b) {
+    return usual.share_at_least(input.pairs->distance(parts[at(a)].prototype, parts[at(b)].prototype));
+  };
+  std::vector<LoopHypothesis> hypotheses = formulate_hypotheses(parts, similarity, config.hypotheses);
+  apply_decisions(hypotheses, parts, input, previous);
+  collect_evidence(hypotheses, parts, positions_of_evidence(input), config.hypotheses);
+  const auto apart = [&](int a, int b) {
+    const std::string* label_a = labels[at(parts[at(a)].prototype)];
+    const std::string* label_b = labels[at(parts[at(b)].prototype)];
+    return label_a != nullptr && label_b != nullptr && *label_a != *label_b;
+  };
+  const std::vector<int> place_of_part = merge_accepted(static_cast<int>(parts.size()), hypotheses, apart);
+
+  std::vector<int> place_of_image(at(images), 0);
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    for (const int image : parts[part].images) place_of_image[at(image)] = place_of_part[part];
+  }
+  map::TopologicalMap map;
+  map.images.assign(input.images.begin(), input.images.end());
+  map.places = form_places(input, parts, place_of_part, labels);
+  map.edges = form_edges(input, path, config, map.places, place_of_image);
+  map.destinations = form_destinations(input, map.places, place_of_image);
+  for (const LoopHypothesis& hypothesis : hypotheses) {
+    map::Hypothesis kept;
+    kept.prototype_a = input.images[at(parts[at(hypothesis.a)].prototype)].id;
+    kept.prototype_b = input.images[at(parts[at(hypothesis.b)].prototype)].id;
+    kept.similarity = hypothesis.similarity;
+    kept.masses_before = hypothesis.before;
+    kept.masses_after = hypothesis.after;
+    kept.support = support(hypothesis.after);
+    kept.plausibility = plausibility(hypothesis.after);
+    kept.decision = hypothesis.decision;
+    kept.by = hypothesis.by;
+    map.hypotheses.push_back(std::move(kept));
+  }
+  map.motion = measure_statistics(input, map, place_of_image, usual);
+  keep_identity(map, previous);
+  if (previous != nullptr) {
+    map.revision = previous->revision + 1;
+    replay_edits(map, previous->edits);
+  }
+  return map;
+}
+
+}  // namespace homeward::mapping

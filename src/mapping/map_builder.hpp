@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "features/appearance.hpp"
+#include "map/topological_map.hpp"
+#include "mapping/hypotheses.hpp"
+#include "mapping/pair_table.hpp"
+
+namespace homeward::mapping {
+
+struct MappingConfig {
+  double place_extent_images = 3.0;    // tour images that a place usually spans where the tour has no odometry
+  double place_extent_m = 1.0;         // and how long it is where it has
+  double weak_below_confidence = 0.5;  // an edge whose verified pose is less certain is weak
+  HypothesisConfig hypotheses;
+};
+
+/// A tour image that a person gave a name.
+struct MarkedImage {
+  int image = 0;
+  std::string label;
+};
+
+/// Tours as the builder sees them: compared images.
+struct MappingInput {
+  std::span<const map::MapImage> images;  // tour order
+  std::span<const int> tour_of;           // number of the tour of each image, ascending
+  std::span<const features::Appearance> appearances;
+  std::span<const MarkedImage> marks;
+  const PairTable* pairs = nullptr;
+};
+
+/// How far two images of a tour are apart along the way: metres of odometry where every image has it, else images.
+class TourPath {
+ public:
+  explicit TourPath(const MappingInput& input);
+  [[nodiscard]] bool metric() const { return metric_; }
+  /// Length of the way from image a to image b of the same tour, in metres or in images.
+  [[nodiscard]] double length(int a, int b) const;
+  /// Typical length of one step.
+  [[nodiscard]] double step() const { return step_; }
+
+ private:
+  bool metric_ = false;
+  double step_ = 1.0;
+  std::vector<double> along_;  // from the first image, tours end to end
+};
+
+/// The visual distance up to which images make one place: what is usual between tour images one place extent apart.
+/// Goedemé 2007 §4.2.3: the place definition is a constant visual distance; which one comes from the tour itself.
+float place_distance_threshold(const MappingInput& input, const TourPath& path, const MappingConfig& config);
+
+/// Places, edges, destinations, hypotheses and statistics of a map (Goedemé 2006 §3.3-3.6); camera, settings and name
+/// are the caller's to fill in. `previous`, or null: its ids, labels, decisions and edits outlive the rebuild.
+map::TopologicalMap make_map(const MappingInput& input, const MappingConfig& config,
+                             const map::TopologicalMap* previous);
+
+}  // namespace homeward::mapping
