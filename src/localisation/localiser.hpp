@@ -12,9 +12,15 @@
 namespace homeward::localisation {
 
 struct LocaliserConfig {
-  int max_candidates = 40;              // places compared by features per update; the rest get the floor
-  double sensor_floor = 1e-3;           // likelihood of a place that was not seen, relative to a perfect match
-  double lost_below_probability = 0.3;  // best place less probable than this: lost
+  int max_candidates = 80;              // places compared by features per update; the rest get the floor
+  double sensor_floor = 1e-6;           // likelihood of a place that was not seen, relative to a perfect match
+  double sensor_exponent = 2.0;         // how fast the likelihood falls with the visual distance
+  double unknown_distance = 4.0;        // visual distance at which "not in this map" explains a picture as well
+  int max_hops_per_update = 4;          // the robot is not expected to drive further between two pictures
+  double jump_probability = 0.01;       // that it was carried somewhere else
+  double leave_probability = 0.02;      // that it left the mapped part
+  double lost_below_probability = 0.3;  // best place and its neighbours together less probable than this: lost
+  int min_features = 20;                // a picture with fewer says nothing
 };
 
 struct PlaceProbability {
@@ -24,12 +30,13 @@ struct PlaceProbability {
 
 /// Where the robot believes to be after its latest picture.
 struct Belief {
-  int updates = 0;                       // pictures used since the last uniform start
-  std::vector<PlaceProbability> top;     // most probable first, at most 5
-  bool lost = false;                     // not in this map, or nothing to be seen
+  int updates = 0;                    // pictures used since the last uniform start
+  std::vector<PlaceProbability> top;  // most probable first, at most 5
+  bool lost = false;                  // not in this map, or nothing to be seen
 };
 
-/// Bayes filter over the places of one map (Goedemé 2007 §5). Starts uniform, which is the kidnapped robot.
+/// Bayes filter over the places of one map and the state "not in this map" (Goedemé 2007 §5). Starts uniform, which is
+/// the kidnapped robot.
 class Localiser {
  public:
   Localiser(const map::TopologicalMap& map, const LocaliserConfig& config);

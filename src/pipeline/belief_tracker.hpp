@@ -16,7 +16,8 @@ class BeliefTracker {
  public:
   /// `camera`: the camera of the stream; it may differ from the map's as long as the feature configuration agrees.
   /// Errors: kFeatureConfigMismatch, kInvalidInput.
-  static Result<BeliefTracker> create(std::shared_ptr<const map::TopologicalMap> map, const camera::CameraConfig& camera,
+  static Result<BeliefTracker> create(std::shared_ptr<const map::TopologicalMap> map,
+                                      const camera::CameraConfig& camera,
                                       const localisation::LocaliserConfig& config = {});
   /// A belief with the map's own camera.
   static Result<BeliefTracker> create(std::shared_ptr<const map::TopologicalMap> map);

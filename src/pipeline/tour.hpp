@@ -15,7 +15,7 @@ namespace homeward::pipeline {
 
 /// What a tour says about one of its pictures.
 struct TourImage {
-  ImageId id;                     // "tour/file"
+  ImageId id;  // "tour/file"
   std::optional<TimeUs> t_us;
   std::optional<Pose2> odometry;  // tour frame
 };
