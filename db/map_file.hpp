@@ -21,11 +21,12 @@ struct StoredMap {
   std::int64_t bytes = 0;  // of the file without thumbnails
 };
 
-/// Writes one map as one SQLite file (application_id "HWMP"); the file appears whole or not at all, over an older one too.
-/// Errors: kIo.
+/// Writes one map as one SQLite file (application_id "HWMP"); the file appears whole or not at all, over an older one
+/// too. Errors: kIo.
 Status save_map(const std::filesystem::path& file, const map::TopologicalMap& map, const Thumbnails& thumbnails);
 
-/// Errors: kNotFound, kCorruptFile (no SQLite file, not a map, does not hold together), kUnsupportedFormat (newer version).
+/// Errors: kNotFound, kCorruptFile (no SQLite file, not a map, does not hold together), kUnsupportedFormat (newer
+/// version).
 Result<StoredMap> load_map(const std::filesystem::path& file);
 
 }  // namespace homeward::db

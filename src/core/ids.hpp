@@ -36,7 +36,5 @@ using UserId = Id<struct UserTag>;
 
 template <class Tag>
 struct std::hash<homeward::Id<Tag>> {
-  std::size_t operator()(const homeward::Id<Tag>& id) const noexcept {
-    return std::hash<std::string>{}(id.str());
-  }
+  std::size_t operator()(const homeward::Id<Tag>& id) const noexcept { return std::hash<std::string>{}(id.str()); }
 };

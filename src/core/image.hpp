@@ -25,9 +25,9 @@ struct Image {
 
   [[nodiscard]] bool empty() const { return data.empty(); }
   [[nodiscard]] std::uint8_t* at(int u, int v) {
-    return data.data() + (static_cast<std::size_t>(v) * static_cast<std::size_t>(width_px) +
-                          static_cast<std::size_t>(u)) *
-                             static_cast<std::size_t>(channels);
+    return data.data() +
+           (static_cast<std::size_t>(v) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(u)) *
+               static_cast<std::size_t>(channels);
   }
   [[nodiscard]] const std::uint8_t* at(int u, int v) const { return const_cast<Image*>(this)->at(u, v); }
 };

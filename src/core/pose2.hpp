@@ -19,16 +19,14 @@ struct Pose2 {
 inline Pose2 operator*(const Pose2& a_from_b, const Pose2& b_from_c) {
   const double c = std::cos(a_from_b.theta_rad);
   const double s = std::sin(a_from_b.theta_rad);
-  return {a_from_b.x_m + c * b_from_c.x_m - s * b_from_c.y_m,
-          a_from_b.y_m + s * b_from_c.x_m + c * b_from_c.y_m,
+  return {a_from_b.x_m + c * b_from_c.x_m - s * b_from_c.y_m, a_from_b.y_m + s * b_from_c.x_m + c * b_from_c.y_m,
           wrap_angle(a_from_b.theta_rad + b_from_c.theta_rad)};
 }
 
 inline Pose2 inverse(const Pose2& a_from_b) {
   const double c = std::cos(a_from_b.theta_rad);
   const double s = std::sin(a_from_b.theta_rad);
-  return {-c * a_from_b.x_m - s * a_from_b.y_m, s * a_from_b.x_m - c * a_from_b.y_m,
-          wrap_angle(-a_from_b.theta_rad)};
+  return {-c * a_from_b.x_m - s * a_from_b.y_m, s * a_from_b.x_m - c * a_from_b.y_m, wrap_angle(-a_from_b.theta_rad)};
 }
 
 }  // namespace homeward

@@ -24,18 +24,18 @@ enum class ErrorCode {
   kUnknownPlace,
   kNoRoute,
   kLost,
-  kConflict,      // the state does not allow this now
+  kConflict,       // the state does not allow this now
   kStaleRevision,  // the edit was made against an older revision
   kUnauthenticated,
   kForbidden,
   kLeaseHeld,  // somebody else is driving
   kRobotOffline,
-  kTooLarge,      // a request body over its limit
-  kRateLimited,   // too many tries; wait
-  kOverloaded,    // the work pool is full; try again later
+  kTooLarge,     // a request body over its limit
+  kRateLimited,  // too many tries; wait
+  kOverloaded,   // the work pool is full; try again later
   kCancelled,
-  kCorruptFile,   // a file of ours that does not hold together
-  kIo,            // disk, socket or process trouble
+  kCorruptFile,  // a file of ours that does not hold together
+  kIo,           // disk, socket or process trouble
   kInternal,
 };
 

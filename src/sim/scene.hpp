@@ -23,10 +23,10 @@ struct Material {
 
 /// Triangles of a building. World frame, metres, z up. Plain data, whatever it was made from.
 struct Scene {
-  Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> vertices_m;   // V x 3
-  Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor> texture_uv;   // V x 2, v downwards from the top row
+  Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> vertices_m;        // V x 3
+  Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor> texture_uv;        // V x 2, v downwards from the top row
   Eigen::Matrix<std::int32_t, Eigen::Dynamic, 3, Eigen::RowMajor> triangles;  // T x 3, vertex indices
-  std::vector<int> triangle_materials;                                   // T, index into materials
+  std::vector<int> triangle_materials;                                        // T, index into materials
   std::vector<Material> materials;
   std::vector<Image> textures;
 };
@@ -44,12 +44,12 @@ struct Lamp {
 };
 
 /// Cells of the floor, row 0 at the largest y, like ROS map_server.
-struct FloorGrid {
+struct FloorGrid {  // see floor.hpp for what is computed on it
   int width = 0;
   int height = 0;
   double resolution_m = 0.05;
   Eigen::Vector2d origin_m = Eigen::Vector2d::Zero();  // lower left corner
-  std::vector<std::uint8_t> cells;                     // height x width, 255 = the robot's centre may be here
+  std::vector<std::uint8_t> cells;                     // height x width, 255 = yes, 0 = no
   double robot_radius_m = 0.35;
 };
 
@@ -60,7 +60,9 @@ struct World {
   Pose2 start;
   std::vector<Room> rooms;
   std::vector<Lamp> lamps;
-  FloorGrid drivable;
+  FloorGrid occupied;  // 255 = something stands there between knee and head
+  FloorGrid
+      drivable;  // 255 = the centre of a disc robot of robot_radius_m may be here, and can get here from the start
 };
 
 }  // namespace homeward::sim

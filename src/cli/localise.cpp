@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "agent/files/read_file.hpp"
+#include "agent/files/tour_folder.hpp"
+#include "cli/command.hpp"
+#include "db/map_file.hpp"
+#include "pipeline/belief_tracker.hpp"
+
+namespace homeward::cli {
+namespace {
+
+struct Options {
+  std::string map;
+  std::string images;
+  std::string camera;
+  int restart_every = 0;
+};
+
+nlohmann::json line_of(const std::string& image, const localisation::Belief& belief, double ms) {
+  nlohmann::json top = nlohmann::json::array();
+  for (const localisation::PlaceProbability& at : belief.top) {
+    top.push_back({{"place", at.place.str()}, {"probability", at.probability}});
+  }
+  nlohmann::json line{{"image", image}, {"updates", belief.updates}, {"top", top}, {"lost", belief.lost}, {"ms", ms}};
+  line["place"] = belief.top.empty() ? nlohmann::json() : nlohmann::json(belief.top.front().place.str());
+  line["probability"] = belief.top.empty() ? nlohmann::json() : nlohmann::json(belief.top.front().probability);
+  return line;
+}
+
+Status localise(const Options& options) {
+  auto stored = db::load_map(options.map);
+  if (!stored) return pass_on(stored);
+  const auto files = agent::pictures_in(options.images);
+  if (!files) return pass_on(files);
+  const auto map = std::make_shared<const map::TopologicalMap>(std::move(stored->map));
+  camera::CameraConfig camera = map->camera;
+  if (!options.camera.empty()) {
+    const auto own = agent::read_camera(options.camera);
+    if (!own) return pass_on(own);
+    camera = *own;
+  }
+  auto tracker = pipeline::BeliefTracker::create(map, camera);
+  if (!tracker) return pass_on(tracker);
+  for (std::size_t i = 0; i < files->size(); ++i) {
+    const auto picture = agent::read_picture((*files)[i]);
+    if (!picture) return pass_on(picture);
+    if (options.restart_every > 0 && i % static_cast<std::size_t>(options.restart_every) == 0) tracker->restart();
+    const auto begin = std::chrono::steady_clock::now();
+    const auto belief = tracker->update(*picture);
+    if (!belief) return fail(belief.error().code, belief.error().message, (*files)[i].string());
+    const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    std::cout << line_of((*files)[i].filename().string(), *belief, ms).dump() << "\n";
+  }
+  return {};
+}
+
+}  // namespace
+
+void register_localise(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("localise", "Where in a map pictures were taken: a JSON line for each");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--map", options->map, "Map file")->required();
+  command->add_option("--images", options->images, "Folder of pictures, in name order")->required();
+  command->add_option("--camera", options->camera, "camera.json, when it is not the map's camera");
+  command->add_option("--restart-every", options->restart_every, "Forget everything after so many pictures (0: never)")
+      ->check(CLI::NonNegativeNumber);
+  run_on(*command, [options] { return localise(*options); });
+}
+
+}  // namespace homeward::cli

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/map.hpp"
+
+#include "cli/command.hpp"
+
+namespace homeward::cli {
+
+void register_map(CLI::App& program) {
+  CLI::App* map = program.add_subcommand("map", "Build, inspect and export maps");
+  map->require_subcommand(1);
+  register_map_build(*map);
+  register_map_inspect(*map);
+  register_map_export(*map);
+}
+
+}  // namespace homeward::cli

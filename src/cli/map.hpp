@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace homeward::cli {
+
+void register_map_build(CLI::App& map);
+void register_map_inspect(CLI::App& map);
+void register_map_export(CLI::App& map);
+
+}  // namespace homeward::cli

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/lighting.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+namespace homeward::sim {
+namespace {
+
+constexpr float kLift_m = 0.004F;  // rays start so far off their surface
+constexpr float kFar_m = 60.0F;
+constexpr int kGatherRays = 40;
+constexpr float kSmallTriangle_m = 0.08F;  // lit by one sample
+
+float maximum_edge_m(const Scene& scene, Eigen::Index t) {
+  float longest = 0.0F;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    longest = std::max(longest, (scene.vertices_m.row(3 * t + k) - scene.vertices_m.row(3 * t + (k + 1) % 3)).norm());
+  }
+  return longest;
+}
+
+/// Cosine-weighted directions about +z, the same for all points: bias without speckles.
+std::array<Eigen::Vector3f, kGatherRays> gather_directions() {
+  std::array<Eigen::Vector3f, kGatherRays> directions;
+  constexpr float kGoldenAngle_rad = 2.39996323F;
+  for (int i = 0; i < kGatherRays; ++i) {
+    const float r2 = (static_cast<float>(i) + 0.5F) / kGatherRays;
+    const float radius = std::sqrt(r2);
+    const float angle_rad = kGoldenAngle_rad * static_cast<float>(i);
+    directions[static_cast<std::size_t>(i)] = {radius * std::cos(angle_rad), radius * std::sin(angle_rad),
+                                               std::sqrt(1.0F - r2)};
+  }
+  return directions;
+}
+
+class Gatherer {
+ public:
+  Gatherer(const Scene& scene, const RayScene& rays, const std::vector<Lamp>& lamps, const LightSettings& settings)
+      : scene_(scene),
+        rays_(rays),
+        lamps_(lamps),
+        settings_(settings),
+        albedos_(mean_albedos(scene)),
+        directions_(gather_directions()) {}
+
+  [[nodiscard]] Eigen::Array3f direct(const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal) const {
+    Eigen::Array3f light = Eigen::Array3f::Zero();
+    const Eigen::Array3f colour(settings_.lamp_colour[0], settings_.lamp_colour[1], settings_.lamp_colour[2]);
+    for (std::size_t i = 0; i < lamps_.size(); ++i) {
+      if (!lamp_burns(settings_, i)) continue;
+      const Eigen::Vector3f lamp_m = lamps_[i].position_m.cast<float>();
+      const Eigen::Vector3f way_m = lamp_m - point_m;
+      const float distance2 = std::max(0.09F, way_m.squaredNorm());
+      const float cosine = normal.dot(way_m.normalized());
+      // The lamp's own shade must not hide it: the last 15 cm are open.
+      if (cosine <= 0.0F || rays_.blocked(point_m, lamp_m - 0.15F * way_m.normalized())) continue;
+      light += colour * (settings_.lamp_intensity * static_cast<float>(lamps_[i].strength) * cosine / distance2);
+    }
+    return light;
+  }
+
+  [[nodiscard]] Eigen::Array3f indirect(const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal,
+                                        const Irradiance& known) const {
+    const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), normal);
+    Eigen::Array3f light = Eigen::Array3f::Zero();
+    for (const Eigen::Vector3f& direction : directions_) {
+      const auto hit = rays_.first_hit(point_m, turn * direction, kFar_m);
+      if (!hit) {
+        light += settings_.window_radiance * 0.1F;
+        continue;
+      }
+      const Material& material = scene_.materials[static_cast<std::size_t>(scene_.triangle_materials[hit->triangle])];
+      if (material.role == MaterialRole::kWindow) {
+        light += settings_.window_radiance;
+        continue;
+      }
+      const Eigen::Index row = 3 * static_cast<Eigen::Index>(hit->triangle);
+      const Eigen::Array3f arriving = (1.0F - hit->u - hit->v) * known.corners.row(row).array() +
+                                      hit->u * known.corners.row(row + 1).array() +
+                                      hit->v * known.corners.row(row + 2).array();
+      light += arriving * albedos_[static_cast<std::size_t>(scene_.triangle_materials[hit->triangle])];
+    }
+    return light / static_cast<float>(kGatherRays);
+  }
+
+  /// Calls `gather(point, normal)` for each corner, the point lifted off its surface and drawn in from the edges.
+  template <class Gather>
+  [[nodiscard]] Irradiance at_all_corners(const Gather& gather) const {
+    Irradiance irradiance;
+    irradiance.corners.setZero(scene_.vertices_m.rows(), 3);
+    tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, scene_.triangles.rows(), 256), [&](const auto& range) {
+      for (Eigen::Index t = range.begin(); t != range.end(); ++t) {
+        const Eigen::Vector3f a = scene_.vertices_m.row(3 * t);
+        const Eigen::Vector3f b = scene_.vertices_m.row(3 * t + 1);
+        const Eigen::Vector3f c = scene_.vertices_m.row(3 * t + 2);
+        const Eigen::Vector3f across = (b - a).cross(c - a);
+        if (across.squaredNorm() < 1e-16F) continue;
+        const Eigen::Vector3f normal = across.normalized();
+        const Eigen::Vector3f centre = (a + b + c) / 3.0F;
+        const auto lit = [&](const Eigen::Vector3f& point_m) -> Eigen::Array3f {
+          // Meshes from elsewhere do not say which side is outside: the brighter one is.
+          const Eigen::Array3f front = gather(Eigen::Vector3f(point_m + kLift_m * normal), normal);
+          const Eigen::Array3f back = gather(Eigen::Vector3f(point_m - kLift_m * normal), Eigen::Vector3f(-normal));
+          return front.max(back);
+        };
+        if (maximum_edge_m(scene_, t) < kSmallTriangle_m) {
+          const Eigen::Array3f light = lit(centre);
+          for (Eigen::Index k = 0; k < 3; ++k) irradiance.corners.row(3 * t + k) = light;
+          continue;
+        }
+        constexpr float kDrawnIn = 0.12F;
+        for (Eigen::Index k = 0; k < 3; ++k) {
+          const Eigen::Vector3f corner = scene_.vertices_m.row(3 * t + k);
+          irradiance.corners.row(3 * t + k) = lit(corner + kDrawnIn * (centre - corner));
+        }
+      }
+    });
+    return irradiance;
+  }
+
+ private:
+  const Scene& scene_;
+  const RayScene& rays_;
+  const std::vector<Lamp>& lamps_;
+  const LightSettings& settings_;
+  std::vector<Eigen::Array3f> albedos_;
+  std::array<Eigen::Vector3f, kGatherRays> directions_;
+};
+
+}  // namespace
+
+LightSettings light_settings(LightPreset preset) {
+  switch (preset) {
+    case LightPreset::kDay:
+      return {{1.0F, 0.97F, 0.92F}, 1.1F, 0, 5.0F, 1.4F, 1.5F, 1.0F};
+    case LightPreset::kNight:
+      return {{1.0F, 0.80F, 0.55F}, 1.4F, 3, 0.0F, 0.03F, 3.0F, 1.1F};
+    case LightPreset::kHalf:
+      return {{1.0F, 0.90F, 0.75F}, 1.2F, 2, 1.2F, 0.5F, 2.0F, 1.1F};
+  }
+  return {};
+}
+
+bool lamp_burns(const LightSettings& settings, std::size_t index) {
+  return settings.lamps_off_every == 0 || (index + 1) % static_cast<std::size_t>(settings.lamps_off_every) != 0;
+}
+
+float linear_from_srgb(std::uint8_t value) {
+  const float level = static_cast<float>(value) / 255.0F;
+  return level <= 0.04045F ? level / 12.92F : std::pow((level + 0.055F) / 1.055F, 2.4F);
+}
+
+std::vector<Eigen::Array3f> mean_albedos(const Scene& scene) {
+  std::vector<Eigen::Array3f> texture_means;
+  for (const Image& texture : scene.textures) {
+    Eigen::Array3d sum = Eigen::Array3d::Zero();
+    constexpr std::size_t kStride = 7;  // a sample of the texels is enough for a mean
+    std::size_t count = 0;
+    const std::size_t texels = texture.data.size() / 3;
+    for (std::size_t i = 0; i < texels; i += kStride, ++count) {
+      for (std::size_t band = 0; band < 3; ++band) {
+        sum[static_cast<Eigen::Index>(band)] += static_cast<double>(linear_from_srgb(texture.data[3 * i + band]));
+      }
+    }
+    texture_means.emplace_back((sum / static_cast<double>(std::max<std::size_t>(1, count))).cast<float>());
+  }
+  std::vector<Eigen::Array3f> albedos;
+  for (const Material& material : scene.materials) {
+    Eigen::Array3f albedo(material.base_colour[0], material.base_colour[1], material.base_colour[2]);
+    if (material.texture >= 0) albedo *= texture_means[static_cast<std::size_t>(material.texture)];
+    albedos.push_back(albedo);
+  }
+  return albedos;
+}
+
+Irradiance compute_irradiance(const Scene& scene, const RayScene& rays, const std::vector<Lamp>& lamps,
+                              const LightSettings& settings) {
+  const Gatherer gatherer(scene, rays, lamps, settings);
+  const Irradiance direct = gatherer.at_all_corners(
+      [&](const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal) { return gatherer.direct(point_m, normal); });
+  Irradiance total = direct;
+  constexpr int kBounces = 2;
+  for (int bounce = 0; bounce < kBounces; ++bounce) {
+    const Irradiance bounced =
+        gatherer.at_all_corners([&](const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal) {
+          return gatherer.indirect(point_m, normal, total);
+        });
+    total.corners = direct.corners + bounced.corners;
+  }
+  return total;
+}
+
+}  // namespace homeward::sim

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "sim/ray_scene.hpp"
+#include "sim/scene.hpp"
+
+namespace homeward::sim {
+
+enum class LightPreset { kDay, kNight, kHalf };
+
+/// How a preset lights a world: which lamps burn, their colour, what the windows give.
+struct LightSettings {
+  std::array<float, 3> lamp_colour{1.0F, 1.0F, 1.0F};
+  float lamp_intensity = 1.0F;   // of a lamp of strength 1
+  int lamps_off_every = 0;       // every n-th lamp is off; 0: all burn
+  float window_radiance = 0.0F;  // daylight through windows
+  float window_shown = 0.05F;    // brightness of a window pane itself
+  float noise_levels = 1.5F;     // standard deviation of the sensor's noise, grey levels of 255
+  float exposure = 1.0F;
+};
+LightSettings light_settings(LightPreset preset);
+
+/// Whether lamp number `index` burns.
+bool lamp_burns(const LightSettings& settings, std::size_t index);
+
+/// Light arriving at every corner of every triangle of a tessellated scene, linear RGB.
+struct Irradiance {
+  Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> corners;  // 3T x 3; row 3 t + k: corner k of triangle t
+};
+
+/// Lamps with shadows, daylight from windows and two diffuse bounces, gathered at the corners (radiosity by ray
+/// casting, Arvo 1986). `scene`: the tessellated scene; every triangle has its own three vertices. Data-parallel, same
+/// result always.
+Irradiance compute_irradiance(const Scene& scene, const RayScene& rays, const std::vector<Lamp>& lamps,
+                              const LightSettings& settings);
+
+/// Mean linear colour of each material's texture times its base colour.
+std::vector<Eigen::Array3f> mean_albedos(const Scene& scene);
+
+/// sRGB byte to linear 0..1.
+float linear_from_srgb(std::uint8_t value);
+
+}  // namespace homeward::sim

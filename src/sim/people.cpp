@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/people.hpp"
+
+#include <cmath>
+
+#include "sim/floor.hpp"
+
+namespace homeward::sim {
+namespace {
+
+/// Clothes by height: shoes, trousers, a striped top, hands and face, hair.
+Eigen::Array3f clothes(std::uint32_t look, float height_m, float azimuth_rad) {
+  const auto tone = [&](std::uint32_t shift) {
+    const std::uint32_t bits = (look * 2654435761U) >> shift;
+    return Eigen::Array3f(0.15F + 0.6F * static_cast<float>(bits & 7U) / 7.0F,
+                          0.15F + 0.6F * static_cast<float>((bits >> 3U) & 7U) / 7.0F,
+                          0.15F + 0.6F * static_cast<float>((bits >> 6U) & 7U) / 7.0F);
+  };
+  if (height_m < 0.1F) return {0.08F, 0.06F, 0.05F};
+  if (height_m < 0.85F) return 0.6F * tone(4);
+  if (height_m < 1.42F) {
+    const bool stripe = static_cast<int>(std::floor(height_m * 16.0F)) % 2 == 0;
+    const bool button = std::abs(azimuth_rad) < 0.12F && std::fmod(height_m, 0.11F) < 0.025F;
+    if (button) return {0.9F, 0.9F, 0.85F};
+    return stripe ? tone(10) : 0.75F * tone(13);
+  }
+  if (height_m < 1.62F) return {0.75F, 0.55F, 0.43F};
+  return 0.4F * tone(17);
+}
+
+}  // namespace
+
+std::optional<PersonHit> hit_person(const Person& person, const Eigen::Vector3f& origin_m,
+                                    const Eigen::Vector3f& direction) {
+  const float ox = origin_m.x() - static_cast<float>(person.x_m);
+  const float oy = origin_m.y() - static_cast<float>(person.y_m);
+  const float a = direction.x() * direction.x() + direction.y() * direction.y();
+  if (a < 1e-9F) return std::nullopt;
+  const float b = ox * direction.x() + oy * direction.y();
+  // Two upright cylinders: body to the shoulders, and a slimmer neck and head on top.
+  struct Part {
+    float radius_m, bottom_m, top_m;
+  };
+  std::optional<PersonHit> nearest;
+  for (const Part part : {Part{static_cast<float>(kPersonRadius_m), 0.0F, 1.42F},
+                          Part{0.11F, 1.42F, static_cast<float>(kPersonHeight_m)}}) {
+    const float c = ox * ox + oy * oy - part.radius_m * part.radius_m;
+    const float discriminant = b * b - a * c;
+    if (discriminant <= 0.0F) continue;
+    const float distance_m = (-b - std::sqrt(discriminant)) / a;
+    if (distance_m <= 0.0F || (nearest && nearest->distance_m <= distance_m)) continue;
+    const float z_m = origin_m.z() + distance_m * direction.z();
+    if (z_m < part.bottom_m || z_m > part.top_m) continue;
+    const float azimuth_rad = std::atan2(oy + distance_m * direction.y(), ox + distance_m * direction.x());
+    nearest = PersonHit{distance_m, clothes(person.look, z_m, azimuth_rad)};
+  }
+  return nearest;
+}
+
+Walkers::Walkers(const World& world, int count, std::uint64_t seed, const Pose2& keep_clear)
+    : world_(&world), random_(seed) {
+  constexpr double kFirstDistance_m = 2.0;
+  constexpr int kTries = 200;
+  for (int i = 0; i < count; ++i) {
+    Person person;
+    for (int attempt = 0; attempt < kTries; ++attempt) {
+      const Eigen::Vector2d place_m = random_free_point(world.drivable, random_);
+      person.x_m = place_m.x();
+      person.y_m = place_m.y();
+      if (std::hypot(person.x_m - keep_clear.x_m, person.y_m - keep_clear.y_m) > kFirstDistance_m) break;
+    }
+    person.look = static_cast<std::uint32_t>(random_());
+    people_.push_back(person);
+    walks_.push_back({});
+    std::uniform_real_distribution<double> speed(0.5, 1.1);
+    walks_.back().speed_mps = speed(random_);
+  }
+}
+
+void Walkers::choose_way(std::size_t index) {
+  const Eigen::Vector2d here_m(people_[index].x_m, people_[index].y_m);
+  const auto way_m = shortest_way(world_->drivable, here_m, random_free_point(world_->drivable, random_));
+  if (way_m.size() > 1) walks_[index].way_m.assign(way_m.begin() + 1, way_m.end());
+  std::uniform_real_distribution<double> pause(0.0, 3.0);
+  walks_[index].waits_s = pause(random_);
+}
+
+void Walkers::advance(double dt_s, const Pose2& robot, double personal_space_m) {
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    Walk& walk = walks_[i];
+    if (walk.waits_s > 0.0) {
+      walk.waits_s -= dt_s;
+      continue;
+    }
+    if (walk.way_m.empty()) {
+      choose_way(i);
+      continue;
+    }
+    Person& person = people_[i];
+    Eigen::Vector2d here_m(person.x_m, person.y_m);
+    double left_m = walk.speed_mps * dt_s;
+    while (left_m > 0.0 && !walk.way_m.empty()) {
+      const Eigen::Vector2d way_m = walk.way_m.front() - here_m;
+      if (way_m.norm() <= left_m) {
+        left_m -= way_m.norm();
+        here_m = walk.way_m.front();
+        walk.way_m.erase(walk.way_m.begin());
+      } else {
+        here_m += left_m * way_m.normalized();
+        left_m = 0.0;
+      }
+    }
+    const Eigen::Vector2d robot_m(robot.x_m, robot.y_m);
+    const double now_m = (Eigen::Vector2d(person.x_m, person.y_m) - robot_m).norm();
+    const double then_m = (here_m - robot_m).norm();
+    if (then_m < personal_space_m && then_m < now_m) {
+      walk.way_m.clear();  // somebody in the way: look for another one
+      walk.waits_s = 1.0;
+      continue;
+    }
+    person.x_m = here_m.x();
+    person.y_m = here_m.y();
+  }
+}
+
+}  // namespace homeward::sim

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "sim/scene.hpp"
+
+namespace homeward::sim {
+
+/// Where a ray first meets the scene: the corners of the triangle weigh (1 - u - v, u, v).
+struct Hit {
+  std::uint32_t triangle = 0;
+  float u = 0.0F;
+  float v = 0.0F;
+  float distance_m = 0.0F;
+};
+
+/// Eight rays from one origin, for coherent casting.
+struct RayPacket {
+  std::array<Eigen::Vector3f, 8> directions;  // unit vectors
+  std::array<bool, 8> wanted{};
+};
+
+/// A scene ready for ray casting (Embree). Thread-safe for casting.
+class RayScene {
+ public:
+  explicit RayScene(const Scene& scene);
+  ~RayScene();
+  RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
+
+  [[nodiscard]] std::optional<Hit> first_hit(const Eigen::Vector3f& origin_m, const Eigen::Vector3f& direction,
+                                             float far_m) const;
+  [[nodiscard]] std::array<std::optional<Hit>, 8> first_hits(const Eigen::Vector3f& origin_m, const RayPacket& packet,
+                                                             float far_m) const;
+  /// Whether anything lies between `from_m` and `to_m`.
+  [[nodiscard]] bool blocked(const Eigen::Vector3f& from_m, const Eigen::Vector3f& to_m) const;
+
+ private:
+  struct Embree;
+  std::unique_ptr<Embree> embree_;
+};
+
+/// The same surface in triangles whose edges are at most `max_edge_m` long (longest edge halved again and again).
+Scene tessellate(const Scene& scene, float max_edge_m);
+
+}  // namespace homeward::sim

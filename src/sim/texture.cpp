@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/texture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/lighting.hpp"
+
+namespace homeward::sim {
+
+MipTexture::MipTexture(const Image& texture) {
+  std::array<float, 256> linear{};
+  for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = linear_from_srgb(static_cast<std::uint8_t>(i));
+  Level first{texture.width_px, texture.height_px, std::vector<float>(texture.data.size())};
+  std::transform(texture.data.begin(), texture.data.end(), first.rgb.begin(),
+                 [&](std::uint8_t value) { return linear[value]; });
+  levels_.push_back(std::move(first));
+  while (levels_.back().width > 1 || levels_.back().height > 1) {
+    const Level& above = levels_.back();
+    Level below{std::max(1, above.width / 2), std::max(1, above.height / 2), {}};
+    below.rgb.resize(static_cast<std::size_t>(below.width) * static_cast<std::size_t>(below.height) * 3);
+    for (int y = 0; y < below.height; ++y) {
+      for (int x = 0; x < below.width; ++x) {
+        for (int band = 0; band < 3; ++band) {
+          float sum = 0.0F;
+          for (const auto& [dx, dy] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1), std::pair(1, 1)}) {
+            const int xx = std::min(above.width - 1, 2 * x + dx);
+            const int yy = std::min(above.height - 1, 2 * y + dy);
+            sum += above.rgb[static_cast<std::size_t>((yy * above.width + xx) * 3 + band)];
+          }
+          below.rgb[static_cast<std::size_t>((y * below.width + x) * 3 + band)] = 0.25F * sum;
+        }
+      }
+    }
+    levels_.push_back(std::move(below));
+  }
+}
+
+Eigen::Array3f MipTexture::bilinear(const Level& level, float u, float v) {
+  const float x = (u - std::floor(u)) * static_cast<float>(level.width) - 0.5F;
+  const float y = (v - std::floor(v)) * static_cast<float>(level.height) - 0.5F;
+  const float left = std::floor(x);
+  const float top = std::floor(y);
+  const float right_share = x - left;
+  const float bottom_share = y - top;
+  const int x0 = static_cast<int>(left) < 0 ? level.width - 1 : static_cast<int>(left);
+  const int y0 = static_cast<int>(top) < 0 ? level.height - 1 : static_cast<int>(top);
+  const int x1 = x0 + 1 == level.width ? 0 : x0 + 1;
+  const int y1 = y0 + 1 == level.height ? 0 : y0 + 1;
+  const auto at = [&](int column, int row) {
+    return Eigen::Map<const Eigen::Array3f>(level.rgb.data() +
+                                            static_cast<std::size_t>((row * level.width + column) * 3));
+  };
+  return (1.0F - bottom_share) * ((1.0F - right_share) * at(x0, y0) + right_share * at(x1, y0)) +
+         bottom_share * ((1.0F - right_share) * at(x0, y1) + right_share * at(x1, y1));
+}
+
+Eigen::Array3f MipTexture::sample(float u, float v, float texels) const {
+  const float lod = std::log2(std::max(1.0F, texels));
+  const auto last = static_cast<float>(levels_.size() - 1);
+  return bilinear(levels_[static_cast<std::size_t>(std::min(last, std::round(lod)))], u, v);
+}
+
+}  // namespace homeward::sim

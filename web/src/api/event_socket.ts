@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+import { applyEvent, type HouseState } from './house_state';
+import type { HouseEvent } from './types';
+
+export type ConnectionState = 'closed' | 'connecting' | 'live' | 'offline';
+
+/** The part of WebSocket that is used, so that tests can hand in their own. */
+export interface SocketLike {
+  onmessage: ((event: { data: unknown }) => void) | null;
+  onclose: ((event: { code: number }) => void) | null;
+  close(): void;
+}
+
+export interface EventSocketOptions {
+  open: () => SocketLike;
+  now_ms: () => number;
+  after: (delay_ms: number, call: () => void) => () => void; // returns its cancel
+  random: () => number; // [0, 1)
+}
+
+export interface EventSocketView {
+  state: ConnectionState;
+  house: HouseState | null;
+  last_message_ms: number | null;
+}
+
+type Listener = (view: EventSocketView) => void;
+
+const kFirstRetryMs = 400;
+const kLongestRetryMs = 8000;
+
+/**
+ * The one connection for events: opened with the first subscriber, closed with the last, opened again after every loss
+ * with growing pauses. A missed change drops the connection, because a new one begins with a full snapshot.
+ */
+export class EventSocket {
+  private readonly listeners_ = new Set<Listener>();
+  private socket_: SocketLike | null = null;
+  private cancelRetry_: (() => void) | null = null;
+  private failures_ = 0;
+  private view_: EventSocketView = { state: 'closed', house: null, last_message_ms: null };
+
+  constructor(private readonly options_: EventSocketOptions) {}
+
+  get view(): EventSocketView {
+    return this.view_;
+  }
+
+  /** Calls `listener` now and at every change; returns its unsubscribe. */
+  subscribe(listener: Listener): () => void {
+    this.listeners_.add(listener);
+    if (this.listeners_.size === 1) this.connect();
+    listener(this.view_);
+    return () => {
+      if (!this.listeners_.delete(listener) || this.listeners_.size > 0) return;
+      this.drop();
+      this.view_ = { state: 'closed', house: null, last_message_ms: null };
+    };
+  }
+
+  /** Tries at once instead of after the pause; nothing when connected. */
+  retryNow(): void {
+    if (this.listeners_.size === 0 || this.socket_) return;
+    this.connect();
+  }
+
+  /** Drops a connection that is believed dead and opens a new one. */
+  reconnect(): void {
+    if (this.listeners_.size === 0) return;
+    this.drop();
+    this.lost();
+  }
+
+  private connect(): void {
+    this.cancelRetry_?.();
+    this.cancelRetry_ = null;
+    this.change({ state: this.view_.house ? this.view_.state : 'connecting' });
+    const socket = this.options_.open();
+    this.socket_ = socket;
+    socket.onmessage = (event) => this.receive(event.data);
+    socket.onclose = () => {
+      if (this.socket_ !== socket) return;
+      this.socket_ = null;
+      this.lost();
+    };
+  }
+
+  private receive(data: unknown): void {
+    const event = parseEvent(data);
+    const house = event ? applyEvent(this.socketHouse_, event, this.options_.now_ms()) : 'gap';
+    if (house === 'gap') {
+      this.reconnect();
+      return;
+    }
+    this.socketHouse_ = house;
+    this.failures_ = 0;
+    this.change({ state: 'live', house, last_message_ms: this.options_.now_ms() });
+  }
+
+  // The state that this connection has told; what an earlier one told stays on screen until then, marked as old.
+  private socketHouse_: HouseState | null = null;
+
+  private drop(): void {
+    this.cancelRetry_?.();
+    this.cancelRetry_ = null;
+    const socket = this.socket_;
+    this.socket_ = null;
+    if (!socket) return;
+    socket.onmessage = null;
+    socket.onclose = null;
+    socket.close();
+  }
+
+  private lost(): void {
+    this.socketHouse_ = null;
+    const pause_ms = Math.min(kLongestRetryMs, kFirstRetryMs * 2 ** this.failures_);
+    this.failures_ += 1;
+    this.change({ state: 'offline' });
+    this.cancelRetry_ = this.options_.after(pause_ms * (0.75 + 0.5 * this.options_.random()), () => this.connect());
+  }
+
+  private change(part: Partial<EventSocketView>): void {
+    this.view_ = { ...this.view_, ...part };
+    for (const listener of [...this.listeners_]) listener(this.view_);
+  }
+}
+
+/** A message as an event; null when it is none. Unknown kinds pass, so that a newer server can add some. */
+export function parseEvent(data: unknown): HouseEvent | null {
+  if (typeof data !== 'string') return null;
+  try {
+    const value: unknown = JSON.parse(data);
+    if (typeof value !== 'object' || value === null) return null;
+    const { type, seq } = value as { type?: unknown; seq?: unknown };
+    return typeof type === 'string' && typeof seq === 'number' ? (value as HouseEvent) : null;
+  } catch {
+    return null;
+  }
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from 'vitest';
+import { applyEvent, statusAgeMs, type HouseState } from './house_state';
+import type { Mission, Robot } from './types';
+
+const robot: Robot = {
+  id: 'r1',
+  name: 'Chair',
+  online: true,
+  map: 'm1',
+  state: 'idle',
+  belief: null,
+  mission: null,
+  lease: null,
+  status_age_ms: 100,
+};
+const mission: Mission = {
+  format: 'homeward-mission',
+  version: 1,
+  id: 'a',
+  robot: 'r1',
+  map: 'm1',
+  revision: 1,
+  destination: 'd1',
+  place: 'p1',
+  state: 'driving',
+  reason: null,
+  epoch: 1,
+  seq: 1,
+  path: ['p1'],
+  path_index: 0,
+  created_us: 10,
+  by: 'anna',
+};
+
+function started(): HouseState {
+  const state = applyEvent(null, { type: 'snapshot', v: 1, seq: 7, build: 'b', robots: [robot], jobs: [], maps: [] }, 1000);
+  if (state === 'gap') throw new Error('a snapshot is never a gap');
+  return state;
+}
+
+describe('applyEvent', () => {
+  it('replaces the robot that changed and remembers when', () => {
+    const next = applyEvent(started(), { type: 'robot', v: 1, seq: 8, robot: { ...robot, state: 'driving' } }, 2000);
+    expect(next).toMatchObject({ seq: 8, robots: [{ id: 'r1', state: 'driving' }], heard_ms: { r1: 2000 } });
+  });
+
+  it('adds a robot that it did not know', () => {
+    const next = applyEvent(started(), { type: 'robot', v: 1, seq: 8, robot: { ...robot, id: 'r2' } }, 2000);
+    expect(next === 'gap' ? [] : next.robots.map((one) => one.id)).toEqual(['r1', 'r2']);
+  });
+
+  it('notices a missed change, a repeated one, and a change before any snapshot', () => {
+    expect(applyEvent(started(), { type: 'robot', v: 1, seq: 9, robot }, 0)).toBe('gap');
+    expect(applyEvent(started(), { type: 'robot', v: 1, seq: 7, robot }, 0)).toBe('gap');
+    expect(applyEvent(null, { type: 'robot', v: 1, seq: 1, robot }, 0)).toBe('gap');
+  });
+
+  it('gives a mission to its robot, but never an older one over a newer', () => {
+    const driving = applyEvent(started(), { type: 'mission', v: 1, seq: 8, mission }, 0);
+    if (driving === 'gap') throw new Error('no gap here');
+    expect(driving.robots[0]?.mission?.id).toBe('a');
+    const late = applyEvent(driving, { type: 'mission', v: 1, seq: 9, mission: { ...mission, id: 'z', created_us: 5 } }, 0);
+    if (late === 'gap') throw new Error('no gap here');
+    expect(late.robots[0]?.mission?.id).toBe('a');
+  });
+});
+
+describe('statusAgeMs', () => {
+  it('adds the time since the event to the age that the server stated', () => {
+    expect(statusAgeMs(robot, 1000, 3500)).toBe(2600);
+    expect(statusAgeMs({ ...robot, status_age_ms: null }, 1000, 3500)).toBeNull();
+  });
+});

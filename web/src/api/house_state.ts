@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { HouseEvent, Job, MapInfo, Robot } from './types';
+
+/** Everything that the events tell, with when each robot was last heard of (this browser's clock). */
+export interface HouseState {
+  readonly seq: number;
+  readonly build: string;
+  readonly robots: readonly Robot[];
+  readonly jobs: readonly Job[];
+  readonly maps: readonly MapInfo[];
+  readonly heard_ms: Readonly<Record<string, number>>;
+}
+
+/** What an event makes of the state; 'gap' when a change was missed and the snapshot must be asked for again. */
+export function applyEvent(state: HouseState | null, event: HouseEvent, now_ms: number): HouseState | 'gap' {
+  if (event.type === 'snapshot') {
+    return {
+      seq: event.seq,
+      build: event.build,
+      robots: event.robots,
+      jobs: event.jobs,
+      maps: event.maps,
+      heard_ms: Object.fromEntries(event.robots.map((robot) => [robot.id, now_ms])),
+    };
+  }
+  if (state === null || event.seq !== state.seq + 1) return 'gap';
+  const next = { ...state, seq: event.seq };
+  switch (event.type) {
+    case 'robot':
+      return {
+        ...next,
+        robots: withChanged(state.robots, event.robot),
+        heard_ms: { ...state.heard_ms, [event.robot.id]: now_ms },
+      };
+    case 'job':
+      return { ...next, jobs: withChanged(state.jobs, event.job) };
+    case 'map':
+      return { ...next, maps: withChanged(state.maps, event.map) };
+    case 'mission':
+      return { ...next, robots: state.robots.map((robot) => withMission(robot, event.mission)) };
+    default:
+      return next; // a kind that this version does not know: counted, not shown
+  }
+}
+
+function withMission(robot: Robot, mission: NonNullable<Robot['mission']>): Robot {
+  if (robot.id !== mission.robot) return robot;
+  // A late word about an earlier mission must not replace the present one.
+  if (robot.mission && robot.mission.id !== mission.id && robot.mission.created_us > mission.created_us) return robot;
+  return { ...robot, mission };
+}
+
+function withChanged<T extends { id: string }>(list: readonly T[], changed: T): readonly T[] {
+  return list.some((item) => item.id === changed.id)
+    ? list.map((item) => (item.id === changed.id ? changed : item))
+    : [...list, changed];
+}
+
+/** How old the newest status of a robot is, in milliseconds; null when nothing was ever heard. */
+export function statusAgeMs(robot: Robot, heard_ms: number | undefined, now_ms: number): number | null {
+  if (robot.status_age_ms === null || heard_ms === undefined) return null;
+  return Math.max(0, robot.status_age_ms + (now_ms - heard_ms));
+}

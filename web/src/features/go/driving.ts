@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+import { signal } from '@preact/signals';
+import * as calls from '../../api/calls';
+import { connection } from '../../api/house';
+import { asProblem } from '../../api/problem';
+import type { Lease } from '../../api/types';
+import { isActive, journeyOf, type Command, type Target } from './journey';
+
+/** What this page asked of each robot, and the leases that it holds. */
+export const commands = signal<Readonly<Record<string, Command>>>({});
+const leases = new Map<string, { lease: Lease; timer: ReturnType<typeof setTimeout>; idle_since_ms: number | null }>();
+
+// A lease is given back this long after the robot has nothing left to do, so that others need not take it over.
+const kIdleBeforeReleaseMs = 15_000;
+
+function tell(robot: string, command: Command): void {
+  commands.value = { ...commands.peek(), [robot]: command };
+}
+
+export function forgetCommand(robot: string): void {
+  commands.value = Object.fromEntries(Object.entries(commands.peek()).filter(([id]) => id !== robot));
+}
+
+/** Sends a robot: takes its lease when need be (from somebody else only with `take_over`) and starts the mission. */
+export async function send(robot: string, target: Target, take_over = false): Promise<void> {
+  tell(robot, { kind: 'asking', target });
+  try {
+    const lease_id = await ensureLease(robot, take_over);
+    tell(robot, { kind: 'sent', target, mission: await start(robot, lease_id, target) });
+  } catch (thrown) {
+    const problem = asProblem(thrown);
+    if (problem.code === 'lease_held') tell(robot, { kind: 'held', target, holder: holderOf(robot) });
+    else tell(robot, { kind: 'refused', target, reason: problem.message });
+  }
+}
+
+async function start(robot: string, lease_id: string, target: Target) {
+  const what = target.destination === undefined ? { place: target.place } : { destination: target.destination };
+  return calls.startMission(robot, { lease_id, ...what });
+}
+
+function holderOf(robot: string): string | null {
+  return connection.peek().house?.robots.find((one) => one.id === robot)?.lease?.holder ?? null;
+}
+
+async function ensureLease(robot: string, take_over: boolean): Promise<string> {
+  const held = leases.get(robot);
+  if (held) {
+    try {
+      keep(robot, (await calls.keepLease(robot, held.lease.id)).lease);
+      return held.lease.id;
+    } catch (thrown) {
+      drop(robot);
+      if (asProblem(thrown).code === 'unreachable') throw thrown;
+    }
+  }
+  const { lease } = await calls.takeLease(robot, take_over);
+  keep(robot, lease);
+  return lease.id;
+}
+
+function keep(robot: string, lease: Lease): void {
+  const before = leases.get(robot);
+  if (before) clearTimeout(before.timer);
+  const pause_ms = Math.max(500, lease.expires_in_ms / 3);
+  leases.set(robot, {
+    lease: { ...before?.lease, ...lease },
+    idle_since_ms: before?.idle_since_ms ?? null,
+    timer: setTimeout(() => void renew(robot), pause_ms),
+  });
+}
+
+function drop(robot: string): void {
+  const held = leases.get(robot);
+  if (held) clearTimeout(held.timer);
+  leases.delete(robot);
+}
+
+/** Keeps the lease while the robot is under way, and gives it back some time after. */
+async function renew(robot: string): Promise<void> {
+  const held = leases.get(robot);
+  if (!held) return;
+  const told = connection.peek().house?.robots.find((one) => one.id === robot);
+  const journey = told ? journeyOf(told, commands.peek()[robot]) : null;
+  const busy = journey !== null && (isActive(journey.phase) || journey.phase === 'asking');
+  held.idle_since_ms = busy ? null : (held.idle_since_ms ?? Date.now());
+  try {
+    if (held.idle_since_ms !== null && Date.now() - held.idle_since_ms > kIdleBeforeReleaseMs) {
+      drop(robot);
+      await calls.releaseLease(robot, held.lease.id);
+    } else {
+      keep(robot, (await calls.keepLease(robot, held.lease.id)).lease);
+    }
+  } catch (thrown) {
+    // Out of reach: try again soon, the lease may still be ours. Anything else: it is gone.
+    if (asProblem(thrown).code === 'unreachable' && leases.has(robot)) keep(robot, held.lease);
+    else drop(robot);
+  }
+}
+
+export function holdsLease(robot: string): boolean {
+  return leases.has(robot);
+}
+
+/** Gives every lease back, on signing out. */
+export async function releaseAll(): Promise<void> {
+  const held = [...leases].map(([robot, { lease }]) => ({ robot, lease }));
+  for (const { robot } of held) drop(robot);
+  await Promise.allSettled(held.map(({ robot, lease }) => calls.releaseLease(robot, lease.id)));
+}

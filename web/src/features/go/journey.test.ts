@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from 'vitest';
+import type { Mission, Robot } from '../../api/types';
+import { hindrance, journeyOf, progressOf } from './journey';
+
+const mission: Mission = {
+  format: 'homeward-mission',
+  version: 1,
+  id: 'one',
+  robot: 'r',
+  map: 'm',
+  revision: 1,
+  destination: 'kitchen',
+  place: 'p5',
+  state: 'driving',
+  reason: null,
+  epoch: 1,
+  seq: 1,
+  path: ['p1', 'p2', 'p3', 'p4', 'p5'],
+  path_index: 2,
+  created_us: 100,
+  by: 'anna',
+};
+const robot: Robot = {
+  id: 'r',
+  name: 'Chair',
+  online: true,
+  map: 'm',
+  state: 'driving',
+  belief: null,
+  mission,
+  lease: null,
+  status_age_ms: 0,
+};
+const target = { destination: 'bedroom', label: 'Bedroom' };
+
+describe('journeyOf', () => {
+  it('shows a new command before anything else', () => {
+    expect(journeyOf(robot, { kind: 'asking', target })).toMatchObject({ phase: 'asking', destination: 'bedroom' });
+    expect(journeyOf(robot, { kind: 'refused', target, reason: 'No route.' })).toMatchObject({
+      phase: 'refused',
+      reason: 'No route.',
+    });
+  });
+
+  it('shows the sent mission until the robot tells of it, then what the robot tells', () => {
+    const sent = { ...mission, id: 'two', destination: 'bedroom', state: 'accepted' as const, created_us: 200 };
+    expect(journeyOf(robot, { kind: 'sent', target, mission: sent })).toMatchObject({ phase: 'accepted' });
+    const told = { ...robot, mission: { ...sent, state: 'arrived' as const } };
+    expect(journeyOf(told, { kind: 'sent', target, mission: sent })).toMatchObject({ phase: 'arrived' });
+  });
+
+  it('shows what somebody else asked for later', () => {
+    const later = { ...robot, mission: { ...mission, id: 'three', created_us: 300 } };
+    expect(journeyOf(later, { kind: 'sent', target, mission })?.destination).toBe('kitchen');
+  });
+
+  it('has nothing to show for a robot that was never sent anywhere', () => {
+    expect(journeyOf({ ...robot, mission: null }, undefined)).toBeNull();
+  });
+});
+
+describe('progressOf', () => {
+  it('goes from 0 to 1 and bears odd paths', () => {
+    const journey = journeyOf(robot, undefined);
+    expect(journey && progressOf(journey)).toBe(0.5);
+    const odd = journeyOf({ ...robot, mission: { ...mission, path: ['p5'], path_index: 7 } }, undefined);
+    expect(odd && progressOf(odd)).toBe(0);
+    const there = journeyOf({ ...robot, mission: { ...mission, state: 'arrived' } }, undefined);
+    expect(there && progressOf(there)).toBe(1);
+  });
+});
+
+describe('hindrance', () => {
+  it('names the first thing that keeps the robot from being sent', () => {
+    expect(hindrance(robot, true, true)).toBeNull();
+    expect(hindrance(robot, true, false)).toContain('account');
+    expect(hindrance(robot, false, true)).toContain('server');
+    expect(hindrance({ ...robot, online: false }, true, true)).toContain('not connected');
+    expect(hindrance({ ...robot, map: null }, true, true)).toContain('map');
+  });
+});

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Mission, Robot } from '../../api/types';
+
+/** What this page last asked of a robot, until the robot's mission tells the rest. */
+export type Command =
+  | { kind: 'asking'; target: Target }
+  | { kind: 'held'; target: Target; holder: string | null }
+  | { kind: 'refused'; target: Target; reason: string }
+  | { kind: 'sent'; target: Target; mission: Mission };
+
+export interface Target {
+  destination?: string;
+  place?: string;
+  label: string;
+}
+
+export type Phase = 'asking' | 'accepted' | 'driving' | 'arrived' | 'refused' | 'stopped' | 'failed';
+
+/** The journey to show: the newest command, and how far it has come. */
+export interface Journey {
+  phase: Phase;
+  destination: string | null;
+  place: string | null;
+  reason: string | null;
+  by: string | null;
+  path: readonly string[];
+  path_index: number;
+}
+
+export function isActive(phase: Phase | undefined): boolean {
+  return phase === 'accepted' || phase === 'driving';
+}
+
+export function journeyOf(robot: Robot, command: Command | undefined): Journey | null {
+  if (command?.kind === 'asking' || command?.kind === 'refused') {
+    return {
+      phase: command.kind,
+      destination: command.target.destination ?? null,
+      place: command.target.place ?? null,
+      reason: command.kind === 'refused' ? command.reason : null,
+      by: null,
+      path: [],
+      path_index: 0,
+    };
+  }
+  const mission = newest(robot.mission, command?.kind === 'sent' ? command.mission : null);
+  if (!mission) return null;
+  return {
+    phase: mission.state,
+    destination: mission.destination,
+    place: mission.place,
+    reason: mission.reason,
+    by: mission.by,
+    path: mission.path,
+    path_index: Math.min(Math.max(0, mission.path_index), Math.max(0, mission.path.length - 1)),
+  };
+}
+
+/** The robot's word counts for the same mission; of two missions the later one. */
+function newest(told: Mission | null, sent: Mission | null): Mission | null {
+  if (!told || !sent) return told ?? sent;
+  return told.id !== sent.id && sent.created_us > told.created_us ? sent : told;
+}
+
+/** Share of the way that is done, 0 to 1. */
+export function progressOf(journey: Journey): number {
+  if (journey.phase === 'arrived') return 1;
+  return journey.path.length < 2 ? 0 : journey.path_index / (journey.path.length - 1);
+}
+
+/** Why the robot cannot be sent anywhere just now; null when it can. */
+export function hindrance(robot: Robot, connected: boolean, mayDrive: boolean): string | null {
+  if (!mayDrive) return 'Your account may look and may stop the chair, but not send it.';
+  if (!connected) return 'The house server is out of reach, so the chair cannot be sent.';
+  if (!robot.online) return `${robot.name} is not connected, so it cannot be sent.`;
+  if (robot.map === null) return `${robot.name} has no map yet. Give it one under Robots.`;
+  return null;
+}

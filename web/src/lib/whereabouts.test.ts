@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from 'vitest';
+import type { Belief, Graph } from '../api/types';
+import { placeInWords, placeTitle, whereabouts } from './whereabouts';
+
+/** A graph as a drawing: "hall-a-b-living_room", names longer than two letters are destinations. */
+function drawn(line: string): Graph {
+  const names = line.split('-');
+  return {
+    format: 'homeward-graph',
+    version: 1,
+    map: 'm',
+    revision: 1,
+    places: names.map((id, i) => ({ id, label: null, prototype: id, members: [], features: 0, x: i, y: 0 })),
+    edges: names.slice(1).map((to, i) => ({
+      from: names[i] ?? '',
+      to,
+      bearing_rad: 0,
+      turn_rad: 0,
+      length_m: 1,
+      weak: false,
+      blocked: false,
+    })),
+    destinations: names
+      .filter((id) => id.length > 2)
+      .map((id) => ({ id: `d-${id}`, place: id, image: `t/${id}.jpg`, label: id })),
+    hypotheses: [],
+  };
+}
+
+function belief(top: Record<string, number>, lost = false): Belief {
+  const list = Object.entries(top).map(([place, probability]) => ({ place, probability }));
+  return { updates: 9, place: list[0]?.place ?? '', probability: list[0]?.probability ?? 0, top: list, lost };
+}
+
+const house = drawn('hall-a-b-c-living_room');
+
+describe('placeInWords', () => {
+  it('names the place itself, or the nearest one that has a name', () => {
+    expect(placeInWords(house, 'living_room')).toBe('in the living room');
+    expect(placeInWords(house, 'a')).toBe('near the hall');
+    expect(placeInWords(house, 'c')).toBe('near the living room');
+    expect(placeInWords(drawn('a-b'), 'a')).toBeNull();
+  });
+
+  it('needs no article where a person would use none', () => {
+    const graph = { ...house, places: house.places.map((p) => (p.id === 'b' ? { ...p, label: "Anna's room" } : p)) };
+    expect(placeInWords(graph, 'b')).toBe("in Anna's room");
+    expect(placeTitle(graph, 'hall')).toBe('Hall');
+    expect(placeTitle(drawn('a-b'), 'a')).toBe('a');
+  });
+});
+
+describe('whereabouts', () => {
+  it('counts direct neighbours as the same spot', () => {
+    expect(whereabouts(belief({ hall: 0.6, a: 0.3, c: 0.1 }), house)).toMatchObject({
+      sureness: 'sure',
+      where: 'in the hall',
+    });
+    expect(whereabouts(belief({ hall: 0.6, living_room: 0.4 }), house)?.sureness).toBe('fairly sure');
+    expect(whereabouts(belief({ hall: 0.3, living_room: 0.29 }), house)?.sureness).toBe('unsure');
+  });
+
+  it('says lost when the belief says so, however probable its best place', () => {
+    expect(whereabouts(belief({ hall: 0.99 }, true), house)).toMatchObject({ sureness: 'lost', where: null });
+  });
+
+  it('knows nothing without a belief, and less without a graph', () => {
+    expect(whereabouts(null, house)).toBeNull();
+    expect(whereabouts(belief({ hall: 0.9 }), null)).toMatchObject({ sureness: 'sure', where: null });
+  });
+});

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Belief, Graph } from '../api/types';
+import { inSentence } from './words';
+
+export type Sureness = 'sure' | 'fairly sure' | 'unsure' | 'lost';
+
+/** Where a robot believes to be, in words; `share` is the probability of the place and its direct neighbours. */
+export interface Whereabouts {
+  sureness: Sureness;
+  share: number;
+  where: string | null; // completes "I am ...": "in the kitchen", "near the kitchen"
+}
+
+// A neighbour is one tour picture away, which for a person is the same spot: its probability counts with the place's.
+const kSureShare = 0.8;
+const kFairShare = 0.5;
+
+export function whereabouts(belief: Belief | null, graph: Graph | null): Whereabouts | null {
+  if (!belief) return null;
+  if (belief.lost) return { sureness: 'lost', share: 0, where: null };
+  const near = new Set([belief.place]);
+  for (const edge of graph?.edges ?? []) {
+    if (edge.from === belief.place) near.add(edge.to);
+    if (edge.to === belief.place) near.add(edge.from);
+  }
+  const of_top = belief.top.filter((one) => near.has(one.place)).reduce((sum, one) => sum + one.probability, 0);
+  const share = Math.min(1, Math.max(belief.probability, of_top));
+  const sureness = share >= kSureShare ? 'sure' : share >= kFairShare ? 'fairly sure' : 'unsure';
+  return { sureness, share, where: graph ? placeInWords(graph, belief.place) : null };
+}
+
+/** "in the kitchen" for a place with a name, "near the kitchen" for one a few steps off, null when nothing is near. */
+export function placeInWords(graph: Graph, place: string): string | null {
+  const own = nameOf(graph, place);
+  if (own !== null) return `in ${withArticle(own)}`;
+  const found = nearestNamed(graph, place);
+  return found === null ? null : `near ${withArticle(found)}`;
+}
+
+/** The name of a place for lists and headings: its own, else "Near the kitchen", else its id. */
+export function placeTitle(graph: Graph, place: string): string {
+  const own = nameOf(graph, place);
+  if (own !== null) return own.charAt(0).toUpperCase() + own.slice(1);
+  const near = nearestNamed(graph, place);
+  return near === null ? place : `Near ${withArticle(near)}`;
+}
+
+export function nameOf(graph: Graph, place: string): string | null {
+  const label = graph.places.find((one) => one.id === place)?.label;
+  if (label) return inSentence(label);
+  const destination = graph.destinations.find((one) => one.place === place);
+  return destination ? inSentence(destination.label) : null;
+}
+
+/** Names of people and things that carry a capital or a possessive go without an article. */
+function withArticle(name: string): string {
+  return /^[A-Z]|^(the|my|our) |^\d|'s\b/.test(name) ? name : `the ${name}`;
+}
+
+function nearestNamed(graph: Graph, place: string): string | null {
+  const neighbours = new Map<string, string[]>();
+  for (const edge of graph.edges) {
+    neighbours.set(edge.from, [...(neighbours.get(edge.from) ?? []), edge.to]);
+    neighbours.set(edge.to, [...(neighbours.get(edge.to) ?? []), edge.from]);
+  }
+  const seen = new Set([place]);
+  let ring = [place];
+  while (ring.length > 0) {
+    const next: string[] = [];
+    for (const one of ring)
+      for (const other of neighbours.get(one) ?? []) {
+        if (seen.has(other)) continue;
+        seen.add(other);
+        const name = nameOf(graph, other);
+        if (name !== null) return name;
+        next.push(other);
+      }
+    ring = next;
+  }
+  return null;
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from 'vitest';
+import { ageText, count, percent, titled } from './words';
+
+describe('words', () => {
+  it('writes labels as people do', () => {
+    expect(titled('living_room')).toBe('Living room');
+    expect(titled("  anna's   room ")).toBe("Anna's room");
+    expect(titled('')).toBe('');
+  });
+
+  it('gives ages that are read at a glance', () => {
+    expect(ageText(-5)).toBe('0 s');
+    expect(ageText(59_400)).toBe('59 s');
+    expect(ageText(90_000)).toBe('2 min');
+    expect(ageText(3 * 3600e3)).toBe('3 h');
+    expect(ageText(72 * 3600e3)).toBe('3 days');
+  });
+
+  it('keeps shares between 0 and 100 %', () => {
+    expect(percent(0.944)).toBe('94 %');
+    expect(percent(1.2)).toBe('100 %');
+    expect(count(1, 'place')).toBe('1 place');
+    expect(count(0, 'place')).toBe('0 places');
+  });
+});
