@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "wire/camera_json.hpp"
+#include "wire/json_reader.hpp"
+#include "wire/link_messages.hpp"
+
+namespace homeward::wire {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+constexpr std::size_t kMaxPathPlaces = 2000;
+
+std::vector<std::uint8_t> read_bytes(ObjectReader& reader, const std::string& key) {
+  const json& value = reader.value(key);
+  if (value.is_binary()) return value.get_binary();
+  reader.problem(key, "'" + key + "' must be bytes.");
+  return {};
+}
+
+Order read_order(ObjectReader& reader) { return {reader.integer("epoch", 0, kMost), reader.integer("seq", 0, kMost)}; }
+
+std::optional<std::string> text_or_null(ObjectReader& reader, const std::string& key) {
+  return reader.value(key).is_null() ? std::nullopt : std::optional(reader.text(key));
+}
+
+std::optional<double> number_or_null(ObjectReader& reader, const std::string& key) {
+  return reader.value(key).is_null() ? std::nullopt : std::optional(reader.number(key));
+}
+
+Hello read_hello(ObjectReader& reader) {
+  Hello m;
+  m.agent = reader.text("agent", 100);
+  m.robot_name = reader.text("robot_name", 200);
+  m.session = reader.text("session", 200);
+  m.camera = reader.take(camera_from_json(reader.value("camera"), reader.path_of("camera")));
+  m.radius_m = reader.number("radius_m", 0.05, 3.0);
+  m.max_speed_mps = reader.number("max_speed_mps", 0.0, 5.0);
+  return m;
+}
+
+Frame read_frame(ObjectReader& reader) {
+  return {reader.integer("seq", 0, kMost), reader.integer("t_us", 0, kMost), read_bytes(reader, "jpeg")};
+}
+
+std::optional<HomeReport> read_home(ObjectReader& reader) {
+  const json& value = reader.value("home");
+  if (value.is_null()) return std::nullopt;
+  ObjectReader inner(value, reader.path_of("home"));
+  const HomeReport home{inner.number("bearing_rad", -3.2, 3.2), inner.number("confidence", 0.0, 1.0),
+                        inner.integer("inliers", 0, 1'000'000)};
+  if (const Status status = inner.finish(); !status) reader.take<int>(pass_on(status));
+  return home;
+}
+
+AgentStatus read_status(ObjectReader& reader) {
+  AgentStatus m;
+  m.seq = reader.integer("seq", 0, kMost);
+  m.t_us = reader.integer("t_us", 0, kMost);
+  const std::string state = reader.choice("state", {"idle", "driving", "arrived", "stopped", "failed"});
+  for (int i = 0; i < 5; ++i) {
+    if (state == drive_state_name(static_cast<DriveState>(i))) m.state = static_cast<DriveState>(i);
+  }
+  if (const auto mission = text_or_null(reader, "mission")) m.mission = MissionId(*mission);
+  m.epoch = reader.integer("epoch", 0, kMost);
+  m.path_index = reader.integer("path_index", 0, kMaxPathPlaces);
+  m.reason = text_or_null(reader, "reason");
+  m.speed_mps = reader.number("speed_mps", -5.0, 5.0);
+  m.home = read_home(reader);
+  m.min_range_m = number_or_null(reader, "min_range_m");
+  m.vectors_per_s = reader.number("vectors_per_s", 0.0, 1000.0);
+  return m;
+}
+
+MissionOrder read_mission(ObjectReader& reader) {
+  MissionOrder m;
+  m.mission = MissionId(reader.text("mission", 100));
+  m.order = read_order(reader);
+  m.map = MapId(reader.text("map", 100));
+  m.revision = reader.integer("revision", 0, kMost);
+  m.feature_config_id = reader.text("feature_config_id", 200);
+  m.valid_for_ms = reader.integer("valid_for_ms", 1, 60'000);
+  m.speed_limit_mps = reader.number("speed_limit_mps", 0.0, 5.0);
+  m.label = reader.text("label", 400);
+  const std::vector<json> path = reader.array("path", kMaxPathPlaces);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    ObjectReader inner(path[i], reader.path_of("path") + "/" + std::to_string(i));
+    PathPlace place;
+    place.place = PlaceId(inner.text("place", 100));
+    place.image = ImageId(inner.text("image", 600));
+    place.appearance = read_bytes(inner, "appearance");
+    place.weak = inner.boolean("weak");
+    if (const Status status = inner.finish(); !status) reader.take<int>(pass_on(status));
+    m.path.push_back(std::move(place));
+  }
+  if (m.path.empty()) reader.problem("path", "'path' must name at least one place.");
+  ObjectReader last(reader.value("final"), reader.path_of("final"));
+  m.final_image = ImageId(last.text("image", 600));
+  m.final_appearance = read_bytes(last, "appearance");
+  m.dock = last.boolean("dock");
+  if (const Status status = last.finish(); !status) reader.take<int>(pass_on(status));
+  return m;
+}
+
+BeliefReport read_belief(ObjectReader& reader) {
+  BeliefReport m;
+  m.frame_seq = reader.integer("frame_seq", 0, kMost);
+  if (const auto place = text_or_null(reader, "place")) m.place = PlaceId(*place);
+  m.probability = reader.number("probability", 0.0, 1.0);
+  m.lost = reader.boolean("lost");
+  return m;
+}
+
+Welcome read_welcome(ObjectReader& reader) {
+  Welcome m;
+  m.server = reader.text("server", 100);
+  m.robot = RobotId(reader.text("robot", 100));
+  m.epoch = reader.integer("epoch", 0, kMost);
+  m.frame_period_ms = reader.integer("frame_period_ms", 10, 60'000);
+  return m;
+}
+
+/// Reads "type" and "v", then what `read` makes of the type; `read` says nothing for a type it does not know.
+template <class Message, class Read>
+Result<Message> read_message(const json& value, const Read& read) {
+  ObjectReader reader(value, "message");
+  const std::string type = reader.text("type", 40);
+  const json& version = reader.value("v");
+  if (version.is_number_integer() && version != kLinkVersion) {
+    return fail(
+        ErrorCode::kUnsupportedFormat,
+        "Version " + version.dump() + " of the link is not spoken here, only " + std::to_string(kLinkVersion) + ".",
+        "message/v");
+  }
+  reader.integer("v", kLinkVersion, kLinkVersion);
+  std::optional<Message> message = read(type, reader);
+  if (!message) {
+    reader.problem("type", "'" + type + "' is no type of message on this link.");
+    message.emplace();
+  }
+  if (const Status status = reader.finish(); !status) return pass_on(status);
+  return std::move(*message);
+}
+
+Result<json> parse_cbor(std::span<const std::uint8_t> cbor) {
+  if (cbor.size() > kMaxLinkMessageBytes) {
+    return fail(ErrorCode::kTooLarge, "A link message may have at most 32 MiB.", "message");
+  }
+  json value = json::from_cbor(cbor.begin(), cbor.end(), true, false);
+  if (value.is_discarded()) return fail(ErrorCode::kInvalidInput, "The message is no valid CBOR.", "message");
+  return value;
+}
+
+}  // namespace
+
+Result<AgentMessage> agent_message_from_json(const json& value) {
+  return read_message<AgentMessage>(value, [](const std::string& type, ObjectReader& r) -> std::optional<AgentMessage> {
+    if (type == "hello") return read_hello(r);
+    if (type == "frame") return read_frame(r);
+    if (type == "status") return read_status(r);
+    if (type == "stopped") return Stopped{r.text("stop_id", 100), r.integer("t_us", 0, kMost)};
+    if (type == "mission_refused") {
+      return MissionRefused{MissionId(r.text("mission", 100)), read_order(r), r.text("reason")};
+    }
+    return std::nullopt;
+  });
+}
+
+Result<ServerMessage> server_message_from_json(const json& value) {
+  return read_message<ServerMessage>(
+      value, [](const std::string& type, ObjectReader& r) -> std::optional<ServerMessage> {
+        if (type == "welcome") return read_welcome(r);
+        if (type == "mission") return read_mission(r);
+        if (type == "permit") {
+          return Permit{MissionId(r.text("mission", 100)), read_order(r), r.integer("valid_for_ms", 1, 60'000)};
+        }
+        if (type == "stop") {
+          return StopOrder{r.text("stop_id", 100), r.integer("epoch", 0, kMost), r.text("reason"), r.text("by", 200)};
+        }
+        if (type == "belief") return read_belief(r);
+        if (type == "error") return LinkError{r.text("code", 100), r.text("message")};
+        return std::nullopt;
+      });
+}
+
+Result<AgentMessage> decode_agent_message(std::span<const std::uint8_t> cbor) {
+  const Result<json> value = parse_cbor(cbor);
+  return value ? agent_message_from_json(*value) : pass_on(value);
+}
+
+Result<ServerMessage> decode_server_message(std::span<const std::uint8_t> cbor) {
+  const Result<json> value = parse_cbor(cbor);
+  return value ? server_message_from_json(*value) : pass_on(value);
+}
+
+}  // namespace homeward::wire

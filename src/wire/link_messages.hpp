@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "camera/camera_config.hpp"
+#include "core/ids.hpp"
+#include "core/result.hpp"
+#include "core/time.hpp"
+
+namespace homeward::wire {
+
+/// The agent link (proto/asyncapi.yaml): each message one CBOR map in one binary WebSocket message, with "type" and
+/// "v".
+inline constexpr int kLinkVersion = 1;
+inline constexpr std::size_t kMaxLinkMessageBytes = 32UL * 1024 * 1024;
+
+/// What a permit to drive is tied to. A later epoch (lease hand-over, server restart, reconnect) beats every earlier
+/// one; within an epoch a later sequence number beats.
+struct Order {
+  std::int64_t epoch = 0;
+  std::int64_t seq = 0;
+  friend auto operator<=>(const Order&, const Order&) = default;
+};
+
+// From the agent.
+
+struct Hello {
+  std::string agent;  // "homeward-agent/0.1.0"
+  std::string robot_name;
+  std::string session;  // random for each start of the process
+  camera::CameraConfig camera;
+  double radius_m = 0.35;
+  double max_speed_mps = 0.8;
+};
+
+struct Frame {
+  std::int64_t seq = 0;
+  TimeUs t_us = 0;
+  std::vector<std::uint8_t> jpeg;
+};
+
+/// "idle", "driving", "arrived", "stopped" (told to, or something went stale), "failed" (cannot go on).
+enum class DriveState { kIdle, kDriving, kArrived, kStopped, kFailed };
+
+struct HomeReport {
+  double bearing_rad = 0.0;
+  double confidence = 0.0;
+  std::int64_t inliers = 0;
+};
+
+struct AgentStatus {
+  std::int64_t seq = 0;
+  TimeUs t_us = 0;
+  DriveState state = DriveState::kIdle;
+  std::optional<MissionId> mission;
+  std::int64_t epoch = 0;
+  std::int64_t path_index = 0;
+  std::optional<std::string> reason;  // why it stopped or failed, for people
+  double speed_mps = 0.0;
+  std::optional<HomeReport> home;
+  std::optional<double> min_range_m;
+  double vectors_per_s = 0.0;
+};
+
+/// The driver was commanded to zero because of `stop_id`.
+struct Stopped {
+  std::string stop_id;
+  TimeUs t_us = 0;
+};
+
+struct MissionRefused {
+  MissionId mission;
+  Order order;
+  std::string reason;
+};
+
+// From the server.
+
+struct Welcome {
+  std::string server;
+  RobotId robot;
+  std::int64_t epoch = 0;
+  std::int64_t frame_period_ms = 200;
+};
+
+struct PathPlace {
+  PlaceId place;
+  ImageId image;                         // its prototype
+  std::vector<std::uint8_t> appearance;  // appearance_blob.hpp
+  bool weak = false;                     // the edge to the next place is weak
+};
+
+struct MissionOrder {
+  MissionId mission;
+  Order order;
+  MapId map;
+  std::int64_t revision = 0;
+  std::string feature_config_id;
+  std::int64_t valid_for_ms = 0;
+  double speed_limit_mps = 0.0;
+  std::string label;            // of the destination, for people
+  std::vector<PathPlace> path;  // from the robot's place to the last one
+  ImageId final_image;
+  std::vector<std::uint8_t> final_appearance;  // what arrival is measured to
+  bool dock = false;                           // turn to the heading of final_image at the end
+};
+
+struct Permit {
+  MissionId mission;
+  Order order;
+  std::int64_t valid_for_ms = 0;
+};
+
+struct StopOrder {
+  std::string stop_id;
+  std::int64_t epoch = 0;
+  std::string reason;
+  std::string by;
+};
+
+struct BeliefReport {
+  std::int64_t frame_seq = 0;
+  std::optional<PlaceId> place;
+  double probability = 0.0;
+  bool lost = true;
+};
+
+struct LinkError {
+  std::string code;
+  std::string message;
+};
+
+using AgentMessage = std::variant<Hello, Frame, AgentStatus, Stopped, MissionRefused>;
+using ServerMessage = std::variant<Welcome, MissionOrder, Permit, StopOrder, BeliefReport, LinkError>;
+
+std::vector<std::uint8_t> encode(const AgentMessage& message);
+std::vector<std::uint8_t> encode(const ServerMessage& message);
+
+/// Strict: unknown types, keys and versions, wrong kinds and ranges are errors that name the field.
+/// Errors: kInvalidInput, kUnsupportedFormat, kTooLarge.
+Result<AgentMessage> decode_agent_message(std::span<const std::uint8_t> cbor);
+Result<ServerMessage> decode_server_message(std::span<const std::uint8_t> cbor);
+
+/// The same as JSON values, in which bytes are nlohmann binaries (the schemas of proto/ describe them as base64 text).
+nlohmann::json to_json(const AgentMessage& message);
+nlohmann::json to_json(const ServerMessage& message);
+Result<AgentMessage> agent_message_from_json(const nlohmann::json& value);
+Result<ServerMessage> server_message_from_json(const nlohmann::json& value);
+
+std::string_view drive_state_name(DriveState state);
+
+}  // namespace homeward::wire

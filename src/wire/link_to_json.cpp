@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "wire/camera_json.hpp"
+#include "wire/link_messages.hpp"
+
+namespace homeward::wire {
+namespace {
+
+using nlohmann::json;
+
+json start(const char* type) { return {{"type", type}, {"v", kLinkVersion}}; }
+
+template <class T>
+json or_null(const std::optional<T>& value) {
+  return value ? json(*value) : json(nullptr);
+}
+
+template <class Tag>
+json or_null(const std::optional<Id<Tag>>& id) {
+  return id ? json(id->str()) : json(nullptr);
+}
+
+json write(const Hello& m) {
+  json value = start("hello");
+  value["agent"] = m.agent;
+  value["robot_name"] = m.robot_name;
+  value["session"] = m.session;
+  value["camera"] = camera_to_json(m.camera);
+  value["radius_m"] = m.radius_m;
+  value["max_speed_mps"] = m.max_speed_mps;
+  return value;
+}
+
+json write(const Frame& m) {
+  json value = start("frame");
+  value["seq"] = m.seq;
+  value["t_us"] = m.t_us;
+  value["jpeg"] = json::binary(m.jpeg);
+  return value;
+}
+
+json write(const AgentStatus& m) {
+  json value = start("status");
+  value["seq"] = m.seq;
+  value["t_us"] = m.t_us;
+  value["state"] = drive_state_name(m.state);
+  value["mission"] = or_null(m.mission);
+  value["epoch"] = m.epoch;
+  value["path_index"] = m.path_index;
+  value["reason"] = or_null(m.reason);
+  value["speed_mps"] = m.speed_mps;
+  value["home"] = nullptr;
+  if (m.home) {
+    value["home"] = {
+        {"bearing_rad", m.home->bearing_rad}, {"confidence", m.home->confidence}, {"inliers", m.home->inliers}};
+  }
+  value["min_range_m"] = or_null(m.min_range_m);
+  value["vectors_per_s"] = m.vectors_per_s;
+  return value;
+}
+
+json write(const Stopped& m) {
+  json value = start("stopped");
+  value["stop_id"] = m.stop_id;
+  value["t_us"] = m.t_us;
+  return value;
+}
+
+void add_order(json& value, const Order& order) {
+  value["epoch"] = order.epoch;
+  value["seq"] = order.seq;
+}
+
+json write(const MissionRefused& m) {
+  json value = start("mission_refused");
+  value["mission"] = m.mission.str();
+  add_order(value, m.order);
+  value["reason"] = m.reason;
+  return value;
+}
+
+json write(const Welcome& m) {
+  json value = start("welcome");
+  value["server"] = m.server;
+  value["robot"] = m.robot.str();
+  value["epoch"] = m.epoch;
+  value["frame_period_ms"] = m.frame_period_ms;
+  return value;
+}
+
+json write(const MissionOrder& m) {
+  json value = start("mission");
+  value["mission"] = m.mission.str();
+  add_order(value, m.order);
+  value["map"] = m.map.str();
+  value["revision"] = m.revision;
+  value["feature_config_id"] = m.feature_config_id;
+  value["valid_for_ms"] = m.valid_for_ms;
+  value["speed_limit_mps"] = m.speed_limit_mps;
+  value["label"] = m.label;
+  value["path"] = json::array();
+  for (const PathPlace& place : m.path) {
+    value["path"].push_back({{"place", place.place.str()},
+                             {"image", place.image.str()},
+                             {"appearance", json::binary(place.appearance)},
+                             {"weak", place.weak}});
+  }
+  value["final"] = {{"image", m.final_image.str()}, {"appearance", json::binary(m.final_appearance)}, {"dock", m.dock}};
+  return value;
+}
+
+json write(const Permit& m) {
+  json value = start("permit");
+  value["mission"] = m.mission.str();
+  add_order(value, m.order);
+  value["valid_for_ms"] = m.valid_for_ms;
+  return value;
+}
+
+json write(const StopOrder& m) {
+  json value = start("stop");
+  value["stop_id"] = m.stop_id;
+  value["epoch"] = m.epoch;
+  value["reason"] = m.reason;
+  value["by"] = m.by;
+  return value;
+}
+
+json write(const BeliefReport& m) {
+  json value = start("belief");
+  value["frame_seq"] = m.frame_seq;
+  value["place"] = or_null(m.place);
+  value["probability"] = m.probability;
+  value["lost"] = m.lost;
+  return value;
+}
+
+json write(const LinkError& m) {
+  json value = start("error");
+  value["code"] = m.code;
+  value["message"] = m.message;
+  return value;
+}
+
+}  // namespace
+
+std::string_view drive_state_name(DriveState state) {
+  constexpr std::array<std::string_view, 5> kNames = {"idle", "driving", "arrived", "stopped", "failed"};
+  return kNames[static_cast<std::size_t>(state)];
+}
+
+json to_json(const AgentMessage& message) {
+  return std::visit([](const auto& m) { return write(m); }, message);
+}
+
+json to_json(const ServerMessage& message) {
+  return std::visit([](const auto& m) { return write(m); }, message);
+}
+
+std::vector<std::uint8_t> encode(const AgentMessage& message) { return json::to_cbor(to_json(message)); }
+std::vector<std::uint8_t> encode(const ServerMessage& message) { return json::to_cbor(to_json(message)); }
+
+}  // namespace homeward::wire
