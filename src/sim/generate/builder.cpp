@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/generate/builder.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace homeward::sim {
+namespace {
+
+Eigen::Vector3d in_world(const Pose2& frame, const Eigen::Vector3d& point_m) {
+  const double c = std::cos(frame.theta_rad);
+  const double s = std::sin(frame.theta_rad);
+  return {frame.x_m + c * point_m.x() - s * point_m.y(), frame.y_m + s * point_m.x() + c * point_m.y(), point_m.z()};
+}
+
+}  // namespace
+
+int SceneBuilder::add_material(const std::string& name, Image texture, MaterialRole role) {
+  textures_.push_back(std::move(texture));
+  materials_.push_back({name, {1.0F, 1.0F, 1.0F}, static_cast<int>(textures_.size()) - 1, role});
+  return static_cast<int>(materials_.size()) - 1;
+}
+
+int SceneBuilder::add_material(const std::string& name, std::array<float, 3> colour, MaterialRole role) {
+  materials_.push_back({name, colour, -1, role});
+  return static_cast<int>(materials_.size()) - 1;
+}
+
+void SceneBuilder::triangle(const std::array<Eigen::Vector3d, 3>& corners, const std::array<Eigen::Vector2d, 3>& uv,
+                            int material) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    vertices_m_.push_back(corners[k].cast<float>());
+    uv_.push_back(uv[k].cast<float>());
+  }
+  materials_of_triangles_.push_back(material);
+}
+
+void SceneBuilder::quad(const Pose2& frame, const std::array<Eigen::Vector3d, 4>& corners, Surface surface) {
+  std::array<Eigen::Vector3d, 4> p;
+  for (std::size_t k = 0; k < 4; ++k) p[k] = in_world(frame, corners[k]);
+  Eigen::Vector2d repeats(1.0, 1.0);
+  if (surface.tile_m > 0.0) {
+    repeats = {(p[1] - p[0]).norm() / surface.tile_m, (p[3] - p[0]).norm() / surface.tile_m};
+  }
+  const std::array<Eigen::Vector2d, 4> uv = {Eigen::Vector2d(0, 0), Eigen::Vector2d(repeats.x(), 0), repeats,
+                                             Eigen::Vector2d(0, repeats.y())};
+  triangle({p[0], p[2], p[1]}, {uv[0], uv[2], uv[1]}, surface.material);
+  triangle({p[0], p[3], p[2]}, {uv[0], uv[3], uv[2]}, surface.material);
+}
+
+void SceneBuilder::box(const Pose2& frame, const Eigen::Vector3d& least, const Eigen::Vector3d& most,
+                       const BoxSurfaces& surfaces) {
+  const auto at = [&](bool x, bool y, bool z) {
+    return Eigen::Vector3d(x ? most.x() : least.x(), y ? most.y() : least.y(), z ? most.z() : least.z());
+  };
+  quad(frame, {at(true, true, true), at(false, true, true), at(false, true, false), at(true, true, false)},
+       surfaces.front);
+  quad(frame, {at(false, false, true), at(true, false, true), at(true, false, false), at(false, false, false)},
+       surfaces.others);
+  quad(frame, {at(false, true, true), at(false, false, true), at(false, false, false), at(false, true, false)},
+       surfaces.others);
+  quad(frame, {at(true, false, true), at(true, true, true), at(true, true, false), at(true, false, false)},
+       surfaces.others);
+  quad(frame, {at(true, false, true), at(false, false, true), at(false, true, true), at(true, true, true)},
+       surfaces.others);
+  if (least.z() > 0.01) {
+    quad(frame, {at(true, true, false), at(false, true, false), at(false, false, false), at(true, false, false)},
+         surfaces.others);
+  }
+}
+
+void SceneBuilder::cylinder(const Pose2& frame, const Eigen::Vector3d& foot, double radius_m, double height_m,
+                            Surface surface) {
+  constexpr int kSides = 12;
+  const auto rim = [&](int side, double z) {
+    const double angle_rad = 2.0 * std::numbers::pi * side / kSides;
+    return Eigen::Vector3d(foot.x() + radius_m * std::cos(angle_rad), foot.y() + radius_m * std::sin(angle_rad),
+                           foot.z() + z);
+  };
+  const Eigen::Vector3d top(foot.x(), foot.y(), foot.z() + height_m);
+  for (int side = 0; side < kSides; ++side) {
+    std::array<Eigen::Vector3d, 4> p = {rim(side, height_m), rim(side + 1, height_m), rim(side + 1, 0.0),
+                                        rim(side, 0.0)};
+    for (Eigen::Vector3d& corner : p) corner = in_world(frame, corner);
+    const double u0 = static_cast<double>(side) / kSides;
+    const double u1 = static_cast<double>(side + 1) / kSides;
+    triangle({p[0], p[2], p[1]}, {Eigen::Vector2d(u0, 0), {u1, 1}, {u1, 0}}, surface.material);
+    triangle({p[0], p[3], p[2]}, {Eigen::Vector2d(u0, 0), {u0, 1}, {u1, 1}}, surface.material);
+    triangle({in_world(frame, top), p[0], p[1]}, {Eigen::Vector2d(0.5, 0.5), {u0, 0}, {u1, 0}}, surface.material);
+  }
+}
+
+Scene SceneBuilder::take() {
+  Scene scene;
+  const auto count = static_cast<Eigen::Index>(vertices_m_.size());
+  scene.vertices_m.resize(count, 3);
+  scene.texture_uv.resize(count, 2);
+  scene.triangles.resize(count / 3, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    scene.vertices_m.row(i) = vertices_m_[static_cast<std::size_t>(i)];
+    scene.texture_uv.row(i) = uv_[static_cast<std::size_t>(i)];
+    scene.triangles(i / 3, i % 3) = static_cast<std::int32_t>(i);
+  }
+  scene.triangle_materials = std::move(materials_of_triangles_);
+  scene.materials = std::move(materials_);
+  scene.textures = std::move(textures_);
+  *this = SceneBuilder();
+  return scene;
+}
+
+}  // namespace homeward::sim

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+
+#include "core/pose2.hpp"
+#include "sim/scene.hpp"
+
+namespace homeward::sim {
+
+/// How a face is covered: a texture stretched over it once, or laid every `tile_m` metres.
+struct Surface {
+  int material = 0;
+  double tile_m = 0.0;  // 0: stretched once
+};
+
+/// What a box shows on each side. The front looks along +y of its frame.
+struct BoxSurfaces {
+  Surface front;
+  Surface others;
+};
+
+/// Puts a scene together from quads and boxes, each in a frame that stands on the floor.
+class SceneBuilder {
+ public:
+  int add_material(const std::string& name, Image texture, MaterialRole role = MaterialRole::kNone);
+  int add_material(const std::string& name, std::array<float, 3> colour, MaterialRole role = MaterialRole::kNone);
+
+  /// Corners as seen from the front: upper left, upper right, lower right, lower left; in `frame` (x, y, z).
+  void quad(const Pose2& frame, const std::array<Eigen::Vector3d, 4>& corners, Surface surface);
+  /// A box between two opposite corners in `frame`.
+  void box(const Pose2& frame, const Eigen::Vector3d& least, const Eigen::Vector3d& most, const BoxSurfaces& surfaces);
+  /// An upright cylinder with 12 sides, closed above.
+  void cylinder(const Pose2& frame, const Eigen::Vector3d& foot, double radius_m, double height_m, Surface surface);
+
+  /// The scene; the builder is empty afterwards.
+  Scene take();
+
+ private:
+  void triangle(const std::array<Eigen::Vector3d, 3>& corners, const std::array<Eigen::Vector2d, 3>& uv, int material);
+
+  std::vector<Eigen::Vector3f> vertices_m_;
+  std::vector<Eigen::Vector2f> uv_;
+  std::vector<int> materials_of_triangles_;
+  std::vector<Material> materials_;
+  std::vector<Image> textures_;
+};
+
+}  // namespace homeward::sim

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <random>
+
+#include "core/image.hpp"
+
+namespace homeward::sim {
+
+using Random = std::mt19937_64;
+using Rgb = std::array<int, 3>;  // sRGB 0..255
+
+/// The same number on every machine, unlike the standard's distributions.
+double uniform(Random& random, double least, double most);
+int pick(Random& random, int count);
+
+// Painted surfaces of a home. Each is seeded by `random` alone; 8-bit sRGB.
+
+/// Floor boards along u, with grain and joints. Covers 2 m x 2 m.
+Image paint_planks(Random& random, Rgb base);
+/// Ceramic tiles, 5 x 5 of them, slightly uneven. Covers 1.5 m x 1.5 m.
+Image paint_tiles(Random& random, Rgb base, Rgb second);
+enum class Wallpaper { kPlaster, kStripes, kLeaves, kDiamonds, kDots };
+/// Covers 1.5 m x 1.5 m.
+Image paint_wallpaper(Random& random, Rgb base, Wallpaper kind);
+Image paint_rug(Random& random);
+/// Shelves full of books.
+Image paint_books(Random& random, int shelves, Rgb wood);
+/// A framed picture: landscape, still life, portrait or abstract.
+Image paint_picture(Random& random);
+/// Panelled doors with handles, side by side, in rows.
+Image paint_cabinet(Random& random, Rgb base, int columns, int rows);
+Image paint_door(Random& random, Rgb base);
+enum class Weave { kPlain, kChecks, kStripes, kFlowers };
+/// Covers about 0.8 m x 0.8 m.
+Image paint_fabric(Random& random, Rgb base, Weave weave);
+/// What is seen through a window, with its bars.
+Image paint_window(Random& random);
+Image paint_screen(Random& random);
+/// A sheet with lines of writing and small drawings: whiteboard, calendar, poster.
+Image paint_notes(Random& random, Rgb paper);
+Image paint_clock(Random& random);
+/// Wood grain without joints, for furniture.
+Image paint_wood(Random& random, Rgb base);
+/// Leaves, for plants.
+Image paint_leaves(Random& random);
+/// Kitchen front with oven window and knobs.
+Image paint_oven(Random& random);
+
+}  // namespace homeward::sim

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/generate/shell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/generate/canvas.hpp"
+
+namespace homeward::sim {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kSill_m = 0.9;
+constexpr double kWindowTop_m = 2.15;
+
+/// A rectangle of wall from x0 to x1 and z0 to z1, `y` in front of the wall's plane. Looks into the room.
+void wall_piece(SceneBuilder& scene, const Pose2& frame, double x0, double x1, double z0, double z1, Surface surface,
+                double y = 0.0) {
+  if (x1 - x0 < 1e-6 || z1 - z0 < 1e-6) return;
+  scene.quad(frame, {Vector3d(x1, y, z1), {x0, y, z1}, {x0, y, z0}, {x1, y, z0}}, surface);
+}
+
+struct Hole {
+  double from_m;
+  double to_m;
+  double sill_m;
+  double top_m;
+};
+
+std::vector<Hole> holes_of(const Space& space, Side side, const std::vector<Doorway>& doorways) {
+  std::vector<Hole> holes;
+  for (const Doorway& doorway : doorways) {
+    for (const auto& [from, to] : openings_of(space, side, {doorway}))
+      holes.push_back({from, to, 0.0, doorway.height_m});
+  }
+  for (const WindowOpening& window : space.windows) {
+    if (window.side != side) continue;
+    holes.push_back(
+        {window.centre_m - 0.5 * window.width_m, window.centre_m + 0.5 * window.width_m, kSill_m, kWindowTop_m});
+  }
+  std::sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) { return a.from_m < b.from_m; });
+  return holes;
+}
+
+void build_wall(SceneBuilder& scene, const Space& space, Side side, const std::vector<Doorway>& doorways,
+                Surface skirting) {
+  const WallFrame wall = wall_frame(space, side);
+  double done_m = 0.0;
+  const auto solid = [&](double from_m, double to_m) {
+    wall_piece(scene, wall.frame, from_m, to_m, 0.0, kCeiling_m, space.wall);
+    wall_piece(scene, wall.frame, from_m, to_m, 0.0, 0.11, skirting, 0.012);
+  };
+  for (const Hole& hole : holes_of(space, side, doorways)) {
+    solid(done_m, hole.from_m);
+    wall_piece(scene, wall.frame, hole.from_m, hole.to_m, hole.top_m, kCeiling_m, space.wall);
+    wall_piece(scene, wall.frame, hole.from_m, hole.to_m, 0.0, hole.sill_m, space.wall);
+    done_m = hole.to_m;
+  }
+  solid(done_m, wall.length_m);
+}
+
+void build_window(SceneBuilder& scene, const Space& space, const WindowOpening& window, Random& random) {
+  const WallFrame wall = wall_frame(space, window.side);
+  const double x0 = window.centre_m - 0.5 * window.width_m;
+  const double x1 = window.centre_m + 0.5 * window.width_m;
+  const int pane = scene.add_material("window", paint_window(random), MaterialRole::kWindow);
+  wall_piece(scene, wall.frame, x0, x1, kSill_m, kWindowTop_m, {pane, 0.0}, -0.08);
+  const Surface frame{scene.add_material("window frame", paint_wood(random, {225, 222, 215})), 0.8};
+  scene.box(wall.frame, {x0 - 0.06, -0.08, kSill_m - 0.05}, {x1 + 0.06, 0.14, kSill_m}, {frame, frame});
+  scene.box(wall.frame, {x0 - 0.06, -0.08, kWindowTop_m}, {x1 + 0.06, 0.02, kWindowTop_m + 0.06}, {frame, frame});
+  scene.box(wall.frame, {x0 - 0.06, -0.08, kSill_m}, {x0, 0.02, kWindowTop_m}, {frame, frame});
+  scene.box(wall.frame, {x1, -0.08, kSill_m}, {x1 + 0.06, 0.02, kWindowTop_m}, {frame, frame});
+  const Surface curtain{
+      scene.add_material("curtain", paint_fabric(random, rich_colour(random), static_cast<Weave>(1 + pick(random, 3)))),
+      0.6};
+  constexpr double kCurtain_m = 0.32;
+  scene.box(wall.frame, {x0 - kCurtain_m, 0.03, 0.75}, {x0, 0.08, 2.35}, {curtain, curtain});
+  scene.box(wall.frame, {x1, 0.03, 0.75}, {x1 + kCurtain_m, 0.08, 2.35}, {curtain, curtain});
+  const Surface radiator{scene.add_material("radiator", paint_cabinet(random, {215, 215, 212}, 8, 1)), 0.0};
+  scene.box(wall.frame, {x0 + 0.2, 0.02, 0.15}, {x1 - 0.2, 0.1, 0.7}, {radiator, radiator});
+}
+
+}  // namespace
+
+WallFrame wall_frame(const Space& space, Side side) {
+  const double x0 = space.least_m.x() + kHalfWall_m;
+  const double y0 = space.least_m.y() + kHalfWall_m;
+  const double x1 = space.most_m.x() - kHalfWall_m;
+  const double y1 = space.most_m.y() - kHalfWall_m;
+  constexpr double kPi = std::numbers::pi;
+  switch (side) {
+    case Side::kSouth:
+      return {{x0, y0, 0.0}, x1 - x0};
+    case Side::kEast:
+      return {{x1, y0, 0.5 * kPi}, y1 - y0};
+    case Side::kNorth:
+      return {{x1, y1, kPi}, x1 - x0};
+    case Side::kWest:
+      return {{x0, y1, -0.5 * kPi}, y1 - y0};
+  }
+  return {};
+}
+
+std::vector<std::pair<double, double>> openings_of(const Space& space, Side side,
+                                                   const std::vector<Doorway>& doorways) {
+  const WallFrame wall = wall_frame(space, side);
+  const bool along_x = side == Side::kSouth || side == Side::kNorth;
+  std::vector<std::pair<double, double>> openings;
+  for (const Doorway& doorway : doorways) {
+    if (doorway.in_x_wall != along_x) continue;
+    const Pose2 here = inverse(wall.frame) * Pose2{doorway.centre_m.x(), doorway.centre_m.y(), 0.0};
+    if (std::abs(here.y_m) > 0.2 || here.x_m < 0.0 || here.x_m > wall.length_m) continue;
+    openings.emplace_back(here.x_m - 0.5 * doorway.width_m, here.x_m + 0.5 * doorway.width_m);
+  }
+  return openings;
+}
+
+void build_shell(SceneBuilder& scene, const Space& space, const std::vector<Doorway>& doorways, Random& random) {
+  const double x0 = space.least_m.x();
+  const double y0 = space.least_m.y();
+  const double x1 = space.most_m.x();
+  const double y1 = space.most_m.y();
+  scene.quad({}, {Vector3d(x0, y1, 0), {x1, y1, 0}, {x1, y0, 0}, {x0, y0, 0}}, space.floor);
+  scene.quad({}, {Vector3d(x0, y0, kCeiling_m), {x1, y0, kCeiling_m}, {x1, y1, kCeiling_m}, {x0, y1, kCeiling_m}},
+             space.ceiling);
+  const Surface skirting{scene.add_material("skirting", paint_wood(random, {205, 195, 180})), 1.0};
+  for (const Side side : {Side::kSouth, Side::kEast, Side::kNorth, Side::kWest}) {
+    build_wall(scene, space, side, doorways, skirting);
+  }
+  for (const WindowOpening& window : space.windows) build_window(scene, space, window, random);
+}
+
+void build_linings(SceneBuilder& scene, const std::vector<Doorway>& doorways, Random& random) {
+  for (const Doorway& doorway : doorways) {
+    const Surface wood{scene.add_material("lining", paint_wood(random, {190, 170, 140})), 0.7};
+    const Pose2 frame{doorway.centre_m.x(), doorway.centre_m.y(), doorway.in_x_wall ? 0.0 : 0.5 * std::numbers::pi};
+    const double half = 0.5 * doorway.width_m;
+    constexpr double kDeep_m = kHalfWall_m + 0.015;
+    scene.box(frame, {-half - 0.07, -kDeep_m, 0}, {-half, kDeep_m, doorway.height_m + 0.07}, {wood, wood});
+    scene.box(frame, {half, -kDeep_m, 0}, {half + 0.07, kDeep_m, doorway.height_m + 0.07}, {wood, wood});
+    scene.box(frame, {-half, -kDeep_m, doorway.height_m}, {half, kDeep_m, doorway.height_m + 0.07}, {wood, wood});
+    if (!doorway.leaf) continue;
+    // The leaf stands open against the wall, on the side that the frame's +y points to.
+    const Surface door{scene.add_material("door", paint_door(random, varied(random, {185, 160, 125}, 40))), 0.0};
+    scene.box(frame, {half + 0.08, kDeep_m + 0.01, 0.01}, {half + 0.08 + 0.85, kDeep_m + 0.05, 2.05}, {door, door});
+  }
+}
+
+Lamp build_lamp(SceneBuilder& scene, const Eigen::Vector2d& position_m, double strength, Random& random) {
+  const int shade = scene.add_material("lamp", std::array<float, 3>{0.95F, 0.9F, 0.8F}, MaterialRole::kLamp);
+  const Pose2 frame{position_m.x(), position_m.y(), 0.0};
+  const double radius_m = uniform(random, 0.14, 0.2);
+  scene.cylinder(frame, {0, 0, kCeiling_m - 0.16}, radius_m, 0.12, {shade, 0.0});
+  return {{position_m.x(), position_m.y(), kCeiling_m - 0.3}, strength};
+}
+
+}  // namespace homeward::sim

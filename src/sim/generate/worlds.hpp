@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "core/result.hpp"
+#include "sim/scene.hpp"
+
+namespace homeward::sim {
+
+/// A home of eight furnished rooms and a hall off two corridors. Same seed, same house.
+World generate_house(std::uint64_t seed);
+
+/// A corridor with eight offices that differ only in small things: a picture, a plant, the order of books. The offices
+/// of one side are those of the other turned round, and office_8 is office_7 mirrored.
+World generate_offices(std::uint64_t seed);
+
+}  // namespace homeward::sim

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/floor.hpp"
+
+namespace homeward::sim {
+namespace {
+
+double towards(double now, double wanted, double rise, double fall) {
+  const bool slows = std::abs(wanted) < std::abs(now) || now * wanted < 0.0;
+  const double step = slows ? fall : rise;
+  return now + std::clamp(wanted - now, -step, step);
+}
+
+double centred(std::mt19937_64& random) {  // uniform in [-1, 1)
+  return 2.0 * static_cast<double>(random() >> 11U) * 0x1.0p-53 - 1.0;
+}
+
+/// Where constant speed and turn rate lead to within dt.
+Pose2 along_arc(const Pose2& pose, double length_m, double turn_rad) {
+  const double middle_rad = 0.5 * turn_rad;
+  const double chord_m = std::abs(middle_rad) < 1e-9 ? length_m : length_m * std::sin(middle_rad) / middle_rad;
+  return pose * Pose2{chord_m * std::cos(middle_rad), chord_m * std::sin(middle_rad), turn_rad};
+}
+
+}  // namespace
+
+RobotProfile disc_profile() {
+  RobotProfile profile;
+  profile.name = "disc";
+  return profile;
+}
+
+RobotProfile chair_profile() {
+  RobotProfile profile;
+  profile.name = "chair";
+  profile.radius_m = 0.34;
+  profile.disc_x_m = {0.075, 0.2, 0.35, 0.525};
+  return profile;
+}
+
+Obstacles::Obstacles(const World& world) : grid_(world.occupied), distance_m_(clearance(world.occupied)) {}
+
+double Obstacles::clearance_m(const RobotProfile& robot, const Pose2& pose, const std::vector<Person>& people) const {
+  double nearest_m = 1e9;
+  for (const double x_m : robot.disc_x_m) {
+    const Pose2 disc = pose * Pose2{x_m, 0.0, 0.0};
+    const Eigen::Vector2i cell = cell_of(grid_, {disc.x_m, disc.y_m});
+    if (cell.x() < 0 || cell.y() < 0 || cell.x() >= grid_.width || cell.y() >= grid_.height) return -1.0;
+    const auto index =
+        static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(grid_.width) + static_cast<std::size_t>(cell.x());
+    // Things are known to half a cell.
+    nearest_m =
+        std::min(nearest_m, static_cast<double>(distance_m_[index]) - 0.5 * grid_.resolution_m - robot.radius_m);
+    for (const Person& person : people) {
+      const double apart_m = std::hypot(person.x_m - disc.x_m, person.y_m - disc.y_m);
+      nearest_m = std::min(nearest_m, apart_m - kPersonRadius_m - robot.radius_m);
+    }
+  }
+  return nearest_m;
+}
+
+Vehicle::Vehicle(RobotProfile profile, const Pose2& start, std::uint64_t odometry_seed)
+    : profile_(std::move(profile)), pose_(start), random_(odometry_seed) {
+  slip_ = 1.0 + 0.01 * centred(random_);
+  drift_rad_per_m_ = 0.008 * centred(random_);
+}
+
+void Vehicle::advance(double dt_s, const MotionCommand& command, const Obstacles& obstacles,
+                      const std::vector<Person>& people) {
+  const double speed = std::clamp(command.speed_mps, -0.3 * profile_.max_speed_mps, profile_.max_speed_mps);
+  const double turn = std::clamp(command.turn_radps, -profile_.max_turn_radps, profile_.max_turn_radps);
+  motion_.speed_mps =
+      towards(motion_.speed_mps, speed, profile_.acceleration_mps2 * dt_s, profile_.deceleration_mps2 * dt_s);
+  motion_.turn_radps = towards(motion_.turn_radps, turn, profile_.turn_acceleration_radps2 * dt_s,
+                               2.0 * profile_.turn_acceleration_radps2 * dt_s);
+  const double length_m = motion_.speed_mps * dt_s;
+  const double turned_rad = motion_.turn_radps * dt_s;
+  if (length_m == 0.0 && turned_rad == 0.0) {
+    touching_ = false;
+    return;
+  }
+  const Pose2 next = along_arc(pose_, length_m, turned_rad);
+  const double before_m = obstacles.clearance_m(profile_, pose_, people);
+  const double clearance_m = obstacles.clearance_m(profile_, next, people);
+  min_clearance_m_ = std::min(min_clearance_m_, clearance_m);
+  if (clearance_m <= 0.0 && clearance_m < before_m) {
+    if (!touching_) ++collisions_;
+    touching_ = true;
+    motion_ = {};
+    return;
+  }
+  touching_ = false;
+  pose_ = next;
+  path_m_ += std::abs(length_m);
+  const double measured_m = length_m * slip_ * (1.0 + 0.02 * centred(random_));
+  const double measured_rad =
+      turned_rad * (1.0 + 0.01 * centred(random_)) + length_m * (drift_rad_per_m_ + 0.02 * centred(random_));
+  odometry_ = along_arc(odometry_, measured_m, measured_rad);
+}
+
+void Vehicle::carry_to(const Pose2& pose) {
+  pose_ = pose;
+  motion_ = {};
+}
+
+void Vehicle::reset_counts() {
+  collisions_ = 0;
+  path_m_ = 0.0;
+  min_clearance_m_ = 1e9;
+}
+
+}  // namespace homeward::sim

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/pose2.hpp"
+#include "sim/people.hpp"
+#include "sim/scene.hpp"
+
+namespace homeward::sim {
+
+/// What a robot is like: its body as discs along its x axis, and how it moves.
+struct RobotProfile {
+  std::string name;
+  double radius_m = 0.35;                // of each disc of the body
+  std::vector<double> disc_x_m = {0.0};  // where the discs' centres are
+  double max_speed_mps = 0.8;
+  double max_turn_radps = 1.2;
+  double acceleration_mps2 = 0.5;
+  double deceleration_mps2 = 1.0;
+  double turn_acceleration_radps2 = 2.5;
+};
+/// A disc of 0.35 m radius.
+RobotProfile disc_profile();
+/// A wheelchair of 1.10 m x 0.65 m that turns about its rear axle, 0.25 m before its back.
+RobotProfile chair_profile();
+
+struct MotionCommand {
+  double speed_mps = 0.0;
+  double turn_radps = 0.0;
+};
+
+/// Distances to what stands in a world, for bodies that drive there.
+class Obstacles {
+ public:
+  explicit Obstacles(const World& world);
+  /// From the body's outline to the nearest thing or person, metres; negative when they overlap.
+  [[nodiscard]] double clearance_m(const RobotProfile& robot, const Pose2& pose,
+                                   const std::vector<Person>& people) const;
+
+ private:
+  FloorGrid grid_;
+  std::vector<float> distance_m_;
+};
+
+/// A differential drive with bounded acceleration. It cannot drive through things: contact ends the motion, and contact
+/// while it moves by itself is a collision.
+class Vehicle {
+ public:
+  Vehicle(RobotProfile profile, const Pose2& start, std::uint64_t odometry_seed);
+
+  void advance(double dt_s, const MotionCommand& command, const Obstacles& obstacles,
+               const std::vector<Person>& people);
+
+  [[nodiscard]] const Pose2& pose() const { return pose_; }
+  /// What the wheels say: starts at zero, drifts with slip of about 1 % in length and 1 degree a metre in heading.
+  [[nodiscard]] const Pose2& odometry() const { return odometry_; }
+  [[nodiscard]] const MotionCommand& motion() const { return motion_; }
+  [[nodiscard]] int collisions() const { return collisions_; }
+  [[nodiscard]] double path_m() const { return path_m_; }
+  [[nodiscard]] double min_clearance_m() const { return min_clearance_m_; }
+  [[nodiscard]] const RobotProfile& profile() const { return profile_; }
+  /// Puts it somewhere else; odometry goes on as if nothing had happened.
+  void carry_to(const Pose2& pose);
+  /// Counts collisions, way and clearance from nothing again.
+  void reset_counts();
+
+ private:
+  RobotProfile profile_;
+  Pose2 pose_;
+  Pose2 odometry_;
+  MotionCommand motion_;
+  std::mt19937_64 random_;
+  double slip_;
+  double drift_rad_per_m_;
+  bool touching_ = false;
+  int collisions_ = 0;
+  double path_m_ = 0.0;
+  double min_clearance_m_ = 1e9;
+};
+
+}  // namespace homeward::sim

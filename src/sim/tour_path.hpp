@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.hpp"
+#include "sim/scene.hpp"
+
+namespace homeward::sim {
+
+/// Where one picture of a tour is taken.
+struct TourStop {
+  Pose2 pose;
+  std::optional<std::string> room;     // that the pose lies in
+  std::optional<std::string> arrived;  // the tour's room whose point this is, at its first visit
+};
+
+/// A guided tour from room to room, a picture every `step_m`, and in between where the robot turns on the spot.
+/// Headings follow the way. Errors: kNotFound (no such room; says which there are), kTooFewImages (fewer than two
+/// rooms), kNoRoute.
+Result<std::vector<TourStop>> plan_tour(const World& world, const std::vector<std::string>& rooms, double step_m);
+
+/// The point of a room. Errors: kNotFound, which names the rooms there are.
+Result<Eigen::Vector2d> room_point(const World& world, const std::string& room);
+
+}  // namespace homeward::sim
