@@ -13,6 +13,7 @@ namespace homeward::cli {
 void register_map(CLI::App& program);
 void register_localise(CLI::App& program);
 void register_route(CLI::App& program);
+void register_simulate(CLI::App& program);
 
 /// Runs when the command line names `command`: what it returns becomes the exit code, an error is told on stderr.
 void run_on(CLI::App& command, const std::function<Status()>& run);

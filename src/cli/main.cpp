@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   homeward::cli::register_map(program);
   homeward::cli::register_localise(program);
   homeward::cli::register_route(program);
+  homeward::cli::register_simulate(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::RuntimeError& failed) {

@@ -63,11 +63,21 @@ double Obstacles::clearance_m(const RobotProfile& robot, const Pose2& pose, cons
   return nearest_m;
 }
 
-Vehicle::Vehicle(RobotProfile profile, const Pose2& start, std::uint64_t odometry_seed)
-    : profile_(std::move(profile)), pose_(start), random_(odometry_seed) {
+WheelOdometry::WheelOdometry(std::uint64_t seed) : random_(seed) {
   slip_ = 1.0 + 0.01 * centred(random_);
   drift_rad_per_m_ = 0.008 * centred(random_);
 }
+
+void WheelOdometry::follow(const Pose2& from, const Pose2& to) {
+  const Pose2 step = inverse(from) * to;
+  const double length_m = std::hypot(step.x_m, step.y_m);
+  const double scale = slip_ * (1.0 + 0.02 * centred(random_));
+  const double error_rad = length_m * (drift_rad_per_m_ + 0.02 * centred(random_)) + step.theta_rad * 0.01 * centred(random_);
+  reading_ = reading_ * Pose2{scale * step.x_m, scale * step.y_m, step.theta_rad + error_rad};
+}
+
+Vehicle::Vehicle(RobotProfile profile, const Pose2& start, std::uint64_t odometry_seed)
+    : profile_(std::move(profile)), pose_(start), odometry_(odometry_seed) {}
 
 void Vehicle::advance(double dt_s, const MotionCommand& command, const Obstacles& obstacles,
                       const std::vector<Person>& people) {
@@ -94,12 +104,9 @@ void Vehicle::advance(double dt_s, const MotionCommand& command, const Obstacles
     return;
   }
   touching_ = false;
+  odometry_.follow(pose_, next);
   pose_ = next;
   path_m_ += std::abs(length_m);
-  const double measured_m = length_m * slip_ * (1.0 + 0.02 * centred(random_));
-  const double measured_rad =
-      turned_rad * (1.0 + 0.01 * centred(random_)) + length_m * (drift_rad_per_m_ + 0.02 * centred(random_));
-  odometry_ = along_arc(odometry_, measured_m, measured_rad);
 }
 
 void Vehicle::carry_to(const Pose2& pose) {

@@ -46,6 +46,21 @@ class Obstacles {
   std::vector<float> distance_m_;
 };
 
+/// What wheels say about the way: starts at zero, drifts with slip of about 1 % in length and 1 degree a metre in heading.
+class WheelOdometry {
+ public:
+  explicit WheelOdometry(std::uint64_t seed);
+  /// The robot went from one pose to a near one.
+  void follow(const Pose2& from, const Pose2& to);
+  [[nodiscard]] const Pose2& reading() const { return reading_; }
+
+ private:
+  std::mt19937_64 random_;
+  double slip_;
+  double drift_rad_per_m_;
+  Pose2 reading_;
+};
+
 /// A differential drive with bounded acceleration. It cannot drive through things: contact ends the motion, and contact
 /// while it moves by itself is a collision.
 class Vehicle {
@@ -56,8 +71,7 @@ class Vehicle {
                const std::vector<Person>& people);
 
   [[nodiscard]] const Pose2& pose() const { return pose_; }
-  /// What the wheels say: starts at zero, drifts with slip of about 1 % in length and 1 degree a metre in heading.
-  [[nodiscard]] const Pose2& odometry() const { return odometry_; }
+  [[nodiscard]] const Pose2& odometry() const { return odometry_.reading(); }
   [[nodiscard]] const MotionCommand& motion() const { return motion_; }
   [[nodiscard]] int collisions() const { return collisions_; }
   [[nodiscard]] double path_m() const { return path_m_; }
@@ -71,11 +85,8 @@ class Vehicle {
  private:
   RobotProfile profile_;
   Pose2 pose_;
-  Pose2 odometry_;
+  WheelOdometry odometry_;
   MotionCommand motion_;
-  std::mt19937_64 random_;
-  double slip_;
-  double drift_rad_per_m_;
   bool touching_ = false;
   int collisions_ = 0;
   double path_m_ = 0.0;

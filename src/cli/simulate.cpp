@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/simulate.hpp"
+
+#include "cli/command.hpp"
+
+namespace homeward::cli {
+
+void register_simulate(CLI::App& program) {
+  CLI::App* simulate = program.add_subcommand("simulate", "Tours, grids of pictures and drives in a simulated world");
+  simulate->require_subcommand(1);
+  register_simulate_tour(*simulate);
+  register_simulate_grid(*simulate);
+}
+
+}  // namespace homeward::cli

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "cli/simulate.hpp"
+#include "sim/motion.hpp"
+#include "sim/tour_path.hpp"
+
+namespace homeward::cli {
+namespace {
+
+struct Options {
+  StageOptions stage;
+  std::vector<std::string> rooms;
+  double step_m = 0.4;
+  bool marks = false;
+};
+
+Status make_tour(const Options& options) {
+  auto writer = TourWriter::open(options.stage);
+  if (!writer) return pass_on(writer);
+  const auto stops = sim::plan_tour(writer->world(), options.rooms, options.step_m);
+  if (!stops) return pass_on(stops);
+  sim::WheelOdometry wheels(options.stage.seed);
+  std::vector<std::pair<std::string, std::string>> marks;
+  ProgressBar bar;
+  for (std::size_t i = 0; i < stops->size(); ++i) {
+    const sim::TourStop& stop = (*stops)[i];
+    if (i > 0) wheels.follow((*stops)[i - 1].pose, stop.pose);
+    if (const Status added = writer->add(stop.pose, stop.room.value_or(""), &wheels.reading()); !added) return added;
+    if (options.marks && stop.arrived) marks.emplace_back(writer->last_name(), *stop.arrived);
+    bar.show("rendering", static_cast<double>(i + 1) / static_cast<double>(stops->size()));
+  }
+  if (const Status finished = writer->finish(marks); !finished) return finished;
+  std::cout << stops->size() << " pictures, " << marks.size() << " destinations: " << options.stage.out << "\n";
+  return {};
+}
+
+}  // namespace
+
+void add_stage_options(CLI::App& command, StageOptions& options) {
+  command.add_option("--world", options.world, "house:SEED, offices:SEED or a world.json")->required();
+  command.add_option("--light", options.light, "day, night or half")->capture_default_str();
+  command.add_option("--camera", options.camera, "hyperbolic_mirror, equirectangular, pinhole or a camera.json")
+      ->capture_default_str();
+  command.add_option("--out", options.out, "New folder for the pictures")->required();
+  command.add_option("--seed", options.seed, "Seed of noise and odometry")->capture_default_str();
+}
+
+void register_simulate_tour(CLI::App& simulate) {
+  CLI::App* command = simulate.add_subcommand("tour", "A guided tour from room to room");
+  const auto options = std::make_shared<Options>();
+  add_stage_options(*command, options->stage);
+  command->add_option("--rooms", options->rooms, "Rooms in the order of the visit")->required()->delimiter(',');
+  command->add_option("--step-m", options->step_m, "Way between two pictures")->capture_default_str();
+  command->add_flag("--marks", options->marks, "Mark each room's point as a destination");
+  run_on(*command, [options] { return make_tour(*options); });
+}
+
+}  // namespace homeward::cli

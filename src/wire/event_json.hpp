@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "wire/job_json.hpp"
+#include "wire/map_info_json.hpp"
+#include "wire/mission_json.hpp"
+#include "wire/robot_json.hpp"
+
+namespace homeward::wire {
+
+inline constexpr int kEventVersion = 1;
+
+/// The first message to every dashboard: everything there is.
+struct Snapshot {
+  std::string build;  // of the server, so that a page made for another one can reload itself
+  std::vector<RobotView> robots;
+  std::vector<JobView> jobs;
+  std::vector<MapInfoView> maps;
+};
+
+using Event = std::variant<Snapshot, RobotView, JobView, MapInfoView, MissionView>;
+
+/// One message to dashboards (proto/schemas/event.schema.json): {type, v, seq, ...}. `seq` rises by one with each
+/// message of a running server.
+nlohmann::json event_to_json(const Event& event, std::int64_t seq);
+
+}  // namespace homeward::wire

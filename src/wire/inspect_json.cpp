@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/inspect_json.hpp"
+
+#include <array>
+
+#include "wire/json_write.hpp"
+
+namespace homeward::wire {
+namespace {
+
+using nlohmann::json;
+
+json masses_to_json(const map::Masses& masses) {
+  return {{"true", masses.is_true}, {"false", masses.is_false}, {"unknown", masses.unknown}};
+}
+
+json place_to_json(const map::Place& place) {
+  const int features = place.appearances.empty() ? 0 : place.appearances.front().size();
+  return {{"id", place.id.str()},
+          {"label", place.label},
+          {"prototype", place.prototype.str()},
+          {"members", ids_to_json(place.members)},
+          {"features", features}};
+}
+
+json edge_to_json(const map::Edge& edge) {
+  return {{"from", edge.from.str()},
+          {"to", edge.to.str()},
+          {"bearing_rad", or_null(edge.bearing_rad)},
+          {"turn_rad", or_null(edge.turn_rad)},
+          {"weak", edge.weak}};
+}
+
+}  // namespace
+
+std::string_view decision_name(map::Decision decision) {
+  constexpr std::array<std::string_view, 3> kNames = {"accepted", "rejected", "undecided"};
+  return kNames[static_cast<std::size_t>(decision)];
+}
+
+json hypothesis_to_json(const map::Hypothesis& hypothesis) {
+  return {{"prototype_a", hypothesis.prototype_a.str()},
+          {"prototype_b", hypothesis.prototype_b.str()},
+          {"masses_before", masses_to_json(hypothesis.masses_before)},
+          {"masses_after", masses_to_json(hypothesis.masses_after)},
+          {"support", hypothesis.support},
+          {"plausibility", hypothesis.plausibility},
+          {"decision", decision_name(hypothesis.decision)},
+          {"by", hypothesis.by}};
+}
+
+json inspect_to_json(const map::TopologicalMap& map, std::int64_t bytes) {
+  json value = {{"images", map.images.size()},  {"bytes", bytes},           {"build_seconds", map.build_seconds},
+                {"places", json::array()},      {"edges", json::array()},   {"hypotheses", json::array()}};
+  for (const map::Place& place : map.places) value["places"].push_back(place_to_json(place));
+  for (const map::Edge& edge : map.edges) value["edges"].push_back(edge_to_json(edge));
+  for (const map::Hypothesis& h : map.hypotheses) value["hypotheses"].push_back(hypothesis_to_json(h));
+  return value;
+}
+
+}  // namespace homeward::wire

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string_view>
+
+#include "map/topological_map.hpp"
+
+namespace homeward::wire {
+
+/// What `homeward map inspect --json` prints (proto/schemas/inspect.schema.json). `bytes`: size of the map file
+/// without thumbnails.
+nlohmann::json inspect_to_json(const map::TopologicalMap& map, std::int64_t bytes);
+
+/// {prototype_a, prototype_b, masses_before, masses_after, support, plausibility, decision, by}
+nlohmann::json hypothesis_to_json(const map::Hypothesis& hypothesis);
+
+/// "accepted", "rejected", "undecided".
+std::string_view decision_name(map::Decision decision);
+
+}  // namespace homeward::wire

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/job_json.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "wire/json_write.hpp"
+#include "wire/problem_json.hpp"
+
+namespace homeward::wire {
+namespace {
+
+constexpr std::array<std::string_view, 5> kStates = {"queued", "running", "done", "failed", "cancelled"};
+
+}  // namespace
+
+std::string_view job_state_name(JobState state) { return kStates[static_cast<std::size_t>(state)]; }
+
+std::optional<JobState> job_state(std::string_view name) {
+  const auto found = std::find(kStates.begin(), kStates.end(), name);
+  if (found == kStates.end()) return std::nullopt;
+  return static_cast<JobState>(found - kStates.begin());
+}
+
+nlohmann::json job_to_json(const JobView& job) {
+  nlohmann::json value = {{"id", job.id.str()},
+                          {"kind", job.kind},
+                          {"map", job.map.str()},
+                          {"state", job_state_name(job.state)},
+                          {"progress", {{"stage", job.stage}, {"share", finite_or_null(job.share)}}},
+                          {"error", nullptr},
+                          {"created_us", job.created_us}};
+  if (job.error) value["error"] = problem_to_json(*job.error);
+  return value;
+}
+
+}  // namespace homeward::wire

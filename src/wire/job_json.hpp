@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/ids.hpp"
+#include "core/result.hpp"
+#include "core/time.hpp"
+
+namespace homeward::wire {
+
+/// The last three are final.
+enum class JobState { kQueued, kRunning, kDone, kFailed, kCancelled };
+
+/// "queued", "running", "done", "failed", "cancelled".
+std::string_view job_state_name(JobState state);
+std::optional<JobState> job_state(std::string_view name);
+
+/// Work that the server does in the background (proto/schemas/job.schema.json).
+struct JobView {
+  JobId id;
+  std::string kind = "build";
+  MapId map;
+  JobState state = JobState::kQueued;
+  std::string stage;   // what it is doing, for people
+  double share = 0.0;  // of the whole work done, in [0,1]
+  std::optional<Error> error;
+  TimeUs created_us = 0;
+};
+
+nlohmann::json job_to_json(const JobView& job);
+
+}  // namespace homeward::wire

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/map_info_json.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "wire/json_write.hpp"
+
+namespace homeward::wire {
+namespace {
+
+constexpr std::array<std::string_view, 3> kStates = {"building", "ready", "failed"};
+
+}  // namespace
+
+std::string_view map_state_name(MapState state) { return kStates[static_cast<std::size_t>(state)]; }
+
+std::optional<MapState> map_state(std::string_view name) {
+  const auto found = std::find(kStates.begin(), kStates.end(), name);
+  if (found == kStates.end()) return std::nullopt;
+  return static_cast<MapState>(found - kStates.begin());
+}
+
+nlohmann::json map_info_to_json(const MapInfoView& map) {
+  return {{"id", map.id.str()},
+          {"name", map.name},
+          {"state", map_state_name(map.state)},
+          {"revision", map.revision},
+          {"places", map.places},
+          {"images", map.images},
+          {"tours", ids_to_json(map.tours)},
+          {"feature_config_id", or_null(map.feature_config_id)}};
+}
+
+}  // namespace homeward::wire

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/ids.hpp"
+
+namespace homeward::wire {
+
+enum class MapState { kBuilding, kReady, kFailed };
+
+/// "building", "ready", "failed".
+std::string_view map_state_name(MapState state);
+std::optional<MapState> map_state(std::string_view name);
+
+/// A map in a list of maps (proto/schemas/map_info.schema.json).
+struct MapInfoView {
+  MapId id;
+  std::string name;
+  MapState state = MapState::kBuilding;
+  std::int64_t revision = 0;  // 0 until the first build is done
+  std::int64_t places = 0;
+  std::int64_t images = 0;
+  std::vector<TourId> tours;                     // it was built from
+  std::optional<std::string> feature_config_id;  // nothing until the first build is done
+};
+
+nlohmann::json map_info_to_json(const MapInfoView& map);
+
+}  // namespace homeward::wire

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/mission_json.hpp"
+
+#include <array>
+#include <limits>
+
+#include "wire/json_reader.hpp"
+#include "wire/json_write.hpp"
+
+namespace homeward::wire {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::string_view, 6> kStates = {"accepted", "driving", "arrived", "refused", "stopped", "failed"};
+constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+
+std::vector<PlaceId> read_path(ObjectReader& reader) {
+  std::vector<PlaceId> path;
+  for (const json& item : reader.array("path", 2000)) {
+    if (!item.is_string()) reader.problem("path", "'path' must list ids of places.");
+    path.emplace_back(item.is_string() ? item.get<std::string>() : std::string());
+  }
+  return path;
+}
+
+}  // namespace
+
+std::string_view mission_state_name(MissionState state) { return kStates[static_cast<std::size_t>(state)]; }
+
+std::optional<MissionState> mission_state(std::string_view name) {
+  for (std::size_t i = 0; i < kStates.size(); ++i) {
+    if (kStates[i] == name) return static_cast<MissionState>(i);
+  }
+  return std::nullopt;
+}
+
+json mission_to_json(const MissionView& mission) {
+  return {{"format", "homeward-mission"},
+          {"version", 1},
+          {"id", mission.id.str()},
+          {"robot", mission.robot.str()},
+          {"map", mission.map.str()},
+          {"revision", mission.revision},
+          {"destination", or_null(mission.destination)},
+          {"place", mission.place.str()},
+          {"state", mission_state_name(mission.state)},
+          {"reason", or_null(mission.reason)},
+          {"epoch", mission.epoch},
+          {"seq", mission.seq},
+          {"path", ids_to_json(mission.path)},
+          {"path_index", mission.path_index},
+          {"created_us", mission.created_us},
+          {"by", mission.by}};
+}
+
+Result<MissionView> mission_from_json(const json& value, const std::string& path) {
+  ObjectReader reader(value, path);
+  reader.format("homeward-mission", 1);
+  MissionView mission;
+  mission.id = MissionId(reader.text("id", 100));
+  mission.robot = RobotId(reader.text("robot", 100));
+  mission.map = MapId(reader.text("map", 100));
+  mission.revision = reader.integer("revision", 0, kMost);
+  if (!reader.value("destination").is_null()) mission.destination = DestinationId(reader.text("destination", 100));
+  mission.place = PlaceId(reader.text("place", 100));
+  const std::string state = reader.choice("state", {kStates.begin(), kStates.end()});
+  mission.state = mission_state(state).value_or(MissionState::kFailed);
+  if (!reader.value("reason").is_null()) mission.reason = reader.text("reason");
+  mission.epoch = reader.integer("epoch", 0, kMost);
+  mission.seq = reader.integer("seq", 0, kMost);
+  mission.path = read_path(reader);
+  mission.path_index = reader.integer("path_index", 0, 2000);
+  mission.created_us = reader.integer("created_us", 0, kMost);
+  mission.by = reader.text("by", 200);
+  if (const Status status = reader.finish(); !status) return pass_on(status);
+  return mission;
+}
+
+}  // namespace homeward::wire
