@@ -34,9 +34,14 @@ json edge_to_json(const map::Edge& edge) {
 }  // namespace
 
 json graph_to_json(const map::TopologicalMap& map, const MapId& id, const std::vector<Eigen::Vector2d>& layout) {
-  json value = {{"format", "homeward-graph"},  {"version", 1},           {"map", id.str()},
-                {"revision", map.revision},    {"places", json::array()}, {"edges", json::array()},
-                {"destinations", json::array()}, {"hypotheses", json::array()}};
+  json value = {{"format", "homeward-graph"},
+                {"version", 1},
+                {"map", id.str()},
+                {"revision", map.revision},
+                {"places", json::array()},
+                {"edges", json::array()},
+                {"destinations", json::array()},
+                {"hypotheses", json::array()}};
   for (std::size_t i = 0; i < map.places.size(); ++i) {
     value["places"].push_back(place_to_json(map.places[i], layout.at(i)));
   }

@@ -50,8 +50,8 @@ json hypothesis_to_json(const map::Hypothesis& hypothesis) {
 }
 
 json inspect_to_json(const map::TopologicalMap& map, std::int64_t bytes) {
-  json value = {{"images", map.images.size()},  {"bytes", bytes},           {"build_seconds", map.build_seconds},
-                {"places", json::array()},      {"edges", json::array()},   {"hypotheses", json::array()}};
+  json value = {{"images", map.images.size()}, {"bytes", bytes},         {"build_seconds", map.build_seconds},
+                {"places", json::array()},     {"edges", json::array()}, {"hypotheses", json::array()}};
   for (const map::Place& place : map.places) value["places"].push_back(place_to_json(place));
   for (const map::Edge& edge : map.edges) value["edges"].push_back(edge_to_json(edge));
   for (const map::Hypothesis& h : map.hypotheses) value["hypotheses"].push_back(hypothesis_to_json(h));
