@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "contract/codecs.hpp"
+#include "contract/schema_library.hpp"
+#include "support/sample_map.hpp"
+#include "wire/error_table.hpp"
+#include "wire/event_json.hpp"
+#include "wire/graph_export.hpp"
+#include "wire/graph_json.hpp"
+#include "wire/inspect_json.hpp"
+#include "wire/problem_json.hpp"
+#include "wire/tour_json.hpp"
+
+namespace homeward::wire {
+namespace {
+
+using homeward::testing::sample_map;
+using homeward::testing::schemas;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+const std::vector<Eigen::Vector2d> kLayout = {{0.0, 0.25}, {1.0, 0.75}};
+
+MissionView sample_mission() {
+  MissionView mission;
+  mission.id = MissionId("m1");
+  mission.robot = RobotId("r1");
+  mission.map = MapId("house");
+  mission.revision = 4;
+  mission.destination = DestinationId("d1");
+  mission.place = PlaceId("p2");
+  mission.path = {PlaceId("p1"), PlaceId("p2")};
+  mission.by = "anna";
+  return mission;
+}
+
+RobotView sample_robot() {
+  RobotView robot;
+  robot.id = RobotId("r1");
+  robot.name = "Chair";
+  robot.online = true;
+  robot.map = MapId("house");
+  robot.state = DriveState::kDriving;
+  robot.speed_mps = 0.5;
+  robot.home = HomeReport{0.1, 0.9, 80};
+  robot.belief = BeliefView{3, PlaceId("p1"), 0.8, {{PlaceId("p1"), 0.8}, {PlaceId("p2"), 0.1}}, false, 40.0, 12};
+  robot.mission = sample_mission();
+  robot.lease = LeaseView{"secret", "anna", 3, 9000};
+  robot.status_age_ms = 120;
+  return robot;
+}
+
+TEST(Encoders, WriteMapsThatTheSchemasAccept) {
+  const map::TopologicalMap map = sample_map();
+  EXPECT_THAT(schemas().problems("inspect", inspect_to_json(map, 4096)), IsEmpty());
+  EXPECT_THAT(schemas().problems("graph", graph_to_json(map, MapId("house"), kLayout)), IsEmpty());
+  EXPECT_THAT(schemas().problems("graph", json::parse(export_graph(map, kLayout, ExportFormat::kJson))), IsEmpty());
+}
+
+TEST(Encoders, TellEverythingOfAMap) {
+  const json graph = graph_to_json(sample_map(), MapId("house"), kLayout);
+  EXPECT_EQ(graph["revision"], 4);
+  EXPECT_EQ(graph["places"][1], json::parse(R"({"id":"p2","label":"kitchen","prototype":"tour/00002.jpg",
+    "members":["tour/00002.jpg"],"features":20,"x":1.0,"y":0.75})"));
+  EXPECT_EQ(graph["edges"][1], json::parse(R"({"from":"p2","to":"p1","bearing_rad":null,"turn_rad":null,"length_m":1.5,
+    "weak":true,"blocked":true})"));
+  EXPECT_EQ(graph["destinations"][0],
+            json::parse(R"({"id":"d1","place":"p2","image":"tour/00002.jpg","label":"kitchen"})"));
+  EXPECT_EQ(graph["hypotheses"][0]["masses_after"], json::parse(R"({"true":0.1,"false":0.8,"unknown":0.1})"));
+  const json inspect = inspect_to_json(sample_map(), 4096);
+  EXPECT_EQ(inspect["images"], 3);
+  EXPECT_EQ(inspect["bytes"], 4096);
+  EXPECT_EQ(inspect["build_seconds"], 1.25);
+}
+
+TEST(Encoders, WriteEventsThatTheSchemaAccepts) {
+  JobView job{JobId("j1"), "build", MapId("house"), JobState::kFailed, "features", 0.5, {}, 12};
+  job.error = Error{ErrorCode::kTooFewFeatures, "The pictures are black.", "t1"};
+  const MapInfoView map{MapId("house"), "House", MapState::kBuilding, 0, 0, 3, {TourId("t1")}, {}};
+  RobotView unseen;
+  unseen.id = RobotId("r2");
+  const Snapshot snapshot{"0.1.0", {sample_robot(), unseen}, {job}, {map}};
+  for (const Event& event : std::vector<Event>{snapshot, sample_robot(), job, map, sample_mission()}) {
+    const json written = event_to_json(event, 7);
+    EXPECT_THAT(schemas().problems("event", written), IsEmpty()) << written.dump();
+    EXPECT_EQ(written["seq"], 7);
+  }
+}
+
+TEST(Encoders, NameEveryStateAsTheSchemasDo) {
+  MissionView mission = sample_mission();
+  for (int state = 0; state <= static_cast<int>(MissionState::kFailed); ++state) {
+    mission.state = static_cast<MissionState>(state);
+    EXPECT_THAT(schemas().problems("mission", mission_to_json(mission)), IsEmpty());
+    EXPECT_EQ(mission_state(mission_state_name(mission.state)), mission.state);
+  }
+  JobView job{JobId("j1"), "build", MapId("house"), JobState::kQueued, "", 0.0, {}, 12};
+  for (int state = 0; state <= static_cast<int>(JobState::kCancelled); ++state) {
+    job.state = static_cast<JobState>(state);
+    EXPECT_THAT(schemas().problems("job", job_to_json(job)), IsEmpty());
+    EXPECT_EQ(job_state(job_state_name(job.state)), job.state);
+  }
+  RobotView robot = sample_robot();
+  for (int state = 0; state <= static_cast<int>(DriveState::kFailed); ++state) {
+    robot.state = static_cast<DriveState>(state);
+    EXPECT_THAT(schemas().problems("robot", robot_to_json(robot)), IsEmpty());
+  }
+  for (const ErrorRow& row : error_table()) {
+    EXPECT_THAT(schemas().problems("problem", problem_to_json(Error{row.code, "Why.", "here"})), IsEmpty());
+  }
+}
+
+TEST(Encoders, KeepTheSecretOfALeaseToItsHolder) {
+  EXPECT_FALSE(robot_to_json(sample_robot())["lease"].contains("id"));
+  const json own = lease_to_json(*sample_robot().lease);
+  EXPECT_EQ(own["id"], "secret");
+  EXPECT_THAT(schemas().problems("lease", own), IsEmpty());
+}
+
+TEST(Encoders, WriteNullForWhatIsNoNumber) {
+  BeliefView belief;
+  belief.probability = kNan;
+  belief.ms = std::numeric_limits<double>::infinity();
+  const json written = belief_to_json(belief);
+  EXPECT_TRUE(written["probability"].is_null());
+  EXPECT_TRUE(written["ms"].is_null());
+  EXPECT_THAT(schemas().problems("belief", written), IsEmpty());
+
+  map::TopologicalMap map = sample_map();
+  map.edges[0].bearing_rad = kNan;
+  EXPECT_TRUE(graph_to_json(map, MapId("house"), kLayout)["edges"][0]["bearing_rad"].is_null());
+}
+
+TEST(Encoders, WriteToursThatTheSchemaAccepts) {
+  const TourView tour{TourId("t1"), "First", true, 3, sample_map().camera, 12, {1}};
+  EXPECT_THAT(schemas().problems("tour_info", tour_info_to_json(tour)), IsEmpty());
+  EXPECT_EQ(tour_info_to_json(tour)["state"], "complete");
+}
+
+TEST(GraphExport, WritesGraphMlWithEscapedText) {
+  map::TopologicalMap map = sample_map();
+  map.places[1].label = "Anna & <Otto>\x01";
+  const std::string text = export_graph(map, kLayout, ExportFormat::kGraphMl);
+  EXPECT_THAT(text, HasSubstr("<data key=\"label\">Anna &amp; &lt;Otto&gt;</data>"));
+  EXPECT_THAT(text, HasSubstr("<edge source=\"p1\" target=\"p2\">"));
+  EXPECT_THAT(text, HasSubstr("<data key=\"bearing_rad\">0.5</data>"));
+}
+
+TEST(GraphExport, WritesGeoJsonWithYUpwards) {
+  const json value = json::parse(export_graph(sample_map(), kLayout, ExportFormat::kGeoJson));
+  EXPECT_EQ(value["features"].size(), 4U);
+  EXPECT_EQ(value["features"][1]["geometry"]["coordinates"], json::parse("[1.0, 0.25]"));
+  EXPECT_EQ(value["features"][2]["geometry"]["type"], "LineString");
+}
+
+TEST(GraphExport, KnowsThreeFormats) {
+  EXPECT_EQ(export_format("graphml"), ExportFormat::kGraphMl);
+  EXPECT_FALSE(export_format("dot"));
+}
+
+TEST(RevisionTag, IsReadBackWithAndWithoutQuotes) {
+  EXPECT_EQ(revision_from_tag(revision_tag(12)).value(), 12);
+  EXPECT_EQ(revision_from_tag("r3").value(), 3);
+  for (const char* wrong : {"", "r", "3", "\"r3", "r3x", "r-1", "W/\"r3\"", "*"}) {
+    EXPECT_EQ(revision_from_tag(wrong).error().code, ErrorCode::kInvalidInput) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace homeward::wire
