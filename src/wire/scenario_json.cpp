@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/scenario_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "wire/camera_json.hpp"
+#include "wire/json_reader.hpp"
+
+namespace homeward::wire {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMaxRandom = 10'000;
+
+void close(ObjectReader& outer, ObjectReader& inner) {
+  if (const Status status = inner.finish(); !status) outer.take<int>(pass_on(status));
+}
+
+std::string light_of(ObjectReader& reader) {
+  return reader.has("light") ? reader.choice("light", {"day", "night", "half"}) : "day";
+}
+
+ScenarioFault read_fault(ObjectReader& outer, const json& value, const std::string& path) {
+  ObjectReader reader(value, path);
+  ScenarioFault fault;
+  fault.kind = reader.choice("kind", {"camera_occluded", "camera_frozen", "scan_lost", "link_lost", "stop"});
+  fault.at_s = reader.number("at_s", 0.0, 1e5);
+  if (reader.has("for_s")) fault.for_s = reader.number("for_s", 0.0, 1e5);
+  if (reader.has("share")) fault.share = reader.number("share", 0.0, 1.0);
+  close(outer, reader);
+  return fault;
+}
+
+ScenarioMission read_mission(ObjectReader& outer, const json& value, const std::string& path) {
+  ObjectReader reader(value, path);
+  ScenarioMission mission;
+  if (reader.has("random")) {
+    mission.random = static_cast<int>(reader.integer("random", 1, kMaxRandom));
+  } else {
+    mission.from = reader.text("from", 200);
+    mission.to = reader.text("to", 200);
+  }
+  mission.light = light_of(reader);
+  if (reader.has("people")) mission.people = static_cast<int>(reader.integer("people", 0, 100));
+  if (reader.has("moved_furniture") && reader.integer("moved_furniture", 0, 1000) != 0) {
+    reader.problem("moved_furniture", "Furniture cannot be moved by this version; only 0 is understood.",
+                   ErrorCode::kUnsupportedFormat);
+  }
+  if (reader.has("faults")) {
+    const std::vector<json> faults = reader.array("faults", 100);
+    for (std::size_t i = 0; i < faults.size(); ++i) {
+      mission.faults.push_back(read_fault(reader, faults[i], reader.path_of("faults") + "/" + std::to_string(i)));
+    }
+  }
+  close(outer, reader);
+  return mission;
+}
+
+/// {"model": name} alone is the usual camera of that model; with more it is a whole camera.json.
+void read_camera(ObjectReader& outer, ScenarioFile& scenario) {
+  const json& value = outer.value("camera");
+  if (value.is_object() && value.size() > 1) {
+    scenario.camera = outer.take(camera_from_json(value, outer.path_of("camera")));
+    return;
+  }
+  ObjectReader reader(value, outer.path_of("camera"));
+  scenario.camera_model = reader.choice("model", {"hyperbolic_mirror", "equirectangular", "pinhole"});
+  close(outer, reader);
+}
+
+void read_tour(ObjectReader& outer, ScenarioFile& scenario) {
+  ObjectReader reader(outer.value("tour"), outer.path_of("tour"));
+  for (const json& room : reader.array("rooms", 1000)) {
+    if (!room.is_string()) {
+      reader.problem("rooms", "Each of 'rooms' must be a room's name.");
+      break;
+    }
+    scenario.tour_rooms.push_back(room.get<std::string>());
+  }
+  scenario.tour_light = light_of(reader);
+  if (reader.has("step_m")) scenario.tour_step_m = reader.number("step_m", 0.05, 5.0);
+  close(outer, reader);
+}
+
+}  // namespace
+
+Result<ScenarioFile> scenario_from_json(const json& value, const std::string& path) {
+  ObjectReader reader(value, path);
+  reader.format("homeward-scenario", 1);
+  ScenarioFile scenario;
+  scenario.world = reader.text("world", 1000);
+  scenario.seed = reader.integer("seed", 0, 1'000'000'000);
+  read_camera(reader, scenario);
+  if (reader.has("robot")) scenario.robot = reader.choice("robot", {"disc", "chair"});
+  read_tour(reader, scenario);
+  const std::vector<json> missions = reader.array("missions", 10'000);
+  for (std::size_t i = 0; i < missions.size(); ++i) {
+    scenario.missions.push_back(
+        read_mission(reader, missions[i], reader.path_of("missions") + "/" + std::to_string(i)));
+  }
+  if (const Status status = reader.finish(); !status) return pass_on(status);
+  return scenario;
+}
+
+Result<ScenarioFile> parse_scenario(const std::string& text, const std::string& where) {
+  const Result<json> value = parse_json(text, where);
+  if (!value) return pass_on(value);
+  return scenario_from_json(*value, where);
+}
+
+}  // namespace homeward::wire

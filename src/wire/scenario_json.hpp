@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camera/camera_config.hpp"
+#include "core/result.hpp"
+
+namespace homeward::wire {
+
+/// Something that goes wrong during a mission, for a while.
+struct ScenarioFault {
+  std::string kind;  // "camera_occluded", "camera_frozen", "scan_lost", "link_lost", "stop"
+  double at_s = 0.0;
+  double for_s = 0.0;
+  double share = 1.0;  // of the picture that is covered
+};
+
+/// One entry of "missions": from room to room, or `random` of them.
+struct ScenarioMission {
+  std::string from;
+  std::string to;
+  int random = 0;  // > 0: so many missions between rooms drawn at random
+  std::string light = "day";
+  int people = 0;
+  std::vector<ScenarioFault> faults;
+};
+
+/// A closed-loop scenario (proto/schemas/scenario.schema.json), format "homeward-scenario", version 1.
+struct ScenarioFile {
+  std::string world;  // "house:1", "offices:1", or a world.json relative to the scenario
+  std::int64_t seed = 1;
+  std::string camera_model;                    // the usual camera of this model ...
+  std::optional<camera::CameraConfig> camera;  // ... or a whole camera.json
+  std::string robot = "disc";                  // "disc" or "chair"
+  std::vector<std::string> tour_rooms;
+  std::string tour_light = "day";
+  double tour_step_m = 0.4;
+  std::vector<ScenarioMission> missions;
+};
+
+/// Strict. Errors: kInvalidInput, kUnsupportedFormat; each names the field.
+Result<ScenarioFile> scenario_from_json(const nlohmann::json& value, const std::string& path = "scenario");
+Result<ScenarioFile> parse_scenario(const std::string& text, const std::string& where);
+
+}  // namespace homeward::wire
