@@ -8,6 +8,46 @@ namespace homeward::wire {
 
 using nlohmann::json;
 
+namespace {
+
+/// Foreign text for a message: short, and only what can be printed anywhere.
+std::string shown(const std::string& text, std::size_t most = 64) {
+  std::string shown = text.substr(0, most);
+  for (char& c : shown) {
+    if (c < 0x20 || c > 0x7E) c = '?';
+  }
+  return shown;
+}
+
+std::string shown(const json& value) { return shown(value.dump(-1, ' ', true, json::error_handler_t::replace)); }
+
+}  // namespace
+
+bool is_utf8(std::string_view text) {
+  std::size_t i = 0;
+  while (i < text.size()) {
+    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+    const unsigned first = byte(i);
+    const std::size_t length = first < 0x80   ? 1
+                               : first < 0xC2 ? 0
+                               : first < 0xE0 ? 2
+                               : first < 0xF0 ? 3
+                               : first < 0xF5 ? 4
+                                              : 0;
+    if (length == 0 || i + length > text.size()) return false;
+    for (std::size_t k = 1; k < length; ++k) {
+      if ((byte(i + k) & 0xC0U) != 0x80U) return false;
+    }
+    // Too long forms, surrogates and what lies beyond Unicode (RFC 3629 section 4).
+    if (first == 0xE0 && byte(i + 1) < 0xA0) return false;
+    if (first == 0xED && byte(i + 1) > 0x9F) return false;
+    if (first == 0xF0 && byte(i + 1) < 0x90) return false;
+    if (first == 0xF4 && byte(i + 1) > 0x8F) return false;
+    i += length;
+  }
+  return true;
+}
+
 ObjectReader::ObjectReader(const json& value, std::string path) : value_(value), path_(std::move(path)) {
   if (!value_.is_object()) error_ = Error{ErrorCode::kInvalidInput, "Here must be an object.", path_};
 }
@@ -36,12 +76,13 @@ const json& ObjectReader::value(const std::string& key) {
 void ObjectReader::format(const std::string& format, int version) {
   const std::string found = text("format");
   if (found != format) {
-    problem("format", "The format is '" + found + "'; '" + format + "' is wanted.", ErrorCode::kUnsupportedFormat);
+    problem("format", "The format is '" + shown(found) + "'; '" + format + "' is wanted.",
+            ErrorCode::kUnsupportedFormat);
   }
   const json& number = value("version");
   if (!number.is_number_integer() || number.get<std::int64_t>() != version) {
     problem("version",
-            "The version is " + number.dump() + "; this program reads version " + std::to_string(version) + ".",
+            "The version is " + shown(number) + "; this program reads version " + std::to_string(version) + ".",
             ErrorCode::kUnsupportedFormat);
   }
 }
@@ -94,6 +135,10 @@ std::string ObjectReader::text(const std::string& key, std::size_t max_bytes) {
   const auto& text = found.get_ref<const std::string&>();
   if (text.size() > max_bytes) {
     problem(key, "'" + key + "' is longer than " + std::to_string(max_bytes) + " bytes.");
+    return {};
+  }
+  if (!is_utf8(text)) {
+    problem(key, "'" + key + "' is no valid UTF-8 text.");
     return {};
   }
   return text;
@@ -155,7 +200,7 @@ Status ObjectReader::finish() {
   if (value_.is_object() && !error_) {
     for (const auto& [key, ignored] : value_.items()) {
       if (!asked_.contains(key)) {
-        problem(key, "'" + key.substr(0, 64) + "' is not known here.");
+        problem(shown(key), "'" + shown(key) + "' is not known here.");
         break;
       }
     }
@@ -178,7 +223,7 @@ Result<json> parse_json(const std::string& text, const std::string& where, std::
     if (too_deep) return fail(ErrorCode::kInvalidInput, "The JSON is nested too deeply.", where);
     return value;
   } catch (const json::exception& failure) {
-    return fail(ErrorCode::kInvalidInput, std::string("This is no valid JSON: ") + failure.what(), where);
+    return fail(ErrorCode::kInvalidInput, "This is no valid JSON: " + shown(failure.what(), 300), where);
   }
 }
 

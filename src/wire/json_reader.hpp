@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/result.hpp"
@@ -15,6 +16,9 @@ namespace homeward::wire {
 
 inline constexpr std::size_t kMaxTextBytes = 4096;
 inline constexpr std::size_t kMaxArrayItems = 200'000;
+
+/// Whether these bytes are text in UTF-8. What comes as CBOR may hold others.
+bool is_utf8(std::string_view text);
 
 /// Reads one JSON object strictly: every key is asked for, nothing else may be there. The first problem is kept with
 /// its JSON path; reading goes on with neutral values, so that decoders stay straight lines.

@@ -145,11 +145,38 @@ Result<Message> read_message(const json& value, const Read& read) {
   return std::move(*message);
 }
 
+/// Listens to a parser only to stop it when values lie too deep in each other: the parser calls itself for each level,
+/// and two million nested lists fit into a message.
+class DepthGuard : public json::json_sax_t {
+ public:
+  bool null() override { return true; }
+  bool boolean(bool /*value*/) override { return true; }
+  bool number_integer(number_integer_t /*value*/) override { return true; }
+  bool number_unsigned(number_unsigned_t /*value*/) override { return true; }
+  bool number_float(number_float_t /*value*/, const string_t& /*text*/) override { return true; }
+  bool string(string_t& /*value*/) override { return true; }
+  bool binary(binary_t& /*value*/) override { return true; }
+  bool start_object(std::size_t /*size*/) override { return ++depth_ <= kMaxDepth; }
+  bool key(string_t& /*key*/) override { return true; }
+  bool end_object() override { return --depth_ >= 0; }
+  bool start_array(std::size_t /*size*/) override { return ++depth_ <= kMaxDepth; }
+  bool end_array() override { return --depth_ >= 0; }
+  bool parse_error(std::size_t /*at*/, const std::string& /*token*/, const json::exception& /*why*/) override {
+    return false;
+  }
+
+ private:
+  static constexpr int kMaxDepth = 16;
+  int depth_ = 0;
+};
+
 Result<json> parse_cbor(std::span<const std::uint8_t> cbor) {
   if (cbor.size() > kMaxLinkMessageBytes) {
     return fail(ErrorCode::kTooLarge, "A link message may have at most 32 MiB.", "message");
   }
-  json value = json::from_cbor(cbor.begin(), cbor.end(), true, false);
+  DepthGuard guard;
+  const bool readable = json::sax_parse(cbor.begin(), cbor.end(), &guard, json::input_format_t::cbor);
+  json value = readable ? json::from_cbor(cbor.begin(), cbor.end(), true, false) : json(json::value_t::discarded);
   if (value.is_discarded()) return fail(ErrorCode::kInvalidInput, "The message is no valid CBOR.", "message");
   return value;
 }

@@ -82,8 +82,8 @@ json world_to_json(const WorldFile& world) {
     value["rooms"].push_back(std::move(entry));
   }
   for (const WorldLamp& lamp : world.lamps) {
-    value["lamps"].push_back({{"position_m", {lamp.position_m.x(), lamp.position_m.y(), lamp.position_m.z()}},
-                              {"strength", lamp.strength}});
+    value["lamps"].push_back(
+        {{"position_m", {lamp.position_m.x(), lamp.position_m.y(), lamp.position_m.z()}}, {"strength", lamp.strength}});
   }
   if (world.occupancy) value["occupancy"] = picture_to_json(*world.occupancy);
   if (world.drivable) {

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/link_messages.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "support/sample_map.hpp"
+
+namespace homeward::wire {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+std::vector<AgentMessage> agent_messages() {
+  AgentStatus driving;
+  driving.seq = 3;
+  driving.t_us = 1'763'700'000'000'000;
+  driving.state = DriveState::kDriving;
+  driving.mission = MissionId("m1");
+  driving.epoch = 2;
+  driving.path_index = 1;
+  driving.speed_mps = 0.4;
+  driving.home = HomeReport{-0.5, 0.75, 64};
+  driving.min_range_m = 0.9;
+  driving.vectors_per_s = 9.5;
+  AgentStatus stopped;
+  stopped.state = DriveState::kStopped;
+  stopped.reason = "The camera is silent.";
+  const Hello hello{"homeward-agent/0.1.0", "Chair", "a1b2", homeward::testing::sample_map().camera, 0.35, 0.8};
+  return {hello,
+          Frame{7, 12, {0xFF, 0xD8, 0x00, 0xFF}},
+          driving,
+          stopped,
+          Stopped{"s1", 12},
+          MissionRefused{MissionId("m1"), {2, 9}, "Other features."}};
+}
+
+std::vector<ServerMessage> server_messages() {
+  MissionOrder mission;
+  mission.mission = MissionId("m1");
+  mission.order = {2, 9};
+  mission.map = MapId("house");
+  mission.revision = 4;
+  mission.feature_config_id = "hw1";
+  mission.valid_for_ms = 1500;
+  mission.speed_limit_mps = 0.6;
+  mission.label = "kitchen";
+  mission.path = {{PlaceId("p1"), ImageId("t/1.jpg"), {1, 2, 3}, true}, {PlaceId("p2"), ImageId("t/2.jpg"), {}, false}};
+  mission.final_image = ImageId("t/3.jpg");
+  mission.final_appearance = {9, 8};
+  mission.dock = true;
+  return {Welcome{"homeward-server/0.1.0", RobotId("r1"), 2, 200},
+          mission,
+          Permit{MissionId("m1"), {2, 10}, 1500},
+          StopOrder{"s1", 2, "pressed", "anna"},
+          BeliefReport{7, PlaceId("p1"), 0.9, false},
+          BeliefReport{8, std::nullopt, 0.0, true},
+          LinkError{"invalid_input", "'seq' is missing."}};
+}
+
+TEST(LinkMessages, ComeBackAsTheyWere) {
+  for (const AgentMessage& message : agent_messages()) {
+    const auto again = decode_agent_message(encode(message));
+    ASSERT_TRUE(again) << again.error().message << " at " << again.error().where;
+    EXPECT_EQ(again->index(), message.index());
+    EXPECT_EQ(to_json(*again), to_json(message));
+  }
+  for (const ServerMessage& message : server_messages()) {
+    const auto again = decode_server_message(encode(message));
+    ASSERT_TRUE(again) << again.error().message << " at " << again.error().where;
+    EXPECT_EQ(again->index(), message.index());
+    EXPECT_EQ(to_json(*again), to_json(message));
+  }
+}
+
+TEST(LinkMessages, KeepEveryFieldOfAMission) {
+  const auto decoded = decode_server_message(encode(server_messages()[1]));
+  const auto& mission = std::get<MissionOrder>(*decoded);
+  EXPECT_EQ(mission.order, (Order{2, 9}));
+  EXPECT_EQ(mission.path[0].appearance, (std::vector<std::uint8_t>{1, 2, 3}));
+  EXPECT_TRUE(mission.path[0].weak);
+  EXPECT_FALSE(mission.path[1].weak);
+  EXPECT_EQ(mission.final_appearance, (std::vector<std::uint8_t>{9, 8}));
+  EXPECT_EQ(mission.final_image.str(), "t/3.jpg");
+  EXPECT_TRUE(mission.dock);
+}
+
+TEST(LinkMessages, EpochsGoBeforeSequenceNumbers) {
+  EXPECT_LT((Order{1, 99}), (Order{2, 0}));
+  EXPECT_LT((Order{2, 0}), (Order{2, 1}));
+}
+
+json without_bytes(json message) {
+  message.erase("jpeg");
+  message.erase("path");
+  message.erase("final");
+  return message;
+}
+
+/// Every key at any depth of a message, as the JSON path that errors use.
+void collect_keys(const json& value, const json::json_pointer& at, std::vector<json::json_pointer>& keys) {
+  if (value.is_object()) {
+    for (const auto& [key, inner] : value.items()) {
+      keys.push_back(at / key);
+      collect_keys(inner, at / key, keys);
+    }
+  } else if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i) collect_keys(value[i], at / i, keys);
+  }
+}
+
+template <class Decode>
+void expect_every_field_to_be_checked(const json& message, const Decode& decode) {
+  std::vector<json::json_pointer> keys;
+  collect_keys(message, json::json_pointer(), keys);
+  ASSERT_GE(keys.size(), 3U);
+  for (const json::json_pointer& key : keys) {
+    json wrong = message;
+    wrong[key] = json::object({{"unexpected", true}});
+    const auto refused = decode(wrong);
+    ASSERT_FALSE(refused) << message["type"] << " took an object for " << key;
+    EXPECT_THAT(refused.error().where, StartsWith("message" + key.to_string()));
+
+    json missing = message;
+    missing[key.parent_pointer()].erase(key.back());
+    // A camera alone has keys that may be absent.
+    const auto read = decode(missing);
+    if (key.to_string().find("/camera/") != std::string::npos && read) continue;
+    ASSERT_FALSE(read) << message["type"] << " does without " << key;
+    EXPECT_THAT(read.error().where, HasSubstr(key.back()));
+  }
+  json unknown = message;
+  unknown["surprise"] = 1;
+  ASSERT_FALSE(decode(unknown));
+  EXPECT_EQ(decode(unknown).error().where, "message/surprise");
+}
+
+TEST(LinkMessages, NameTheFieldThatIsWrong) {
+  for (const AgentMessage& message : agent_messages()) {
+    expect_every_field_to_be_checked(to_json(message), agent_message_from_json);
+  }
+  for (const ServerMessage& message : server_messages()) {
+    expect_every_field_to_be_checked(to_json(message), server_message_from_json);
+  }
+}
+
+TEST(LinkMessages, RefuseNumbersThatAreNone) {
+  json status = to_json(agent_messages()[2]);
+  status["speed_mps"] = std::nan("");
+  const auto refused = decode_agent_message(json::to_cbor(status));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().where, "message/speed_mps");
+}
+
+TEST(LinkMessages, RefuseTextThatIsNotUtf8) {
+  for (const char* wrong : {"\xFF", "caf\xE9", "\xC0\x80", "\xED\xA0\x80", "\xF5\x80\x80\x80", "\xE2\x82"}) {
+    json stopped = to_json(agent_messages()[4]);
+    stopped["stop_id"] = wrong;
+    const auto refused = decode_agent_message(json::to_cbor(stopped));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().where, "message/stop_id");
+    json unknown = to_json(agent_messages()[4]);
+    unknown[wrong] = 1;
+    EXPECT_NO_THROW(json(decode_agent_message(json::to_cbor(unknown)).error().message).dump());
+  }
+  json stopped = to_json(agent_messages()[4]);
+  stopped["stop_id"] = "caf\xC3\xA9 \xE2\x82\xAC \xF0\x9F\xA6\xBD";
+  EXPECT_TRUE(decode_agent_message(json::to_cbor(stopped)));
+}
+
+TEST(LinkMessages, RefuseTheOtherDirection) {
+  EXPECT_EQ(decode_server_message(encode(agent_messages()[0])).error().where, "message/type");
+  EXPECT_EQ(decode_agent_message(encode(server_messages()[0])).error().where, "message/type");
+}
+
+TEST(LinkMessages, RefuseAnotherVersion) {
+  json hello = to_json(agent_messages()[0]);
+  hello["v"] = 2;
+  const auto refused = agent_message_from_json(hello);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kUnsupportedFormat);
+  EXPECT_EQ(refused.error().where, "message/v");
+}
+
+TEST(LinkMessages, RefuseBytesThatAreNoMessage) {
+  EXPECT_FALSE(decode_agent_message({}));
+  EXPECT_FALSE(decode_agent_message(std::vector<std::uint8_t>{0x05}));      // a number
+  EXPECT_FALSE(decode_agent_message(std::vector<std::uint8_t>(64, 0x81)));  // lists in lists, cut off
+  EXPECT_FALSE(decode_agent_message(std::vector<std::uint8_t>{0x5B, 0, 0, 0, 9, 0, 0, 0, 0}));  // bytes that never come
+  std::vector<std::uint8_t> longer = encode(agent_messages()[4]);
+  longer.push_back(0);
+  EXPECT_FALSE(decode_agent_message(longer));
+  EXPECT_EQ(decode_agent_message(std::vector<std::uint8_t>(kMaxLinkMessageBytes + 1)).error().code,
+            ErrorCode::kTooLarge);
+}
+
+TEST(LinkMessages, SurviveDeepNesting) {
+  EXPECT_FALSE(decode_agent_message(std::vector<std::uint8_t>(2'000'000, 0x81)));
+}
+
+TEST(LinkMessages, SurviveChangedBytes) {
+  std::mt19937 random(20);
+  std::vector<std::vector<std::uint8_t>> originals;
+  for (const AgentMessage& message : agent_messages()) originals.push_back(encode(message));
+  for (const ServerMessage& message : server_messages()) originals.push_back(encode(message));
+  int refused = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    std::vector<std::uint8_t> bytes = originals[random() % originals.size()];
+    const std::size_t changes = 1 + random() % 4;
+    for (std::size_t k = 0; k < changes; ++k) bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+    if (random() % 8 == 0) bytes.resize(random() % bytes.size());
+    const auto agent = decode_agent_message(bytes);
+    const auto server = decode_server_message(bytes);
+    EXPECT_TRUE(!agent || decode_agent_message(encode(*agent)));
+    EXPECT_TRUE(!server || decode_server_message(encode(*server)));
+    // What was read can be told to a browser, and so can what was wrong.
+    if (agent) {
+      EXPECT_NO_THROW(without_bytes(to_json(*agent)).dump());
+    } else {
+      EXPECT_NO_THROW(json(agent.error().message + agent.error().where).dump());
+    }
+    if (!agent && !server) {
+      ++refused;
+      EXPECT_FALSE(agent.error().message.empty());
+    }
+  }
+  EXPECT_GT(refused, 10'000);
+  EXPECT_LT(refused, 20'000) << "some changes only alter a text";
+}
+
+}  // namespace
+}  // namespace homeward::wire
