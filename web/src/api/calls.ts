@@ -1,6 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 import { problemFrom, unreachable, type ProblemError } from './problem';
-import type { Edit, Graph, Job, Lease, MapInfo, Mission, Robot, Role, TokenInfo, Tour, User } from './types';
+import type {
+  Edit,
+  Graph,
+  Job,
+  Lease,
+  LoggedEdit,
+  MapInfo,
+  Mission,
+  Robot,
+  Role,
+  TokenInfo,
+  Tour,
+  User,
+} from './types';
 
 const kRoot = '/api/v1';
 const kTimeoutMs = 20_000;
@@ -56,7 +69,9 @@ async function call<T>(path: string, options: Options = {}): Promise<T> {
 
 /** An identifier for one attempt; crypto.randomUUID exists only on secure origins, getRandomValues everywhere. */
 export function randomId(): string {
-  return [...crypto.getRandomValues(new Uint8Array(16))].map((byte) => byte.toString(16).padStart(2, '0')).join('');
+  return [...crypto.getRandomValues(new Uint8Array(16))]
+    .map((byte) => byte.toString(16).padStart(2, '0'))
+    .join('');
 }
 
 const id = encodeURIComponent;
@@ -65,27 +80,33 @@ const id = encodeURIComponent;
 export const setupNeeded = () => call<{ needed: boolean }>('/setup');
 export const setUp = (body: { token: string; name: string; password: string }) =>
   call<unknown>('/setup', { method: 'POST', body });
-export const logIn = (body: { name: string; password: string }) => call<{ user: User }>('/login', { method: 'POST', body });
-export const logOut = () => call<unknown>('/logout', { method: 'POST', body: {} });
+export const logIn = (body: { name: string; password: string }) =>
+  call<{ user: User }>('/login', { method: 'POST', body });
+export const logOut = () => call<unknown>('/logout', { method: 'POST' });
 export const whoAmI = () => call<{ user: User }>('/me');
 export const users = () => call<{ users: User[] }>('/users');
-export const addUser = (body: { name: string; password: string; role: Role }) => call<unknown>('/users', { method: 'POST', body });
+export const addUser = (body: { name: string; password: string; role: Role }) =>
+  call<unknown>('/users', { method: 'POST', body });
 export const tokens = () => call<{ tokens: TokenInfo[] }>('/tokens');
 export const addToken = (body: { name: string; role: Role; robot?: string }) =>
   call<{ id: string; token: string }>('/tokens', { method: 'POST', body });
 export const removeToken = (token: string) => call<unknown>(`/tokens/${id(token)}`, { method: 'DELETE' });
 
 // Robots
-export const addRobot = (body: { name: string }) => call<{ id: string; name: string; token: string }>('/robots', { method: 'POST', body });
-export const assignMap = (robot: string, map: string) => call<unknown>(`/robots/${id(robot)}/map`, { method: 'PUT', body: { map } });
+export const addRobot = (body: { name: string }) =>
+  call<{ id: string; name: string; token: string }>('/robots', { method: 'POST', body });
+export const assignMap = (robot: string, map: string | null) =>
+  call<unknown>(`/robots/${id(robot)}/map`, { method: 'PUT', body: { map } });
 export const takeLease = (robot: string, take_over: boolean) =>
   call<{ lease: Lease }>(`/robots/${id(robot)}/lease`, { method: 'POST', body: { take_over } });
 export const keepLease = (robot: string, lease_id: string) =>
   call<{ lease: Lease }>(`/robots/${id(robot)}/lease`, { method: 'PUT', body: { lease_id } });
 export const releaseLease = (robot: string, lease_id: string) =>
   call<unknown>(`/robots/${id(robot)}/lease`, { method: 'DELETE', body: { lease_id } });
-export const startMission = (robot: string, body: { lease_id: string; destination?: string; place?: string }) =>
-  call<Mission>(`/robots/${id(robot)}/missions`, { method: 'POST', body });
+export const startMission = (
+  robot: string,
+  body: { lease_id: string; destination?: string; place?: string },
+) => call<Mission>(`/robots/${id(robot)}/missions`, { method: 'POST', body });
 /** `key` stays the same over the repetitions of one press, so that they count once. */
 export const stopRobot = (robot: string, key: string) =>
   call<{ stop_id: string }>(`/robots/${id(robot)}/stop`, {
@@ -100,24 +121,41 @@ export const frameUrl = (robot: string, n: number) => `${kRoot}/robots/${id(robo
 // Maps
 export const graph = (map: string) => call<Graph>(`/maps/${id(map)}/graph`);
 export const edit = (map: string, revision: number, edits: Edit[]) =>
-  call<{ revision: number }>(`/maps/${id(map)}/edits`, { method: 'POST', body: { edits }, headers: { 'If-Match': `"r${revision}"` } });
+  call<{ revision: number }>(`/maps/${id(map)}/edits`, {
+    method: 'POST',
+    body: { edits },
+    headers: { 'If-Match': `"r${revision}"` },
+  });
 export const undo = (map: string, revision: number) =>
-  call<{ revision: number }>(`/maps/${id(map)}/undo`, { method: 'POST', body: {}, headers: { 'If-Match': `"r${revision}"` } });
+  call<{ revision: number }>(`/maps/${id(map)}/undo`, {
+    method: 'POST',
+    headers: { 'If-Match': `"r${revision}"` },
+  });
 export const placeThumbnailUrl = (map: string, place: string, revision: number) =>
   `${kRoot}/maps/${id(map)}/places/${id(place)}/thumbnail?r=${revision}`;
 /** `image` is a picture's lasting id, "tour/file". */
 export const imageThumbnailUrl = (map: string, image: string) =>
   `${kRoot}/maps/${id(map)}/images/${image.split('/').map(id).join('/')}/thumbnail`;
 export const exportUrl = (map: string) => `${kRoot}/maps/${id(map)}/export`;
-export const buildMap = (body: { name: string; tours: string[] }) => call<{ map: MapInfo; job: Job }>('/maps', { method: 'POST', body });
+export const buildMap = (body: { name: string; tours: string[] }) =>
+  call<{ map: MapInfo; job: Job }>('/maps', { method: 'POST', body });
+export const maps = () => call<{ maps: MapInfo[] }>('/maps');
+export const history = (map: string) => call<{ edits: LoggedEdit[] }>(`/maps/${id(map)}/history`);
 export const removeMap = (map: string) => call<unknown>(`/maps/${id(map)}`, { method: 'DELETE' });
-export const cancelJob = (job: string) => call<unknown>(`/jobs/${id(job)}/cancel`, { method: 'POST', body: {} });
+export const cancelJob = (job: string) => call<unknown>(`/jobs/${id(job)}/cancel`, { method: 'POST' });
 
 // Tours
 export const tours = () => call<{ tours: Tour[] }>('/tours');
 export const tour = (tourId: string) => call<Tour>(`/tours/${id(tourId)}`);
-export const addTour = (body: { name: string; camera: unknown }) => call<Tour>('/tours', { method: 'POST', body });
-export const putImage = (tourId: string, n: number, raw: Blob, headers: Record<string, string>, signal: AbortSignal) =>
+export const addTour = (body: { name: string; camera: unknown }) =>
+  call<Tour>('/tours', { method: 'POST', body });
+export const putImage = (
+  tourId: string,
+  n: number,
+  raw: Blob,
+  headers: Record<string, string>,
+  signal: AbortSignal,
+) =>
   call<unknown>(`/tours/${id(tourId)}/images/${n}`, {
     method: 'PUT',
     raw,
@@ -126,4 +164,5 @@ export const putImage = (tourId: string, n: number, raw: Blob, headers: Record<s
   });
 export const putMarks = (tourId: string, marks: { image: string; label: string }[]) =>
   call<unknown>(`/tours/${id(tourId)}/marks`, { method: 'PUT', body: { marks } });
-export const completeTour = (tourId: string) => call<unknown>(`/tours/${id(tourId)}/complete`, { method: 'POST', body: {} });
+export const completeTour = (tourId: string) =>
+  call<unknown>(`/tours/${id(tourId)}/complete`, { method: 'POST' });

@@ -6,8 +6,8 @@ export type ConnectionState = 'closed' | 'connecting' | 'live' | 'offline';
 
 /** The part of WebSocket that is used, so that tests can hand in their own. */
 export interface SocketLike {
-  onmessage: ((event: { data: unknown }) => void) | null;
-  onclose: ((event: { code: number }) => void) | null;
+  onmessage: ((event: MessageEvent<unknown>) => void) | null;
+  onclose: ((event: CloseEvent) => void) | null;
   close(): void;
 }
 
@@ -31,7 +31,7 @@ const kLongestRetryMs = 8000;
 
 /**
  * The one connection for events: opened with the first subscriber, closed with the last, opened again after every loss
- * with growing pauses. A missed change drops the connection, because a new one begins with a full snapshot.
+ * with growing pauses. What cannot be read drops the connection, because a new one begins with a full snapshot.
  */
 export class EventSocket {
   private readonly listeners_ = new Set<Listener>();
@@ -116,7 +116,9 @@ export class EventSocket {
     const pause_ms = Math.min(kLongestRetryMs, kFirstRetryMs * 2 ** this.failures_);
     this.failures_ += 1;
     this.change({ state: 'offline' });
-    this.cancelRetry_ = this.options_.after(pause_ms * (0.75 + 0.5 * this.options_.random()), () => this.connect());
+    this.cancelRetry_ = this.options_.after(pause_ms * (0.75 + 0.5 * this.options_.random()), () =>
+      this.connect(),
+    );
   }
 
   private change(part: Partial<EventSocketView>): void {

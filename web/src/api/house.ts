@@ -103,9 +103,14 @@ export function wantGraph(map: MapInfo, again = false): void {
   if (!again && entry && entry.wanted_revision >= map.revision) return;
   setGraph(map.id, { graph: entry?.graph ?? null, error: null, wanted_revision: map.revision });
   calls.graph(map.id).then(
-    (graph) => setGraph(map.id, { graph, error: null, wanted_revision: Math.max(graph.revision, map.revision) }),
+    (graph) =>
+      setGraph(map.id, { graph, error: null, wanted_revision: Math.max(graph.revision, map.revision) }),
     (thrown: unknown) =>
-      setGraph(map.id, { graph: entry?.graph ?? null, error: asProblem(thrown), wanted_revision: map.revision }),
+      setGraph(map.id, {
+        graph: entry?.graph ?? null,
+        error: asProblem(thrown),
+        wanted_revision: map.revision,
+      }),
   );
 }
 

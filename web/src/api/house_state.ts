@@ -11,7 +11,10 @@ export interface HouseState {
   readonly heard_ms: Readonly<Record<string, number>>;
 }
 
-/** What an event makes of the state; 'gap' when a change was missed and the snapshot must be asked for again. */
+/**
+ * What an event makes of the state; 'gap' when the snapshot must be asked for. Each change tells its thing whole, and a slow
+ * reader gets only the newest of each, so numbers may be left out; what is older than the snapshot is in it already.
+ */
 export function applyEvent(state: HouseState | null, event: HouseEvent, now_ms: number): HouseState | 'gap' {
   if (event.type === 'snapshot') {
     return {
@@ -23,7 +26,8 @@ export function applyEvent(state: HouseState | null, event: HouseEvent, now_ms: 
       heard_ms: Object.fromEntries(event.robots.map((robot) => [robot.id, now_ms])),
     };
   }
-  if (state === null || event.seq !== state.seq + 1) return 'gap';
+  if (state === null) return 'gap';
+  if (event.seq <= state.seq) return state;
   const next = { ...state, seq: event.seq };
   switch (event.type) {
     case 'robot':
@@ -46,7 +50,8 @@ export function applyEvent(state: HouseState | null, event: HouseEvent, now_ms: 
 function withMission(robot: Robot, mission: NonNullable<Robot['mission']>): Robot {
   if (robot.id !== mission.robot) return robot;
   // A late word about an earlier mission must not replace the present one.
-  if (robot.mission && robot.mission.id !== mission.id && robot.mission.created_us > mission.created_us) return robot;
+  if (robot.mission && robot.mission.id !== mission.id && robot.mission.created_us > mission.created_us)
+    return robot;
   return { ...robot, mission };
 }
 

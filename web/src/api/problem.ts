@@ -17,8 +17,9 @@ export class ProblemError extends Error {
 /** Sentences for the codes that people meet; every other code shows the server's own words. */
 const kSentences: Readonly<Record<string, string>> = {
   not_signed_in: 'Please sign in again.',
-  unauthorised: 'Please sign in again.',
-  stale_revision: 'Somebody else changed the map in the meantime. It has been loaded again: please look and repeat.',
+  unauthenticated: 'Please sign in again.',
+  stale_revision:
+    'Somebody else changed the map in the meantime. It has been loaded again: please look and repeat.',
 };
 
 function isRecord(value: unknown): value is Record<string, unknown> {
@@ -27,15 +28,14 @@ function isRecord(value: unknown): value is Record<string, unknown> {
 
 /** Whether `value` has the members of a problem document (RFC 9457) that we read. */
 export function isProblem(value: unknown): value is Problem {
-  return isRecord(value) && typeof value.status === 'number' && typeof value.title === 'string';
+  return isRecord(value) && typeof value.code === 'string' && typeof value.title === 'string';
 }
 
 /** A refused answer as an error; an answer that is no problem document is described by its status. */
 export function problemFrom(status: number, body: unknown): ProblemError {
   if (isProblem(body)) {
-    const code = body.code ?? `http_${body.status}`;
-    const said = body.detail ?? body.title;
-    return new ProblemError(code, status, kSentences[code] ?? sentence(said), body.where);
+    const said = body.detail || body.title;
+    return new ProblemError(body.code, status, kSentences[body.code] ?? sentence(said), body.where);
   }
   if (status === 401) return new ProblemError('not_signed_in', status, 'Please sign in again.');
   if (status === 403) return new ProblemError('forbidden', status, 'Your account may not do this.');
@@ -51,7 +51,11 @@ export function unreachable(): ProblemError {
 export function asProblem(thrown: unknown): ProblemError {
   if (thrown instanceof ProblemError) return thrown;
   if (thrown instanceof TypeError) return unreachable();
-  return new ProblemError('unexpected', 0, thrown instanceof Error ? sentence(thrown.message) : 'Something unexpected happened.');
+  return new ProblemError(
+    'unexpected',
+    0,
+    thrown instanceof Error ? sentence(thrown.message) : 'Something unexpected happened.',
+  );
 }
 
 /** First letter large, a full stop at the end: server texts become sentences. */

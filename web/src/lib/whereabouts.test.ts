@@ -11,7 +11,7 @@ function drawn(line: string): Graph {
     version: 1,
     map: 'm',
     revision: 1,
-    places: names.map((id, i) => ({ id, label: null, prototype: id, members: [], features: 0, x: i, y: 0 })),
+    places: names.map((id, i) => ({ id, label: '', prototype: id, members: [], features: 0, x: i, y: 0 })),
     edges: names.slice(1).map((to, i) => ({
       from: names[i] ?? '',
       to,
@@ -44,7 +44,10 @@ describe('placeInWords', () => {
   });
 
   it('needs no article where a person would use none', () => {
-    const graph = { ...house, places: house.places.map((p) => (p.id === 'b' ? { ...p, label: "Anna's room" } : p)) };
+    const graph = {
+      ...house,
+      places: house.places.map((p) => (p.id === 'b' ? { ...p, label: "Anna's room" } : p)),
+    };
     expect(placeInWords(graph, 'b')).toBe("in Anna's room");
     expect(placeTitle(graph, 'hall')).toBe('Hall');
     expect(placeTitle(drawn('a-b'), 'a')).toBe('a');

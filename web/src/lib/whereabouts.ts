@@ -18,15 +18,19 @@ const kFairShare = 0.5;
 export function whereabouts(belief: Belief | null, graph: Graph | null): Whereabouts | null {
   if (!belief) return null;
   if (belief.lost) return { sureness: 'lost', share: 0, where: null };
-  const near = new Set([belief.place]);
+  const { place } = belief;
+  if (place === null) return { sureness: 'unsure', share: 0, where: null };
+  const near = new Set([place]);
   for (const edge of graph?.edges ?? []) {
-    if (edge.from === belief.place) near.add(edge.to);
-    if (edge.to === belief.place) near.add(edge.from);
+    if (edge.from === place) near.add(edge.to);
+    if (edge.to === place) near.add(edge.from);
   }
-  const of_top = belief.top.filter((one) => near.has(one.place)).reduce((sum, one) => sum + one.probability, 0);
-  const share = Math.min(1, Math.max(belief.probability, of_top));
+  const of_top = belief.top
+    .filter((one) => near.has(one.place))
+    .reduce((sum, one) => sum + one.probability, 0);
+  const share = Math.min(1, Math.max(belief.probability ?? 0, of_top));
   const sureness = share >= kSureShare ? 'sure' : share >= kFairShare ? 'fairly sure' : 'unsure';
-  return { sureness, share, where: graph ? placeInWords(graph, belief.place) : null };
+  return { sureness, share, where: graph ? placeInWords(graph, place) : null };
 }
 
 /** "in the kitchen" for a place with a name, "near the kitchen" for one a few steps off, null when nothing is near. */

@@ -8,7 +8,10 @@ import { isActive, journeyOf, type Command, type Target } from './journey';
 
 /** What this page asked of each robot, and the leases that it holds. */
 export const commands = signal<Readonly<Record<string, Command>>>({});
-const leases = new Map<string, { lease: Lease; timer: ReturnType<typeof setTimeout>; idle_since_ms: number | null }>();
+const leases = new Map<
+  string,
+  { lease: Lease; timer: ReturnType<typeof setTimeout>; idle_since_ms: number | null }
+>();
 
 // A lease is given back this long after the robot has nothing left to do, so that others need not take it over.
 const kIdleBeforeReleaseMs = 15_000;
@@ -35,7 +38,8 @@ export async function send(robot: string, target: Target, take_over = false): Pr
 }
 
 async function start(robot: string, lease_id: string, target: Target) {
-  const what = target.destination === undefined ? { place: target.place } : { destination: target.destination };
+  const what =
+    target.destination === undefined ? { place: target.place } : { destination: target.destination };
   return calls.startMission(robot, { lease_id, ...what });
 }
 

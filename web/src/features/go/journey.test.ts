@@ -36,7 +36,10 @@ const target = { destination: 'bedroom', label: 'Bedroom' };
 
 describe('journeyOf', () => {
   it('shows a new command before anything else', () => {
-    expect(journeyOf(robot, { kind: 'asking', target })).toMatchObject({ phase: 'asking', destination: 'bedroom' });
+    expect(journeyOf(robot, { kind: 'asking', target })).toMatchObject({
+      phase: 'asking',
+      destination: 'bedroom',
+    });
     expect(journeyOf(robot, { kind: 'refused', target, reason: 'No route.' })).toMatchObject({
       phase: 'refused',
       reason: 'No route.',
@@ -44,7 +47,13 @@ describe('journeyOf', () => {
   });
 
   it('shows the sent mission until the robot tells of it, then what the robot tells', () => {
-    const sent = { ...mission, id: 'two', destination: 'bedroom', state: 'accepted' as const, created_us: 200 };
+    const sent = {
+      ...mission,
+      id: 'two',
+      destination: 'bedroom',
+      state: 'accepted' as const,
+      created_us: 200,
+    };
     expect(journeyOf(robot, { kind: 'sent', target, mission: sent })).toMatchObject({ phase: 'accepted' });
     const told = { ...robot, mission: { ...sent, state: 'arrived' as const } };
     expect(journeyOf(told, { kind: 'sent', target, mission: sent })).toMatchObject({ phase: 'arrived' });

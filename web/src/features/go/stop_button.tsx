@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+import { useEffect } from 'preact/hooks';
+import { connection, now_ms } from '../../api/house';
+import { chosen, robots } from '../../lib/chosen';
+import { stop, stopState } from './stop';
+import { stopWords } from './stop_words';
+
+function stopChosen(): void {
+  const robot = chosen.peek();
+  if (robot) void stop(robot.id);
+}
+
+/** STOP: on every page, by press or by Escape from anywhere, also out of a field. */
+export function StopButton() {
+  useEffect(() => {
+    const onKey = (event: KeyboardEvent) => {
+      if (event.key !== 'Escape' || event.repeat) return;
+      event.preventDefault();
+      stopChosen();
+    };
+    addEventListener('keydown', onKey, { capture: true });
+    return () => removeEventListener('keydown', onKey, { capture: true });
+  }, []);
+
+  const robot = chosen.value;
+  if (!robot) return null;
+  const words = stopWords(stopState.value, robot, connection.value.house?.heard_ms[robot.id], now_ms.value);
+  return (
+    <section class="stop-dock" aria-label="Stop">
+      <p class={words?.bad ? 'stop-word bad' : 'stop-word'} role="alert" data-testid="stop-word">
+        {words?.text}
+      </p>
+      <button
+        type="button"
+        class="stop"
+        onClick={stopChosen}
+        aria-label={`STOP ${robot.name}`}
+        aria-keyshortcuts="Escape"
+      >
+        STOP
+        <small>{robots.value.length > 1 ? robot.name : 'or press Esc'}</small>
+      </button>
+    </section>
+  );
+}

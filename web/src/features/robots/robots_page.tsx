@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: Apache-2.0
+
+export function RobotsPage() {
+  return <h1>robots</h1>;
+}

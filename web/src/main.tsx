@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+import '@fontsource/atkinson-hyperlegible/latin-400.css';
+import '@fontsource/atkinson-hyperlegible/latin-700.css';
+import '@fontsource/atkinson-hyperlegible/latin-ext-400.css';
+import '@fontsource/atkinson-hyperlegible/latin-ext-700.css';
+import { render } from 'preact';
+import { startHouse } from './api/house';
+import { App } from './app';
+import './styles/tokens.css';
+import './styles/base.css';
+import './styles/parts.css';
+import './styles/shell.css';
+import './styles/go.css';
+import './styles/map.css';
+import './styles/pages.css';
+
+startHouse();
+const root = document.getElementById('app');
+if (root) render(<App />, root);
