@@ -10,6 +10,7 @@ void register_simulate(CLI::App& program) {
   simulate->require_subcommand(1);
   register_simulate_tour(*simulate);
   register_simulate_grid(*simulate);
+  register_simulate_run(*simulate);
 }
 
 }  // namespace homeward::cli

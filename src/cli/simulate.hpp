@@ -15,6 +15,7 @@ namespace homeward::cli {
 // The parts of `homeward simulate`, one file each.
 void register_simulate_tour(CLI::App& simulate);
 void register_simulate_grid(CLI::App& simulate);
+void register_simulate_run(CLI::App& simulate);
 
 /// What tours and grids have in common on the command line.
 struct StageOptions {

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/drivers/simulated_robot.hpp"
+
+#include <cmath>
+#include <numbers>
+
+
+namespace homeward::agent {
+
+Result<SimulatedRobot> SimulatedRobot::create(sim::LitWorld& world, const SimulatedRobotConfig& config, const Pose2& start) {
+  auto camera = camera::Camera::create(config.camera);
+  if (!camera) return pass_on(camera);
+  return SimulatedRobot(world, config, start, std::move(*camera));
+}
+
+SimulatedRobot::SimulatedRobot(sim::LitWorld& world, const SimulatedRobotConfig& config, const Pose2& start,
+                               std::shared_ptr<const camera::Camera> camera)
+    : world_(&world),
+      config_(config),
+      renderer_(world, config.light, std::move(camera)),
+      obstacles_(world.world()),
+      walkers_(world.world(), config.people, config.seed + 7, start),
+      vehicle_(config.profile, start, config.seed + 13) {}
+
+void SimulatedRobot::advance(double seconds) {
+  constexpr double kStep_s = 0.02;
+  const int steps = std::max(1, static_cast<int>(std::lround(seconds / kStep_s)));
+  for (int i = 0; i < steps; ++i) {
+    walkers_.advance(seconds / steps, vehicle_.pose());
+    vehicle_.advance(seconds / steps, command_, obstacles_, walkers_.people());
+  }
+  seconds_ += seconds;
+}
+
+Image SimulatedRobot::picture() {
+  return renderer_.render(vehicle_.pose(), walkers_.people(), config_.seed * 7'919 + ++readings_);
+}
+
+Scan SimulatedRobot::sweep() {
+  Scan scan;
+  scan.ranges_m = sim::scan(world_->rays(), vehicle_.pose(), walkers_.people(), config_.laser,
+                            config_.seed * 104'729 + ++readings_);
+  scan.angle_step_rad = 2.0 * std::numbers::pi / config_.laser.rays;
+  scan.range_max_m = config_.laser.range_max_m;
+  return scan;
+}
+
+Body body_of(const sim::RobotProfile& profile) {
+  Body body;
+  body.radius_m = profile.radius_m;
+  body.disc_x_m = profile.disc_x_m;
+  body.max_speed_mps = profile.max_speed_mps;
+  body.max_turn_radps = profile.max_turn_radps;
+  body.deceleration_mps2 = profile.deceleration_mps2;
+  return body;
+}
+
+}  // namespace homeward::agent

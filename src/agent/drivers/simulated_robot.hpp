@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "agent/driving/body.hpp"
+#include "agent/driving/scan.hpp"
+#include "camera/camera_config.hpp"
+#include "core/image.hpp"
+#include "core/result.hpp"
+#include "sim/laser.hpp"
+#include "sim/motion.hpp"
+#include "sim/people.hpp"
+#include "sim/renderer.hpp"
+
+namespace homeward::agent {
+
+struct SimulatedRobotConfig {
+  camera::CameraConfig camera;
+  sim::LightPreset light = sim::LightPreset::kDay;
+  sim::RobotProfile profile = sim::disc_profile();
+  sim::LaserConfig laser;
+  int people = 0;
+  std::uint64_t seed = 1;
+};
+
+/// A robot in a simulated world: time passes when `advance` says so. Not for use from several threads.
+class SimulatedRobot {
+ public:
+  /// `world` must outlive the robot; its light is computed on first use. Errors: kInvalidInput (camera).
+  static Result<SimulatedRobot> create(sim::LitWorld& world, const SimulatedRobotConfig& config, const Pose2& start);
+
+  void command(const Motion& motion) { command_ = {motion.speed_mps, motion.turn_radps}; }
+  void advance(double seconds);
+  [[nodiscard]] Image picture();
+  [[nodiscard]] Scan sweep();
+
+  [[nodiscard]] const sim::Vehicle& vehicle() const { return vehicle_; }
+  [[nodiscard]] const std::vector<sim::Person>& people() const { return walkers_.people(); }
+  [[nodiscard]] double seconds() const { return seconds_; }
+  void carry_to(const Pose2& pose) { vehicle_.carry_to(pose); }
+  void reset_counts() { vehicle_.reset_counts(); }
+
+ private:
+  SimulatedRobot(sim::LitWorld& world, const SimulatedRobotConfig& config, const Pose2& start,
+                 std::shared_ptr<const camera::Camera> camera);
+
+  sim::LitWorld* world_;
+  SimulatedRobotConfig config_;
+  sim::Renderer renderer_;
+  sim::Obstacles obstacles_;
+  sim::Walkers walkers_;
+  sim::Vehicle vehicle_;
+  sim::MotionCommand command_;
+  double seconds_ = 0.0;
+  std::uint64_t readings_ = 0;
+};
+
+/// The body of a simulated robot as the agent knows it.
+Body body_of(const sim::RobotProfile& profile);
+
+}  // namespace homeward::agent

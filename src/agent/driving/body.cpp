@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/driving/body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace homeward::agent {
+namespace {
+
+constexpr double kMargin_m = 0.04;    // kept between body and things
+constexpr double kReaction_s = 0.25;  // from the sweep to the wheels
+constexpr double kStep_s = 0.1;
+
+/// The points after the robot moved along an arc for a while, in its new frame.
+std::vector<Eigen::Vector2d> seen_after(std::span<const Eigen::Vector2d> points_m, const Motion& motion, double seconds) {
+  const double turned_rad = motion.turn_radps * seconds;
+  const double length_m = motion.speed_mps * seconds;
+  const double half_rad = 0.5 * turned_rad;
+  const double chord_m = std::abs(half_rad) < 1e-9 ? length_m : length_m * std::sin(half_rad) / half_rad;
+  const Eigen::Vector2d moved_m(chord_m * std::cos(half_rad), chord_m * std::sin(half_rad));
+  const double c = std::cos(turned_rad);
+  const double s = std::sin(turned_rad);
+  std::vector<Eigen::Vector2d> result;
+  result.reserve(points_m.size());
+  for (const Eigen::Vector2d& point : points_m) {
+    const Eigen::Vector2d d = point - moved_m;
+    result.emplace_back(c * d.x() + s * d.y(), -s * d.x() + c * d.y());
+  }
+  return result;
+}
+
+bool is_safe(const Motion& motion, const Body& body, std::span<const Eigen::Vector2d> points_m, double now_m) {
+  const double horizon_s = kReaction_s + std::abs(motion.speed_mps) / body.deceleration_mps2;
+  for (double t_s = kStep_s; t_s < horizon_s + kStep_s; t_s += kStep_s) {
+    const double then_m = clearance_m(body, seen_after(points_m, motion, std::min(t_s, horizon_s)));
+    // Already too close: leaving is fine, coming nearer is not.
+    if (then_m < kMargin_m && then_m < now_m - 1e-4) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> hit_points(const Scan& scan) {
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(scan.ranges_m.size());
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const auto range_m = static_cast<double>(scan.ranges_m[i]);
+    if (!std::isfinite(range_m) || range_m <= 0.0 || range_m >= scan.range_max_m) continue;
+    const double angle_rad = scan.angle_min_rad + static_cast<double>(i) * scan.angle_step_rad;
+    points.emplace_back(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
+  }
+  return points;
+}
+
+double clearance_m(const Body& body, std::span<const Eigen::Vector2d> points_m) {
+  double nearest_m = 100.0;
+  for (const double x_m : body.disc_x_m) {
+    for (const Eigen::Vector2d& point : points_m) {
+      nearest_m = std::min(nearest_m, (point - Eigen::Vector2d(x_m, 0.0)).norm() - body.radius_m);
+    }
+  }
+  return nearest_m;
+}
+
+Motion made_safe(const Motion& wanted, const Body& body, std::span<const Eigen::Vector2d> points_m) {
+  // Far points cannot matter within one braking distance.
+  constexpr double kNear_m = 2.5;
+  std::vector<Eigen::Vector2d> near;
+  for (const Eigen::Vector2d& point : points_m) {
+    if (point.norm() < kNear_m) near.push_back(point);
+  }
+  const double now_m = clearance_m(body, near);
+  Motion motion = wanted;
+  motion.speed_mps = std::clamp(motion.speed_mps, -0.2, body.max_speed_mps);
+  motion.turn_radps = std::clamp(motion.turn_radps, -body.max_turn_radps, body.max_turn_radps);
+  // Closeness limits speed even beside things: 1 m/s for each metre of room, but creeping is always allowed.
+  constexpr double kCreep_mps = 0.12;
+  const double closeness_mps = std::max(kCreep_mps, 0.1 + 1.2 * std::max(0.0, now_m));
+  motion.speed_mps = std::min(motion.speed_mps, closeness_mps);
+  for (const double share : {1.0, 0.75, 0.5, 0.25}) {
+    const Motion slower{motion.speed_mps * share, motion.turn_radps * (share < 1.0 ? std::max(share, 0.5) : 1.0)};
+    if (is_safe(slower, body, near, now_m)) return slower;
+  }
+  const Motion turning{0.0, motion.turn_radps};
+  if (is_safe(turning, body, near, now_m)) return turning;
+  return {};
+}
+
+}  // namespace homeward::agent

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "agent/driving/scan.hpp"
+
+namespace homeward::agent {
+
+/// A robot's body as discs of one radius along its x axis, and how fast it may move.
+struct Body {
+  double radius_m = 0.35;
+  std::vector<double> disc_x_m = {0.0};
+  double max_speed_mps = 0.8;
+  double max_turn_radps = 1.2;
+  double deceleration_mps2 = 1.0;
+};
+
+/// Speed forward and turn counter-clockwise.
+struct Motion {
+  double speed_mps = 0.0;
+  double turn_radps = 0.0;
+};
+
+/// From the body's outline to the nearest point, metres; negative inside. Far when there is no point.
+double clearance_m(const Body& body, std::span<const Eigen::Vector2d> points_m);
+
+/// The wanted motion, slowed or stopped so that the body could still brake before touching any point: range sensors have
+/// the last word. What only turns a body away from contact stays allowed.
+Motion made_safe(const Motion& wanted, const Body& body, std::span<const Eigen::Vector2d> points_m);
+
+}  // namespace homeward::agent

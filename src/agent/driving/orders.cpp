@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/driving/orders.hpp"
+
+#include <algorithm>
+
+#include "wire/appearance_blob.hpp"
+
+namespace homeward::agent {
+namespace {
+
+/// Obeys one message after the other.
+struct Clerk {
+  DrivingState& state;
+  const DrivingConfig& config;
+  Milliseconds now_ms;
+  Outputs& outputs;
+
+  void operator()(const wire::Welcome& welcome) const {
+    // A new connection: nothing of an older epoch moves the robot any more.
+    state.least_epoch = std::max(state.least_epoch, welcome.epoch);
+    if (state.drive == wire::DriveState::kDriving && state.newest.epoch < welcome.epoch) {
+      end_mission(state, wire::DriveState::kStopped, "The connection to the house was made anew.");
+    }
+  }
+
+  void operator()(const wire::MissionOrder& order) const {
+    if (order.order <= state.newest || order.order.epoch < state.least_epoch) return;
+    state.newest = order.order;
+    auto mission = decode_mission(order, config);
+    if (!mission) {
+      if (state.drive == wire::DriveState::kDriving) {
+        end_mission(state, wire::DriveState::kStopped, "Another mission was sent that cannot be driven.");
+      }
+      outputs.messages.emplace_back(wire::MissionRefused{order.mission, order.order, mission.error().message});
+      return;
+    }
+    state.mission = std::make_shared<const Mission>(std::move(*mission));
+    state.permit_ends_ms = now_ms + order.valid_for_ms;
+    state.drive = wire::DriveState::kDriving;
+    state.reason.clear();
+    state.follow = {};
+    state.seen = {};
+    state.docking = false;
+    state.last_answer_ms = now_ms;
+    state.last_gain_ms = now_ms;
+    state.last_picture_ms = now_ms;
+    state.last_message_ms = now_ms;
+  }
+
+  void operator()(const wire::Permit& permit) const {
+    if (state.drive != wire::DriveState::kDriving || permit.mission != state.mission->id) return;
+    if (permit.order <= state.newest || permit.order.epoch != state.newest.epoch) return;
+    state.newest = permit.order;
+    state.permit_ends_ms = now_ms + permit.valid_for_ms;
+  }
+
+  void operator()(const wire::StopOrder& stop) const {
+    // A stop is obeyed whatever its age: stopping once too often harms nobody.
+    if (state.drive == wire::DriveState::kDriving) {
+      end_mission(state, wire::DriveState::kStopped,
+                  stop.reason.empty() ? "Stopped by " + stop.by + "." : stop.reason);
+    }
+    outputs.messages.emplace_back(wire::Stopped{stop.stop_id, 0});
+  }
+
+  void operator()(const wire::BeliefReport&) const {}
+  void operator()(const wire::LinkError&) const {}
+};
+
+}  // namespace
+
+void end_mission(DrivingState& state, wire::DriveState how, std::string reason) {
+  state.drive = how;
+  state.reason = std::move(reason);
+  state.docking = false;
+}
+
+void obey(DrivingState& state, const std::vector<wire::ServerMessage>& messages, const DrivingConfig& config,
+          Milliseconds now_ms, Outputs& outputs) {
+  for (const wire::ServerMessage& message : messages) {
+    state.last_message_ms = now_ms;
+    std::visit(Clerk{state, config, now_ms, outputs}, message);
+  }
+}
+
+Result<Mission> decode_mission(const wire::MissionOrder& order, const DrivingConfig& config) {
+  if (order.feature_config_id != config.feature_config_id) {
+    return fail(ErrorCode::kFeatureConfigMismatch,
+                "The map's features (" + order.feature_config_id + ") are not this robot's (" + config.feature_config_id +
+                    "); rebuild the map from the kept images.",
+                "mission/feature_config_id");
+  }
+  Mission mission;
+  mission.id = order.mission;
+  mission.label = order.label;
+  mission.dock = order.dock;
+  mission.speed_limit_mps = order.speed_limit_mps;
+  for (const wire::PathPlace& place : order.path) {
+    auto view = wire::decode_appearance(place.appearance, "place " + place.place.str());
+    if (!view) return pass_on(view);
+    mission.path.views.push_back(std::move(*view));
+  }
+  auto last = wire::decode_appearance(order.final_appearance, order.final_image.str());
+  if (!last) return pass_on(last);
+  // The destination's own picture is often its place's prototype; passing it twice would be one view too many.
+  if (!order.path.empty() && order.path.back().image == order.final_image) mission.path.views.pop_back();
+  mission.path.views.push_back(std::move(*last));
+  return mission;
+}
+
+}  // namespace homeward::agent

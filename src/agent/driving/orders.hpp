@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "agent/driving/step.hpp"
+
+namespace homeward::agent {
+
+/// Takes the server's messages into the state: newer missions, permits, stops. What is older than what was obeyed
+/// already is passed over.
+void obey(DrivingState& state, const std::vector<wire::ServerMessage>& messages, const DrivingConfig& config,
+          Milliseconds now_ms, Outputs& outputs);
+
+/// Ends the mission: the robot stands until a newer one comes.
+void end_mission(DrivingState& state, wire::DriveState how, std::string reason);
+
+}  // namespace homeward::agent

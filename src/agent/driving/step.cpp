@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/driving/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "agent/driving/local_path.hpp"
+#include "agent/driving/orders.hpp"
+
+namespace homeward::agent {
+namespace {
+
+constexpr int kFewestFeatures = 20;  // with fewer the camera is taken to be covered
+
+void take_picture(DrivingState& state, const SeenPicture& picture, const DrivingConfig& config, Milliseconds now_ms) {
+  state.last_picture_ms = picture.taken_ms;
+  ++state.pictures;
+  if (state.drive != wire::DriveState::kDriving) return;
+  const int index_before = state.follow.index;
+  state.seen = follow(state.follow, state.mission->path, *picture.appearance, picture.odometry, config.follow, state.pictures);
+  if (state.seen.vector) {
+    state.last_answer_ms = now_ms;
+    state.answers_ms.push_back(now_ms);
+  }
+  if (picture.appearance->size() < kFewestFeatures) {
+    // A covered lens: memory must not carry the robot on.
+    state.follow.goal_in_odom.reset();
+    state.seen = {};
+    state.seen.blind = true;
+  }
+  const bool gained = state.follow.index != index_before;
+  const Pose2 moved = inverse(state.gain_from) * picture.odometry;
+  if (gained || std::hypot(moved.x_m, moved.y_m) > 0.25) {
+    state.last_gain_ms = now_ms;
+    state.gain_from = picture.odometry;
+  }
+}
+
+/// Why the robot must not drive any more, or nothing.
+std::optional<std::string> reason_to_stop(const DrivingState& state, const Inputs& inputs, const DrivingConfig& config,
+                                          Milliseconds now_ms) {
+  if (!inputs.link_up) return "The connection to the house is lost.";
+  if (now_ms - state.last_message_ms > config.link_silence_ms) return "The house has fallen silent.";
+  if (now_ms > state.permit_ends_ms) return "The permit to drive has run out.";
+  if (now_ms - state.last_picture_ms > config.frame_silence_ms) return "The camera gives no pictures.";
+  if (!state.scan || now_ms - state.scan->taken_ms > config.scan_silence_ms) return "The range sensor gives no readings.";
+  return std::nullopt;
+}
+
+/// Turns towards a point and drives there, slower in turns.
+Motion towards(const Eigen::Vector2d& carrot_m, double speed_mps, const DrivingConfig& config) {
+  const double angle_rad = std::atan2(carrot_m.y(), carrot_m.x());
+  const double turn = std::clamp(config.turn_gain * angle_rad, -config.body.max_turn_radps, config.body.max_turn_radps);
+  constexpr double kTurnFirst_rad = 0.9;
+  if (std::abs(angle_rad) > kTurnFirst_rad) return {0.0, turn};
+  const double straightness = std::cos(angle_rad * 1.57 / kTurnFirst_rad);
+  return {speed_mps * std::max(0.15, straightness), turn};
+}
+
+Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& config,
+             const std::vector<Eigen::Vector2d>& points_m) {
+  const bool last_view = state.follow.index + 1 == static_cast<int>(state.mission->path.views.size());
+  if (state.docking) {
+    // Heading at the end, by the latest answer and the turn made since.
+    const double turned_rad = (inverse(state.follow.seen_from) * inputs.odometry).theta_rad;
+    const double left_rad = wrap_angle(state.follow.turn_at_end_rad - turned_rad);
+    if (std::abs(left_rad) < config.dock_within_rad) {
+      end_mission(state, wire::DriveState::kArrived, "");
+      return {};
+    }
+    const double turn = std::clamp(1.5 * left_rad, -0.6, 0.6);
+    return {0.0, std::copysign(std::max(0.12, std::abs(turn)), left_rad)};
+  }
+  const auto goal_m = remembered_goal(state.follow, inputs.odometry, config.follow);
+  if (!goal_m) return {};
+  const auto way = local_way(config.body, points_m, *goal_m);
+  if (!way) return {};
+  double speed_mps = std::min(state.mission->speed_limit_mps, config.body.max_speed_mps);
+  // The destination is approached so slowly that one picture's way is a fraction of the tolerance.
+  if (last_view) speed_mps = std::min(speed_mps, std::max(0.1, 0.9 * goal_m->norm()));
+  if (state.follow.unanswered > 0) speed_mps = std::min(speed_mps, 0.2);
+  if (state.seen.vector) speed_mps *= std::clamp(0.4 + 0.6 * state.seen.vector->confidence, 0.4, 1.0);
+  return towards(way->carrot_m, speed_mps, config);
+}
+
+void judge_progress(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
+  if (state.seen.at_end && !state.docking) {
+    if (!state.mission->dock) return end_mission(state, wire::DriveState::kArrived, "");
+    state.docking = true;
+    state.last_gain_ms = now_ms;
+  }
+  if (state.docking) {
+    // The place is reached; a heading that cannot be taken does not make it a failure.
+    constexpr Milliseconds kDockingLimit_ms = 15'000;
+    if (now_ms - state.last_gain_ms > kDockingLimit_ms) end_mission(state, wire::DriveState::kArrived, "");
+    return;
+  }
+  if (now_ms - state.last_answer_ms > config.blind_ms) {
+    return end_mission(state, wire::DriveState::kFailed, "I do not recognise the way any more.");
+  }
+  if (now_ms - state.last_gain_ms > config.stuck_ms) {
+    return end_mission(state, wire::DriveState::kFailed, "The way is blocked.");
+  }
+}
+
+}  // namespace
+
+Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds now_ms) {
+  Outputs outputs;
+  obey(state, inputs.messages, config, now_ms, outputs);
+  if (inputs.scan) state.scan = inputs.scan;
+  std::vector<Eigen::Vector2d> points_m;
+  if (state.scan) points_m = hit_points(state.scan->scan);
+  state.min_range_m.reset();
+  for (const Eigen::Vector2d& point : points_m) {
+    state.min_range_m = std::min(state.min_range_m.value_or(1e9), point.norm());
+  }
+  if (inputs.picture) take_picture(state, *inputs.picture, config, now_ms);
+  std::erase_if(state.answers_ms, [&](Milliseconds then) { return now_ms - then > 1000; });
+  if (state.drive != wire::DriveState::kDriving) return outputs;
+  if (auto reason = reason_to_stop(state, inputs, config, now_ms)) {
+    end_mission(state, wire::DriveState::kStopped, std::move(*reason));
+    return outputs;
+  }
+  judge_progress(state, config, now_ms);
+  if (state.drive != wire::DriveState::kDriving) return outputs;
+  const Motion wanted = drive(state, inputs, config, points_m);
+  if (state.drive == wire::DriveState::kDriving) outputs.motion = made_safe(wanted, config.body, points_m);
+  return outputs;
+}
+
+}  // namespace homeward::agent

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "agent/driving/body.hpp"
+#include "agent/driving/follow.hpp"
+#include "agent/driving/scan.hpp"
+#include "core/pose2.hpp"
+#include "features/appearance.hpp"
+#include "wire/link_messages.hpp"
+
+namespace homeward::agent {
+
+/// Milliseconds of a clock that never jumps; only differences mean something.
+using Milliseconds = std::int64_t;
+
+struct DrivingConfig {
+  Body body;
+  FollowConfig follow;
+  std::string feature_config_id;         // of this robot's eye: missions made with another are refused
+  Milliseconds link_silence_ms = 400;    // no message for so long while driving: stop
+  Milliseconds frame_silence_ms = 700;   // no picture for so long while driving: stop
+  Milliseconds scan_silence_ms = 400;    // no sweep for so long while driving: stop
+  Milliseconds blind_ms = 4000;          // nothing recognised for so long: the mission fails
+  Milliseconds stuck_ms = 20'000;        // no way gained for so long: the mission fails
+  double turn_gain = 1.8;                // turn rate for each radian towards the carrot
+  double dock_within_rad = 0.06;         // heading at the end
+};
+
+/// What is new since the last step. Pictures and sweeps carry the time at which they were taken.
+struct SeenPicture {
+  Milliseconds taken_ms = 0;
+  std::shared_ptr<const features::Appearance> appearance;
+  Pose2 odometry;  // when it was taken
+};
+struct SeenScan {
+  Milliseconds taken_ms = 0;
+  Scan scan;
+};
+struct Inputs {
+  std::optional<SeenPicture> picture;
+  std::optional<SeenScan> scan;
+  Pose2 odometry;
+  std::vector<wire::ServerMessage> messages;  // in the order of their arrival
+  bool link_up = false;
+};
+
+/// One mission that was permitted.
+struct Mission {
+  MissionId id;
+  std::string label;
+  VisualPath path;
+  bool dock = false;
+  double speed_limit_mps = 0.0;
+};
+
+/// Everything that the heart of the agent remembers between two steps. Copies are cheap: views are shared.
+struct DrivingState {
+  wire::DriveState drive = wire::DriveState::kIdle;
+  std::string reason;       // why it stopped or failed, for people
+  wire::Order newest;       // the newest order obeyed
+  std::int64_t least_epoch = 0;
+  std::shared_ptr<const Mission> mission;
+  Milliseconds permit_ends_ms = 0;
+  FollowState follow;
+  FollowResult seen;                // of the latest picture
+  bool docking = false;
+  Milliseconds last_message_ms = 0;
+  Milliseconds last_picture_ms = 0;
+  Milliseconds last_answer_ms = 0;
+  Milliseconds last_gain_ms = 0;    // when way was last gained
+  Pose2 gain_from;
+  std::optional<SeenScan> scan;
+  std::optional<double> min_range_m;
+  std::uint64_t pictures = 0;
+  std::vector<Milliseconds> answers_ms;  // of the last second, for the rate of vectors
+};
+
+/// What goes out: the motion for the driver, messages for the server.
+struct Outputs {
+  Motion motion;
+  std::vector<wire::AgentMessage> messages;
+};
+
+/// The heart of the agent: no clock, thread, socket or device. Same state, inputs and time, same result.
+/// It drives only under a permit that is counted from its receipt on the robot's own clock, with link, pictures and
+/// sweeps fresh; everything else is a stop, after which only a newer mission moves it again (design §3.10).
+Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds now_ms);
+
+/// A mission as the heart needs it, its views decoded. Errors: kFeatureConfigMismatch, kCorruptFile, kUnsupportedFormat.
+Result<Mission> decode_mission(const wire::MissionOrder& order, const DrivingConfig& config);
+
+}  // namespace homeward::agent

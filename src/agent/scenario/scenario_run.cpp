@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/scenario/scenario_run.hpp"
+
+#include "agent/scenario/mission_run.hpp"
+#include "agent/scenario/taught_world.hpp"
+#include "sim/generate/painting.hpp"
+
+namespace homeward::agent {
+namespace {
+
+/// The missions of a scenario, those at random drawn from the destinations.
+std::vector<MissionPlan> expanded(const wire::ScenarioFile& scenario, const TaughtWorld& taught) {
+  std::vector<std::string> rooms;
+  for (const auto& [room, pose] : taught.destination_poses) rooms.push_back(room);
+  sim::Random random(static_cast<std::uint64_t>(scenario.seed) * 2'654'435'761ULL + 1);
+  std::vector<MissionPlan> plans;
+  for (const wire::ScenarioMission& mission : scenario.missions) {
+    MissionPlan plan{mission.from, mission.to, mission.light, mission.people, mission.faults, 0};
+    const int count = std::max(1, mission.random);
+    for (int i = 0; i < count; ++i) {
+      if (mission.random > 0) {
+        const int rooms_count = static_cast<int>(rooms.size());
+        const int from = sim::pick(random, rooms_count);
+        const int to = (from + 1 + sim::pick(random, rooms_count - 1)) % rooms_count;
+        plan.from = rooms[static_cast<std::size_t>(from)];
+        plan.to = rooms[static_cast<std::size_t>(to)];
+      }
+      plan.seed = random();
+      plans.push_back(plan);
+    }
+  }
+  return plans;
+}
+
+}  // namespace
+
+Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder,
+                    const std::function<void(const std::string&)>& told,
+                    const std::function<void(const MissionResult&)>& done) {
+  told("teaching " + scenario.world);
+  auto taught = teach(scenario, folder);
+  if (!taught) return pass_on(taught);
+  if (taught->destination_poses.size() < 2) {
+    return fail(ErrorCode::kInvalidInput, "The tour visits fewer than two rooms.", "tour/rooms");
+  }
+  told(std::to_string(taught->map->images.size()) + " pictures, " + std::to_string(taught->map->places.size()) + " places");
+  const sim::RobotProfile profile = scenario.robot == "chair" ? sim::chair_profile() : sim::disc_profile();
+  for (const MissionPlan& plan : expanded(scenario, *taught)) {
+    told("from " + plan.from + " to " + plan.to);
+    const auto result = run_mission(*taught, plan, profile);
+    if (!result) return pass_on(result);
+    done(*result);
+  }
+  return {};
+}
+
+}  // namespace homeward::agent

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/scenario/taught_world.hpp"
+
+#include <filesystem>
+
+#include "agent/drivers/usual_cameras.hpp"
+#include "agent/files/world_folder.hpp"
+#include "imageio/decode.hpp"
+#include "pipeline/build_map.hpp"
+#include "sim/motion.hpp"
+#include "sim/tour_path.hpp"
+
+namespace homeward::agent {
+namespace {
+
+/// A tour kept in memory as JPEGs, as a camera would have delivered it.
+class RenderedTour final : public pipeline::TourSource {
+ public:
+  void add(std::vector<std::uint8_t> jpeg, const Pose2& odometry) {
+    const std::string name = std::to_string(100000 + jpegs_.size()).substr(1) + ".jpg";
+    images_.push_back({ImageId("tour/" + name), std::nullopt, odometry});
+    jpegs_.push_back(std::move(jpeg));
+  }
+  void mark_last(const std::string& label) {
+    marks_.push_back({images_.back().id.str().substr(5), label});
+  }
+  [[nodiscard]] const std::vector<pipeline::TourImage>& images() const override { return images_; }
+  [[nodiscard]] const std::vector<pipeline::TourMark>& marks() const override { return marks_; }
+  [[nodiscard]] Result<Image> read(std::size_t index) const override {
+    return imageio::decode(jpegs_[index], images_[index].id.str());
+  }
+
+ private:
+  std::vector<std::vector<std::uint8_t>> jpegs_;
+  std::vector<pipeline::TourImage> images_;
+  std::vector<pipeline::TourMark> marks_;
+};
+
+}  // namespace
+
+Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string& folder) {
+  TaughtWorld taught;
+  taught.camera = scenario.camera ? *scenario.camera : usual_camera(scenario.camera_model).value_or(camera::CameraConfig{});
+  auto camera = camera::Camera::create(taught.camera);
+  if (!camera) return pass_on(camera);
+  // Generated worlds have a name with a colon; files lie beside the scenario.
+  const bool generated = scenario.world.find(':') != std::string::npos;
+  auto world = load_world(generated ? scenario.world : (std::filesystem::path(folder) / scenario.world).string());
+  if (!world) return pass_on(world);
+  taught.world = std::make_unique<sim::LitWorld>(std::move(*world));
+  const auto light = light_named(scenario.tour_light);
+  if (!light) return pass_on(light);
+  const auto stops = sim::plan_tour(taught.world->world(), scenario.tour_rooms, scenario.tour_step_m);
+  if (!stops) return pass_on(stops);
+  prepare_light(*taught.world, *light);
+  const sim::Renderer renderer(*taught.world, *light, *camera);
+  constexpr int kQuality = 92;
+  const auto seed = static_cast<std::uint64_t>(scenario.seed);
+  sim::WheelOdometry wheels(seed);
+  RenderedTour tour;
+  for (std::size_t i = 0; i < stops->size(); ++i) {
+    const sim::TourStop& stop = (*stops)[i];
+    if (i > 0) wheels.follow((*stops)[i - 1].pose, stop.pose);
+    tour.add(imageio::encode_jpeg(renderer.render(stop.pose, {}, seed * 1'000'003 + i), kQuality), wheels.reading());
+    if (!stop.arrived) continue;
+    tour.mark_last(*stop.arrived);
+    taught.destination_poses.emplace(*stop.arrived, stop.pose);
+  }
+  pipeline::BuildOptions options;
+  options.name = scenario.world;
+  options.seed = seed;
+  auto map = pipeline::build_map({&tour}, taught.camera, options);
+  if (!map) return pass_on(map);
+  taught.map = std::make_shared<const map::TopologicalMap>(std::move(*map));
+  return taught;
+}
+
+}  // namespace homeward::agent

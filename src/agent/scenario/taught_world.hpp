@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "camera/camera_config.hpp"
+#include "core/result.hpp"
+#include "map/topological_map.hpp"
+#include "pipeline/eye.hpp"
+#include "sim/renderer.hpp"
+#include "wire/scenario_json.hpp"
+
+namespace homeward::agent {
+
+/// A world, the map that a tour of it gave, and where each destination's picture was truly taken.
+struct TaughtWorld {
+  std::unique_ptr<sim::LitWorld> world;
+  camera::CameraConfig camera;
+  std::shared_ptr<const map::TopologicalMap> map;
+  std::map<std::string, Pose2> destination_poses;  // by room; for judging only
+};
+
+/// Renders the scenario's tour and builds its map. Errors: see run_scenario.
+Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string& folder);
+
+}  // namespace homeward::agent

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "agent/files/read_file.hpp"
+#include "agent/scenario/scenario_run.hpp"
+#include "cli/command.hpp"
+#include "cli/simulate.hpp"
+
+namespace homeward::cli {
+namespace {
+
+struct Options {
+  std::string scenario;
+  bool json = false;
+};
+
+nlohmann::json to_json(const agent::MissionResult& result) {
+  nlohmann::json value = {{"from", result.from},
+                          {"to", result.to},
+                          {"arrived", result.arrived},
+                          {"final_error_m", result.final_error_m},
+                          {"final_error_rad", result.final_error_rad},
+                          {"path_m", result.path_m},
+                          {"shortest_m", result.shortest_m},
+                          {"min_clearance_m", result.min_clearance_m},
+                          {"collisions", result.collisions},
+                          {"stops", nlohmann::json::array()},
+                          {"vectors_per_s", result.vectors_per_s},
+                          {"duration_s", result.duration_s}};
+  for (const agent::StopEvent& stop : result.stops) value["stops"].push_back({{"t_s", stop.t_s}, {"reason", stop.reason}});
+  return value;
+}
+
+void print(const agent::MissionResult& result) {
+  std::printf("%-14s -> %-14s %-8s %5.2f m off, %5.1f m driven (shortest %5.1f m), %d collisions, %5.1f s", result.from.c_str(),
+              result.to.c_str(), result.arrived ? "arrived" : "failed", result.final_error_m, result.path_m,
+              result.shortest_m, result.collisions, result.duration_s);
+  for (const agent::StopEvent& stop : result.stops) std::printf("; at %.1f s: %s", stop.t_s, stop.reason.c_str());
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+Status run(const Options& options) {
+  const auto text = agent::read_text(options.scenario);
+  if (!text) return pass_on(text);
+  const auto scenario = wire::parse_scenario(*text, options.scenario);
+  if (!scenario) return pass_on(scenario);
+  const auto told = [](const std::string& what) { std::cerr << what << " ...\n"; };
+  const auto done = [&](const agent::MissionResult& result) {
+    if (options.json) {
+      std::cout << to_json(result).dump() << std::endl;
+    } else {
+      print(result);
+    }
+  };
+  return agent::run_scenario(*scenario, std::filesystem::path(options.scenario).parent_path().string(), told, done);
+}
+
+}  // namespace
+
+void register_simulate_run(CLI::App& simulate) {
+  CLI::App* command = simulate.add_subcommand("run", "Teach a world, build its map and drive missions, in simulated time");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--scenario", options->scenario, "Scenario file")->required();
+  command->add_flag("--json", options->json, "One JSON line for each mission");
+  run_on(*command, [options] { return run(*options); });
+}
+
+}  // namespace homeward::cli
