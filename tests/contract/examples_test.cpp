@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "contract/codecs.hpp"
 #include "contract/schema_library.hpp"
 
@@ -77,6 +80,23 @@ std::vector<std::string> codec_names() {
 
 INSTANTIATE_TEST_SUITE_P(Wire, EveryCodec, ::testing::ValuesIn(codec_names()),
                          [](const auto& instance) { return instance.param; });
+
+TEST(SharedData, FitsTheSchemas) {
+  const std::filesystem::path data = std::filesystem::path(HOMEWARD_SHARED_DIR) / "data";
+  if (!std::filesystem::is_directory(data)) GTEST_SKIP() << data << " is not there";
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(data)) {
+    const std::string name = entry.path().filename().string();
+    if (name != "camera.json" && name != "world.json" && name != "tour.json") continue;
+    std::ifstream stream(entry.path());
+    const nlohmann::json value = nlohmann::json::parse(stream);
+    const std::string schema = entry.path().stem().string();
+    EXPECT_THAT(schemas().problems(schema, value), IsEmpty()) << entry.path();
+    EXPECT_TRUE(codecs().at(schema)(value)) << entry.path();
+    ++files;
+  }
+  EXPECT_GT(files, 0);
+}
 
 TEST(SchemaLibrary, NoticesAnExampleThatBreaksItsSchema) {
   nlohmann::json belief = SchemaLibrary::examples("belief", "valid").front().value;
