@@ -29,7 +29,12 @@ export function App() {
   useEffect(() => void findOutWho(), []);
   if (path.value.startsWith('/setup')) return <SetUp />;
   if (meError.value) return <Unreachable />;
-  if (me.value === undefined) return <div class="alone">{<Waiting what="One moment …" />}</div>;
+  if (me.value === undefined)
+    return (
+      <div class="alone">
+        <Waiting what="One moment …" />
+      </div>
+    );
   return me.value === null ? <SignIn /> : <Shell />;
 }
 
@@ -112,12 +117,15 @@ function follow(event: MouseEvent): void {
 function ConnectionNotice() {
   const { state, last_message_ms } = connection.value;
   if (state !== 'offline') return null;
-  const age =
-    last_message_ms === null ? '' : ` What you see is ${ageText(now_ms.value - last_message_ms)} old.`;
   return (
-    <Notice tone="bad">
-      <strong>The house server cannot be reached.</strong>
-      {age} To stop the chair, use the stop button on the chair itself. This page keeps trying.
-    </Notice>
+    <>
+      <Notice tone="bad">
+        <strong>The house server cannot be reached.</strong> To stop the chair, use the stop button on the
+        chair itself. This page keeps trying.
+      </Notice>
+      {last_message_ms !== null && (
+        <p class="soft offline-age">What you see is {ageText(now_ms.value - last_message_ms)} old.</p>
+      )}
+    </>
   );
 }

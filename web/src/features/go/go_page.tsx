@@ -1,5 +1,146 @@
 // SPDX-License-Identifier: Apache-2.0
+import { signal } from '@preact/signals';
+import { connection, graphs, me, wantGraph } from '../../api/house';
+import type { Graph, MapInfo, Robot } from '../../api/types';
+import { Notice, Waiting } from '../../components/notice';
+import { RobotPicker } from '../../components/robot_picker';
+import { chosen, chosenGraph, chosenMap, connected } from '../../lib/chosen';
+import { atLeast } from '../../lib/roles';
+import { titled } from '../../lib/words';
+import { DestinationCard } from './destination_card';
+import { commands, forgetCommand, send } from './driving';
+import { hindrance, journeyOf, type Journey, type Target } from './journey';
+import { JourneyCard } from './journey_card';
+import { LeasePrompt, WhoDrives } from './lease_prompt';
+import { WhereaboutsCard } from './whereabouts_card';
+
+/** Missions whose end the reader has put away. */
+const hidden = signal<ReadonlySet<string>>(new Set());
+
+function hide(robot: string, journey: Journey): void {
+  forgetCommand(robot);
+  if (journey.id !== null) hidden.value = new Set([...hidden.peek(), journey.id]);
+}
 
 export function GoPage() {
-  return <h1>go</h1>;
+  const robot = chosen.value;
+  if (connection.value.house === null) return <Waiting what="Asking the house …" />;
+  if (!robot)
+    return (
+      <>
+        <h1>Where to?</h1>
+        <Notice still>There is no robot yet. Somebody who may install things adds one under Robots.</Notice>
+      </>
+    );
+  return <Going robot={robot} graph={chosenGraph.value} />;
+}
+
+function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
+  const command = commands.value[robot.id];
+  const newest = journeyOf(robot, command);
+  const journey = newest && newest.id !== null && hidden.value.has(newest.id) ? null : newest;
+  const held = command?.kind === 'held' ? command : null;
+  const barrier = hindrance(robot, connected.value, atLeast(me.value?.role, 'rider'));
+  const go = (target: Target, take_over = false) => void send(robot.id, target, take_over);
+  const again = journey && againTarget(journey.destination, journey.place, graph);
+  return (
+    <>
+      <div class="row apart">
+        <h1>Where to?</h1>
+        <RobotPicker />
+      </div>
+      {barrier !== null && (
+        <Notice tone="warn" still>
+          {barrier}
+        </Notice>
+      )}
+      {held && (
+        <LeasePrompt
+          held={held}
+          onTakeOver={() => go(held.target, true)}
+          onLeave={() => forgetCommand(robot.id)}
+        />
+      )}
+      <div class={journey ? 'go-top two' : 'go-top'}>
+        <WhereaboutsCard robot={robot} graph={graph} />
+        {journey && (
+          <JourneyCard
+            journey={journey}
+            graph={graph}
+            onAgain={again && barrier === null && journey.phase !== 'arrived' ? () => go(again) : null}
+            onDismiss={() => hide(robot.id, journey)}
+          />
+        )}
+      </div>
+      <WhoDrives robot={robot} />
+      <section class="stack" aria-label="Places to go to">
+        {graph ? (
+          <Destinations
+            robot={robot}
+            graph={graph}
+            disabled={barrier !== null || command?.kind === 'asking'}
+            journey={journey}
+            onGo={go}
+          />
+        ) : (
+          <NoGraph map={chosenMap.value} />
+        )}
+      </section>
+    </>
+  );
+}
+
+function againTarget(destination: string | null, place: string | null, graph: Graph | null): Target | null {
+  const found = graph?.destinations.find((one) => one.id === destination);
+  if (found) return { destination: found.id, label: titled(found.label) };
+  return place === null ? null : { place, label: place };
+}
+
+interface DestinationsProps {
+  robot: Robot;
+  graph: Graph;
+  disabled: boolean;
+  journey: Journey | null;
+  onGo: (target: Target) => void;
+}
+
+function Destinations({ robot, graph, disabled, journey, onGo }: DestinationsProps) {
+  if (graph.destinations.length === 0)
+    return <Notice still>This map has no named places yet. Give some a name under Map.</Notice>;
+  const here =
+    robot.belief && !robot.belief.lost && (robot.belief.probability ?? 0) > 0.5 ? robot.belief.place : null;
+  return (
+    <ul class="destinations">
+      {graph.destinations.map((one) => (
+        <DestinationCard
+          key={`${one.id}-${one.image}`}
+          destination={one}
+          graph={graph}
+          phase={journey?.destination === one.id ? journey.phase : null}
+          here={here === one.place}
+          disabled={disabled}
+          onGo={() => onGo({ destination: one.id, label: titled(one.label) })}
+        />
+      ))}
+    </ul>
+  );
+}
+
+function NoGraph({ map }: { map: MapInfo | null }) {
+  if (!map) return null;
+  const error = graphs.value[map.id]?.error;
+  if (error)
+    return (
+      <Notice tone="bad">
+        <div class="row apart">
+          <span>The map could not be loaded. {error.message}</span>
+          <button type="button" class="button" onClick={() => wantGraph(map, true)}>
+            Try again
+          </button>
+        </div>
+      </Notice>
+    );
+  if (map.state === 'building') return <Waiting what="The map is being built …" />;
+  if (map.state === 'failed') return <Notice tone="warn">The map could not be built. See Tours.</Notice>;
+  return <Waiting what="Loading the map …" />;
 }

@@ -18,6 +18,7 @@ export type Phase = 'asking' | 'accepted' | 'driving' | 'arrived' | 'refused' | 
 
 /** The journey to show: the newest command, and how far it has come. */
 export interface Journey {
+  id: string | null; // the mission's; null before there is one
   phase: Phase;
   destination: string | null;
   place: string | null;
@@ -34,6 +35,7 @@ export function isActive(phase: Phase | undefined): boolean {
 export function journeyOf(robot: Robot, command: Command | undefined): Journey | null {
   if (command?.kind === 'asking' || command?.kind === 'refused') {
     return {
+      id: null,
       phase: command.kind,
       destination: command.target.destination ?? null,
       place: command.target.place ?? null,
@@ -46,6 +48,7 @@ export function journeyOf(robot: Robot, command: Command | undefined): Journey |
   const mission = newest(robot.mission, command?.kind === 'sent' ? command.mission : null);
   if (!mission) return null;
   return {
+    id: mission.id,
     phase: mission.state,
     destination: mission.destination,
     place: mission.place,

@@ -34,11 +34,11 @@ export function StopButton() {
         type="button"
         class="stop"
         onClick={stopChosen}
-        aria-label={`STOP ${robot.name}`}
         aria-keyshortcuts="Escape"
       >
         STOP
         <small>{robots.value.length > 1 ? robot.name : 'or press Esc'}</small>
+        {robots.value.length === 1 && <span class="hidden-text"> ({robot.name})</span>}
       </button>
     </section>
   );

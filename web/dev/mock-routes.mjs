@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// The routes of the mock server: [method and path, least role, handler(house, {user, body, headers, args})].
+import { wayBetween } from './mock-house.mjs';
+import { Refusal } from './mock-refusal.mjs';
+
+const kLeaseMs = 10_000;
+
+function leaseOf(robot) {
+  return robot.lease && robot.lease.until_ms > Date.now() ? robot.lease : null;
+}
+
+function ownLease(robot, lease_id) {
+  const lease = leaseOf(robot);
+  if (!lease || lease.id !== lease_id)
+    throw new Refusal(409, 'lease_held', 'this lease is not valid any more');
+  return lease;
+}
+
+function shownLease({ id, holder, epoch, until_ms }) {
+  return { id, holder, epoch, expires_in_ms: until_ms - Date.now() };
+}
+
+function takeLease(house, { user, body, args }) {
+  const robot = house.find(house.robots, args[0]);
+  const now = leaseOf(robot);
+  if (now && now.holder !== user.name && !body.take_over)
+    throw new Refusal(409, 'lease_held', `${now.holder} is driving this robot`);
+  robot.lease = {
+    id: house.newId('l'),
+    holder: user.name,
+    epoch: (now?.epoch ?? 0) + 1,
+    until_ms: Date.now() + kLeaseMs,
+  };
+  house.tellRobot(robot);
+  return { body: { lease: shownLease(robot.lease) } };
+}
+
+function keepLease(house, { body, args }) {
+  const lease = ownLease(house.find(house.robots, args[0]), body.lease_id);
+  lease.until_ms = Date.now() + kLeaseMs;
+  return { body: { lease: shownLease(lease) } };
+}
+
+function releaseLease(house, { body, args }) {
+  const robot = house.find(house.robots, args[0]);
+  ownLease(robot, body.lease_id);
+  robot.lease = null;
+  house.tellRobot(robot);
+  return { status: 204 };
+}
+
+function startMission(house, { user, body, args }) {
+  const robot = house.find(house.robots, args[0]);
+  const lease = ownLease(robot, body.lease_id);
+  if (!robot.online) throw new Refusal(409, 'robot_offline', `${robot.name} is not connected`);
+  if (robot.belief.lost) throw new Refusal(409, 'lost', `${robot.name} does not know where it is`);
+  const destination = house.graph.destinations.find((one) => one.id === body.destination);
+  const place = destination?.place ?? house.graph.places.find((one) => one.id === body.place)?.id;
+  if (!place) throw new Refusal(404, 'unknown_place', `there is no '${body.destination ?? body.place}'`);
+  const path = wayBetween(house.graph, robot.belief.place, place);
+  if (!path) throw new Refusal(409, 'no_route', 'there is no way from here to there');
+  const mission = {
+    format: 'homeward-mission',
+    version: 1,
+    id: house.newId('x'),
+    robot: robot.id,
+    map: robot.map,
+    revision: house.graph.revision,
+    destination: destination?.id ?? null,
+    place,
+    state: 'accepted',
+    reason: null,
+    epoch: lease.epoch,
+    seq: 1,
+    path,
+    path_index: 0,
+    created_us: Date.now() * 1000,
+    by: user.name,
+  };
+  house.drive(robot, mission);
+  return { status: 201, body: mission };
+}
+
+function stop(house, { user, args }) {
+  const robot = house.find(house.robots, args[0]);
+  setTimeout(() => house.halt(robot, `${user.name} pressed stop`), 200);
+  return { status: 202, body: { stop_id: house.newId('s') } };
+}
+
+function edit(house, { user, body, headers, args }) {
+  const map = house.find(house.maps, args[0]);
+  if (!headers['if-match']) throw new Refusal(428, 'conflict', 'say which revision you saw');
+  if (headers['if-match'] !== `"r${house.graph.revision}"`)
+    throw new Refusal(412, 'stale_revision', 'the map has changed');
+  for (const one of body.edits) {
+    if (one.kind === 'rename') rename(house.graph, one);
+    else if (one.kind === 'block_edge') block(house.graph, one);
+    else throw new Refusal(422, 'invalid_input', `this version cannot ${one.kind}`);
+    house.edits.push({ ...one, by: user.name, t_us: Date.now() * 1000 });
+  }
+  map.revision = house.graph.revision += 1;
+  house.send('map', map);
+  return { body: { revision: map.revision } };
+}
+
+function rename(graph, { place, label }) {
+  const found = graph.places.find((one) => one.id === place);
+  if (!found) throw new Refusal(404, 'unknown_place', `there is no '${place}'`);
+  found.label = label;
+  for (const one of graph.destinations) if (one.place === place) one.label = label;
+}
+
+function block(graph, { from, to, blocked }) {
+  for (const one of graph.edges)
+    if ((one.from === from && one.to === to) || (one.from === to && one.to === from)) one.blocked = blocked;
+}
+
+function addTour(house, { body }) {
+  if (body.camera?.format !== 'homeward-camera')
+    throw new Refusal(422, 'invalid_input', 'camera: this is not a camera file');
+  const tour = {
+    id: house.newId('t'),
+    name: body.name,
+    state: 'open',
+    images: 0,
+    camera: body.camera,
+    created_us: Date.now() * 1000,
+    missing: [],
+  };
+  house.tours.push(tour);
+  return { status: 201, body: tour };
+}
+
+function putImage(house, { body, args }) {
+  const tour = house.find(house.tours, args[0]);
+  if (body.length === 0) throw new Refusal(422, 'truncated_image', 'this picture is empty');
+  tour.images = Math.max(tour.images, Number(args[1]) + 1);
+  return { status: 201, body: {} };
+}
+
+function complete(house, { args }) {
+  const tour = house.find(house.tours, args[0]);
+  if (tour.images < 3) throw new Refusal(409, 'too_few_images', 'a tour needs at least 3 pictures');
+  tour.state = 'complete';
+  return { body: tour };
+}
+
+function addMap(house, { body }) {
+  const map = house.mapInfo(house.newId('m'), body.name, 'building', 0, body.tours);
+  house.maps.push(map);
+  house.send('map', map);
+  return { status: 202, body: { map, job: house.build(map) } };
+}
+
+function addRobot(house, { body }) {
+  const robot = house.newRobot(body.name, null);
+  house.robots.push(robot);
+  house.tellRobot(robot);
+  return { status: 201, body: { id: robot.id, name: robot.name, token: 'hw_rb_8fK2nQx7vLw93mTzYb4cRj6P' } };
+}
+
+function setMap(house, { body, args }) {
+  const robot = house.find(house.robots, args[0]);
+  robot.map = body.map;
+  house.tellRobot(robot);
+  return { body: house.shown(robot) };
+}
+
+function addUser(house, { body }) {
+  if (house.users.some((one) => one.name === body.name))
+    throw new Refusal(409, 'conflict', `there is a ${body.name} already`);
+  const user = house.newUser(body.name, body.role, body.password);
+  house.users.push(user);
+  return { status: 201, body: house.shownUser(user) };
+}
+
+function addToken(house, { body }) {
+  const token = {
+    id: house.newId('k'),
+    name: body.name,
+    role: body.role,
+    robot: body.robot ?? null,
+    created_us: Date.now() * 1000,
+  };
+  house.tokens.push(token);
+  return { status: 201, body: { id: token.id, token: 'hw_3qPd8sVt0aHn5GyXk1Bf' } };
+}
+
+function graphOf(house, { args }) {
+  const map = house.find(house.maps, args[0]);
+  if (map.state !== 'ready') throw new Refusal(409, 'conflict', 'the map is not built yet');
+  return { body: { ...house.graph, map: map.id }, headers: { ETag: `"r${house.graph.revision}"` } };
+}
+
+export const kRoutes = [
+  [
+    /^POST logout$/,
+    'viewer',
+    () => ({ status: 204, headers: { 'Set-Cookie': 'homeward_session=; Max-Age=0; Path=/' } }),
+  ],
+  [/^GET me$/, 'viewer', (house, { user }) => ({ body: { user: house.shownUser(user) } })],
+  [/^GET users$/, 'admin', (house) => ({ body: { users: house.users.map((one) => house.shownUser(one)) } })],
+  [/^POST users$/, 'admin', addUser],
+  [/^GET tokens$/, 'installer', (house) => ({ body: { tokens: house.tokens } })],
+  [/^POST tokens$/, 'installer', addToken],
+  [
+    /^DELETE tokens\/([^/]+)$/,
+    'installer',
+    (house, { args }) => ((house.tokens = house.tokens.filter((one) => one.id !== args[0])), { status: 204 }),
+  ],
+  [/^GET robots$/, 'viewer', (house) => ({ body: { robots: house.robots.map((one) => house.shown(one)) } })],
+  [/^POST robots$/, 'installer', addRobot],
+  [/^PUT robots\/([^/]+)\/map$/, 'installer', setMap],
+  [/^POST robots\/([^/]+)\/lease$/, 'rider', takeLease],
+  [/^PUT robots\/([^/]+)\/lease$/, 'rider', keepLease],
+  [/^DELETE robots\/([^/]+)\/lease$/, 'rider', releaseLease],
+  [/^POST robots\/([^/]+)\/missions$/, 'rider', startMission],
+  [/^POST robots\/([^/]+)\/stop$/, 'viewer', stop],
+  [
+    /^GET robots\/([^/]+)\/frame$/,
+    'viewer',
+    (house, { args }) => ({ picture: house.find(house.robots, args[0]).belief?.place ?? 'p2' }),
+  ],
+  [/^GET maps$/, 'viewer', (house) => ({ body: { maps: house.maps } })],
+  [/^POST maps$/, 'installer', addMap],
+  [
+    /^DELETE maps\/([^/]+)$/,
+    'installer',
+    (house, { args }) => ((house.maps = house.maps.filter((one) => one.id !== args[0])), { status: 204 }),
+  ],
+  [/^GET maps\/([^/]+)\/graph$/, 'viewer', graphOf],
+  [/^GET maps\/[^/]+\/history$/, 'viewer', (house) => ({ body: { edits: house.edits } })],
+  [/^GET maps\/[^/]+\/places\/([^/]+)\/thumbnail$/, 'viewer', (_, { args }) => ({ picture: args[0] })],
+  [
+    /^GET maps\/[^/]+\/images\/[^/]+\/(p\d+)b?\.jpg\/thumbnail$/,
+    'viewer',
+    (_, { args }) => ({ picture: args[0] }),
+  ],
+  [/^POST maps\/([^/]+)\/edits$/, 'installer', edit],
+  [/^GET tours$/, 'viewer', (house) => ({ body: { tours: house.tours } })],
+  [/^GET tours\/([^/]+)$/, 'viewer', (house, { args }) => ({ body: house.find(house.tours, args[0]) })],
+  [/^POST tours$/, 'installer', addTour],
+  [/^PUT tours\/([^/]+)\/images\/(\d+)$/, 'installer', putImage],
+  [/^PUT tours\/([^/]+)\/marks$/, 'installer', (_, { body }) => ({ body })],
+  [/^POST tours\/([^/]+)\/complete$/, 'installer', complete],
+  [
+    /^POST jobs\/([^/]+)\/cancel$/,
+    'installer',
+    (house, { args }) => ({
+      status: 202,
+      body: Object.assign(house.find(house.jobs, args[0]), { state: 'cancelled' }),
+    }),
+  ],
+];

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the mock server knows and does: accounts, robots, leases, missions that progress, maps, tours, jobs.
+import { newGraph } from './mock-house.mjs';
+import { kRoutes } from './mock-routes.mjs';
+import { Refusal } from './mock-refusal.mjs';
+
+const kRanks = ['viewer', 'rider', 'carer', 'installer', 'admin'];
+
+export class House {
+  constructor({ step_ms, fresh }) {
+    Object.assign(this, {
+      step_ms,
+      seq: 0,
+      ids: 0,
+      unreachable: false,
+      tell: () => undefined,
+      dropClients: () => undefined,
+    });
+    this.users = fresh
+      ? []
+      : ['anna:admin', 'ben:rider', 'vera:viewer'].map((one) => this.newUser(...one.split(':'), 'homeward'));
+    this.sessions = new Map();
+    this.tokens = [];
+    this.graph = newGraph('m1');
+    this.edits = [];
+    const tour = {
+      id: 't1',
+      name: 'Ground floor',
+      state: 'complete',
+      images: 26,
+      created_us: 1.7e15,
+      missing: [],
+    };
+    this.tours = fresh ? [] : [{ ...tour, camera: kCamera }];
+    this.maps = fresh ? [] : [this.mapInfo('m1', 'Ground floor', 'ready', 1, ['t1'])];
+    this.jobs = [];
+    this.robots = fresh ? [] : [this.newRobot('Chair', 'm1')];
+    this.timers = new Set();
+    this.beat = setInterval(() => this.robots.forEach((one) => one.online && this.tellRobot(one)), 1000);
+  }
+
+  close() {
+    clearInterval(this.beat);
+    for (const timer of this.timers) clearInterval(timer);
+  }
+
+  newId(kind) {
+    return `${kind}${(this.ids += 1)}`;
+  }
+  newUser(name, role, password) {
+    return { id: this.newId('u'), name, role, password };
+  }
+  mapInfo(id, name, state, revision, tours) {
+    const made = state === 'ready';
+    return {
+      id,
+      name,
+      state,
+      revision,
+      places: made ? 13 : 0,
+      images: made ? 26 : 0,
+      tours,
+      feature_config_id: null,
+    };
+  }
+  newRobot(name, map) {
+    const belief = {
+      updates: 40,
+      place: 'p1',
+      probability: 0.91,
+      top: [
+        { place: 'p1', probability: 0.91 },
+        { place: 'p2', probability: 0.07 },
+      ],
+      lost: false,
+    };
+    return {
+      id: this.newId('r'),
+      name,
+      online: map !== null,
+      map,
+      state: map ? 'idle' : null,
+      belief: map ? belief : null,
+      mission: null,
+      lease: null,
+      status_age_ms: map ? 120 : null,
+    };
+  }
+
+  // ----- telling
+  shown(robot) {
+    const lease = robot.lease && robot.lease.until_ms > Date.now() ? robot.lease : null;
+    return {
+      ...robot,
+      lease: lease && {
+        holder: lease.holder,
+        epoch: lease.epoch,
+        expires_in_ms: lease.until_ms - Date.now(),
+      },
+    };
+  }
+  snapshot() {
+    return {
+      type: 'snapshot',
+      v: 1,
+      seq: this.seq,
+      build: 'mock',
+      robots: this.robots.map((one) => this.shown(one)),
+      jobs: this.jobs,
+      maps: this.maps,
+    };
+  }
+  send(type, value) {
+    this.tell({ type, v: 1, seq: (this.seq += 1), [type]: value });
+  }
+  tellRobot(robot) {
+    this.send('robot', this.shown(robot));
+  }
+
+  // ----- accounts
+  userOf(request) {
+    const cookie = /homeward_session=([^;]+)/.exec(request.headers.cookie ?? '')?.[1];
+    return this.sessions.get(cookie) ?? null;
+  }
+  shownUser({ id, name, role }) {
+    return { id, name, role };
+  }
+  signedIn(user, status) {
+    const key = `s${Math.random().toString(36).slice(2)}`;
+    this.sessions.set(key, user);
+    const cookie = `homeward_session=${key}; HttpOnly; SameSite=Strict; Path=/`;
+    return { status, headers: { 'Set-Cookie': cookie }, body: { user: this.shownUser(user) } };
+  }
+
+  /** Answers one request: {status, headers, body} or {picture}; throws a Refusal. */
+  async call(request, path, body) {
+    const route = `${request.method} ${path.replace(/^\//, '')}`;
+    if (route === 'GET setup') return { body: { needed: this.users.length === 0 } };
+    if (route === 'POST setup') {
+      if (body.token !== 'first' || this.users.length > 0)
+        throw new Refusal(401, 'unauthenticated', 'this set-up link is not valid');
+      this.users.push(this.newUser(body.name, 'admin', body.password));
+      return this.signedIn(this.users[0], 201);
+    }
+    if (route === 'POST login') {
+      const user = this.users.find((one) => one.name === body.name && one.password === body.password);
+      if (!user) throw new Refusal(401, 'unauthenticated', 'wrong name or password');
+      return this.signedIn(user, 200);
+    }
+    const user = this.userOf(request);
+    if (!user) throw new Refusal(401, 'unauthenticated', 'sign in first');
+    for (const [pattern, role, handle] of kRoutes) {
+      const found = pattern.exec(route);
+      if (!found) continue;
+      if (kRanks.indexOf(user.role) < kRanks.indexOf(role))
+        throw new Refusal(403, 'forbidden', `this needs the role ${role}`);
+      return handle(this, {
+        user,
+        body,
+        headers: request.headers,
+        args: found.slice(1).map(decodeURIComponent),
+      });
+    }
+    throw new Refusal(404, 'not_found', `there is no ${route}`);
+  }
+
+  find(list, id) {
+    const found = list.find((one) => one.id === id);
+    if (!found) throw new Refusal(404, 'not_found', `there is no '${id}'`);
+    return found;
+  }
+
+  // ----- driving
+  drive(robot, mission) {
+    robot.mission = { ...mission, state: 'accepted' };
+    this.tellRobot(robot);
+    clearInterval(robot.timer);
+    const timer = setInterval(() => this.step(robot), this.step_ms);
+    Object.defineProperty(robot, 'timer', { value: timer, configurable: true, enumerable: false });
+    this.timers.add(timer);
+  }
+  step(robot) {
+    const { mission } = robot;
+    const at = mission.path[mission.path_index];
+    robot.belief = {
+      updates: 60,
+      place: at,
+      probability: 0.88,
+      top: [{ place: at, probability: 0.88 }],
+      lost: false,
+    };
+    const arrived = mission.state === 'driving' && mission.path_index >= mission.path.length - 1;
+    robot.mission = arrived
+      ? { ...mission, state: 'arrived' }
+      : {
+          ...mission,
+          state: 'driving',
+          path_index: Math.min(mission.path_index + 1, mission.path.length - 1),
+        };
+    robot.state = arrived ? 'arrived' : 'driving';
+    if (arrived) clearInterval(robot.timer);
+    this.tellRobot(robot);
+  }
+  halt(robot, reason) {
+    clearInterval(robot.timer);
+    if (robot.mission && ['accepted', 'driving'].includes(robot.mission.state))
+      robot.mission = { ...robot.mission, state: 'stopped', reason };
+    robot.state = 'stopped';
+    this.tellRobot(robot);
+  }
+
+  build(map) {
+    const job = {
+      id: this.newId('j'),
+      kind: 'build',
+      map: map.id,
+      state: 'running',
+      progress: { stage: 'comparing pictures', share: 0 },
+      error: null,
+      created_us: Date.now() * 1000,
+    };
+    this.jobs.push(job);
+    this.send('job', job);
+    const timer = setInterval(() => {
+      job.progress = { ...job.progress, share: Math.min(1, job.progress.share + 0.12) };
+      const ended = job.state === 'cancelled' || job.progress.share >= 1;
+      if (ended) {
+        clearInterval(timer);
+        if (job.state === 'running') job.state = 'done';
+        Object.assign(
+          map,
+          this.mapInfo(
+            map.id,
+            map.name,
+            job.state === 'done' ? 'ready' : 'failed',
+            map.revision + 1,
+            map.tours,
+          ),
+        );
+        this.send('map', map);
+      }
+      this.send('job', job);
+    }, 250);
+    this.timers.add(timer);
+    return job;
+  }
+
+  /** Orders of the tests: {do: "unreachable", on}, {do: "robot", set: {...}}, {do: "edit"}, {do: "hold", holder}. */
+  steer(order) {
+    const robot = this.robots[0];
+    if (order.do === 'unreachable') {
+      this.unreachable = order.on;
+      if (order.on) this.dropClients();
+    } else if (order.do === 'robot') {
+      Object.assign(robot, order.set);
+      this.tellRobot(robot);
+    } else if (order.do === 'edit') {
+      // Another person's change that this browser has not heard of yet.
+      this.graph.revision += 1;
+    } else if (order.do === 'hold') {
+      robot.lease = { id: 'other', holder: order.holder, epoch: 7, until_ms: Date.now() + 60_000 };
+      this.tellRobot(robot);
+    }
+  }
+}
+
+export const kCamera = {
+  format: 'homeward-camera',
+  version: 1,
+  model: 'equirectangular',
+  width_px: 800,
+  height_px: 400,
+  robot_from_camera: { translation_m: [0, 0, 1.2], rotation_wxyz: [1, 0, 0, 0] },
+};
