@@ -96,11 +96,26 @@ function edit(house, { user, body, headers, args }) {
     if (one.kind === 'rename') rename(house.graph, one);
     else if (one.kind === 'block_edge') block(house.graph, one);
     else throw new Refusal(422, 'invalid_input', `this version cannot ${one.kind}`);
-    house.edits.push({ ...one, by: user.name, t_us: Date.now() * 1000 });
+    house.edits.push(logged(one, user.name));
   }
   map.revision = house.graph.revision += 1;
   house.send('map', map);
   return { body: { revision: map.revision } };
+}
+
+function logged(one, by) {
+  const image_a = `t1/${one.place ?? one.from}.jpg`;
+  const t_us = Date.now() * 1000;
+  return {
+    kind: one.kind,
+    image_a,
+    image_b: null,
+    text: one.label ?? '',
+    images: [],
+    by,
+    t_us,
+    undone: false,
+  };
 }
 
 function rename(graph, { place, label }) {

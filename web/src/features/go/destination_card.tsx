@@ -5,6 +5,7 @@ import type { Destination, Graph } from '../../api/types';
 import { Icon } from '../../components/icons';
 import { titled } from '../../lib/words';
 import type { Phase } from './journey';
+import { toneOf } from './journey_words';
 
 interface Props {
   destination: Destination;
@@ -54,7 +55,7 @@ export function DestinationCard({ destination, graph, phase, here, disabled, onG
         )}
         <span class="destination-name">
           {name}
-          {mark && <span class={`pill ${phase ? 'good' : ''}`}>{mark}</span>}
+          {mark && <span class={`pill ${phase ? toneOf(phase) : ''}`}>{mark}</span>}
         </span>
       </button>
     </li>

@@ -30,15 +30,16 @@ export function StopButton() {
       <p class={words?.bad ? 'stop-word bad' : 'stop-word'} role="alert" data-testid="stop-word">
         {words?.text}
       </p>
-      <button
-        type="button"
-        class="stop"
-        onClick={stopChosen}
-        aria-keyshortcuts="Escape"
-      >
+      <button type="button" class="stop" onClick={stopChosen} aria-keyshortcuts="Escape">
         STOP
-        <small>{robots.value.length > 1 ? robot.name : 'or press Esc'}</small>
-        {robots.value.length === 1 && <span class="hidden-text"> ({robot.name})</span>}
+        {robots.value.length > 1 ? (
+          <small>{robot.name}</small>
+        ) : (
+          <small>
+            <span class="for-keys">or press Esc</span>
+            <span class="for-touch">{robot.name}</span>
+          </small>
+        )}
       </button>
     </section>
   );

@@ -1,5 +1,174 @@
 // SPDX-License-Identifier: Apache-2.0
+import { signal } from '@preact/signals';
+import { useEffect, useMemo, useState } from 'preact/hooks';
+import * as calls from '../../api/calls';
+import { connection, graphs, me, wantGraph } from '../../api/house';
+import { asProblem } from '../../api/problem';
+import type { Edit, Graph, MapInfo } from '../../api/types';
+import { Notice, Waiting } from '../../components/notice';
+import { chosen, chosenMap, connected, maps } from '../../lib/chosen';
+import { useCommand } from '../../lib/command';
+import { atLeast } from '../../lib/roles';
+import { navigate } from '../../lib/router';
+import { placeTitle } from '../../lib/whereabouts';
+import { count } from '../../lib/words';
+import { send } from '../go/driving';
+import { hindrance, isActive } from '../go/journey';
+import { GraphView } from './graph_view';
+import { Inspector } from './inspector';
+import { LookAlikes } from './look_alikes';
+import { MapHistory } from './map_history';
+import { PlaceList } from './place_list';
+
+const wantedMap = signal<string | null>(null);
+const wantedPlace = signal<string | null>(null);
 
 export function MapPage() {
-  return <h1>map</h1>;
+  const map =
+    maps.value.find((one) => one.id === wantedMap.value) ?? chosenMap.value ?? maps.value[0] ?? null;
+  useEffect(() => {
+    if (map && map.revision > 0) wantGraph(map);
+  }, [map]);
+  if (connection.value.house === null) return <Waiting what="Asking the house …" />;
+  return (
+    <>
+      <div class="row apart">
+        <h1>{map ? map.name : 'Map'}</h1>
+        {maps.value.length > 1 && <MapPicker chosen={map} />}
+      </div>
+      {map ? (
+        <ShownMap map={map} />
+      ) : (
+        <Notice still>There is no map yet. Build one from a tour, under Tours.</Notice>
+      )}
+    </>
+  );
+}
+
+function MapPicker({ chosen: present }: { chosen: MapInfo | null }) {
+  return (
+    <div class="segments" role="group" aria-label="Map">
+      {maps.value.map((one) => (
+        <button
+          key={one.id}
+          type="button"
+          aria-pressed={one.id === present?.id}
+          onClick={() => (wantedMap.value = one.id)}
+        >
+          {one.name}
+        </button>
+      ))}
+    </div>
+  );
+}
+
+function ShownMap({ map }: { map: MapInfo }) {
+  const entry = graphs.value[map.id];
+  if (entry?.graph)
+    return (
+      <>
+        {entry.error && (
+          <Notice tone="warn">This may be an older state of the map. {entry.error.message}</Notice>
+        )}
+        <Drawn map={map} graph={entry.graph} />
+      </>
+    );
+  if (entry?.error)
+    return (
+      <Notice tone="bad">
+        <div class="row apart">
+          <span>The map could not be loaded. {entry.error.message}</span>
+          <button type="button" class="button" onClick={() => wantGraph(map, true)}>
+            Try again
+          </button>
+        </div>
+      </Notice>
+    );
+  if (map.state === 'building')
+    return <Waiting what="This map is being built. Its progress is under Tours." />;
+  if (map.state === 'failed')
+    return <Notice tone="bad">This map could not be built. The reason is under Tours.</Notice>;
+  return <Waiting what="Loading the map …" />;
+}
+
+function Drawn({ map, graph }: { map: MapInfo; graph: Graph }) {
+  const command = useCommand();
+  const [done, setDone] = useState<string | null>(null);
+  const robot = chosen.value?.map === map.id ? chosen.value : null;
+  const belief = robot?.online ? robot.belief : null;
+  const mission = robot?.mission && isActive(robot.mission.state) ? robot.mission : null;
+  const way = useMemo(() => mission?.path.slice(Math.max(0, mission.path_index - 1)) ?? [], [mission]);
+  const place = graph.places.find((one) => one.id === wantedPlace.value) ?? null;
+  const mayEdit = atLeast(me.value?.role, 'installer');
+  const barrier = robot ? hindrance(robot, connected.value, atLeast(me.value?.role, 'rider')) : 'none';
+
+  const change = (ask: () => Promise<unknown>, said: string) => {
+    setDone(null);
+    command.run(async () => {
+      try {
+        await ask();
+        setDone(said);
+      } catch (thrown) {
+        if (asProblem(thrown).code !== 'stale_revision') throw thrown;
+        wantGraph(map, true);
+        throw thrown;
+      }
+      wantGraph(map, true);
+    });
+  };
+  const edit = (edits: Edit[], said: string) => change(() => calls.edit(map.id, graph.revision, edits), said);
+  const choose = (id: string) => {
+    wantedPlace.value = id;
+    setDone(null);
+    command.forget();
+  };
+  return (
+    <>
+      <p class="soft">
+        {count(graph.places.length, 'place')} from {count(map.images, 'picture')}. Choose one in the drawing
+        or in the list.
+        {robot && ' The yellow ring shows where the chair believes to be.'}
+      </p>
+      <div class="map-layout">
+        <GraphView graph={graph} belief={belief} way={way} chosen={place?.id ?? null} onChoose={choose} />
+        <div class="map-side">
+          {place && (
+            <Inspector
+              graph={graph}
+              place={place}
+              mayEdit={mayEdit}
+              command={command}
+              done={done}
+              onEdit={edit}
+              onChoose={choose}
+              onGo={
+                robot && barrier === null
+                  ? () => {
+                      void send(robot.id, { place: place.id, label: placeTitle(graph, place.id) });
+                      navigate('/go');
+                    }
+                  : null
+              }
+            />
+          )}
+          <PlaceList graph={graph} belief={belief} chosen={place?.id ?? null} onChoose={choose} />
+        </div>
+      </div>
+      <LookAlikes graph={graph} />
+      <MapHistory
+        graph={graph}
+        busy={command.busy}
+        onUndo={
+          mayEdit
+            ? () => change(() => calls.undo(map.id, graph.revision), 'The newest change was taken back.')
+            : null
+        }
+      />
+      <p>
+        <a class="button" href={calls.exportUrl(map.id)} download>
+          Save this map as a file
+        </a>
+      </p>
+    </>
+  );
 }

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+import { useEffect, useState } from 'preact/hooks';
+import * as calls from '../../api/calls';
+import type { Edit, Graph, Place } from '../../api/types';
+import { TextField } from '../../components/field';
+import { Notice } from '../../components/notice';
+import type { CommandHandle } from '../../lib/command';
+import { nameOf, placeTitle } from '../../lib/whereabouts';
+import { count } from '../../lib/words';
+import { waysOut } from './place_views';
+
+const kShownPictures = 6;
+
+interface Props {
+  graph: Graph;
+  place: Place;
+  mayEdit: boolean;
+  command: CommandHandle; // of the latest edit
+  done: string | null; // what the latest edit did
+  onEdit: (edits: Edit[], done: string) => void;
+  onChoose: (place: string) => void;
+  onGo: (() => void) | null;
+}
+
+/** One place: its name, its pictures, and the ways out of it. */
+export function Inspector({ graph, place, mayEdit, command, done, onEdit, onChoose, onGo }: Props) {
+  const title = placeTitle(graph, place.id);
+  return (
+    <section class="card stack inspector" aria-label={`Chosen place: ${title}`}>
+      <div class="row apart">
+        <h2>{title}</h2>
+        {onGo && (
+          <button type="button" class="button main" onClick={onGo}>
+            Send the chair here
+          </button>
+        )}
+      </div>
+      <Pictures graph={graph} place={place} title={title} />
+      {mayEdit && <Rename graph={graph} place={place} busy={command.busy} onEdit={onEdit} />}
+      {command.problem && <Notice tone="bad">{command.problem.message}</Notice>}
+      {done !== null && !command.busy && !command.problem && <Notice>{done}</Notice>}
+      <Ways
+        graph={graph}
+        place={place}
+        mayEdit={mayEdit}
+        busy={command.busy}
+        onEdit={onEdit}
+        onChoose={onChoose}
+      />
+    </section>
+  );
+}
+
+function Pictures({ graph, place, title }: { graph: Graph; place: Place; title: string }) {
+  const shown = place.members.slice(0, kShownPictures);
+  return (
+    <div class="stack tight">
+      <ul class="pictures">
+        {shown.map((image, i) => (
+          <li key={image}>
+            <img
+              class="picture"
+              src={calls.imageThumbnailUrl(graph.map, image)}
+              alt={`${title}, picture ${i + 1}`}
+              loading="lazy"
+            />
+          </li>
+        ))}
+      </ul>
+      <p class="soft small">
+        {count(place.members.length, 'picture')}, {count(place.features, 'thing')} to recognise
+      </p>
+    </div>
+  );
+}
+
+type RenameProps = Pick<Props, 'graph' | 'place' | 'onEdit'> & { busy: boolean };
+
+function Rename({ graph, place, busy, onEdit }: RenameProps) {
+  const present = nameOf(graph, place.id) ?? '';
+  const [name, setName] = useState(present);
+  // Another place, or a new name from elsewhere, replaces the text; a reload after a refused edit keeps it.
+  useEffect(() => setName(present), [place.id, present]);
+  const wanted = name.trim();
+  return (
+    <form
+      class="rename"
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (wanted !== present)
+          onEdit(
+            [{ kind: 'rename', place: place.id, label: wanted }],
+            wanted ? `Named ${wanted}.` : 'Name removed.',
+          );
+      }}
+    >
+      <TextField label="Name" value={name} onInput={setName} required={false} />
+      <button type="submit" class="button" disabled={busy || wanted === present}>
+        {busy ? 'Saving …' : 'Save'}
+      </button>
+    </form>
+  );
+}
+
+type WaysProps = Pick<Props, 'graph' | 'place' | 'mayEdit' | 'onEdit' | 'onChoose'> & { busy: boolean };
+
+function Ways({ graph, place, mayEdit, busy, onEdit, onChoose }: WaysProps) {
+  const ways = waysOut(graph, place.id);
+  const setBlocked = (other: string, blocked: boolean) => {
+    const edits = graph.edges
+      .filter(
+        (one) => (one.from === place.id && one.to === other) || (one.to === place.id && one.from === other),
+      )
+      .filter((one) => one.blocked !== blocked)
+      .map((one) => ({ kind: 'block_edge' as const, from: one.from, to: one.to, blocked }));
+    onEdit(edits, blocked ? 'This way is closed now.' : 'This way is open again.');
+  };
+  return (
+    <div>
+      <h3>Ways from here</h3>
+      {ways.length === 0 && <p class="soft">None: the chair cannot drive to or from this place.</p>}
+      <ul class="list">
+        {ways.map((way) => {
+          const title = placeTitle(graph, way.other);
+          return (
+            <li key={way.other}>
+              <button type="button" class="place-row compact" onClick={() => onChoose(way.other)}>
+                <img
+                  src={calls.placeThumbnailUrl(graph.map, way.other, graph.revision)}
+                  alt=""
+                  loading="lazy"
+                />
+                <span>{title}</span>
+              </button>
+              <span class="row">
+                {way.weak && <span class="pill warn">Hard to drive</span>}
+                {way.blocked && <span class="pill bad">Closed</span>}
+                {mayEdit && (
+                  <button
+                    type="button"
+                    class="button small"
+                    disabled={busy}
+                    aria-label={`${way.blocked ? 'Open' : 'Close'} the way to ${title}`}
+                    onClick={() => setBlocked(way.other, !way.blocked)}
+                  >
+                    {way.blocked ? 'Open' : 'Close'}
+                  </button>
+                )}
+              </span>
+            </li>
+          );
+        })}
+      </ul>
+    </div>
+  );
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from 'vitest';
+import type { Edge, Graph, Place } from '../../api/types';
+import { drawnEdges, matching, pictureShare, placeViews, waysOut } from './place_views';
+
+const place = (id: string, label: string, x: number): Place => ({
+  id,
+  label,
+  prototype: `t/${id}.jpg`,
+  members: [`t/${id}.jpg`],
+  features: 1,
+  x,
+  y: 0.5,
+});
+const edge = (from: string, to: string, part: Partial<Edge> = {}): Edge => ({
+  from,
+  to,
+  bearing_rad: null,
+  turn_rad: null,
+  length_m: 1,
+  weak: false,
+  blocked: false,
+  ...part,
+});
+const graph: Graph = {
+  format: 'homeward-graph',
+  version: 1,
+  map: 'm',
+  revision: 3,
+  places: [place('p1', '', 0), place('p2', 'kitchen', 0.5), place('p3', 'bath', 1)],
+  edges: [
+    edge('p1', 'p2'),
+    edge('p2', 'p1', { blocked: true, length_m: 2 }),
+    edge('p2', 'p3', { weak: true }),
+  ],
+  destinations: [],
+  hypotheses: [],
+};
+
+describe('placeViews', () => {
+  it('lists named places first, by name, with where the robot believes to be', () => {
+    const belief = {
+      updates: 3,
+      place: 'p1',
+      probability: 0.7,
+      top: [{ place: 'p1', probability: 0.7 }],
+      lost: false,
+    };
+    const views = placeViews(graph, belief);
+    expect(views.map((one) => one.title)).toEqual(['Bath', 'Kitchen', 'Near the kitchen']);
+    expect(views[2]?.probability).toBe(0.7);
+    expect(placeViews(graph, { ...belief, lost: true })[2]?.probability).toBe(0);
+  });
+
+  it('finds by words in any order', () => {
+    const views = placeViews(graph, null);
+    expect(matching(views, 'kitchen near').map((one) => one.id)).toEqual(['p1']);
+    expect(matching(views, '')).toHaveLength(3);
+    expect(matching(views, 'attic')).toEqual([]);
+  });
+});
+
+describe('ways', () => {
+  it('takes two directions as one way with the worse of both', () => {
+    expect(waysOut(graph, 'p2')).toEqual([
+      { other: 'p1', length_m: 2, weak: false, blocked: true },
+      { other: 'p3', length_m: 1, weak: true, blocked: false },
+    ]);
+    expect(drawnEdges(graph).map((one) => [one.id, one.blocked])).toEqual([
+      ['p1|p2', true],
+      ['p2|p3', false],
+    ]);
+  });
+});
+
+it('draws pictures smaller where places are close', () => {
+  const close = { ...graph, places: Array.from({ length: 40 }, (_, i) => place(`p${i}`, '', i / 40)) };
+  expect(pictureShare(placeViews(close, null))).toBeLessThan(pictureShare(placeViews(graph, null)));
+  expect(pictureShare([])).toBeGreaterThan(0);
+});
