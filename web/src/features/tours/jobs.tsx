@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+import * as calls from '../../api/calls';
+import { connection } from '../../api/house';
+import { sentence } from '../../api/problem';
+import type { Job, MapInfo } from '../../api/types';
+import { Bar, Notice } from '../../components/notice';
+import { useCommand } from '../../lib/command';
+import { percent } from '../../lib/words';
+
+/** The newest job of a map; null when there is none. */
+export function newestJob(jobs: readonly Job[], map: string): Job | null {
+  const own = jobs.filter((job) => job.map === map);
+  return own.reduce<Job | null>((best, job) => (best && best.created_us > job.created_us ? best : job), null);
+}
+
+/** How the building of a map goes, or why it ended without one. */
+export function BuildProgress({ map, mayCancel }: { map: MapInfo; mayCancel: boolean }) {
+  const job = newestJob(connection.value.house?.jobs ?? [], map.id);
+  const { busy, problem, run } = useCommand();
+  if (!job || job.state === 'done') return null;
+  if (job.state === 'failed')
+    return (
+      <Notice tone="bad">
+        It could not be built. {sentence(job.error?.detail ?? job.error?.title ?? '')}
+      </Notice>
+    );
+  if (job.state === 'cancelled') return <Notice tone="warn">Building was cancelled.</Notice>;
+  const words =
+    job.state === 'queued' ? 'Waiting for its turn' : sentence(job.progress.stage).replace(/\.$/, '');
+  return (
+    <div class="build stack tight">
+      <Bar share={job.progress.share} label={`Building ${map.name}`} />
+      <div class="row apart">
+        <span class="soft" aria-live="polite">
+          {words}
+        </span>
+        <span class="row">
+          <strong>{percent(job.progress.share)}</strong>
+          {mayCancel && (
+            <button
+              type="button"
+              class="button small"
+              disabled={busy}
+              aria-label={`Cancel building ${map.name}`}
+              onClick={() => run(() => calls.cancelJob(job.id))}
+            >
+              Cancel
+            </button>
+          )}
+        </span>
+      </div>
+      {problem && <Notice tone="bad">{problem.message}</Notice>}
+    </div>
+  );
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from 'vitest';
+import { headersOf, odometryAt, odometryOf, timesOf, tourFiles } from './tour_folder';
+
+const file = (path: string) => ({ name: path.split('/').at(-1) ?? '', webkitRelativePath: path });
+
+describe('tourFiles', () => {
+  it('takes the topmost pictures in name order and the files that belong to them', () => {
+    const found = tourFiles(
+      [
+        't/0002.jpg',
+        't/0001.JPG',
+        't/camera.json',
+        't/old/0000.jpg',
+        't/tour.json',
+        't/.x.jpg',
+        't/notes.txt',
+      ].map(file),
+    );
+    expect(found.images.map((one) => one.name)).toEqual(['0001.JPG', '0002.jpg']);
+    expect(found.camera?.name).toBe('camera.json');
+    expect(found.marks?.name).toBe('tour.json');
+    expect(found.times).toBeNull();
+  });
+
+  it('finds pictures that lie one folder deeper', () => {
+    expect(tourFiles(['t/images/b.png', 't/camera.json'].map(file)).images).toHaveLength(1);
+    expect(tourFiles([]).images).toEqual([]);
+  });
+});
+
+describe('tables', () => {
+  it('reads times and refuses what is none, naming the line', () => {
+    expect(timesOf('filename,t_us\na.jpg,5\r\n').get('a.jpg')).toBe(5);
+    expect(() => timesOf('name,t\na,5')).toThrow('times.csv must begin');
+    expect(() => timesOf('filename,t_us\na.jpg,soon')).toThrow('"soon"');
+    expect(() => odometryOf('t_us,x_m,y_m,theta_rad\n1,2,3')).toThrow('line 2');
+  });
+
+  it('interpolates odometry and turns the short way round', () => {
+    const rows = odometryOf('t_us,x_m,y_m,theta_rad\n0,0,0,3.0\n10,1,2,-3.0');
+    const middle = odometryAt(rows, 5);
+    expect(middle).toMatchObject({ x_m: 0.5, y_m: 1 });
+    expect(Math.cos(middle?.theta_rad ?? 0)).toBeCloseTo(-1, 6);
+    expect(odometryAt(rows, 99)?.x_m).toBe(1);
+    expect(odometryAt([], 0)).toBeNull();
+  });
+
+  it('sends with each picture what is known of it', () => {
+    const rows = odometryOf('t_us,x_m,y_m,theta_rad\n0,0,0,0\n10,1,2,0.5');
+    expect(headersOf('a.jpg', 1, null, rows)['X-Homeward-Odometry']).toBe('1,2,0.5');
+    expect(headersOf('a.jpg', 1, new Map([['a.jpg', 0]]), rows)).toEqual({
+      'X-Homeward-Filename': 'a.jpg',
+      'X-Homeward-T-Us': '0',
+      'X-Homeward-Odometry': '0,0,0',
+    });
+    expect(headersOf('b.jpg', 0, new Map(), rows)).toEqual({ 'X-Homeward-Filename': 'b.jpg' });
+  });
+});

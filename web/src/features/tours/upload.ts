@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+import { signal } from '@preact/signals';
+import * as calls from '../../api/calls';
+import { asProblem } from '../../api/problem';
+import type { Tour } from '../../api/types';
+import { headersOf, odometryOf, timesOf, type TourFiles } from './tour_folder';
+
+/** The upload under way, or how the last one ended; it goes on while other pages are shown. */
+export type UploadState =
+  | { kind: 'none' }
+  | { kind: 'running'; name: string; sent: number; total: number; waiting: boolean }
+  | { kind: 'done'; name: string; total: number }
+  | { kind: 'failed'; name: string; reason: string };
+
+export const upload = signal<UploadState>({ kind: 'none' });
+
+const kAtOnce = 3;
+const kRetries = 8;
+const kPauseMs = 1500;
+const kPictureTimeoutMs = 60_000;
+
+let stopper: AbortController | null = null;
+
+/** Stops the upload; what has arrived stays, and the same folder continues it later. */
+export function cancelUpload(): void {
+  stopper?.abort();
+}
+
+/** Begins a tour (or goes on with `open`), sends all pictures, marks and the word that it is complete. */
+export async function uploadTour(
+  name: string,
+  files: TourFiles<File>,
+  camera: File | null,
+  open: Tour | null,
+): Promise<void> {
+  stopper = new AbortController();
+  const { signal: stop } = stopper;
+  const total = files.images.length;
+  upload.value = { kind: 'running', name, sent: 0, total, waiting: false };
+  try {
+    const tour = open ?? (await begin(name, camera));
+    const times = files.times ? timesOf(await files.times.text()) : null;
+    const odometry = files.odometry ? odometryOf(await files.odometry.text()) : null;
+    const left = files.images.map((file, n) => ({ file, n })).filter(({ n }) => !arrived(tour, n));
+    let sent = total - left.length;
+    const tell = (waiting: boolean) => (upload.value = { kind: 'running', name, sent, total, waiting });
+    const worker = async () => {
+      for (let next = left.shift(); next && !stop.aborted; next = left.shift()) {
+        const { file, n } = next;
+        await persistently(
+          () =>
+            calls.putImage(tour.id, n, file, headersOf(file.name, n, times, odometry), pictureLimit(stop)),
+          stop,
+          () => tell(true),
+        );
+        sent += 1;
+        tell(false);
+      }
+    };
+    await Promise.all(Array.from({ length: kAtOnce }, worker));
+    if (stop.aborted) throw new Error('it was stopped; choose the same folder to go on');
+    if (files.marks) await calls.putMarks(tour.id, marksIn(await files.marks.text()));
+    await calls.completeTour(tour.id);
+    upload.value = { kind: 'done', name, total };
+  } catch (thrown) {
+    const stopped = stop.aborted;
+    stopper.abort(); // the other workers need not go on
+    const reason = stopped ? 'It was stopped. Choose the same folder to go on.' : asProblem(thrown).message;
+    upload.value = { kind: 'failed', name, reason };
+  }
+}
+
+function pictureLimit(stop: AbortSignal): AbortSignal {
+  return AbortSignal.any([stop, AbortSignal.timeout(kPictureTimeoutMs)]);
+}
+
+async function begin(name: string, camera: File | null): Promise<Tour> {
+  if (!camera) throw new Error('a tour needs the file camera.json of its camera');
+  return calls.addTour({ name, camera: await jsonIn(camera) });
+}
+
+async function jsonIn(file: File): Promise<unknown> {
+  try {
+    return JSON.parse(await file.text()) as unknown;
+  } catch {
+    throw new Error(`${file.name} is not a JSON file`);
+  }
+}
+
+function marksIn(text: string): { image: string; label: string }[] {
+  const value = JSON.parse(text) as { marks?: { image: string; label: string }[] };
+  return value.marks ?? [];
+}
+
+/** Whether the server has picture `n` already; it lists at most 100 of those that are missing. */
+export function arrived(tour: Pick<Tour, 'images' | 'missing'>, n: number): boolean {
+  const listed_to = tour.missing.length < 100 ? Infinity : Math.max(...tour.missing);
+  const highest = tour.images + tour.missing.length;
+  return n <= listed_to && n < highest && !tour.missing.includes(n);
+}
+
+/** Repeats while the server is out of reach or busy. */
+async function persistently(
+  ask: () => Promise<unknown>,
+  stop: AbortSignal,
+  onWait: () => void,
+): Promise<void> {
+  for (let tries = 1; ; ++tries) {
+    try {
+      await ask();
+      return;
+    } catch (thrown) {
+      const { status } = asProblem(thrown);
+      const passing = status === 0 || status === 503 || status === 429;
+      if (!passing || tries > kRetries || stop.aborted) throw thrown;
+      onWait();
+      await new Promise((done) => setTimeout(done, kPauseMs));
+    }
+  }
+}
