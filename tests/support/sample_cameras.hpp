@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include "camera/camera_config.hpp"
+
+namespace homeward::testing {
+
+/// The mirror camera of the design: looks up, forward at the top of its picture, left at the right.
+inline camera::CameraConfig mirror_camera(double valid_radius_min_px = 30.0) {
+  camera::CameraConfig config;
+  config.width_px = 640;
+  config.height_px = 480;
+  config.model =
+      camera::HyperbolicMirror{{598.4579, 598.4579, 319.5, 239.5}, 28.095, 23.4125, valid_radius_min_px, 231};
+  config.robot_from_camera_translation_m = {0.0, 0.0, 1.2};
+  config.robot_from_camera_rotation = Eigen::Quaterniond(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5));
+  return config;
+}
+
+/// Camera axes of a camera that looks forward: x right, y down, z forward.
+inline Eigen::Quaterniond looking_forward() { return {0.5, -0.5, 0.5, -0.5}; }
+
+inline camera::CameraConfig sphere_camera(int width_px = 512) {
+  camera::CameraConfig config;
+  config.width_px = width_px;
+  config.height_px = width_px / 2;
+  config.model = camera::Equirectangular{};
+  config.robot_from_camera_rotation = looking_forward();
+  return config;
+}
+
+inline camera::CameraConfig pinhole_camera() {
+  camera::CameraConfig config;
+  config.width_px = 640;
+  config.height_px = 480;
+  config.model = camera::Pinhole{{457.0, 455.0, 319.5, 239.5}, {-0.12, 0.03, 0.001, -0.0007, 0.002}};
+  config.robot_from_camera_rotation = looking_forward();
+  return config;
+}
+
+}  // namespace homeward::testing
