@@ -176,6 +176,11 @@ std::vector<PlanarMotion> solve_planar_motion(const std::array<Correspondence, 2
   const double p = n1.head<2>().squaredNorm() - n1.tail<2>().squaredNorm();
   const double q = n1.head<2>().dot(n2.head<2>()) - n1.tail<2>().dot(n2.tail<2>());
   const double r = n2.head<2>().squaredNorm() - n2.tail<2>().squaredNorm();
+  // Views from one point: all that the null space holds is a motion, because any direction will do. Take one.
+  constexpr double kRounding = 1e-12;
+  if (std::max({std::abs(p), std::abs(q), std::abs(r)}) < kRounding * (n1.squaredNorm() + n2.squaredNorm())) {
+    return {motion_from(n1)};
+  }
   const double discriminant = q * q - p * r;
   if (discriminant < 0.0) return {};
   const double root = std::sqrt(discriminant);

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/planar_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/planar_scene.hpp"
+
+namespace homeward::geometry {
+namespace {
+
+using homeward::testing::planar_scene;
+using homeward::testing::PlanarScene;
+
+double direction_error_deg(const PlanarMotion& found, const PlanarMotion& truth) {
+  return std::abs(degrees(wrap_angle(found.direction_rad - truth.direction_rad)));
+}
+
+double turn_error_deg(const PlanarMotion& found, const PlanarMotion& truth) {
+  return std::abs(degrees(wrap_angle(found.turn_rad - truth.turn_rad)));
+}
+
+TEST(PlanarMinimalSolver, TheTruthIsAmongItsAnswersUpToTheSign) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const PlanarScene scene = planar_scene(2, 0.0, 0.0, 0.8, seed);
+    const auto motions = solve_planar_motion({scene.correspondences[0], scene.correspondences[1]});
+    ASSERT_GE(motions.size(), 1U) << seed;
+    ASSERT_LE(motions.size(), 2U) << seed;
+    double nearest_deg = 180.0;
+    for (const PlanarMotion& motion : motions) {
+      const double direction_deg = direction_error_deg(motion, scene.truth);
+      nearest_deg = std::min(
+          nearest_deg, std::max(std::min(direction_deg, 180.0 - direction_deg), turn_error_deg(motion, scene.truth)));
+      for (const Correspondence& c : scene.correspondences) EXPECT_LT(epipolar_error_rad(motion, c), 1e-6) << seed;
+    }
+    EXPECT_LT(nearest_deg, 1e-4) << seed;
+  }
+}
+
+TEST(PlanarMinimalSolver, TwiceTheSameCorrespondenceSolvesNothing) {
+  const PlanarScene scene = planar_scene(1, 0.0, 0.0, 0.8, 5);
+  EXPECT_TRUE(solve_planar_motion({scene.correspondences[0], scene.correspondences[0]}).empty());
+}
+
+TEST(EpipolarError, IsTheAngleByWhichABearingIsOff) {
+  // Target 1 m ahead, no turn; a point at the left, seen by the target view. Moving the current bearing up by a small
+  // angle, across its epipolar plane, splits the error between both views: 1/sqrt(2) of it.
+  const Eigen::Vector3d point(0.5, 3.0, 0.0);
+  const Correspondence exact{point.normalized(), (point - Eigen::Vector3d(1, 0, 0)).normalized()};
+  const PlanarMotion motion{0.0, 0.0};
+  EXPECT_NEAR(epipolar_error_rad(motion, exact), 0.0, 1e-12);
+  constexpr double kOffRad = 0.01;
+  const Eigen::Vector3d up = std::cos(kOffRad) * exact.current + std::sin(kOffRad) * Eigen::Vector3d::UnitZ();
+  EXPECT_NEAR(epipolar_error_rad(motion, {up, exact.target}), kOffRad / std::sqrt(2.0), 2e-4);
+}
+
+TEST(PlanarEstimate, DirectionAndTurnAreRightWhateverTheOutliers) {
+  for (const double outlier_share : {0.0, 0.2, 0.4, 0.6}) {
+    std::vector<double> errors_deg;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+      const PlanarScene scene = planar_scene(120, outlier_share, 0.001, 0.8, 1000 + seed);
+      const auto estimate = estimate_planar_motion(scene.correspondences, {}, seed);
+      ASSERT_TRUE(estimate) << outlier_share << " " << seed;
+      EXPECT_LT(direction_error_deg(estimate->motion, scene.truth), 4.0) << outlier_share << " " << seed;
+      EXPECT_LT(turn_error_deg(estimate->motion, scene.truth), 1.0) << outlier_share << " " << seed;
+      errors_deg.push_back(direction_error_deg(estimate->motion, scene.truth));
+      EXPECT_TRUE(std::is_sorted(estimate->inliers.begin(), estimate->inliers.end()));
+      int right = 0;
+      for (const int inlier : estimate->inliers) right += scene.outlier[static_cast<std::size_t>(inlier)] ? 0 : 1;
+      EXPECT_GT(right, 0.9 * (1.0 - outlier_share) * 120) << outlier_share << " " << seed;
+      EXPECT_GT(right, 0.7 * static_cast<double>(estimate->inliers.size())) << outlier_share << " " << seed;
+      EXPECT_GT(estimate->forward_share, 0.8) << outlier_share << " " << seed;
+      EXPECT_LT(estimate->direction_spread_rad, radians(5.0)) << outlier_share << " " << seed;
+    }
+    std::nth_element(errors_deg.begin(), errors_deg.begin() + 20, errors_deg.end());
+    EXPECT_LT(errors_deg[20], 0.6) << outlier_share;
+  }
+}
+
+TEST(PlanarEstimate, ParallaxTellsNearFromFar) {
+  const auto near = planar_scene(100, 0.0, 0.0005, 0.05, 3);
+  const auto far = planar_scene(100, 0.0, 0.0005, 1.5, 3);
+  const auto of_near = estimate_planar_motion(near.correspondences, {}, 1);
+  const auto of_far = estimate_planar_motion(far.correspondences, {}, 1);
+  ASSERT_TRUE(of_near && of_far);
+  EXPECT_LT(of_near->median_parallax_rad, 0.03);
+  EXPECT_GT(of_far->median_parallax_rad, 0.15);
+  EXPECT_GT(of_near->direction_spread_rad, of_far->direction_spread_rad);
+}
+
+TEST(PlanarEstimate, TheSameViewHasATurnAndNoParallax) {
+  const PlanarScene scene = planar_scene(80, 0.0, 0.0, 0.0, 9);
+  const auto estimate = estimate_planar_motion(scene.correspondences, {}, 1);
+  ASSERT_TRUE(estimate);
+  EXPECT_LT(turn_error_deg(estimate->motion, scene.truth), 0.01);
+  EXPECT_LT(estimate->median_parallax_rad, 1e-4);
+}
+
+TEST(PlanarEstimate, IsTheSameForTheSameSeed) {
+  const PlanarScene scene = planar_scene(90, 0.5, 0.002, 0.7, 21);
+  const auto once = estimate_planar_motion(scene.correspondences, {}, 77);
+  const auto twice = estimate_planar_motion(scene.correspondences, {}, 77);
+  ASSERT_TRUE(once && twice);
+  EXPECT_EQ(once->motion.direction_rad, twice->motion.direction_rad);
+  EXPECT_EQ(once->motion.turn_rad, twice->motion.turn_rad);
+  EXPECT_EQ(once->inliers, twice->inliers);
+}
+
+TEST(PlanarEstimate, TooFewMatchesAreAnError) {
+  for (const int count : {0, 1, 2}) {
+    const PlanarScene scene = planar_scene(count, 0.0, 0.0, 0.7, 2);
+    const auto estimate = estimate_planar_motion(scene.correspondences, {}, 1);
+    ASSERT_FALSE(estimate) << count;
+    EXPECT_EQ(estimate.error().code, ErrorCode::kTooLittleSupport);
+  }
+}
+
+TEST(PlanarEstimate, OneMatchRepeatedIsAnErrorAndNotAGuess) {
+  const PlanarScene scene = planar_scene(1, 0.0, 0.0, 0.7, 2);
+  const std::vector<Correspondence> repeated(30, scene.correspondences[0]);
+  const auto estimate = estimate_planar_motion(repeated, {}, 1);
+  ASSERT_FALSE(estimate);
+  EXPECT_EQ(estimate.error().code, ErrorCode::kTooLittleSupport);
+}
+
+TEST(PlanarEstimate, BearingsThatAreNoNumbersAreNoSupport) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Correspondence> broken(12, {{nan, nan, nan}, {1.0, 0.0, 0.0}});
+  const auto estimate = estimate_planar_motion(broken, {}, 1);
+  ASSERT_FALSE(estimate);
+  EXPECT_EQ(estimate.error().code, ErrorCode::kTooLittleSupport);
+}
+
+TEST(PlanarEstimate, RandomMatchesFindFewInliers) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const PlanarScene scene = planar_scene(60, 1.0, 0.0, 0.7, 400 + seed);
+    const auto estimate = estimate_planar_motion(scene.correspondences, {}, seed);
+    if (estimate) {
+      EXPECT_LT(estimate->inliers.size(), 15U) << seed;
+    } else {
+      EXPECT_EQ(estimate.error().code, ErrorCode::kTooLittleSupport);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace homeward::geometry
