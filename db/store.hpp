@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "core/result.hpp"
+#include "db/map_file.hpp"
+#include "db/store_records.hpp"
+
+namespace homeward::db {
+
+/// Everything that the server must not forget. What a function has answered with success survives a killed process and
+/// a power cut. Every function may be called from any thread. Records without an id are given a random one.
+/// Errors of all: kIo (disk trouble), kCorruptFile (the database does not hold together); others are named.
+class Store {
+ public:
+  Store() = default;
+  Store(const Store&) = delete;
+  Store& operator=(const Store&) = delete;
+  virtual ~Store() = default;
+
+  // --- People -----------------------------------------------------------------------------------------------------
+  /// Errors: kConflict (the name is taken; upper and lower case are the same).
+  virtual Result<User> add_user(User user) = 0;
+  virtual Result<std::vector<User>> users() = 0;  // by name
+  virtual Result<std::optional<User>> user_by_name(const std::string& name) = 0;
+  virtual Result<std::optional<User>> user(const UserId& id) = 0;
+  /// A new password also ends the sessions of the person. Errors: kNotFound.
+  virtual Status set_password_hash(const UserId& id, const std::string& password_hash) = 0;
+  /// Errors: kNotFound.
+  virtual Status set_role(const UserId& id, Role role) = 0;
+  /// With all sessions. Errors: kNotFound, kConflict (the last admin).
+  virtual Status remove_user(const UserId& id) = 0;
+
+  // --- Secrets; see secrets.hpp for the hashes --------------------------------------------------------------------
+  virtual Result<Session> add_session(Session session) = 0;
+  /// Nothing when there is none or it ended before `now_us`.
+  virtual Result<std::optional<Session>> session_by_hash(const std::string& hash, TimeUs now_us) = 0;
+  /// Success also when there is none.
+  virtual Status remove_session(const std::string& hash) = 0;
+  virtual Result<Token> add_token(Token token) = 0;
+  virtual Result<std::vector<Token>> tokens() = 0;  // oldest first
+  /// Nothing when there is none, it was revoked or it ended before `now_us`.
+  virtual Result<std::optional<Token>> token_by_hash(const std::string& hash, TimeUs now_us) = 0;
+  /// Errors: kNotFound.
+  virtual Status revoke_token(const std::string& id) = 0;
+  /// Of the one-time set-up link; a new one replaces it.
+  virtual Status set_setup_hash(const std::string& hash) = 0;
+  virtual Result<std::optional<std::string>> setup_hash() = 0;
+  /// The first admin against the set-up secret, which is used up by it, in one step.
+  /// Errors: kForbidden (another secret or none left), kConflict (the name is taken).
+  virtual Result<User> finish_setup(const std::string& hash, User admin) = 0;
+
+  // --- Tours ------------------------------------------------------------------------------------------------------
+  virtual Result<Tour> add_tour(Tour tour) = 0;
+  virtual Result<std::vector<Tour>> tours() = 0;  // oldest first
+  /// Errors: kNotFound.
+  virtual Result<Tour> tour(const TourId& id) = 0;
+  /// The same bytes under the same number again are kSame, other bytes kConflict; neither changes anything. An image
+  /// without a file name is called after its number ("000012.jpg", by its `type`); `sha256` and `size` are filled in
+  /// here. Errors: kNotFound (tour), kConflict (the tour is complete, or another image has the file name).
+  virtual Result<PutImage> put_image(const TourId& tour, TourImage image, std::span<const std::uint8_t> bytes) = 0;
+  virtual Result<std::vector<TourImage>> tour_images(const TourId& tour) = 0;  // by number
+  /// Errors: kNotFound.
+  virtual Result<std::vector<std::uint8_t>> image_bytes(const TourId& tour, std::int64_t number) = 0;
+  /// Replaces all marks. Errors: kNotFound.
+  virtual Status set_marks(const TourId& tour, const std::vector<wire::TourMark>& marks) = 0;
+  virtual Result<std::vector<wire::TourMark>> marks(const TourId& tour) = 0;
+  /// Success also when it was complete already. Whether enough pictures are there is the caller's to judge.
+  /// Errors: kNotFound.
+  virtual Status complete_tour(const TourId& id) = 0;
+  /// With its pictures. Errors: kNotFound, kConflict (a map was built from it).
+  virtual Status remove_tour(const TourId& id) = 0;
+
+  // --- Maps -------------------------------------------------------------------------------------------------------
+  /// A map without contents yet (revision 0, kBuilding unless stated). Errors: kNotFound (a tour).
+  virtual Result<MapRecord> add_map(MapRecord map) = 0;
+  virtual Result<std::vector<MapRecord>> maps() = 0;  // oldest first
+  /// Errors: kNotFound.
+  virtual Result<MapRecord> map(const MapId& id) = 0;
+  /// Errors: kNotFound.
+  virtual Status set_map_state(const MapId& id, wire::MapState state) = 0;
+  /// Keeps new contents as revision `contents.revision` and makes the map ready. The older file goes once the row has
+  /// been switched. Errors: kNotFound, kStaleRevision (`expected_revision` is not the present one).
+  virtual Result<MapRecord> save_map_contents(const MapId& id, const map::TopologicalMap& contents,
+                                              const Thumbnails& thumbnails, std::int64_t expected_revision) = 0;
+  /// Errors: kNotFound (also before the first build), those of load_map.
+  virtual Result<StoredMap> load_map_contents(const MapId& id) = 0;
+  /// The bytes of the map file, for export. Errors: kNotFound.
+  virtual Result<std::vector<std::uint8_t>> map_file_bytes(const MapId& id) = 0;
+  /// A map from the bytes of a map file, as it is. Errors: those of load_map.
+  virtual Result<MapRecord> import_map(MapRecord map, std::span<const std::uint8_t> file) = 0;
+  /// With its jobs; robots on it are left without a map. Errors: kNotFound.
+  virtual Status remove_map(const MapId& id) = 0;
+
+  // --- Jobs -------------------------------------------------------------------------------------------------------
+  virtual Result<wire::JobView> add_job(wire::JobView job) = 0;
+  /// State, stage, share and error. Errors: kNotFound.
+  virtual Status update_job(const wire::JobView& job) = 0;
+  virtual Result<std::vector<wire::JobView>> jobs() = 0;  // oldest first
+  /// Queued or running, oldest first: what to take up again after a restart.
+  virtual Result<std::vector<wire::JobView>> unfinished_jobs() = 0;
+  /// Errors: kNotFound.
+  virtual Result<wire::JobView> job(const JobId& id) = 0;
+
+  // --- Robots and missions ----------------------------------------------------------------------------------------
+  /// Errors: kConflict (the name is taken).
+  virtual Result<RobotRecord> add_robot(RobotRecord robot) = 0;
+  virtual Result<std::vector<RobotRecord>> robots() = 0;  // by name
+  /// Errors: kNotFound.
+  virtual Result<RobotRecord> robot(const RobotId& id) = 0;
+  /// Nothing takes it off every map. Errors: kNotFound (robot or map).
+  virtual Status set_robot_map(const RobotId& id, const std::optional<MapId>& map) = 0;
+  /// One higher than ever before, durably, also after a restart. Errors: kNotFound.
+  virtual Result<std::int64_t> next_epoch(const RobotId& id) = 0;
+  /// With its missions and tokens. Errors: kNotFound.
+  virtual Status remove_robot(const RobotId& id) = 0;
+  virtual Result<wire::MissionView> add_mission(wire::MissionView mission) = 0;
+  /// State, reason, epoch, seq and path_index. Errors: kNotFound.
+  virtual Status update_mission(const wire::MissionView& mission) = 0;
+  /// The newest first, at most `limit`.
+  virtual Result<std::vector<wire::MissionView>> missions(const RobotId& robot, int limit = 100) = 0;
+  /// Errors: kNotFound.
+  virtual Result<wire::MissionView> mission(const MissionId& id) = 0;
+
+  // --- Repeated requests --------------------------------------------------------------------------------------------
+  /// The answer given before to this caller, route and key, unless it is older than 24 h.
+  virtual Result<std::optional<StoredAnswer>> answer(const RequestKey& key, TimeUs now_us) = 0;
+  /// Success also when there is one already, which stays. Forgets answers older than 24 h.
+  virtual Status keep_answer(const RequestKey& key, const StoredAnswer& answer, TimeUs now_us) = 0;
+};
+
+/// Opens or makes the database of a data folder, and brings an older one up to date. Missions that were under way are
+/// kStopped with the reason "server restarted" from then on.
+/// Errors: kConflict (another process has the folder), kUnsupportedFormat (made by a newer version), kCorruptFile, kIo.
+Result<std::unique_ptr<Store>> open_sqlite_store(const std::filesystem::path& data_directory);
+
+}  // namespace homeward::db

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "core/pose2.hpp"
+#include "core/time.hpp"
+#include "wire/job_json.hpp"
+#include "wire/map_info_json.hpp"
+#include "wire/mission_json.hpp"
+#include "wire/tour_json.hpp"
+
+namespace homeward::db {
+
+/// Each person's role includes those before it; kRobot stands apart.
+enum class Role { kViewer, kRider, kCarer, kInstaller, kAdmin, kRobot };
+
+/// "viewer", "rider", "carer", "installer", "admin", "robot".
+std::string_view role_name(Role role);
+std::optional<Role> role(std::string_view name);
+
+struct User {
+  UserId id;
+  std::string name;
+  Role role = Role::kViewer;
+  std::string password_hash;  // Argon2id, as libsodium writes it
+  TimeUs created_us = 0;
+};
+
+/// A signed-in browser.
+struct Session {
+  std::string hash;  // of the secret in the cookie
+  UserId user;
+  TimeUs created_us = 0;
+  TimeUs expires_us = 0;
+};
+
+/// What a program signs in with.
+struct Token {
+  std::string id;
+  std::string name;
+  std::string hash;  // of the secret
+  Role role = Role::kRobot;
+  std::optional<RobotId> robot;  // the one that it speaks for
+  TimeUs created_us = 0;
+  std::optional<TimeUs> expires_us;  // nothing: never
+};
+
+struct Tour {
+  TourId id;
+  std::string name;
+  std::string camera;  // camera.json
+  bool complete = false;
+  TimeUs created_us = 0;
+  std::int64_t images = 0;
+  std::vector<std::int64_t> missing;  // numbers below the highest one that no picture has; the first 100
+};
+
+enum class ImageType { kJpeg, kPng };
+
+struct TourImage {
+  std::int64_t number = 0;  // place in the tour, from 0
+  std::string file;         // name within the tour
+  ImageType type = ImageType::kJpeg;
+  std::optional<TimeUs> t_us;
+  std::optional<Pose2> odometry;
+  std::string sha256;  // hexadecimal
+  std::int64_t size = 0;
+};
+
+enum class PutImage { kNew, kSame, kConflict };
+
+struct MapRecord {
+  MapId id;
+  std::string name;
+  wire::MapState state = wire::MapState::kBuilding;
+  std::int64_t revision = 0;  // 0 until there are contents
+  std::int64_t places = 0;
+  std::int64_t images = 0;
+  std::vector<TourId> tours;  // in the order given
+  std::optional<std::string> feature_config_id;
+  TimeUs created_us = 0;
+};
+
+struct RobotRecord {
+  RobotId id;
+  std::string name;
+  std::optional<MapId> map;
+  std::int64_t epoch = 0;
+  TimeUs created_us = 0;
+};
+
+/// Who asked for what, under which Idempotency-Key.
+struct RequestKey {
+  std::string caller;
+  std::string route;  // method and path
+  std::string key;
+};
+
+struct StoredAnswer {
+  int status = 0;
+  std::string body;
+};
+
+}  // namespace homeward::db
