@@ -45,9 +45,9 @@ const kThings = {
 /** A drawn picture of a place (SVG), as an installer's camera would have taken it on a good day. */
 export function pictureOf(place) {
   const [, , , , wall, thing] = kPlaces.find(([id]) => id === place) ?? kPlaces[1];
-  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 160 120" width="320" height="240"><rect width="160" height="120" fill="${wall}"/>
-<path d="M0 120 40 90h80l40 30z" fill="#8a6f52"/><path d="M0 0 40 26v64L0 120zM160 0l-40 26v64l40 30z" fill="#00000018"/>
-<path d="M0 0 40 26h80L160 0z" fill="#ffffff55"/>${kThings[thing]}</svg>`;
+  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="-40 0 240 120" width="480" height="240"><rect x="-40" width="240" height="120" fill="${wall}"/>
+<path d="M-40 120 0 92h160l40 28z" fill="#8a6f52"/><path d="M-40 0 0 22v70l-40 28zM200 0l-40 22v70l40 28z" fill="#00000018"/>
+<path d="M-40 0 0 22h160L200 0z" fill="#ffffff55"/>${kThings[thing]}</svg>`;
 }
 
 export function neighboursOf(graph, place) {

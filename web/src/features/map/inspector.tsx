@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { useEffect, useState } from 'preact/hooks';
+import { useEffect, useRef, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import type { Edit, Graph, Place } from '../../api/types';
 import { TextField } from '../../components/field';
@@ -9,7 +9,7 @@ import { nameOf, placeTitle } from '../../lib/whereabouts';
 import { count } from '../../lib/words';
 import { waysOut } from './place_views';
 
-const kShownPictures = 6;
+const kShownPictures = 5;
 
 interface Props {
   graph: Graph;
@@ -25,10 +25,15 @@ interface Props {
 /** One place: its name, its pictures, and the ways out of it. */
 export function Inspector({ graph, place, mayEdit, command, done, onEdit, onChoose, onGo }: Props) {
   const title = placeTitle(graph, place.id);
+  const heading = useRef<HTMLHeadingElement>(null);
+  // A place that was chosen further down the page comes into view, for eyes and for screen readers.
+  useEffect(() => heading.current?.focus(), [place.id]);
   return (
     <section class="card stack inspector" aria-label={`Chosen place: ${title}`}>
       <div class="row apart">
-        <h2>{title}</h2>
+        <h2 tabIndex={-1} ref={heading}>
+          {title}
+        </h2>
         {onGo && (
           <button type="button" class="button main" onClick={onGo}>
             Send the chair here
@@ -59,7 +64,7 @@ function Pictures({ graph, place, title }: { graph: Graph; place: Place; title: 
         {shown.map((image, i) => (
           <li key={image}>
             <img
-              class="picture"
+              class={i === 0 ? 'picture whole' : 'picture'}
               src={calls.imageThumbnailUrl(graph.map, image)}
               alt={`${title}, picture ${i + 1}`}
               loading="lazy"

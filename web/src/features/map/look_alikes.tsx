@@ -26,13 +26,13 @@ export function LookAlikes({ graph }: { graph: Graph }) {
           <li key={`${one.prototype_a}|${one.prototype_b}`}>
             <div class="pair">
               <img
-                class="picture"
+                class="picture whole"
                 src={calls.imageThumbnailUrl(graph.map, one.prototype_a)}
                 alt="First place"
                 loading="lazy"
               />
               <img
-                class="picture"
+                class="picture whole"
                 src={calls.imageThumbnailUrl(graph.map, one.prototype_b)}
                 alt="Second place"
                 loading="lazy"

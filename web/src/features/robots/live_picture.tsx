@@ -1,57 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
-import { useEffect, useState } from 'preact/hooks';
+import { useEffect, useRef, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import type { Robot } from '../../api/types';
 import { Icon } from '../../components/icons';
 
-const kPeriodMs = 700;
+const kPeriodMs = 600;
 const kRetryMs = 3000;
 
-/** What the robot sees, asked for again as soon as the last picture is there; rests while the page is hidden. */
+/** What the robot sees, asked for again when the last picture is there; rests while the page is hidden. */
 export function LivePicture({ robot }: { robot: Robot }) {
-  const [n, setN] = useState(0);
-  const [shown, setShown] = useState(0); // the newest picture that was loaded; 0: none
-  useEffect(() => {
-    if (!robot.online) return;
-    let timer: ReturnType<typeof setTimeout>;
-    let wanted = true;
-    const later = (delay_ms: number) => {
-      if (wanted) timer = setTimeout(next, delay_ms);
-    };
-    let count = Date.now();
-    const next = () => {
-      if (document.hidden) {
-        later(kRetryMs);
-        return;
-      }
-      const asked = (count += 1);
-      const image = new Image();
-      image.onload = () => {
-        if (!wanted) return;
-        setN(asked);
-        setShown(asked);
-        later(kPeriodMs);
-      };
-      image.onerror = () => {
-        if (!wanted) return;
-        setShown(0);
-        later(kRetryMs);
-      };
-      image.src = calls.frameUrl(robot.id, asked);
-    };
-    next();
-    return () => {
-      wanted = false;
-      clearTimeout(timer);
-    };
-  }, [robot.id, robot.online]);
+  const [n, setN] = useState(() => Date.now());
+  const [seen, setSeen] = useState(false);
+  const timer = useRef<ReturnType<typeof setTimeout>>();
+  useEffect(() => () => clearTimeout(timer.current), []);
 
-  if (!robot.online || shown === 0)
-    return (
-      <div class="picture live no-picture">
-        <Icon name={robot.online ? 'tours' : 'warn'} size={48} />
-        <span>{robot.online ? 'No picture yet' : 'No picture: not connected'}</span>
-      </div>
-    );
-  return <img class="picture live" src={calls.frameUrl(robot.id, n)} alt={`What ${robot.name} sees now`} />;
+  const next = (delay_ms: number) => {
+    clearTimeout(timer.current);
+    timer.current = setTimeout(() => {
+      if (document.hidden) next(kRetryMs);
+      else setN((last) => last + 1);
+    }, delay_ms);
+  };
+  return (
+    <div>
+      {robot.online && (
+        <img
+          class="picture live"
+          hidden={!seen}
+          src={calls.frameUrl(robot.id, n)}
+          alt={`What ${robot.name} sees now`}
+          onLoad={() => {
+            setSeen(true);
+            next(kPeriodMs);
+          }}
+          onError={() => {
+            setSeen(false);
+            next(kRetryMs);
+          }}
+        />
+      )}
+      {(!robot.online || !seen) && (
+        <div class="picture live no-picture">
+          <Icon name={robot.online ? 'tours' : 'warn'} size={48} />
+          <span>{robot.online ? 'No picture yet' : 'No picture: not connected'}</span>
+        </div>
+      )}
+    </div>
+  );
 }
