@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace homeward::server {
+
+/// Slows down the guessing of passwords: after `most` failures in a row a key has to wait. The clock is handed in.
+class FailureCounter {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  explicit FailureCounter(int most = 5, std::chrono::seconds wait = std::chrono::seconds(60))
+      : most_(most), wait_(wait) {}
+
+  /// Seconds to wait before the next try; 0 when it may come now.
+  int seconds_to_wait(const std::string& key, Time now) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = entries_.find(key);
+    if (found == entries_.end() || found->second.failures < most_) return 0;
+    const auto left = found->second.last + wait_ - now;
+    if (left <= Time::duration::zero()) {
+      entries_.erase(found);
+      return 0;
+    }
+    return static_cast<int>(std::chrono::ceil<std::chrono::seconds>(left).count());
+  }
+
+  void failed(const std::string& key, Time now) {
+    const std::scoped_lock lock(mutex_);
+    // Names that nobody has must not fill the memory.
+    if (entries_.size() >= kMostKeys) {
+      std::erase_if(entries_, [&](const auto& entry) { return entry.second.last + wait_ < now; });
+      if (entries_.size() >= kMostKeys) entries_.clear();
+    }
+    Entry& entry = entries_[key];
+    ++entry.failures;
+    entry.last = now;
+  }
+
+  void succeeded(const std::string& key) {
+    const std::scoped_lock lock(mutex_);
+    entries_.erase(key);
+  }
+
+ private:
+  static constexpr std::size_t kMostKeys = 10'000;
+  struct Entry {
+    int failures = 0;
+    Time last;
+  };
+  int most_;
+  std::chrono::seconds wait_;
+  std::mutex mutex_;
+  std::map<std::string, Entry> entries_;
+};
+
+}  // namespace homeward::server

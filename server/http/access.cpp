@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/access.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace homeward::server {
+namespace {
+
+constexpr std::array<std::string_view, 5> kRanks = {"viewer", "rider", "carer", "installer", "admin"};
+
+int rank_of(std::string_view role) {
+  const auto found = std::find(kRanks.begin(), kRanks.end(), role);
+  return found == kRanks.end() ? -1 : static_cast<int>(found - kRanks.begin());
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
+}  // namespace
+
+AccessPolicy::AccessPolicy(std::set<std::string> extra_hosts) {
+  hosts_ = {"localhost", "127.0.0.1", "[::1]"};
+  for (const std::string& host : extra_hosts) hosts_.insert(lower(host));
+}
+
+std::string host_without_port(std::string_view host) {
+  if (!host.empty() && host.front() == '[') {
+    const std::size_t end = host.find(']');
+    return end == std::string_view::npos ? std::string() : lower(host.substr(0, end + 1));
+  }
+  return lower(host.substr(0, std::min(host.find(':'), host.size())));
+}
+
+bool AccessPolicy::host_allowed(std::string_view host_header) const {
+  return hosts_.contains(host_without_port(host_header));
+}
+
+bool AccessPolicy::origin_allowed(std::string_view origin, std::string_view host_header) const {
+  const std::string text = lower(origin);
+  const std::size_t scheme = text.find("://");
+  if (scheme == std::string::npos) return false;  // "null" among them
+  const std::string protocol = text.substr(0, scheme);
+  if (protocol != "http" && protocol != "https") return false;
+  const std::string authority = text.substr(scheme + 3);
+  return authority == lower(host_header) && host_allowed(authority);
+}
+
+bool AccessPolicy::from_own_page(const Request& request) const {
+  const std::string origin = request.header("origin");
+  if (!origin.empty()) return origin_allowed(origin, request.header("host"));
+  return request.header("sec-fetch-site") == "same-origin";
+}
+
+bool is_loopback(std::string_view address) {
+  return address == "localhost" || address == "::1" || address == "[::1]" || address.substr(0, 4) == "127.";
+}
+
+bool is_role(const std::string& name) { return name == "robot" || rank_of(name) >= 0; }
+
+bool role_allows(const std::string& role, const std::string& needed) {
+  if (needed == "anyone") return true;
+  const bool robot_too = needed == "installer, robot" || needed == "viewer, robot";
+  if (role == "robot") return robot_too || needed == "robot";
+  const int least = rank_of(robot_too ? needed.substr(0, needed.find(',')) : needed);
+  return least >= 0 && rank_of(role) >= least;
+}
+
+void add_security_headers(Response& response) {
+  auto& headers = response.headers;
+  headers.try_emplace("content-security-policy",
+                      "default-src 'self'; img-src 'self' blob:; object-src 'none'; base-uri 'none'; "
+                      "form-action 'self'; frame-ancestors 'none'");
+  headers.try_emplace("x-content-type-options", "nosniff");
+  headers.try_emplace("x-frame-options", "DENY");
+  headers.try_emplace("referrer-policy", "no-referrer");
+  headers.try_emplace("cross-origin-resource-policy", "same-origin");
+  headers.try_emplace("cache-control", "no-store");
+}
+
+}  // namespace homeward::server

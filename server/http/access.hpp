@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "server/http/message.hpp"
+
+namespace homeward::server {
+
+/// Which names this server answers to. A browser that was led here under another name (DNS rebinding) is refused, and
+/// so is a page of another site that uses the visitor's cookie.
+class AccessPolicy {
+ public:
+  /// `extra_hosts`: names besides the loopback ones, without port.
+  explicit AccessPolicy(std::set<std::string> extra_hosts);
+
+  /// Whether the Host header ("name", "name:port", "[::1]:port") names this server.
+  [[nodiscard]] bool host_allowed(std::string_view host_header) const;
+  /// Whether an Origin header ("http://name:port") is a page of this server: same host and port as asked for.
+  [[nodiscard]] bool origin_allowed(std::string_view origin, std::string_view host_header) const;
+  /// Whether a request that a cookie signs and that changes something, or opens a socket, comes from our own page.
+  [[nodiscard]] bool from_own_page(const Request& request) const;
+
+ private:
+  std::set<std::string> hosts_;
+};
+
+/// "name" of "name:port"; lower case; "[::1]" stays in brackets.
+std::string host_without_port(std::string_view host);
+
+/// Whether an address to listen on is reachable from this machine alone.
+bool is_loopback(std::string_view address);
+
+/// Whether `role` may do what asks for `needed` ("anyone", one role and all above it, or "installer, robot").
+bool role_allows(const std::string& role, const std::string& needed);
+bool is_role(const std::string& name);
+
+/// Sent with every answer: no scripts but ours, no frames, no guessing of types.
+void add_security_headers(Response& response);
+
+}  // namespace homeward::server

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <variant>
+
+#include "core/result.hpp"
+#include "server/http/message.hpp"
+#include "server/http/router.hpp"
+#include "server/ws/socket.hpp"
+
+namespace homeward::server {
+
+struct ServerLimits {
+  std::size_t max_header_bytes = 16UL * 1024;
+  int header_timeout_ms = 15'000;  // for the head of a request, idle connections included
+  int body_timeout_ms = 60'000;    // for a body, and for an answer to be taken
+  int max_connections = 512;
+};
+
+/// Answers a request whose head and body were read. `reply` is called exactly once, from any thread.
+using Reply = std::function<void(Response)>;
+
+/// The application behind the front. Called from the socket thread alone; must not wait.
+class Front {
+ public:
+  virtual ~Front() = default;
+  /// Whether to read the body of this request, and how much of it: a limit, or the refusal.
+  virtual std::variant<std::size_t, Response> admit(Request& request) = 0;
+  virtual void answer(std::shared_ptr<Request> request, Reply reply) = 0;
+  /// A WebSocket handshake: its handler, or the refusal. May take a while: `reply` as above.
+  using Upgrade = std::variant<Response, std::shared_ptr<SocketHandler>>;
+  virtual void upgrade(std::shared_ptr<Request> request, std::function<void(Upgrade)> reply) = 0;
+};
+
+/// HTTP/1.1 and WebSocket on one address. All socket work happens on one thread of its own; Boost.Beast and Asio stay
+/// behind this class.
+class HttpServer {
+ public:
+  /// Starts listening. `address`: "127.0.0.1" or "::1"; port 0 picks a free one. Errors: kIo.
+  static Result<std::unique_ptr<HttpServer>> start(const std::string& address, std::uint16_t port, Front& front,
+                                                   const ServerLimits& limits = {});
+  ~HttpServer();
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+
+  [[nodiscard]] std::uint16_t port() const;
+  /// Calls `tick` on the socket thread every `period_ms` until the server stops.
+  void every(int period_ms, std::function<void()> tick);
+  /// Closes all sockets and joins the thread.
+  void stop();
+
+ private:
+  struct State;
+  HttpServer();
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace homeward::server

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/work_pool.hpp"
+
+namespace homeward::server {
+
+WorkPool::WorkPool(int threads, std::size_t queue_limit) : queue_limit_(queue_limit) {
+  for (int i = 0; i < threads; ++i) {
+    workers_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+  }
+}
+
+WorkPool::~WorkPool() { stop(); }
+
+bool WorkPool::try_run(Task task) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (stopping_ || queue_.size() >= queue_limit_) return false;
+    queue_.push_back(std::move(task));
+  }
+  ready_.notify_one();
+  return true;
+}
+
+void WorkPool::stop() {
+  {
+    const std::scoped_lock lock(mutex_);
+    stopping_ = true;
+    queue_.clear();
+  }
+  for (std::jthread& worker : workers_) worker.request_stop();
+  workers_.clear();  // joins
+}
+
+std::size_t WorkPool::waiting() const {
+  const std::scoped_lock lock(mutex_);
+  return queue_.size();
+}
+
+void WorkPool::work(const std::stop_token& stop) {
+  while (true) {
+    Task task;
+    {
+      std::unique_lock lock(mutex_);
+      if (!ready_.wait(lock, stop, [&] { return !queue_.empty(); })) return;
+      task = std::move(queue_.front());
+      queue_.pop_front();
+    }
+    task();
+  }
+}
+
+}  // namespace homeward::server

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace homeward::server {
+
+/// A fixed number of workers and a queue with a limit: when it is full, work is refused, never piled up.
+class WorkPool {
+ public:
+  using Task = std::function<void()>;
+
+  WorkPool(int threads, std::size_t queue_limit);
+  /// Finishes the tasks that run and drops those that wait.
+  ~WorkPool();
+  WorkPool(const WorkPool&) = delete;
+  WorkPool& operator=(const WorkPool&) = delete;
+
+  /// False when the queue is full or the pool is stopping; the task is then not run. A task must not throw.
+  [[nodiscard]] bool try_run(Task task);
+  /// Ends the workers; the same as destruction, callable earlier and more than once.
+  void stop();
+  [[nodiscard]] std::size_t waiting() const;
+
+ private:
+  void work(const std::stop_token& stop);
+
+  std::size_t queue_limit_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any ready_;
+  std::deque<Task> queue_;
+  bool stopping_ = false;
+  std::vector<std::jthread> workers_;
+};
+
+}  // namespace homeward::server
