@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "features/extract.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/angles.hpp"
+#include "support/painted_room.hpp"
+
+namespace homeward::features {
+namespace {
+
+using homeward::testing::painted_panorama;
+using homeward::testing::PaintedRoom;
+
+const camera::Panorama& sample_panorama() {
+  static const camera::Panorama panorama = painted_panorama(PaintedRoom{}, {0.3, -0.5, 0.2});
+  return panorama;
+}
+
+TEST(Extract, KeepsTheBudget) {
+  for (const int budget : {300, 60, 1}) {
+    FeatureConfig config;
+    config.max_sift = budget;
+    const Appearance seen = extract(sample_panorama(), config);
+    EXPECT_EQ(seen.sift.size(), budget);  // the room has more than enough
+    EXPECT_EQ(seen.size(), budget);
+    EXPECT_EQ(seen.sift.descriptors.rows(), budget);
+    EXPECT_EQ(seen.sift.descriptors.cols(), 128);
+    EXPECT_EQ(seen.sift.colours.rows(), budget);
+    EXPECT_EQ(seen.sift.scales_rad.size(), budget);
+  }
+}
+
+TEST(Extract, RowsAreUnitLengthAndInsideThePanorama) {
+  const Appearance seen = extract(sample_panorama(), {});
+  const camera::PanoramaGeometry geometry;
+  for (int i = 0; i < seen.sift.size(); ++i) {
+    EXPECT_NEAR(seen.sift.bearings.row(i).norm(), 1.0F, 1e-5F);
+    const double elevation_rad = std::asin(static_cast<double>(seen.sift.bearings(i, 2)));
+    EXPECT_LT(elevation_rad, geometry.elevation_max_rad);
+    EXPECT_GT(elevation_rad, geometry.elevation_min_rad);
+    EXPECT_GT(seen.sift.scales_rad[i], 0.0F);
+    EXPECT_LT(seen.sift.scales_rad[i], 1.5F);
+    EXPECT_NEAR(seen.sift.descriptors.row(i).cast<float>().norm(), 512.0F, 20.0F) << i;
+  }
+}
+
+TEST(Extract, SpreadsOverAzimuth) {
+  // One side of the room is painted strongly, the other faintly: it must get its share all the same.
+  camera::Panorama panorama = sample_panorama();
+  for (int v = 0; v < panorama.rgb.height_px; ++v) {
+    for (int u = 512; u < 1024; ++u) {
+      for (int band = 0; band < 3; ++band) {
+        std::uint8_t& value = panorama.rgb.at(u, v)[band];
+        value = static_cast<std::uint8_t>(128 + (value - 128) * 2 / 5);
+      }
+    }
+  }
+  FeatureConfig config;
+  config.max_sift = 120;
+  const Appearance seen = extract(panorama, config);
+  ASSERT_EQ(seen.sift.size(), 120);
+  std::array<int, 8> in_sector{};
+  for (int i = 0; i < seen.sift.size(); ++i) {
+    const double azimuth_rad =
+        std::atan2(static_cast<double>(seen.sift.bearings(i, 1)), static_cast<double>(seen.sift.bearings(i, 0)));
+    ++in_sector[static_cast<std::size_t>(std::clamp((azimuth_rad + kPi) / (2.0 * kPi) * 8.0, 0.0, 7.999))];
+  }
+  for (const int count : in_sector) EXPECT_GE(count, 8);  // 15 each when even
+}
+
+TEST(Extract, ABlackOrPlainPictureHasNoFeatures) {
+  camera::Panorama panorama = sample_panorama();
+  for (const int level : {0, 90, 255}) {
+    std::fill(panorama.rgb.data.begin(), panorama.rgb.data.end(), static_cast<std::uint8_t>(level));
+    EXPECT_EQ(extract(panorama, {}).size(), 0) << level;
+  }
+}
+
+TEST(Extract, WhatTheCameraDoesNotSeeHasNoFeatures) {
+  camera::Panorama panorama = sample_panorama();
+  for (int v = 0; v < panorama.rgb.height_px; ++v) {
+    for (int u = 300; u < 700; ++u) panorama.valid[static_cast<std::size_t>(v * 1024 + u)] = 0;
+  }
+  const Appearance seen = extract(panorama, {});
+  EXPECT_GT(seen.sift.size(), 100);
+  for (int i = 0; i < seen.sift.size(); ++i) {
+    const double u_px = panorama.geometry.pixel(seen.sift.bearings.row(i).transpose().cast<double>()).x();
+    EXPECT_TRUE(u_px < 300.0 || u_px > 699.0) << u_px;
+  }
+}
+
+TEST(Extract, IsTheSameEveryTime) {
+  const Appearance once = extract(sample_panorama(), {});
+  const Appearance twice = extract(sample_panorama(), {});
+  EXPECT_EQ(once.sift.bearings, twice.sift.bearings);
+  EXPECT_EQ(once.sift.descriptors, twice.sift.descriptors);
+  EXPECT_EQ(once.sift.colours, twice.sift.colours);
+  EXPECT_EQ(once.colour_moments, twice.colour_moments);
+}
+
+TEST(Extract, ATurnMovesFeaturesAndChangesNothingElse) {
+  // 341 columns: features at the old seam come to lie in the middle and others at the seam. All features are kept, so
+  // that which sector a feature falls into does not matter.
+  FeatureConfig config;
+  config.max_sift = 100000;
+  constexpr int kShiftPx = 341;
+  const camera::Panorama& before = sample_panorama();
+  camera::Panorama after = before;
+  for (int v = 0; v < before.rgb.height_px; ++v) {
+    for (int u = 0; u < 1024; ++u) {
+      std::copy(before.rgb.at(u, v), before.rgb.at(u, v) + 3, after.rgb.at((u + kShiftPx) % 1024, v));
+    }
+  }
+  const Appearance a = extract(before, config);
+  const Appearance b = extract(after, config);
+  // A feature by its descriptor's bytes; the padding at the seam is finite, so large features there may differ.
+  std::set<std::vector<std::uint8_t>> known;
+  for (int i = 0; i < a.sift.size(); ++i) {
+    known.emplace(a.sift.descriptors.row(i).begin(), a.sift.descriptors.row(i).end());
+  }
+  int found = 0;
+  for (int i = 0; i < b.sift.size(); ++i) {
+    found += known.contains({b.sift.descriptors.row(i).begin(), b.sift.descriptors.row(i).end()}) ? 1 : 0;
+  }
+  EXPECT_GT(found, 0.8 * b.sift.size()) << found << " of " << b.sift.size();
+  EXPECT_NEAR(a.sift.size(), b.sift.size(), 0.03 * a.sift.size());
+}
+
+TEST(FeatureConfigId, DiffersWhereverFeaturesDo) {
+  const std::string id = feature_config_id({});
+  std::set<std::string> ids = {id};
+  FeatureConfig config;
+  config.panorama_width_px = 512;
+  ids.insert(feature_config_id(config));
+  config = {};
+  config.elevation_max_rad += 0.001;
+  ids.insert(feature_config_id(config));
+  config = {};
+  config.elevation_min_rad += 0.001;
+  ids.insert(feature_config_id(config));
+  config = {};
+  config.max_sift = 299;
+  ids.insert(feature_config_id(config));
+  config = {};
+  config.sift_contrast_threshold = 0.03;
+  ids.insert(feature_config_id(config));
+  config = {};
+  config.max_columns = 10;
+  ids.insert(feature_config_id(config));
+  EXPECT_EQ(ids.size(), 7U);
+  EXPECT_EQ(feature_config_id({}), id);
+}
+
+}  // namespace
+}  // namespace homeward::features
