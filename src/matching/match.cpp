@@ -70,7 +70,8 @@ std::vector<Match> match(const features::FeatureSet& current, const features::Fe
   for (int i = 0; i < current.size(); ++i) {
     const Nearest& nearest = of_current[static_cast<std::size_t>(i)];
     if (of_target[static_cast<std::size_t>(nearest.index)].index != i) continue;
-    if (static_cast<double>(nearest.best) > ratio2 * static_cast<double>(nearest.second)) continue;
+    // Two equally good ones are no match either, be they perfect.
+    if (static_cast<double>(nearest.best) >= ratio2 * static_cast<double>(nearest.second)) continue;
     if (!colours_agree(current, i, target, nearest.index, config.max_colour_difference)) continue;
     matches.push_back({i, nearest.index});
   }
