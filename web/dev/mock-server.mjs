@@ -14,6 +14,8 @@ import { pictureOf } from './mock-house.mjs';
 import { Refusal } from './mock-refusal.mjs';
 import { House } from './mock-state.mjs';
 
+export { kCamera } from './mock-state.mjs';
+
 const kTypes = {
   '.html': 'text/html',
   '.js': 'text/javascript',

@@ -6,7 +6,10 @@ function token(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
-export function graphStyle(diameter: number): StylesheetJson {
+const kNamePx = 14;
+
+/** `zoom`: screen pixels per unit of the drawing when all of it is shown; names stay readable at that. */
+export function graphStyle(diameter: number, zoom: number): StylesheetJson {
   const ring = Math.max(2, 0.05 * diameter);
   return [
     {
@@ -21,13 +24,13 @@ export function graphStyle(diameter: number): StylesheetJson {
         'border-width': ring,
         'border-color': token('line-strong'),
         'font-family': 'Atkinson Hyperlegible, sans-serif',
-        'font-size': Math.max(15, 0.3 * diameter),
+        'font-size': Math.max(kNamePx / zoom, 0.3 * diameter),
         'font-weight': 'bold',
         color: token('ink'),
         'text-valign': 'bottom',
         'text-margin-y': 5,
         'text-outline-color': token('surface'),
-        'text-outline-width': 3,
+        'text-outline-width': 2.5 / zoom,
         'min-zoomed-font-size': 8,
       },
     },

@@ -40,7 +40,7 @@ export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
       const drawing = cytoscape({
         container,
         elements: elementsOf(graph),
-        style: graphStyle(diameter),
+        style: graphStyle(diameter, Math.min(container.clientWidth, container.clientHeight) / kSize),
         layout: { name: placed ? 'preset' : 'cose', fit: true, padding: kMargin, animate: false },
         minZoom: 0.1,
         maxZoom: 3,
@@ -111,11 +111,12 @@ export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
 /** Follows the size of the container and the change between light and dark; returns its end. */
 function watchLook(drawing: Core, container: HTMLElement, diameter: number): () => void {
   const dark = matchMedia('(prefers-color-scheme: dark)');
-  const restyle = () => void drawing.style(graphStyle(diameter));
+  const restyle = () => void drawing.style(graphStyle(diameter, drawing.zoom()));
   dark.addEventListener('change', restyle);
   const sizes = new ResizeObserver(() => {
     drawing.resize();
     drawing.fit(undefined, kMargin);
+    restyle();
   });
   sizes.observe(container);
   return () => {

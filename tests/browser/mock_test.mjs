@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: Apache-2.0
+// The dashboard in a real browser against the pretended house of web/dev/mock-server.mjs.
+// Usage: node tests/browser/mock_test.mjs [FOLDER FOR SCREENSHOTS]     after web/build.sh
+import assert from 'node:assert/strict';
+import { existsSync, mkdtempSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { startMock, kCamera } from '../../web/dev/mock-server.mjs';
+import {
+  findings,
+  kPhone,
+  kWide,
+  launch,
+  openPage,
+  runChecks,
+  shoot,
+  signIn,
+  sticksOut,
+} from './browser.mjs';
+
+const dist = fileURLToPath(new URL('../../web/dist', import.meta.url));
+if (!existsSync(join(dist, 'index.html')))
+  throw new Error(`there is no dashboard in ${dist}; build it with web/build.sh`);
+const out = process.argv[2] ?? mkdtempSync(join(tmpdir(), 'homeward-screens-'));
+
+const browser = await launch();
+
+/** Runs `check` with a house and a page of its own; fails on exceptions in the page and on blocked content. */
+function withHouse(check, { name = 'anna', fresh = false, ...look } = {}) {
+  return async () => {
+    const mock = await startMock({ port: 0, dist, step_ms: 150, fresh });
+    const page = await openPage(browser, { base: mock.url, ...look });
+    page.setDefaultTimeout(8000);
+    try {
+      if (name) await signIn(page, name, 'homeward');
+      await check(page, mock.house, mock);
+      assert.deepEqual(page.complaints, [], 'the page complained');
+    } finally {
+      await page.context().close();
+      mock.close();
+    }
+  };
+}
+
+const journey = (page) => page.getByTestId('journey');
+const tab = (page, name) =>
+  page.getByRole('navigation', { name: 'Pages' }).getByRole('link', { name }).click();
+const destination = (page, name) => page.locator('.destination', { hasText: name });
+
+async function phaseIs(page, phase) {
+  await page.locator(`[data-testid=journey][data-phase=${phase}]`).waitFor();
+}
+
+const checks = [
+  [
+    'a wrong password is told, the right one signs in, and signing out ends it',
+    withHouse(
+      async (page) => {
+        await page.goto('/');
+        await page.getByLabel('Your name').fill('anna');
+        await page.getByLabel('Password').fill('wrong');
+        await page.getByRole('button', { name: 'Sign in' }).click();
+        await page.getByText('The name or the password is not right.').waitFor();
+        await signIn(page, 'anna', 'homeward');
+        await tab(page, 'Settings');
+        await page.getByRole('button', { name: 'Sign out' }).click();
+        await page.getByRole('heading', { name: 'Sign in' }).waitFor();
+      },
+      { name: null },
+    ),
+  ],
+  [
+    'the set-up link makes the first account',
+    withHouse(
+      async (page, house) => {
+        await page.goto('/setup#first');
+        await page.getByLabel('Your name').fill('olga');
+        await page.getByLabel('Password', { exact: true }).fill('long enough');
+        await page.getByLabel('Password again').fill('long enough');
+        assert.deepEqual(await findings(page), []);
+        await page.getByRole('button', { name: 'Make the account' }).click();
+        await page.getByRole('heading', { name: 'Robots', exact: true }).waitFor();
+        assert.deepEqual(
+          house.users.map((one) => [one.name, one.role]),
+          [['olga', 'admin']],
+        );
+      },
+      { name: null, fresh: true },
+    ),
+  ],
+  [
+    'a press on a destination drives there and tells the arrival',
+    withHouse(async (page, house) => {
+      await destination(page, 'Kitchen').click();
+      await phaseIs(page, 'driving');
+      await journey(page).getByText('On the way to Kitchen').waitFor();
+      await page.getByRole('progressbar').waitFor();
+      await phaseIs(page, 'arrived');
+      await journey(page).getByText('Arrived: Kitchen').waitFor();
+      await page.getByText('I am in the kitchen.').waitFor();
+      assert.equal(house.robots[0].lease.holder, 'anna');
+    }),
+  ],
+  [
+    'STOP by press and by Escape stops the chair and says that it stands',
+    withHouse(async (page, house) => {
+      for (const press of [
+        () => page.getByRole('button', { name: /^STOP/ }).click(),
+        () => page.keyboard.press('Escape'),
+      ]) {
+        house.robots[0].belief.place = 'p1';
+        await destination(page, 'Living room').click();
+        await phaseIs(page, 'driving');
+        await press();
+        await page.getByTestId('stop-word').getByText('Chair has stopped.').waitFor();
+        await phaseIs(page, 'stopped');
+        await journey(page).getByText('Anna pressed stop.').waitFor();
+        assert.equal(house.robots[0].state, 'stopped');
+      }
+    }),
+  ],
+  [
+    'STOP is on every page, in view, and a viewer may press it but not drive',
+    withHouse(
+      async (page, house) => {
+        await page.getByText('Your account may look and may stop the chair, but not send it.').waitFor();
+        await destination(page, 'Kitchen').click({ force: true });
+        assert.equal(house.robots[0].mission, null);
+        for (const name of ['Map', 'Tours', 'Robots', 'Settings', 'Go']) {
+          await tab(page, name);
+          const box = await page.getByRole('button', { name: /^STOP/ }).boundingBox();
+          assert.ok(
+            box && box.y >= 0 && box.y + box.height <= kPhone.height,
+            `STOP is out of view on ${name}`,
+          );
+          assert.ok(box.width >= 200 && box.height >= 80, `STOP is small on ${name}`);
+        }
+        await page.getByRole('button', { name: /^STOP/ }).click();
+        await page.getByTestId('stop-word').getByText('Chair has stopped.').waitFor();
+      },
+      { name: 'vera', size: kPhone },
+    ),
+  ],
+  [
+    'without the server the page says so, and STOP sends the rider to the button on the chair',
+    withHouse(async (page, house) => {
+      house.steer({ do: 'unreachable', on: true });
+      await page.getByText('The house server cannot be reached.').waitFor();
+      await page.getByText('The house server is out of reach, so the chair cannot be sent.').waitFor();
+      await page.keyboard.press('Escape');
+      await page.getByTestId('stop-word').getByText('Use the stop button on the chair!').waitFor();
+      await shoot(page, out, 'unreachable');
+      house.steer({ do: 'unreachable', on: false });
+      await page.getByTestId('stop-word').getByText('Chair has stopped.').waitFor();
+      await page
+        .getByText('The house server cannot be reached.')
+        .waitFor({ state: 'detached', timeout: 20_000 });
+    }),
+  ],
+  [
+    'a chair that does not know where it is says so, and a refusal gives its reason',
+    withHouse(async (page, house) => {
+      house.steer({
+        do: 'robot',
+        set: { belief: { updates: 3, place: null, probability: null, top: [], lost: true } },
+      });
+      await page.getByText('I am not sure where I am.').waitFor();
+      await destination(page, 'Kitchen').click();
+      await phaseIs(page, 'refused');
+      await journey(page).getByText('Chair does not know where it is.').waitFor();
+    }),
+  ],
+  [
+    'somebody else who drives is named, and is replaced only on purpose',
+    withHouse(
+      async (page, house) => {
+        house.steer({ do: 'hold', holder: 'anna' });
+        await destination(page, 'Kitchen').click();
+        await page.getByText('anna is driving the chair just now.').waitFor();
+        assert.equal(house.robots[0].mission, null);
+        await page.getByRole('button', { name: 'Take over' }).click();
+        await phaseIs(page, 'arrived');
+        assert.equal(house.robots[0].lease.holder, 'ben');
+      },
+      { name: 'ben' },
+    ),
+  ],
+  [
+    'a place is renamed; after a change by somebody else the map is loaded again first',
+    withHouse(async (page, house) => {
+      await tab(page, 'Map');
+      await page.getByRole('button', { name: 'Kitchen', exact: true }).click();
+      house.steer({ do: 'edit' });
+      const name = page.getByLabel('Name', { exact: true });
+      await name.fill('Cooking corner');
+      await page.getByRole('button', { name: 'Save', exact: true }).click();
+      await page.getByText('Somebody else changed the map in the meantime.').waitFor();
+      assert.equal(await name.inputValue(), 'Cooking corner');
+      assert.equal(house.graph.places.find((one) => one.id === 'p5').label, 'kitchen');
+      await page.getByRole('button', { name: 'Save', exact: true }).click();
+      await page.getByText('Named Cooking corner.').waitFor();
+      assert.equal(house.graph.places.find((one) => one.id === 'p5').label, 'Cooking corner');
+      await tab(page, 'Go');
+      await destination(page, 'Cooking corner').waitFor();
+    }),
+  ],
+  [
+    'a way is closed, and the chair is then refused with the reason',
+    withHouse(async (page, house) => {
+      await tab(page, 'Map');
+      await page.getByRole('button', { name: 'Kitchen', exact: true }).click();
+      await page.getByRole('button', { name: 'Close the way to Near the kitchen' }).click();
+      await page.getByText('This way is closed now.').waitFor();
+      assert.equal(house.graph.edges.filter((one) => one.blocked).length, 1);
+      await page.getByRole('button', { name: 'Send the chair here' }).click();
+      await journey(page).getByText('There is no way from here to there.').waitFor();
+    }),
+  ],
+  [
+    'a press on a place of the drawing chooses it',
+    withHouse(async (page) => {
+      await tab(page, 'Map');
+      const canvas = page.getByTestId('graph');
+      await canvas.locator('canvas').first().waitFor();
+      await page.waitForTimeout(500); // the drawing fits itself to its box
+      const box = await canvas.boundingBox();
+      // The drawing shows the unit square with a margin; the kitchen is at (0.34, 0.08), found by trying around there.
+      let found = false;
+      for (let dy = 0; dy < 0.25 && !found; dy += 0.03)
+        for (let dx = -0.08; dx <= 0.08 && !found; dx += 0.03) {
+          await page.mouse.click(box.x + (0.34 + dx) * box.width, box.y + (0.06 + dy) * box.height);
+          found = await page.getByRole('heading', { name: 'Kitchen', exact: true }).isVisible();
+        }
+      assert.ok(found, 'no press chose the kitchen');
+    }),
+  ],
+  [
+    'a folder of pictures becomes a tour, and the tour a map',
+    withHouse(async (page, house) => {
+      const folder = mkdtempSync(join(tmpdir(), 'homeward-tour-'));
+      for (let n = 0; n < 5; ++n) writeFileSync(join(folder, `000${n}.jpg`), `picture ${n}`);
+      writeFileSync(join(folder, 'camera.json'), JSON.stringify(kCamera));
+      await tab(page, 'Tours');
+      await page.getByLabel('Name of the tour').fill('Upstairs');
+      await page.getByLabel('Folder of pictures').setInputFiles(folder);
+      await page.getByText('5 pictures found, with the camera.').waitFor();
+      await page.getByRole('button', { name: 'Send 5 pictures' }).click();
+      await page.getByText('Upstairs is complete, with 5 pictures.').waitFor();
+      assert.equal(house.tours.at(-1).images, 5);
+      await page.getByLabel('Name of the map').fill('Upstairs map');
+      await page.getByRole('button', { name: 'Build the map' }).click();
+      await page.getByRole('progressbar', { name: 'Building Upstairs map' }).waitFor();
+      await page.locator('li', { hasText: 'Upstairs map' }).getByText('Ready').waitFor();
+    }),
+  ],
+  [
+    'a new robot shows its token once and is given a map',
+    withHouse(async (page, house) => {
+      await tab(page, 'Robots');
+      await page.getByLabel('Name of the robot').fill('Walker');
+      await page.getByRole('button', { name: 'Add', exact: true }).click();
+      assert.match(await page.getByTestId('secret').innerText(), /^hw_/);
+      await page.getByRole('button', { name: 'I have kept it' }).click();
+      assert.equal(await page.getByTestId('secret').count(), 0);
+      await page.getByLabel('Map of Walker').selectOption({ label: 'Ground floor' });
+      await page.waitForFunction(
+        () =>
+          [...document.querySelectorAll('dd')].filter((one) => one.textContent === 'Ground floor').length ===
+          2,
+      );
+      assert.equal(house.robots[1].map, 'm1');
+    }),
+  ],
+  [
+    'people are added with a role',
+    withHouse(async (page, house) => {
+      await tab(page, 'Settings');
+      const form = page.locator('form', { hasText: 'Add a person' });
+      await form.getByLabel('Name').fill('carl');
+      await form.getByLabel('First password').fill('carls password');
+      await form.getByLabel('Role').selectOption('carer');
+      await form.getByRole('button', { name: 'Add' }).click();
+      await page.getByText('carl can sign in now.').waitFor();
+      assert.equal(house.users.at(-1).role, 'carer');
+    }),
+  ],
+  ['every page at every width and in light and dark is accessible and fits', accessible],
+];
+
+async function accessible() {
+  const all = [];
+  for (const [size_name, size] of [
+    ['1280x800', kWide],
+    ['390x844', kPhone],
+  ])
+    for (const scheme of ['light', 'dark']) {
+      const look = { size, scheme };
+      await withHouse(async (page, house) => {
+        const see = async (name) => {
+          await page.waitForTimeout(400);
+          await shoot(page, out, `${name}-${size_name}-${scheme}`);
+          all.push(...(await findings(page)).map((one) => `${name} ${size_name} ${scheme}: ${one}`));
+          if (await sticksOut(page)) all.push(`${name} ${size_name} ${scheme}: wider than the screen`);
+        };
+        await see('go');
+        await destination(page, 'Bathroom').click();
+        await phaseIs(page, 'driving');
+        await see('driving');
+        await phaseIs(page, 'arrived');
+        await see('arrived');
+        for (const name of ['Tours', 'Robots', 'Settings']) {
+          await tab(page, name);
+          await see(name.toLowerCase());
+        }
+        await tab(page, 'Map');
+        await page.getByRole('button', { name: 'Kitchen', exact: true }).click();
+        await page.waitForTimeout(600);
+        await see('map');
+        house.steer({
+          do: 'robot',
+          set: { belief: { updates: 3, place: null, probability: null, top: [], lost: true } },
+        });
+        await tab(page, 'Go');
+        await destination(page, 'Kitchen').click();
+        await phaseIs(page, 'refused');
+        await see('refused');
+      }, look)();
+      await withHouse(
+        async (page) => {
+          await page.goto('/');
+          await page.getByRole('heading', { name: 'Sign in' }).waitFor();
+          await shoot(page, out, `sign-in-${size_name}-${scheme}`);
+          all.push(...(await findings(page)));
+        },
+        { ...look, name: null },
+      )();
+    }
+  assert.deepEqual(all, []);
+}
+
+await runChecks(checks);
+await browser.close();
+process.stdout.write(`screenshots: ${out}\n`);
