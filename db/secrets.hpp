@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -12,5 +14,8 @@ std::string random_secret();
 
 /// What is kept of a secret: BLAKE2b-256, hexadecimal. Enough for random secrets; passwords need Argon2id.
 std::string secret_hash(std::string_view secret);
+
+/// SHA-256 of a file's bytes, hexadecimal.
+std::string sha256_hex(std::span<const std::uint8_t> bytes);
 
 }  // namespace homeward::db

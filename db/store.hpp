@@ -41,6 +41,7 @@ class Store {
   virtual Status remove_user(const UserId& id) = 0;
 
   // --- Secrets; see secrets.hpp for the hashes --------------------------------------------------------------------
+  /// Also clears sessions that ended before `created_us`. Errors: kNotFound (the person).
   virtual Result<Session> add_session(Session session) = 0;
   /// Nothing when there is none or it ended before `now_us`.
   virtual Result<std::optional<Session>> session_by_hash(const std::string& hash, TimeUs now_us) = 0;
@@ -102,6 +103,7 @@ class Store {
   virtual Status remove_map(const MapId& id) = 0;
 
   // --- Jobs -------------------------------------------------------------------------------------------------------
+  /// Errors: kNotFound (the map).
   virtual Result<wire::JobView> add_job(wire::JobView job) = 0;
   /// State, stage, share and error. Errors: kNotFound.
   virtual Status update_job(const wire::JobView& job) = 0;
@@ -123,6 +125,7 @@ class Store {
   virtual Result<std::int64_t> next_epoch(const RobotId& id) = 0;
   /// With its missions and tokens. Errors: kNotFound.
   virtual Status remove_robot(const RobotId& id) = 0;
+  /// Errors: kNotFound (the robot).
   virtual Result<wire::MissionView> add_mission(wire::MissionView mission) = 0;
   /// State, reason, epoch, seq and path_index. Errors: kNotFound.
   virtual Status update_mission(const wire::MissionView& mission) = 0;

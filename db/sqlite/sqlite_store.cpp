@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "db/sqlite/sqlite_store.hpp"
+
+#include "db/sqlite/durable_file.hpp"
+
+namespace homeward::db {
+namespace {
+
+constexpr std::array<std::string_view, 6> kRoleNames = {"viewer", "rider", "carer", "installer", "admin", "robot"};
+
+/// After a restart nothing moves until a person says so again.
+void stop_missions(SQLite::Database& database) {
+  execute(database,
+          "UPDATE missions SET state = 'stopped', reason = 'server restarted' WHERE state IN ('accepted', 'driving')");
+}
+
+}  // namespace
+
+std::string_view role_name(Role role) { return kRoleNames.at(static_cast<std::size_t>(role)); }
+
+std::optional<Role> role(std::string_view name) {
+  const auto* const found = std::find(kRoleNames.begin(), kRoleNames.end(), name);
+  if (found == kRoleNames.end()) return std::nullopt;
+  return static_cast<Role>(found - kRoleNames.begin());
+}
+
+SqliteStore::SqliteStore(const std::filesystem::path& folder)
+    : lock_(folder), folder_(folder), database_(folder / "homeward.db") {
+  make_folder_durably(folder_ / "tours");
+  make_folder_durably(folder_ / "maps");
+  const Status stopped = database_.work(stop_missions);
+  if (!stopped) throw StoreFailure(stopped.error());
+  remove_stray_map_files();
+}
+
+Result<std::unique_ptr<Store>> open_sqlite_store(const std::filesystem::path& data_directory) {
+  try {
+    const std::filesystem::path folder = std::filesystem::absolute(data_directory);
+    std::filesystem::create_directories(folder);
+    return std::make_unique<SqliteStore>(folder);
+  } catch (...) {
+    return tl::unexpected<Error>(StoreDatabase::present_error((data_directory / "homeward.db").string()));
+  }
+}
+
+}  // namespace homeward::db

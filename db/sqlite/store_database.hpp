@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "core/ids.hpp"
+#include "core/result.hpp"
+
+namespace homeward::db {
+
+/// Carries an Error out of a store function to StoreDatabase::work, which undoes what was begun.
+struct StoreFailure : std::runtime_error {
+  explicit StoreFailure(Error failure) : std::runtime_error(failure.message), error(std::move(failure)) {}
+  Error error;
+};
+
+[[noreturn]] inline void refuse(ErrorCode code, std::string message, std::string where = {}) {
+  throw StoreFailure({code, std::move(message), std::move(where)});
+}
+
+/// The lock on a data folder: held as long as the object lives, gone with the process however it ends.
+class FolderLock {
+ public:
+  /// Throws StoreFailure (kConflict, kIo).
+  explicit FolderLock(const std::filesystem::path& folder);
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  ~FolderLock();
+
+ private:
+  int descriptor_ = -1;
+};
+
+/// The connection, the lock around it and the translation of exceptions.
+class StoreDatabase {
+ public:
+  /// Opens or makes the file and applies the migrations that it lacks. Throws.
+  explicit StoreDatabase(const std::filesystem::path& file);
+
+  /// Runs `body` in one transaction, alone; an exception becomes an Error and undoes everything.
+  template <class Body>
+  auto work(Body&& body) -> Result<std::invoke_result_t<Body, SQLite::Database&>> {
+    const std::scoped_lock lock(mutex_);
+    try {
+      SQLite::Transaction transaction(connection_, SQLite::TransactionBehavior::IMMEDIATE);
+      if constexpr (std::is_void_v<std::invoke_result_t<Body, SQLite::Database&>>) {
+        body(connection_);
+        transaction.commit();
+        return {};
+      } else {
+        auto value = body(connection_);
+        transaction.commit();
+        return value;
+      }
+    } catch (...) {
+      return tl::unexpected<Error>(present_error(file_.string()));
+    }
+  }
+
+  /// The exception that is being handled, as an error. `where` is used when it has no place of its own.
+  static Error present_error(const std::string& where);
+
+ private:
+  std::filesystem::path file_;
+  std::mutex mutex_;
+  SQLite::Database connection_;
+};
+
+inline void bind_value(SQLite::Statement& statement, int index, const std::string& value) {
+  statement.bind(index, value);
+}
+inline void bind_value(SQLite::Statement& statement, int index, double value) { statement.bind(index, value); }
+template <class Integer>
+requires std::is_integral_v<Integer>
+void bind_value(SQLite::Statement& statement, int index, Integer value) {
+  statement.bind(index, static_cast<std::int64_t>(value));
+}
+template <class Tag>
+void bind_value(SQLite::Statement& statement, int index, const Id<Tag>& value) {
+  statement.bind(index, value.str());
+}
+template <class T>
+void bind_value(SQLite::Statement& statement, int index, const std::optional<T>& value) {
+  if (value) {
+    bind_value(statement, index, *value);
+  } else {
+    statement.bind(index);
+  }
+}
+
+/// A prepared statement with its values bound in order.
+template <class... Values>
+SQLite::Statement prepared(SQLite::Database& database, const char* sql, const Values&... values) {
+  SQLite::Statement statement(database, sql);
+  [[maybe_unused]] int index = 0;
+  (bind_value(statement, ++index, values), ...);
+  return statement;
+}
+
+/// Runs a statement without rows and gives the number of rows that it changed.
+template <class... Values>
+int execute(SQLite::Database& database, const char* sql, const Values&... values) {
+  return prepared(database, sql, values...).exec();
+}
+
+inline std::string text(SQLite::Statement& row, int column) { return row.getColumn(column).getString(); }
+inline std::int64_t integer(SQLite::Statement& row, int column) { return row.getColumn(column).getInt64(); }
+inline double real(SQLite::Statement& row, int column) { return row.getColumn(column).getDouble(); }
+inline std::optional<std::string> optional_text(SQLite::Statement& row, int column) {
+  return row.isColumnNull(column) ? std::nullopt : std::optional(text(row, column));
+}
+inline std::optional<std::int64_t> optional_integer(SQLite::Statement& row, int column) {
+  return row.isColumnNull(column) ? std::nullopt : std::optional(integer(row, column));
+}
+
+}  // namespace homeward::db

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "db/secrets.hpp"
+#include "db/sqlite/durable_file.hpp"
+#include "db/sqlite/sqlite_store.hpp"
+#include "wire/error_table.hpp"
+
+namespace homeward::db {
+namespace {
+
+constexpr TimeUs kAnswersKeptUs = 24LL * 3600 * 1'000'000;
+
+wire::JobView job_of(SQLite::Statement& row) {
+  wire::JobView job;
+  job.id = JobId(text(row, 0));
+  job.kind = text(row, 1);
+  job.map = MapId(text(row, 2));
+  const std::optional<wire::JobState> state = wire::job_state(text(row, 3));
+  if (!state) refuse(ErrorCode::kCorruptFile, "The database holds an unknown state.", "jobs/" + job.id.str());
+  job.state = *state;
+  job.stage = text(row, 4);
+  job.share = real(row, 5);
+  if (const auto code = optional_text(row, 6)) {
+    const wire::ErrorRow* known = wire::error_row(*code);
+    job.error = Error{known != nullptr ? known->code : ErrorCode::kInternal, text(row, 7), text(row, 8)};
+  }
+  job.created_us = integer(row, 9);
+  return job;
+}
+
+std::vector<wire::JobView> jobs_of(SQLite::Statement row) {
+  std::vector<wire::JobView> found;
+  while (row.executeStep()) found.push_back(job_of(row));
+  return found;
+}
+
+struct ErrorColumns {
+  std::optional<std::string> code;
+  std::optional<std::string> message;
+  std::optional<std::string> where;
+};
+
+ErrorColumns error_columns(const wire::JobView& job) {
+  if (!job.error) return {};
+  return {std::string(wire::error_name(job.error->code)), job.error->message, job.error->where};
+}
+
+}  // namespace
+
+Result<wire::JobView> SqliteStore::add_job(wire::JobView job) {
+  return database_.work([&](SQLite::Database& database) {
+    if (!prepared(database, "SELECT id FROM maps WHERE id = ?", job.map).executeStep()) {
+      refuse(ErrorCode::kNotFound, "There is no map with this id.", "maps/" + job.map.str());
+    }
+    if (job.id.empty()) job.id = JobId(random_id());
+    const ErrorColumns error = error_columns(job);
+    execute(database, "INSERT INTO jobs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", job.id, job.kind, job.map,
+            std::string(wire::job_state_name(job.state)), job.stage, job.share, error.code, error.message, error.where,
+            job.created_us);
+    return job;
+  });
+}
+
+Status SqliteStore::update_job(const wire::JobView& job) {
+  return database_.work([&](SQLite::Database& database) {
+    const ErrorColumns error = error_columns(job);
+    if (execute(database,
+                "UPDATE jobs SET state = ?, stage = ?, share = ?, error_code = ?, error_message = ?, error_where = ? "
+                "WHERE id = ?",
+                std::string(wire::job_state_name(job.state)), job.stage, job.share, error.code, error.message,
+                error.where, job.id) == 0) {
+      refuse(ErrorCode::kNotFound, "There is no job with this id.", "jobs/" + job.id.str());
+    }
+  });
+}
+
+Result<std::vector<wire::JobView>> SqliteStore::jobs() {
+  return database_.work([&](SQLite::Database& database) {
+    return jobs_of(prepared(database, "SELECT * FROM jobs ORDER BY created_us, rowid"));
+  });
+}
+
+Result<std::vector<wire::JobView>> SqliteStore::unfinished_jobs() {
+  return database_.work([&](SQLite::Database& database) {
+    return jobs_of(
+        prepared(database, "SELECT * FROM jobs WHERE state IN ('queued', 'running') ORDER BY created_us, rowid"));
+  });
+}
+
+Result<wire::JobView> SqliteStore::job(const JobId& id) {
+  return database_.work([&](SQLite::Database& database) {
+    SQLite::Statement row = prepared(database, "SELECT * FROM jobs WHERE id = ?", id);
+    if (!row.executeStep()) refuse(ErrorCode::kNotFound, "There is no job with this id.", "jobs/" + id.str());
+    return job_of(row);
+  });
+}
+
+Result<std::optional<StoredAnswer>> SqliteStore::answer(const RequestKey& key, TimeUs now_us) {
+  return database_.work([&](SQLite::Database& database) -> std::optional<StoredAnswer> {
+    SQLite::Statement row = prepared(
+        database, "SELECT status, body FROM answers WHERE caller = ? AND route = ? AND key = ? AND created_us > ?",
+        key.caller, key.route, key.key, now_us - kAnswersKeptUs);
+    if (!row.executeStep()) return std::nullopt;
+    return StoredAnswer{static_cast<int>(integer(row, 0)), text(row, 1)};
+  });
+}
+
+Status SqliteStore::keep_answer(const RequestKey& key, const StoredAnswer& answer, TimeUs now_us) {
+  return database_.work([&](SQLite::Database& database) {
+    execute(database, "DELETE FROM answers WHERE created_us <= ?", now_us - kAnswersKeptUs);
+    execute(database,
+            "INSERT OR IGNORE INTO answers (caller, route, key, status, body, created_us) "
+            "VALUES (?, ?, ?, ?, CAST(? AS BLOB), ?)",
+            key.caller, key.route, key.key, answer.status, answer.body, now_us);
+  });
+}
+
+}  // namespace homeward::db
