@@ -187,6 +187,20 @@ const checks = [
     ),
   ],
   [
+    'loading the page again lets the chair go on, and the session that ended says so',
+    withHouse(async (page, house) => {
+      await destination(page, 'Living room').click();
+      await phaseIs(page, 'driving');
+      const kept = page.waitForRequest((one) => one.method() === 'PUT' && one.url().endsWith('/lease'));
+      await page.reload();
+      await kept;
+      await phaseIs(page, 'arrived');
+      house.sessions.clear();
+      await page.keyboard.press('Escape');
+      await page.getByText('You were signed out.').waitFor();
+    }),
+  ],
+  [
     'a place is renamed; after a change by somebody else the map is loaded again first',
     withHouse(async (page, house) => {
       await tab(page, 'Map');

@@ -7,7 +7,9 @@ import { Icon } from './components/icons';
 import { Notice, Waiting } from './components/notice';
 import { SetUp } from './features/account/set_up';
 import { SignIn } from './features/account/sign_in';
+import { resumeLeases } from './features/go/driving';
 import { GoPage } from './features/go/go_page';
+import { keepScreenOn } from './features/go/screen';
 import { StopButton } from './features/go/stop_button';
 import { MapPage } from './features/map/map_page';
 import { RobotsPage } from './features/robots/robots_page';
@@ -64,6 +66,8 @@ function Shell() {
   const view = viewOf(path.value);
   const { title, page: Page } = kPages[view];
   const map = chosenMap.value;
+  useEffect(() => void resumeLeases(), []);
+  useEffect(keepScreenOn, []);
   useEffect(() => {
     if (map && map.revision > 0) wantGraph(map);
   }, [map]);

@@ -7,6 +7,8 @@ import type { Graph, MapInfo, User } from './types';
 
 /** Who is signed in: undefined while unknown, null when nobody. */
 export const me = signal<User | null | undefined>(undefined);
+/** True when the server ended the session of this page; the sign-in page then says so. */
+export const wasSignedOut = signal(false);
 /** Why it could not be found out who is signed in. */
 export const meError = signal<ProblemError | null>(null);
 export const connection = signal<EventSocketView>({ state: 'closed', house: null, last_message_ms: null });
@@ -43,7 +45,10 @@ const kSilenceMs = 12_000;
 
 /** Starts clock, events and their watchdog; called once by main. */
 export function startHouse(): void {
-  calls.whenSignedOut(() => (me.value = null));
+  calls.whenSignedOut(() => {
+    if (me.peek()) wasSignedOut.value = true;
+    me.value = null;
+  });
   setInterval(() => (now_ms.value = Date.now()), 1000);
   let unsubscribe: (() => void) | null = null;
   let firstBuild: string | null = null;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
-import { me } from '../../api/house';
+import { me, wasSignedOut } from '../../api/house';
 import { Brand } from '../../components/brand';
 import { TextField } from '../../components/field';
 import { Notice } from '../../components/notice';
@@ -23,6 +23,7 @@ export function SignIn() {
     event.preventDefault();
     run(async () => {
       me.value = (await calls.logIn({ name: name.trim(), password })).user;
+      wasSignedOut.value = false;
     });
   };
   return (
@@ -34,6 +35,11 @@ export function SignIn() {
           {fresh && (
             <Notice tone="warn" still>
               This house has no account yet. Open the link that the server printed when it was first started.
+            </Notice>
+          )}
+          {wasSignedOut.value && (
+            <Notice tone="warn">
+              You were signed out. To stop the chair meanwhile, use the stop button on the chair itself.
             </Notice>
           )}
           <TextField label="Your name" value={name} onInput={setName} autocomplete="username" />

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { signal } from '@preact/signals';
 import * as calls from '../../api/calls';
-import { connection } from '../../api/house';
+import { connection, me } from '../../api/house';
 import { asProblem } from '../../api/problem';
 import type { Lease } from '../../api/types';
 import { isActive, journeyOf, type Command, type Target } from './journey';
@@ -32,7 +32,11 @@ export async function send(robot: string, target: Target, take_over = false): Pr
     tell(robot, { kind: 'sent', target, mission: await start(robot, lease_id, target) });
   } catch (thrown) {
     const problem = asProblem(thrown);
-    if (problem.code === 'lease_held') tell(robot, { kind: 'held', target, holder: holderOf(robot) });
+    const holder = holderOf(robot);
+    // Another window of the same person gives way without a question.
+    if (problem.code === 'lease_held' && !take_over && holder !== null && holder === me.peek()?.name)
+      await send(robot, target, true);
+    else if (problem.code === 'lease_held') tell(robot, { kind: 'held', target, holder });
     else tell(robot, { kind: 'refused', target, reason: problem.message });
   }
 }
@@ -72,12 +76,14 @@ function keep(robot: string, lease: Lease): void {
     idle_since_ms: before?.idle_since_ms ?? null,
     timer: setTimeout(() => void renew(robot), pause_ms),
   });
+  remember();
 }
 
 function drop(robot: string): void {
   const held = leases.get(robot);
   if (held) clearTimeout(held.timer);
   leases.delete(robot);
+  remember();
 }
 
 /** Keeps the lease while the robot is under way, and gives it back some time after. */
@@ -102,8 +108,32 @@ async function renew(robot: string): Promise<void> {
   }
 }
 
-export function holdsLease(robot: string): boolean {
-  return leases.has(robot);
+const kKey = 'homeward.leases';
+
+/** Keeps the leases over a reload of the page, and no longer than this tab is open. */
+function remember(): void {
+  try {
+    sessionStorage.setItem(kKey, JSON.stringify([...leases].map(([robot, { lease }]) => [robot, lease])));
+  } catch {
+    // storage may be forbidden; a reload then lets the robot stop when the lease ends
+  }
+}
+
+/** Takes up the leases of this tab again after a reload, so that a robot under way goes on. */
+export async function resumeLeases(): Promise<void> {
+  for (const [robot, lease] of remembered())
+    await calls.keepLease(robot, lease.id).then(
+      (answer) => keep(robot, { ...lease, ...answer.lease }),
+      () => undefined, // it has ended; the next press takes a new one
+    );
+}
+
+function remembered(): [string, Lease][] {
+  try {
+    return JSON.parse(sessionStorage.getItem(kKey) ?? '[]') as [string, Lease][];
+  } catch {
+    return [];
+  }
 }
 
 /** Gives every lease back, on signing out. */

@@ -3,7 +3,7 @@ import { useEffect, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import type { Graph, Robot } from '../../api/types';
 import { Icon } from '../../components/icons';
-import { chosenAge } from '../../lib/chosen';
+import { chosenAge, connected } from '../../lib/chosen';
 import { whereabouts, type Whereabouts } from '../../lib/whereabouts';
 import { ageText, percent } from '../../lib/words';
 
@@ -21,9 +21,13 @@ export function WhereaboutsCard({ robot, graph }: { robot: Robot; graph: Graph |
       <div class="where-text">
         <p class="soft row small">
           <strong>{robot.name}</strong>
-          <span class={robot.online ? 'pill good' : 'pill bad'}>
-            {robot.online ? 'Connected' : 'Not connected'}
-          </span>
+          {connected.value ? (
+            <span class={robot.online ? 'pill good' : 'pill bad'}>
+              {robot.online ? 'Connected' : 'Not connected'}
+            </span>
+          ) : (
+            <span class="pill warn">As last heard</span>
+          )}
         </p>
         <p class="where-words" aria-live="polite">
           {words(robot, found)}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the mock server says must be what the contract allows, or tests against it mean nothing.
+import { readdirSync, readFileSync } from 'node:fs';
+import Ajv from 'ajv';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { WebSocket } from 'ws';
+import { startMock } from './mock-server.mjs';
+
+const folder = new URL('../../proto/schemas/', import.meta.url);
+const ajv = new Ajv({ allErrors: true, strict: false });
+for (const name of readdirSync(folder))
+  ajv.addSchema(JSON.parse(readFileSync(new URL(name, folder), 'utf8')), name);
+
+function problemsOf(schema, value) {
+  const validate = ajv.getSchema(`${schema}.schema.json`);
+  if (!validate) return [`there is no schema ${schema}`];
+  return validate(value) ? [] : validate.errors.map((one) => `${schema}${one.instancePath} ${one.message}`);
+}
+
+let mock;
+let cookie;
+const ask = async (method, path, body, headers = {}) => {
+  const answer = await fetch(`${mock.url}/api/v1/${path}`, {
+    method,
+    headers: { cookie, 'Content-Type': 'application/json', ...headers },
+    ...(body === undefined ? {} : { body: JSON.stringify(body) }),
+  });
+  return {
+    status: answer.status,
+    headers: answer.headers,
+    body: answer.status === 204 ? null : await answer.json(),
+  };
+};
+
+beforeAll(async () => {
+  mock = await startMock({ port: 0, step_ms: 20 });
+  const answer = await ask('POST', 'login', { name: 'anna', password: 'homeward' }, { cookie: '' });
+  cookie = answer.headers.get('set-cookie').split(';')[0];
+});
+afterAll(() => mock.close());
+
+describe('the mock server', () => {
+  it('answers as the schemas say', async () => {
+    const { body: graph } = await ask('GET', 'maps/m1/graph');
+    expect(problemsOf('graph', graph)).toEqual([]);
+    const { body: robots } = await ask('GET', 'robots');
+    const [robot] = robots.robots;
+    expect(problemsOf('robot', robot)).toEqual([]);
+    const { body: maps } = await ask('GET', 'maps');
+    expect(maps.maps.flatMap((one) => problemsOf('map_info', one))).toEqual([]);
+    const { body: tours } = await ask('GET', 'tours');
+    expect(tours.tours.flatMap((one) => problemsOf('tour_info', one))).toEqual([]);
+    const { body: taken } = await ask('POST', `robots/${robot.id}/lease`, {});
+    expect(problemsOf('lease', taken.lease)).toEqual([]);
+    const { body: mission } = await ask('POST', `robots/${robot.id}/missions`, {
+      lease_id: taken.lease.id,
+      destination: 'kitchen',
+    });
+    expect(problemsOf('mission', mission)).toEqual([]);
+    const refused = await ask('GET', 'maps/none/graph');
+    expect([refused.status, problemsOf('problem', refused.body)]).toEqual([404, []]);
+    const { body: built } = await ask('POST', 'maps', { name: 'second', tours: ['t1'] });
+    expect([...problemsOf('job', built.job), ...problemsOf('map_info', built.map)]).toEqual([]);
+  });
+
+  it('tells events as the schema says, the snapshot first', async () => {
+    const socket = new WebSocket(`${mock.url.replace('http', 'ws')}/api/v1/events`, { headers: { cookie } });
+    const events = await new Promise((done, fail) => {
+      const heard = [];
+      socket.on('error', fail);
+      socket.on('message', (data) => {
+        heard.push(JSON.parse(data.toString()));
+        if (heard.length >= 4) done(heard);
+      });
+    });
+    socket.close();
+    expect(events[0].type).toBe('snapshot');
+    expect(events.flatMap((one) => problemsOf('event', one))).toEqual([]);
+  });
+});
