@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "support/sample_map.hpp"
+#include "unit/db/store_fixture.hpp"
+
+namespace homeward::db {
+namespace {
+
+using ::testing::ElementsAre;
+
+class StoreContent : public StoreTest {
+ protected:
+  TourId new_tour(TimeUs created_us = 1) {
+    Tour tour;
+    tour.name = "morning";
+    tour.camera = "{}";
+    tour.created_us = created_us;
+    return store().add_tour(tour)->id;
+  }
+  Result<PutImage> put(const TourId& tour, std::int64_t number, std::vector<std::uint8_t> bytes) {
+    TourImage image;
+    image.number = number;
+    image.odometry = Pose2{1.0, 2.0, 0.5};
+    image.t_us = 77;
+    return store().put_image(tour, image, bytes);
+  }
+  MapId new_map(std::vector<TourId> tours = {}) {
+    MapRecord map;
+    map.name = "house";
+    map.tours = std::move(tours);
+    return store().add_map(map)->id;
+  }
+  [[nodiscard]] std::size_t map_files() const {
+    const std::filesystem::directory_iterator files(folder() / "maps");
+    return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+  }
+};
+
+TEST_F(StoreContent, PuttingAnImageAgainChangesNothing) {
+  const TourId tour = new_tour();
+  EXPECT_EQ(put(tour, 0, {1, 2, 3}).value(), PutImage::kNew);
+  EXPECT_EQ(put(tour, 0, {1, 2, 3}).value(), PutImage::kSame);
+  EXPECT_EQ(put(tour, 0, {1, 2, 4}).value(), PutImage::kConflict);
+  EXPECT_EQ(put(tour, 4, {9}).value(), PutImage::kNew);
+  open();
+  EXPECT_THAT(store().image_bytes(tour, 0).value(), ElementsAre(1, 2, 3));
+  const Tour found = store().tour(tour).value();
+  EXPECT_EQ(found.images, 2);
+  EXPECT_THAT(found.missing, ElementsAre(1, 2, 3));
+  const auto images = store().tour_images(tour).value();
+  EXPECT_EQ(images.at(1).file, "000004.jpg");
+  EXPECT_EQ(images.at(1).t_us, 77);
+  EXPECT_DOUBLE_EQ(images.at(1).odometry->theta_rad, 0.5);
+  EXPECT_EQ(images.at(0).size, 3);
+}
+
+TEST_F(StoreContent, ATourThatIsCompleteTakesNoMore) {
+  const TourId tour = new_tour();
+  ASSERT_TRUE(put(tour, 0, {1}));
+  ASSERT_TRUE(store().complete_tour(tour));
+  EXPECT_TRUE(store().complete_tour(tour));
+  EXPECT_EQ(put(tour, 1, {2}).error().code, ErrorCode::kConflict);
+  EXPECT_EQ(put(tour, 0, {1}).value(), PutImage::kSame);
+  EXPECT_EQ(store().complete_tour(TourId("none")).error().code, ErrorCode::kNotFound);
+}
+
+TEST_F(StoreContent, AnImageNameIsUsedOnceAndHasNoFolder) {
+  const TourId tour = new_tour();
+  const std::vector<std::uint8_t> bytes = {1};
+  TourImage image;
+  image.file = "a.jpg";
+  ASSERT_TRUE(store().put_image(tour, image, bytes));
+  image.number = 1;
+  EXPECT_EQ(store().put_image(tour, image, bytes).error().code, ErrorCode::kConflict);
+  image.file = "../a.jpg";
+  EXPECT_EQ(store().put_image(tour, image, bytes).error().code, ErrorCode::kInvalidInput);
+}
+
+TEST_F(StoreContent, ADamagedPictureIsNotGivenOut) {
+  const TourId tour = new_tour();
+  ASSERT_TRUE(put(tour, 0, {1, 2, 3}));
+  std::ofstream(folder() / "tours" / tour.str() / "0.jpg") << "xyz";
+  EXPECT_EQ(store().image_bytes(tour, 0).error().code, ErrorCode::kCorruptFile);
+}
+
+TEST_F(StoreContent, MarksAreReplacedAsAWhole) {
+  const TourId tour = new_tour();
+  ASSERT_TRUE(store().set_marks(tour, {{"a.jpg", "kitchen"}, {"b.jpg", "bed"}}));
+  ASSERT_TRUE(store().set_marks(tour, {{"c.jpg", "hall"}}));
+  const auto marks = store().marks(tour).value();
+  ASSERT_EQ(marks.size(), 1U);
+  EXPECT_EQ(marks[0].label, "hall");
+}
+
+TEST_F(StoreContent, AMapIsSavedByRevisionAndItsOldFileGoes) {
+  const TourId tour = new_tour();
+  const MapId id = new_map({tour});
+  EXPECT_EQ(store().load_map_contents(id).error().code, ErrorCode::kNotFound);
+  map::TopologicalMap contents = testing::sample_map();
+  contents.revision = 1;
+  const Thumbnails thumbnails = {{contents.images[0].id, {7}}};
+  const auto saved = store().save_map_contents(id, contents, thumbnails, 0);
+  ASSERT_TRUE(saved) << saved.error().message;
+  EXPECT_EQ(saved->places, static_cast<std::int64_t>(contents.places.size()));
+  contents.revision = 2;
+  EXPECT_EQ(store().save_map_contents(id, contents, thumbnails, 0).error().code, ErrorCode::kStaleRevision);
+  ASSERT_TRUE(store().save_map_contents(id, contents, thumbnails, 1));
+  EXPECT_EQ(map_files(), 1U);
+  std::ofstream(folder() / "maps" / "left.behind") << "x";
+  open();
+  EXPECT_EQ(map_files(), 1U);
+  EXPECT_EQ(store().map(id)->state, wire::MapState::kReady);
+  EXPECT_THAT(store().map(id)->tours, ElementsAre(tour));
+  EXPECT_EQ(store().load_map_contents(id)->map.revision, 2);
+  EXPECT_EQ(store().load_map_contents(id)->thumbnails, thumbnails);
+  EXPECT_EQ(store().remove_tour(tour).error().code, ErrorCode::kConflict);
+  ASSERT_TRUE(store().remove_map(id));
+  EXPECT_EQ(map_files(), 0U);
+  EXPECT_TRUE(store().remove_tour(tour));
+}
+
+TEST_F(StoreContent, AnExportedMapIsImported) {
+  const MapId id = new_map();
+  map::TopologicalMap contents = testing::sample_map();
+  contents.revision = 5;
+  ASSERT_TRUE(store().save_map_contents(id, contents, {}, 0));
+  const auto bytes = store().map_file_bytes(id).value();
+  const auto imported = store().import_map({}, bytes);
+  ASSERT_TRUE(imported) << imported.error().message;
+  EXPECT_EQ(imported->revision, 5);
+  EXPECT_EQ(imported->name, contents.name);
+  EXPECT_TRUE(store().load_map_contents(imported->id));
+  const std::vector<std::uint8_t> rubbish = {1, 2, 3};
+  EXPECT_EQ(store().import_map({}, rubbish).error().code, ErrorCode::kCorruptFile);
+  EXPECT_EQ(store().maps()->size(), 2U);
+  EXPECT_EQ(map_files(), 2U);
+}
+
+TEST_F(StoreContent, JobsThatAreNotOverAreFoundAfterARestart) {
+  wire::JobView job;
+  job.map = new_map();
+  const wire::JobView open_job = *store().add_job(job);
+  wire::JobView failed = *store().add_job(job);
+  failed.state = wire::JobState::kFailed;
+  failed.error = Error{ErrorCode::kTooFewImages, "too few", "tours/1"};
+  ASSERT_TRUE(store().update_job(failed));
+  open();
+  const auto unfinished = store().unfinished_jobs().value();
+  ASSERT_EQ(unfinished.size(), 1U);
+  EXPECT_EQ(unfinished[0].id, open_job.id);
+  EXPECT_EQ(store().job(failed.id)->error->code, ErrorCode::kTooFewImages);
+  EXPECT_EQ(store().job(failed.id)->error->where, "tours/1");
+  EXPECT_EQ(store().jobs()->size(), 2U);
+  job.map = MapId("none");
+  EXPECT_EQ(store().add_job(job).error().code, ErrorCode::kNotFound);
+}
+
+TEST_F(StoreContent, AnswersAreKeptForADay) {
+  const RequestKey key{"anna", "POST /maps", "k1"};
+  ASSERT_TRUE(store().keep_answer(key, {202, std::string("{\0}", 3)}, 1000));
+  ASSERT_TRUE(store().keep_answer(key, {500, "later"}, 1001));
+  const TimeUs day_us = 24LL * 3600 * 1'000'000;
+  const auto answer = store().answer(key, 1000 + day_us - 1).value();
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 202);
+  EXPECT_EQ(answer->body, std::string("{\0}", 3));
+  EXPECT_FALSE(store().answer(key, 1000 + day_us)->has_value());
+  EXPECT_FALSE(store().answer({"berta", "POST /maps", "k1"}, 1001)->has_value());
+}
+
+}  // namespace
+}  // namespace homeward::db

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <fstream>
+
+#include "unit/db/store_fixture.hpp"
+
+namespace homeward::db {
+namespace {
+
+class StoreDurability : public StoreTest {
+ protected:
+  /// Runs `body` on the store in a process that then ends at once, without destructors. Its result is the exit status.
+  template <class Body>
+  int in_another_process(Body body) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      auto opened = open_sqlite_store(folder());
+      ::_exit(body(opened));
+    }
+    int status = -1;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  RobotId new_robot() {
+    RobotRecord robot;
+    robot.name = "chair";
+    return store().add_robot(robot)->id;
+  }
+};
+
+TEST_F(StoreDurability, WhatWasAcknowledgedSurvivesAnAbruptEnd) {
+  const RobotId robot = new_robot();
+  close();
+  const std::vector<std::uint8_t> bytes(100'000, 42);
+  const int status = in_another_process([&](Result<std::unique_ptr<Store>>& opened) {
+    if (!opened) return 1;
+    Tour tour;
+    tour.id = TourId("t1");
+    if (!(*opened)->add_tour(tour)) return 2;
+    if ((*opened)->put_image(tour.id, {}, bytes) != PutImage::kNew) return 3;
+    return (*opened)->next_epoch(robot) == 1 ? 0 : 4;
+  });
+  ASSERT_EQ(status, 0);
+  open();
+  EXPECT_EQ(store().image_bytes(TourId("t1"), 0).value(), bytes);
+  EXPECT_EQ(store().next_epoch(robot).value(), 2);
+}
+
+TEST_F(StoreDurability, ASecondProcessIsRefused) {
+  EXPECT_EQ(in_another_process([](Result<std::unique_ptr<Store>>& opened) {
+              return !opened && opened.error().code == ErrorCode::kConflict ? 0 : 1;
+            }),
+            0);
+  EXPECT_EQ(open_sqlite_store(folder()).error().code, ErrorCode::kConflict);
+}
+
+TEST_F(StoreDurability, MissionsUnderWayAreStoppedByARestart) {
+  wire::MissionView mission;
+  mission.robot = new_robot();
+  mission.map = MapId("m");
+  mission.place = PlaceId("p2");
+  mission.path = {PlaceId("p1"), PlaceId("p2")};
+  mission.created_us = 1;
+  const MissionId driving = store().add_mission(mission)->id;
+  mission.created_us = 2;
+  wire::MissionView arrived = *store().add_mission(mission);
+  arrived.state = wire::MissionState::kArrived;
+  arrived.path_index = 1;
+  ASSERT_TRUE(store().update_mission(arrived));
+  open();
+  const wire::MissionView stopped = store().mission(driving).value();
+  EXPECT_EQ(stopped.state, wire::MissionState::kStopped);
+  EXPECT_EQ(stopped.reason, "server restarted");
+  EXPECT_EQ(stopped.path, mission.path);
+  const auto all = store().missions(mission.robot).value();
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].state, wire::MissionState::kArrived);
+  EXPECT_EQ(all[0].path_index, 1);
+}
+
+TEST_F(StoreDurability, AnEmptyFileBecomesADatabaseAndANewerOneIsRefused) {
+  close();
+  std::filesystem::remove_all(folder());
+  std::filesystem::create_directories(folder());
+  const std::filesystem::path file = folder() / "homeward.db";
+  std::ofstream(file).flush();
+  open();
+  EXPECT_TRUE(store().users());
+  close();
+  {
+    SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
+    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 1);
+    EXPECT_EQ(database.execAndGet("PRAGMA journal_mode").getString(), "wal");
+    database.exec("PRAGMA user_version = 999");
+  }
+  const auto newer = open_sqlite_store(folder());
+  ASSERT_FALSE(newer);
+  EXPECT_EQ(newer.error().code, ErrorCode::kUnsupportedFormat);
+  EXPECT_THAT(newer.error().message, ::testing::HasSubstr("999"));
+}
+
+TEST_F(StoreDurability, AFileThatIsNoDatabaseIsNamed) {
+  close();
+  const std::filesystem::path file = folder() / "homeward.db";
+  std::filesystem::remove(folder() / "homeward.db-wal");
+  std::ofstream(file, std::ios::trunc) << std::string(8192, 'x');
+  const auto opened = open_sqlite_store(folder());
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::kCorruptFile);
+  EXPECT_THAT(opened.error().where, ::testing::HasSubstr("homeward.db"));
+}
+
+TEST_F(StoreDurability, SomebodyElsesDatabaseIsLeftAlone) {
+  close();
+  const std::filesystem::path file = folder() / "homeward.db";
+  std::filesystem::remove(file);
+  SQLite::Database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
+      .exec("CREATE TABLE recipes (name TEXT)");
+  const auto opened = open_sqlite_store(folder());
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::kCorruptFile);
+}
+
+TEST_F(StoreDurability, EpochsOfARobotThatIsNotThere) {
+  EXPECT_EQ(store().next_epoch(RobotId("none")).error().code, ErrorCode::kNotFound);
+}
+
+}  // namespace
+}  // namespace homeward::db
