@@ -69,6 +69,31 @@ std::vector<LoopHypothesis> formulate_hypotheses(std::span<const Subcluster> sub
   return hypotheses;
 }
 
+double weigh_way(std::span<LoopHypothesis> hypotheses, const WayFunction& way, const HypothesisConfig& config) {
+  double agreed = 0.0;
+  double decided = 0.0;
+  for (LoopHypothesis& hypothesis : hypotheses) {
+    hypothesis.way = way(hypothesis.a, hypothesis.b);
+    if (hypothesis.way.verdict == TrackVerdict::kUnknown) continue;
+    decided += hypothesis.similarity;
+    if (hypothesis.way.verdict == TrackVerdict::kAgrees) agreed += hypothesis.similarity;
+  }
+  const double reliability = decided > 0.0 ? agreed / decided : 1.0;
+  for (LoopHypothesis& hypothesis : hypotheses) {
+    if (hypothesis.way.verdict == TrackVerdict::kUnknown) {
+      hypothesis.reliability = reliability;
+      hypothesis.before = evidence(hypothesis.similarity, config.own_weight * reliability);
+    } else if (hypothesis.way.verdict == TrackVerdict::kAgrees) {
+      hypothesis.before =
+          combine(hypothesis.before, evidence(1.0, config.agreeing_way_mass * hypothesis.way.sharpness));
+    } else {
+      hypothesis.before = evidence(0.0, config.contradicting_way_mass);
+    }
+    hypothesis.after = hypothesis.before;
+  }
+  return reliability;
+}
+
 void collect_evidence(std::span<LoopHypothesis> hypotheses, std::span<const Subcluster> subclusters,
                       std::span<const double> position_of, const HypothesisConfig& config) {
   const auto position = [&](int subcluster) {
@@ -76,14 +101,18 @@ void collect_evidence(std::span<LoopHypothesis> hypotheses, std::span<const Subc
   };
   for (LoopHypothesis& hypothesis : hypotheses) {
     hypothesis.after = hypothesis.before;
+    const bool excluded = hypothesis.way.verdict == TrackVerdict::kContradicts;
     for (const LoopHypothesis& neighbour : hypotheses) {
-      if (&neighbour == &hypothesis) continue;
+      // The way is one witness: each hypothesis has heard it once, so neighbours only pass on what they look like.
+      if (excluded || &neighbour == &hypothesis || neighbour.way.verdict == TrackVerdict::kContradicts) continue;
       const double distance = std::abs(position(hypothesis.a) - position(neighbour.a)) +
                               std::abs(position(hypothesis.b) - position(neighbour.b));
       const double weight = neighbour_weight(distance, config.neighbour_threshold_images);
-      if (weight > 0.0) hypothesis.after = combine(hypothesis.after, evidence(neighbour.similarity, weight));
+      if (!(weight > 0.0)) continue;
+      hypothesis.after = combine(hypothesis.after, evidence(neighbour.similarity, weight * neighbour.reliability));
     }
-    if (hypothesis.by == "method") hypothesis.decision = decide(hypothesis.after, config);
+    if (hypothesis.by != "method") continue;
+    hypothesis.decision = excluded ? map::Decision::kRejected : decide(hypothesis.after, config);
   }
 }
 

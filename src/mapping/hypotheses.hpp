@@ -8,6 +8,7 @@
 
 #include "map/topological_map.hpp"
 #include "mapping/subclusters.hpp"
+#include "mapping/track.hpp"
 
 namespace homeward::mapping {
 
@@ -16,6 +17,8 @@ struct HypothesisConfig {
   double own_weight = 0.75;                  // of a hypothesis's own similarity; the rest is ignorance (2006 §3.5)
   double accept_support = 0.8;  // above the 0.75 that one hypothesis alone can reach: neighbours must agree
   double reject_plausibility = 0.4;
+  double agreeing_way_mass = 0.95;       // at most, for a hypothesis that the way driven agrees with
+  double contradicting_way_mass = 0.99;  // against one that it excludes
 };
 
 /// "Subclusters a and b are one place."
@@ -27,7 +30,12 @@ struct LoopHypothesis {
   map::Masses after;
   map::Decision decision = map::Decision::kUndecided;
   std::string by = "method";
+  WayEvidence way;
+  double reliability = 1.0;  // how far looks can be trusted here: the visual masses are discounted by it
 };
+
+/// What the way driven says of two subclusters, by their indices.
+using WayFunction = std::function<WayEvidence(int, int)>;
 
 /// s_V in [0,1] of two subclusters, by their indices.
 using SimilarityFunction = std::function<double(int, int)>;
@@ -35,6 +43,13 @@ using SimilarityFunction = std::function<double(int, int)>;
 /// One hypothesis for each pair of subclusters of one cluster, in the order of their prototypes.
 std::vector<LoopHypothesis> formulate_hypotheses(std::span<const Subcluster> subclusters,
                                                  const SimilarityFunction& similarity, const HypothesisConfig& config);
+
+/// Weighs in the way driven. A hypothesis that it excludes is rejected whatever it looks like, and says nothing to
+/// others; one that it agrees with gains mass. Where it cannot tell, looks count as far as they were right where it
+/// could: the visual masses of such hypotheses are discounted (Shafer 1976, ch. 11) by the share, weighted by s_V, of
+/// agreement among the hypotheses that the way decides. In a building of look-alike rooms looks alone then decide
+/// nothing, and pairs without other evidence stay apart. Returns that share; 1 where the way decides nothing.
+double weigh_way(std::span<LoopHypothesis> hypotheses, const WayFunction& way, const HypothesisConfig& config);
 
 /// Combines each hypothesis with the initial masses of its neighbours, in the order of the list, and decides.
 /// position_of: where each image lies along the tours, in images; far apart for images of different tours.

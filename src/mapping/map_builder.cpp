@@ -32,12 +32,40 @@ std::vector<const std::string*> labels_by_image(const MappingInput& input) {
   return labels;
 }
 
-/// D, but infinite between two images that carry different marks: each stands for a place of its own.
-DistanceFunction clustering_distance(const MappingInput& input, const std::vector<const std::string*>& labels) {
-  return [&input, &labels](int a, int b) {
+/// D, but infinite between two images that carry different marks (each stands for a place of its own) and between two
+/// that the way driven keeps apart.
+DistanceFunction clustering_distance(const MappingInput& input, const std::vector<const std::string*>& labels,
+                                     const TourTrack& track) {
+  return [&input, &labels, &track](int a, int b) {
     const bool marks_differ = labels[at(a)] != nullptr && labels[at(b)] != nullptr && *labels[at(a)] != *labels[at(b)];
-    return marks_differ ? std::numeric_limits<float>::infinity() : input.pairs->distance(a, b);
+    const float distance = input.pairs->distance(a, b);
+    const bool apart =
+        marks_differ || (std::isfinite(distance) && track.judge(a, b).verdict == TrackVerdict::kContradicts);
+    return apart ? std::numeric_limits<float>::infinity() : distance;
   };
+}
+
+/// Pairs of subclusters that look like one place but lie in different clusters because the way driven excludes it. They
+/// are kept as hypotheses: a person sees what looks alike and why it stays apart.
+void add_look_alikes(std::vector<LoopHypothesis>& hypotheses, std::span<const Subcluster> subclusters,
+                     const MappingInput& input, const TourTrack& track, float threshold,
+                     const SimilarityFunction& similarity) {
+  for (std::size_t a = 0; a < subclusters.size(); ++a) {
+    for (std::size_t b = a + 1; b < subclusters.size(); ++b) {
+      const int image_a = subclusters[a].prototype;
+      const int image_b = subclusters[b].prototype;
+      if (subclusters[a].cluster == subclusters[b].cluster || input.pairs->distance(image_a, image_b) > threshold) {
+        continue;
+      }
+      if (track.judge(image_a, image_b).verdict != TrackVerdict::kContradicts) continue;
+      LoopHypothesis hypothesis;
+      hypothesis.a = static_cast<int>(a);
+      hypothesis.b = static_cast<int>(b);
+      hypothesis.similarity = similarity(hypothesis.a, hypothesis.b);
+      hypotheses.push_back(hypothesis);
+    }
+  }
+  std::ranges::stable_sort(hypotheses, {}, [](const LoopHypothesis& h) { return std::pair(h.a, h.b); });
 }
 
 /// Distances between images that certainly show one place: a place extent or less of one tour apart.
@@ -284,7 +312,9 @@ map::TopologicalMap make_map(const MappingInput& input, const MappingConfig& con
   const int images = static_cast<int>(input.images.size());
   const TourPath path(input);
   const std::vector<const std::string*> labels = labels_by_image(input);
-  const DistanceFunction distance = clustering_distance(input, labels);
+  const TourTrack track(input.images, input.tour_of, *input.pairs, path.metric(),
+                        path.metric() ? config.place_extent_m : config.place_extent_images, config.track);
+  const DistanceFunction distance = clustering_distance(input, labels, track);
   const float threshold = place_distance_threshold(input, path, config);
   const UsualDistances usual = usual_distances(input, path, config);
 
@@ -297,6 +327,9 @@ map::TopologicalMap make_map(const MappingInput& input, const MappingConfig& con
     return usual.share_at_least(input.pairs->distance(parts[at(a)].prototype, parts[at(b)].prototype));
   };
   std::vector<LoopHypothesis> hypotheses = formulate_hypotheses(parts, similarity, config.hypotheses);
+  add_look_alikes(hypotheses, parts, input, track, threshold, similarity);
+  const auto way = [&](int a, int b) { return track.judge(parts[at(a)].prototype, parts[at(b)].prototype); };
+  weigh_way(hypotheses, way, config.hypotheses);
   apply_decisions(hypotheses, parts, input, previous);
   collect_evidence(hypotheses, parts, positions_of_evidence(input), config.hypotheses);
   const auto apart = [&](int a, int b) {

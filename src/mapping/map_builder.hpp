@@ -10,6 +10,7 @@
 #include "map/topological_map.hpp"
 #include "mapping/hypotheses.hpp"
 #include "mapping/pair_table.hpp"
+#include "mapping/track.hpp"
 
 namespace homeward::mapping {
 
@@ -18,6 +19,7 @@ struct MappingConfig {
   double place_extent_m = 1.0;         // and how long it is where it has
   double weak_below_confidence = 0.5;  // an edge whose verified pose is less certain is weak
   HypothesisConfig hypotheses;
+  TrackConfig track;
 };
 
 /// A tour image that a person gave a name.

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping/track.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angles.hpp"
+
+namespace homeward::mapping {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+double quantile(std::vector<double>& values, double q) {
+  if (values.empty()) return 0.0;
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+/// Images of one place lie at most so many place extents apart.
+constexpr double kFarthestExtents = 1.5;
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+TourTrack::TourTrack(std::span<const map::MapImage> images, std::span<const int> tour_of, const PairTable& pairs,
+                     bool metric, double place_extent, const TrackConfig& config)
+    : pairs_(pairs), metric_(metric), place_extent_(place_extent), config_(config), points_(images.size()) {
+  const int count = static_cast<int>(images.size());
+  std::vector<double> misses;
+  std::vector<double> parallaxes;
+  for (int i = 0; i + 1 < count; ++i) {
+    const PairRelation first = pairs.relation(i, i + 1);
+    if (tour_of[at(i)] != tour_of[at(i + 1)] || first.inliers < config.fewest_inliers) continue;
+    parallaxes.push_back(static_cast<double>(first.parallax_rad));
+    if (i + 2 >= count || tour_of[at(i)] != tour_of[at(i + 2)]) continue;
+    const PairRelation second = pairs.relation(i + 1, i + 2);
+    const PairRelation both = pairs.relation(i, i + 2);
+    if (second.inliers < config.fewest_inliers || both.inliers < config.fewest_inliers) continue;
+    misses.push_back(std::abs(wrap_angle(static_cast<double>(first.turn_rad) + static_cast<double>(second.turn_rad) -
+                                         static_cast<double>(both.turn_rad))));
+  }
+  turn_sigma_rad_ = std::max(config.least_turn_sigma_rad, quantile(misses, 0.9));
+  const double typical_parallax_rad = std::max(1e-6, quantile(parallaxes, 0.5));
+  for (int i = 0; i + 1 < count; ++i) {
+    const Point& from = points_[at(i)];
+    Point& to = points_[at(i + 1)];
+    to = from;
+    const Step taken = tour_of[at(i)] == tour_of[at(i + 1)] ? step(images, i, typical_parallax_rad)
+                                                            : Step{.motion = {}, .broken = true};
+    to.pose = from.pose * taken.motion;
+    to.breaks += taken.broken ? 1 : 0;
+    to.length_variance += taken.length_variance;
+    to.turn_variance += taken.turn_variance;
+    to.turn_variance_x += taken.turn_variance * to.pose.x_m;
+    to.turn_variance_y += taken.turn_variance * to.pose.y_m;
+    to.turn_variance_r2 += taken.turn_variance * (square(to.pose.x_m) + square(to.pose.y_m));
+  }
+}
+
+TourTrack::Step TourTrack::step(std::span<const map::MapImage> images, int i, double typical_parallax_rad) const {
+  const PairRelation seen = pairs_.relation(i, i + 1);
+  const bool turn_seen = seen.inliers >= config_.fewest_inliers;
+  const double seen_turn_rad = static_cast<double>(seen.turn_rad);
+  Step result;
+  if (metric_) {
+    const Pose2 driven = inverse(*images[at(i)].odometry) * *images[at(i + 1)].odometry;
+    const double conflict_rad = wrap_angle(seen_turn_rad - driven.theta_rad);
+    result.broken = turn_seen && std::abs(conflict_rad) > config_.most_turn_conflict_rad;
+    const double turn_rad = turn_seen ? seen_turn_rad : driven.theta_rad;
+    // Half of the correction of the turn has happened by the middle of the step.
+    const Pose2 turned{0.0, 0.0, turn_seen ? conflict_rad / 2.0 : 0.0};
+    result.motion = turned * Pose2{driven.x_m, driven.y_m, 0.0};
+    result.motion.theta_rad = turn_rad;
+    result.length_variance = square(config_.odometry_length_sigma * std::hypot(driven.x_m, driven.y_m));
+    result.turn_variance = square(turn_seen ? turn_sigma_rad_ : config_.odometry_turn_sigma_rad);
+    return result;
+  }
+  result.broken = !turn_seen;
+  const double length = std::min(1.0, 2.0 * static_cast<double>(seen.parallax_rad) / typical_parallax_rad);
+  const double direction_rad = static_cast<double>(seen.direction_rad);
+  result.motion = {length * std::cos(direction_rad), length * std::sin(direction_rad), seen_turn_rad};
+  result.length_variance = square(config_.picture_length_sigma * length);
+  result.turn_variance = square(turn_sigma_rad_);
+  return result;
+}
+
+TrackPrediction TourTrack::predict(int a, int b) const {
+  const Point& from = points_[at(std::min(a, b))];
+  const Point& to = points_[at(std::max(a, b))];
+  TrackPrediction result;
+  if (from.breaks != to.breaks) return result;
+  result.known = true;
+  result.distance = std::hypot(to.pose.x_m - from.pose.x_m, to.pose.y_m - from.pose.y_m);
+  const double sum = to.turn_variance - from.turn_variance;
+  const double lever = (square(to.pose.x_m) + square(to.pose.y_m)) * sum -
+                       2.0 * to.pose.x_m * (to.turn_variance_x - from.turn_variance_x) -
+                       2.0 * to.pose.y_m * (to.turn_variance_y - from.turn_variance_y) +
+                       (to.turn_variance_r2 - from.turn_variance_r2);
+  result.distance_sigma = std::sqrt(std::max(0.0, lever) + to.length_variance - from.length_variance);
+  const double turn_rad = wrap_angle(to.pose.theta_rad - from.pose.theta_rad);
+  result.turn_rad = a <= b ? turn_rad : wrap_angle(-turn_rad);
+  result.turn_sigma_rad = std::sqrt(sum);
+  return result;
+}
+
+WayEvidence TourTrack::judge(int a, int b) const {
+  if (a == b) return {TrackVerdict::kAgrees, 1.0};
+  const TrackPrediction predicted = predict(a, b);
+  if (!predicted.known) return {};
+  const double beyond = predicted.distance - kFarthestExtents * place_extent_;
+  if (beyond > config_.sure_sigmas * predicted.distance_sigma) return {TrackVerdict::kContradicts, 0.0};
+  const PairRelation seen = pairs_.relation(a, b);
+  if (seen.inliers >= config_.fewest_inliers) {
+    const double miss_rad = std::abs(wrap_angle(static_cast<double>(seen.turn_rad) - predicted.turn_rad));
+    if (miss_rad > config_.least_turn_margin_rad + config_.sure_sigmas * predicted.turn_sigma_rad) {
+      return {TrackVerdict::kContradicts, 0.0};
+    }
+  }
+  // Agreement is only worth something where the way could have told another place from this one.
+  if (beyond > predicted.distance_sigma || predicted.distance_sigma > place_extent_) return {};
+  const double place = square(kFarthestExtents * place_extent_);
+  const double elsewhere = square(predicted.distance) + square(predicted.distance_sigma);
+  return {TrackVerdict::kAgrees, place / (place + elsewhere)};
+}
+
+}  // namespace homeward::mapping
