@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/auth/account_routes.hpp"
+
+#include "db/secrets.hpp"
+#include "server/auth/passwords.hpp"
+#include "server/http/access.hpp"
+#include "server/http/json_body.hpp"
+
+namespace homeward::server {
+namespace {
+
+using nlohmann::json;
+
+json user_to_json(const db::User& user) {
+  return {{"id", user.id.str()}, {"name", user.name}, {"role", db::role_name(user.role)}};
+}
+
+Response signed_in(int status, const Authenticator::SignedIn& result) {
+  Response response = json_response(status, {{"user", user_to_json(result.user)}});
+  response.headers["set-cookie"] =
+      std::string(kSessionCookie) + "=" + result.secret + "; Path=/; HttpOnly; SameSite=Strict; Max-Age=2592000";
+  return response;
+}
+
+Response rate_limited_or(const Error& error, int seconds) {
+  Response response = problem(error);
+  if (error.code == ErrorCode::kRateLimited) response.headers["retry-after"] = std::to_string(std::max(1, seconds));
+  return response;
+}
+
+Response log_in(Authenticator& authenticator, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  const std::string name = reader.text("name", 200);
+  const std::string password = reader.text("password", 1000);
+  if (const Status status = reader.finish(); !status) return problem_of(status);
+  const auto result = authenticator.log_in(name, password, request.remote);
+  if (!result) return rate_limited_or(result.error(), authenticator.seconds_to_wait(name, request.remote));
+  return signed_in(200, *result);
+}
+
+Response set_up(Authenticator& authenticator, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  const std::string token = reader.text("token", 200);
+  const std::string name = reader.text("name", 200);
+  const std::string password = reader.text("password", 1000);
+  if (const Status status = reader.finish(); !status) return problem_of(status);
+  const auto result = authenticator.set_up(token, name, password, request.remote);
+  if (!result) return rate_limited_or(result.error(), authenticator.seconds_to_wait("set-up", request.remote));
+  return signed_in(201, *result);
+}
+
+Response add_user(db::Store& store, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  db::User user;
+  user.name = reader.text("name", 200);
+  const std::string password = reader.text("password", 1000);
+  const std::string role = reader.choice("role", {"viewer", "rider", "carer", "installer", "admin"});
+  if (const Status status = reader.finish(); !status) return problem_of(status);
+  if (const Status status = check_new_account(user.name, password); !status) return problem_of(status);
+  user.role = db::role(role).value();
+  user.password_hash = hash_of_password(password);
+  user.created_us = wall_clock_us();
+  const auto added = store.add_user(user);
+  if (!added) return problem_of(added);
+  return json_response(201, {{"user", user_to_json(*added)}});
+}
+
+Response list_users(db::Store& store) {
+  const auto users = store.users();
+  if (!users) return problem_of(users);
+  json list = json::array();
+  for (const db::User& user : *users) list.push_back(user_to_json(user));
+  return json_response(200, {{"users", list}});
+}
+
+Response list_tokens(db::Store& store) {
+  const auto tokens = store.tokens();
+  if (!tokens) return problem_of(tokens);
+  json list = json::array();
+  for (const db::Token& token : *tokens) {
+    list.push_back({{"id", token.id},
+                    {"name", token.name},
+                    {"role", db::role_name(token.role)},
+                    {"robot", token.robot ? json(token.robot->str()) : json(nullptr)},
+                    {"created_us", token.created_us}});
+  }
+  return json_response(200, {{"tokens", list}});
+}
+
+Response add_token(db::Store& store, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  const std::string name = reader.text("name", 200);
+  const std::string role = reader.choice("role", {"viewer", "rider", "carer", "installer", "admin", "robot"});
+  const auto robot = reader.optional_text("robot");
+  if (const Status status = reader.finish(); !status) return problem_of(status);
+  if (name.empty()) return problem({ErrorCode::kInvalidInput, "A token needs a name.", "body/name"});
+  if (robot && role != "robot") {
+    return problem({ErrorCode::kInvalidInput, "Only a token of role robot speaks for a robot.", "body/robot"});
+  }
+  // Nobody hands out more than he may do himself.
+  if (role != "robot" && !role_allows(request.caller.role, role)) {
+    return problem({ErrorCode::kForbidden, "Your role cannot make a token of role " + role + ".", "body/role"});
+  }
+  std::optional<RobotId> id;
+  if (robot) {
+    id = RobotId(*robot);
+    if (const auto known = store.robot(*id); !known) return problem_of(known);
+  }
+  const auto token = make_token(store, name, db::role(role).value(), id);
+  if (!token) return problem_of(token);
+  return json_response(201, {{"id", token->id}, {"token", token->secret}});
+}
+
+Response remove_token(Authenticator& authenticator, db::Store& store, const Request& request) {
+  const auto tokens = store.tokens();
+  if (!tokens) return problem_of(tokens);
+  for (const db::Token& token : *tokens) {
+    const std::string role(db::role_name(token.role));
+    if (token.id == request.parameter("token") && role != "robot" && !role_allows(request.caller.role, role)) {
+      return problem({ErrorCode::kForbidden, "Your role cannot revoke a token of role " + role + ".", token.id});
+    }
+  }
+  const Status status = store.revoke_token(request.parameter("token"));
+  authenticator.forget();
+  return status ? empty_response(204) : problem_of(status);
+}
+
+Response setup_needed(db::Store& store) {
+  const auto hash = store.setup_hash();
+  if (!hash) return problem_of(hash);
+  return json_response(200, {{"needed", hash->has_value()}});
+}
+
+}  // namespace
+
+Result<NewToken> make_token(db::Store& store, const std::string& name, db::Role role,
+                            const std::optional<RobotId>& robot) {
+  const std::string secret = db::random_secret();
+  db::Token token;
+  token.name = name;
+  token.hash = db::secret_hash(secret);
+  token.role = role;
+  token.robot = robot;
+  token.created_us = wall_clock_us();
+  const auto added = store.add_token(token);
+  if (!added) return pass_on(added);
+  return NewToken{added->id, secret};
+}
+
+void add_account_routes(Router& router, Authenticator& authenticator, db::Store& store) {
+  Authenticator* auth = &authenticator;
+  db::Store* db = &store;
+  router.add({"GET", "/api/v1/setup", "anyone", Lane::kWork, 0, [db](Request&) { return setup_needed(*db); }});
+  router.add({"POST", "/api/v1/setup", "anyone", Lane::kHeavy, kMaxJsonBody,
+              [auth](Request& request) { return set_up(*auth, request); }});
+  router.add({"POST", "/api/v1/login", "anyone", Lane::kHeavy, kMaxJsonBody,
+              [auth](Request& request) { return log_in(*auth, request); }});
+  router.add({"POST", "/api/v1/logout", "viewer", Lane::kWork, kMaxJsonBody, [auth](Request& request) {
+                const Status status = auth->log_out(request);
+                if (!status) return problem_of(status);
+                Response response = empty_response(204);
+                response.headers["set-cookie"] =
+                    std::string(kSessionCookie) + "=; Path=/; HttpOnly; SameSite=Strict; Max-Age=0";
+                return response;
+              }});
+  router.add(
+      {"GET", "/api/v1/me", "viewer, robot", Lane::kWork, 0, [](Request& request) {
+         const Caller& caller = request.caller;
+         return json_response(200, {{"user", {{"id", caller.id}, {"name", caller.name}, {"role", caller.role}}}});
+       }});
+  router.add({"GET", "/api/v1/users", "admin", Lane::kWork, 0, [db](Request&) { return list_users(*db); }});
+  router.add({"POST", "/api/v1/users", "admin", Lane::kHeavy, kMaxJsonBody,
+              [db](Request& request) { return add_user(*db, request); }});
+  router.add({"GET", "/api/v1/tokens", "installer", Lane::kWork, 0, [db](Request&) { return list_tokens(*db); }});
+  router.add({"POST", "/api/v1/tokens", "installer", Lane::kWork, kMaxJsonBody,
+              [db](Request& request) { return add_token(*db, request); }});
+  router.add({"DELETE", "/api/v1/tokens/{token}", "installer", Lane::kWork, kMaxJsonBody,
+              [auth, db](Request& request) { return remove_token(*auth, *db, request); }});
+}
+
+}  // namespace homeward::server

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/build_jobs.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "pipeline/build_map.hpp"
+#include "pipeline/thumbnail.hpp"
+#include "server/auth/authenticator.hpp"
+#include "server/services/tours.hpp"
+#include "wire/camera_json.hpp"
+
+namespace homeward::server {
+namespace {
+
+constexpr std::size_t kMostQueued = 16;
+constexpr double kBuildShare = 0.9;  // the rest: thumbnails and writing
+constexpr std::chrono::milliseconds kTellEvery{250};
+
+struct Tours {
+  std::vector<std::unique_ptr<pipeline::TourSource>> sources;
+  camera::CameraConfig camera;
+};
+
+Result<Tours> open_tours(db::Store& store, const std::vector<TourId>& ids) {
+  Tours tours;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const auto tour = store.tour(ids[i]);
+    if (!tour) return pass_on(tour);
+    auto camera = camera_of(*tour);
+    if (!camera) return pass_on(camera);
+    if (i == 0) tours.camera = *camera;
+    auto source = stored_tour(store, ids[i]);
+    if (!source) return pass_on(source);
+    tours.sources.push_back(std::move(*source));
+  }
+  return tours;
+}
+
+// Pictures of the places, their look-alikes and destinations; others are made when somebody asks.
+Result<db::Thumbnails> make_thumbnails(const map::TopologicalMap& map, const Tours& tours,
+                                       const std::stop_token& stop) {
+  std::set<ImageId> wanted;
+  for (const map::Place& place : map.places) wanted.insert(place.prototype);
+  for (const map::Hypothesis& hypothesis : map.hypotheses) {
+    wanted.insert(hypothesis.prototype_a);
+    wanted.insert(hypothesis.prototype_b);
+  }
+  for (const map::Destination& destination : map.destinations) wanted.insert(destination.image);
+  const auto eye = pipeline::Eye::create(map.camera, map.feature_config);
+  if (!eye) return pass_on(eye);
+  db::Thumbnails thumbnails;
+  for (const auto& source : tours.sources) {
+    for (std::size_t i = 0; i < source->images().size(); ++i) {
+      if (stop.stop_requested()) return fail(ErrorCode::kCancelled, "The build was cancelled.", map.name);
+      const ImageId& id = source->images()[i].id;
+      if (!wanted.contains(id)) continue;
+      const auto picture = source->read(i);
+      if (!picture) return pass_on(picture);
+      auto thumbnail = pipeline::make_thumbnail(*eye, *picture);
+      if (!thumbnail) return pass_on(thumbnail);
+      thumbnails[id] = std::move(*thumbnail);
+    }
+  }
+  return thumbnails;
+}
+
+}  // namespace
+
+BuildJobs::BuildJobs(db::Store& store, MapService& maps, EventHub& events, int threads)
+    : store_(store), maps_(maps), events_(events), threads_(threads) {
+  if (const auto unfinished = store_.unfinished_jobs()) {
+    queue_.assign(unfinished->begin(), unfinished->end());
+  } else {
+    spdlog::error("unfinished jobs cannot be read: {}", unfinished.error().message);
+  }
+  thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+}
+
+BuildJobs::~BuildJobs() {
+  thread_.request_stop();
+  {
+    const std::scoped_lock lock(mutex_);
+    stop_running_.request_stop();
+  }
+  thread_.join();
+}
+
+Status BuildJobs::check_tours(const std::vector<TourId>& tours) {
+  nlohmann::json first_camera;
+  for (const TourId& id : tours) {
+    const auto tour = store_.tour(id);
+    if (!tour) return pass_on(tour);
+    const std::string where = "tours/" + id.str();
+    if (!tour->complete) return fail(ErrorCode::kConflict, "The tour is not complete yet.", where);
+    const nlohmann::json camera = nlohmann::json::parse(tour->camera);
+    if (first_camera.is_null()) first_camera = camera;
+    if (camera != first_camera) {
+      return fail(ErrorCode::kConflict, "The tours of one map must be made with the same camera.", where);
+    }
+  }
+  return {};
+}
+
+Result<BuildJobs::NewMap> BuildJobs::add_map(const std::string& name, const std::vector<TourId>& tours) {
+  if (const Status status = check_tours(tours); !status) return pass_on(status);
+  db::MapRecord record;
+  record.name = name;
+  record.tours = tours;
+  record.created_us = wall_clock_us();
+  const auto map = store_.add_map(record);
+  if (!map) return pass_on(map);
+  maps_.tell(*map);
+  const auto job = queue(map->id);
+  if (!job) {
+    if (const Status removed = store_.remove_map(map->id); !removed) {
+      spdlog::error("map {} cannot be removed: {}", map->id.str(), removed.error().message);
+    }
+    return pass_on(job);
+  }
+  return NewMap{*map, *job};
+}
+
+Result<wire::JobView> BuildJobs::rebuild(const MapId& map) {
+  const auto record = store_.map(map);
+  if (!record) return pass_on(record);
+  const std::string where = "maps/" + map.str();
+  if (record->tours.empty()) {
+    return fail(ErrorCode::kConflict, "The map was imported; its pictures are not here.", where);
+  }
+  if (building(map)) return fail(ErrorCode::kConflict, "A build of this map is under way.", where);
+  return queue(map);
+}
+
+Result<wire::JobView> BuildJobs::queue(const MapId& map) {
+  const std::scoped_lock lock(mutex_);
+  if (queue_.size() >= kMostQueued) {
+    return fail(ErrorCode::kOverloaded, "Too many builds are waiting already.", "maps/" + map.str());
+  }
+  wire::JobView job;
+  job.map = map;
+  job.created_us = wall_clock_us();
+  auto added = store_.add_job(job);
+  if (!added) return added;
+  queue_.push_back(*added);
+  events_.publish(*added);
+  ready_.notify_one();
+  return added;
+}
+
+bool BuildJobs::building(const MapId& map) {
+  const std::scoped_lock lock(mutex_);
+  if (running_ && running_->map == map) return true;
+  return std::any_of(queue_.begin(), queue_.end(), [&](const wire::JobView& job) { return job.map == map; });
+}
+
+Result<wire::JobView> BuildJobs::get(const JobId& id) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (running_ && running_->id == id) return *running_;
+  }
+  return store_.job(id);
+}
+
+Result<wire::JobView> BuildJobs::cancel(const JobId& id) {
+  const auto known = store_.job(id);
+  if (!known) return known;
+  std::optional<wire::JobView> waiting;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (running_ && running_->id == id) {
+      cancelled_ = true;
+      stop_running_.request_stop();
+      return *running_;
+    }
+    const auto found = std::find_if(queue_.begin(), queue_.end(), [&](const auto& job) { return job.id == id; });
+    if (found != queue_.end()) {
+      waiting = *found;
+      queue_.erase(found);
+    }
+  }
+  if (!waiting) {
+    return fail(ErrorCode::kConflict, "The job has ended: " + std::string(wire::job_state_name(known->state)) + ".",
+                "jobs/" + id.str());
+  }
+  finish(*waiting, fail(ErrorCode::kCancelled, "The build was cancelled.", "jobs/" + id.str()));
+  return *waiting;
+}
+
+void BuildJobs::work(const std::stop_token& stop) {
+  while (true) {
+    wire::JobView job;
+    std::stop_token stop_build;
+    {
+      std::unique_lock lock(mutex_);
+      if (!ready_.wait(lock, stop, [&] { return !queue_.empty(); })) return;
+      if (stop.stop_requested()) return;
+      job = queue_.front();
+      queue_.pop_front();
+      job.state = wire::JobState::kRunning;
+      running_ = job;
+      cancelled_ = false;
+      stop_running_ = std::stop_source();
+      stop_build = stop_running_.get_token();
+    }
+    run(job, stop_build);
+    if (stop.stop_requested()) return;
+  }
+}
+
+void BuildJobs::run(wire::JobView job, const std::stop_token& stop) {
+  tell(job);
+  Result<db::MapRecord> result = fail(ErrorCode::kInternal, "The build did not run.", "jobs/" + job.id.str());
+  try {
+    result = build(job, stop);
+  } catch (const std::exception& exception) {
+    result = fail(ErrorCode::kInternal, std::string("The build failed: ") + exception.what(), "jobs/" + job.id.str());
+  }
+  bool by_person = false;
+  {
+    const std::scoped_lock lock(mutex_);
+    by_person = cancelled_;
+    running_.reset();
+  }
+  // The server ends: the job stays as it is in the store and is taken up at the next start.
+  if (!result && result.error().code == ErrorCode::kCancelled && !by_person) return;
+  finish(job, result);
+}
+
+Result<db::MapRecord> BuildJobs::build(wire::JobView& job, const std::stop_token& stop) {
+  const auto record = store_.map(job.map);
+  if (!record) return pass_on(record);
+  const auto tours = open_tours(store_, record->tours);
+  if (!tours) return pass_on(tours);
+  LoadedMap previous;
+  if (record->revision > 0) {
+    const auto loaded = maps_.load(job.map);
+    if (!loaded) return pass_on(loaded);
+    previous = *loaded;
+  }
+  auto told = std::chrono::steady_clock::now() - kTellEvery;
+  const auto progress = [&](const pipeline::BuildProgress& now) {
+    const auto time = std::chrono::steady_clock::now();
+    const bool next_stage = now.stage != job.stage;
+    if (!next_stage && time - told < kTellEvery) return;
+    told = time;
+    job.stage = now.stage;
+    job.share = kBuildShare * std::clamp(now.share, 0.0, 1.0);
+    tell(job);
+  };
+  std::vector<const pipeline::TourSource*> sources;
+  for (const auto& source : tours->sources) sources.push_back(source.get());
+  pipeline::BuildOptions options;
+  options.name = record->name;
+  options.threads = threads_;
+  auto built =
+      pipeline::build_map(sources, tours->camera, options, previous ? &previous->map : nullptr, progress, stop);
+  if (!built) return pass_on(built);
+  job.stage = "thumbnails";
+  job.share = kBuildShare;
+  tell(job);
+  const auto thumbnails = make_thumbnails(*built, *tours, stop);
+  if (!thumbnails) return pass_on(thumbnails);
+  return maps_.keep_build(job.map, std::move(*built), *thumbnails);
+}
+
+void BuildJobs::finish(wire::JobView& job, const Result<db::MapRecord>& result) {
+  if (result) {
+    job.state = wire::JobState::kDone;
+    job.share = 1.0;
+    spdlog::info("job {} done: map {} has {} places from {} pictures", job.id.str(), job.map.str(), result->places,
+                 result->images);
+  } else {
+    const bool cancelled = result.error().code == ErrorCode::kCancelled;
+    job.state = cancelled ? wire::JobState::kCancelled : wire::JobState::kFailed;
+    job.error = result.error();
+    spdlog::warn("job {} {}: {}", job.id.str(), wire::job_state_name(job.state), result.error().message);
+    const auto record = store_.map(job.map);
+    if (record && record->revision == 0) {
+      if (store_.set_map_state(job.map, wire::MapState::kFailed)) {
+        if (const auto after = store_.map(job.map)) maps_.tell(*after);
+      }
+    }
+  }
+  tell(job);
+}
+
+void BuildJobs::tell(const wire::JobView& job) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (running_ && running_->id == job.id) running_ = job;
+  }
+  if (const Status status = store_.update_job(job); !status) {
+    spdlog::error("job {} cannot be kept: {}", job.id.str(), status.error().message);
+  }
+  events_.publish(job);
+}
+
+}  // namespace homeward::server

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/services/map_routes.hpp"
+
+#include <set>
+
+#include "map/layout.hpp"
+#include "map/lookup.hpp"
+#include "planning/route.hpp"
+#include "server/http/json_body.hpp"
+#include "wire/graph_json.hpp"
+#include "wire/json_write.hpp"
+
+namespace homeward::server {
+namespace {
+
+using nlohmann::json;
+
+MapId map_in(const Request& request) { return MapId(request.parameter("map")); }
+
+Response list_maps(db::Store& store) {
+  const auto maps = store.maps();
+  if (!maps) return problem_of(maps);
+  json list = json::array();
+  for (const db::MapRecord& map : *maps) list.push_back(wire::map_info_to_json(view_of(map)));
+  return json_response(200, {{"maps", list}});
+}
+
+Response add_map(BuildJobs& jobs, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  const std::string name = reader.text("name", 200);
+  std::vector<TourId> tours;
+  std::set<std::string> seen;
+  for (const json& tour : reader.array("tours", 100)) {
+    if (!tour.is_string() || !seen.insert(tour.get<std::string>()).second) {
+      reader.problem("tours", "Each tour is the id of a tour, named once.");
+    } else {
+      tours.emplace_back(tour.get<std::string>());
+    }
+  }
+  if (name.empty()) reader.problem("name", "A map needs a name.");
+  if (tours.empty()) reader.problem("tours", "A map is built from at least one tour.");
+  if (const Status status = reader.finish(); !status) return problem_of(status);
+  const auto made = jobs.add_map(name, tours);
+  if (!made) return problem_of(made);
+  return json_response(202,
+                       {{"map", wire::map_info_to_json(view_of(made->map))}, {"job", wire::job_to_json(made->job)}});
+}
+
+Response graph(MapService& maps, const Request& request) {
+  const auto loaded = maps.load(map_in(request));
+  if (!loaded) return problem_of(loaded);
+  const map::TopologicalMap& map = (*loaded)->map;
+  const std::string tag = wire::revision_tag(map.revision);
+  Response response;
+  if (request.header("if-none-match") == tag) {
+    response.status = 304;
+  } else {
+    response = json_response(200, wire::graph_to_json(map, map_in(request), map::layout(map)));
+  }
+  response.headers["etag"] = tag;
+  response.headers["cache-control"] = "private, no-cache";
+  return response;
+}
+
+Response thumbnail(MapService& maps, const MapId& map, const ImageId& image) {
+  const auto bytes = maps.thumbnail(map, image);
+  if (!bytes) return problem_of(bytes);
+  Response response = bytes_response(*bytes, "image/jpeg");
+  response.headers["cache-control"] = "private, max-age=3600";
+  return response;
+}
+
+Response place_thumbnail(MapService& maps, const Request& request) {
+  const auto loaded = maps.load(map_in(request));
+  if (!loaded) return problem_of(loaded);
+  const PlaceId place(request.parameter("place"));
+  const map::Place* found = map::find_place((*loaded)->map, place);
+  if (found == nullptr) {
+    return problem(
+        {ErrorCode::kUnknownPlace, "The map has no place " + place.str() + ".", "maps/" + map_in(request).str()});
+  }
+  return thumbnail(maps, map_in(request), found->prototype);
+}
+
+Response revision_response(const Result<std::int64_t>& revision) {
+  if (!revision) return problem_of(revision);
+  Response response = json_response(200, {{"revision", *revision}});
+  response.headers["etag"] = wire::revision_tag(*revision);
+  return response;
+}
+
+// The revision that a change is made against.
+std::variant<std::int64_t, Response> asked_revision(const Request& request) {
+  const std::string tag = request.header("if-match");
+  if (tag.empty()) {
+    return problem(428, "Precondition required", "Say in If-Match which revision the change is made against.");
+  }
+  const auto revision = wire::revision_from_tag(tag);
+  if (!revision) return problem_of(revision);
+  return *revision;
+}
+
+Response edit(MapService& maps, const Request& request) {
+  auto revision = asked_revision(request);
+  if (auto* refusal = std::get_if<Response>(&revision)) return *refusal;
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  const auto edits = wire::edits_from_json(*body);
+  if (!edits) return problem_of(edits);
+  return revision_response(maps.edit(map_in(request), std::get<std::int64_t>(revision), *edits, request.caller.name));
+}
+
+Response undo(MapService& maps, const Request& request) {
+  auto revision = asked_revision(request);
+  if (auto* refusal = std::get_if<Response>(&revision)) return *refusal;
+  return revision_response(maps.undo(map_in(request), std::get<std::int64_t>(revision)));
+}
+
+Response history(MapService& maps, const Request& request) {
+  const auto loaded = maps.load(map_in(request));
+  if (!loaded) return problem_of(loaded);
+  json list = json::array();
+  for (const map::Edit& one : (*loaded)->map.edits) list.push_back(wire::logged_edit_to_json(one));
+  return json_response(200, {{"edits", list}});
+}
+
+Response route(MapService& maps, const Request& request) {
+  const auto from = request.query.find("from");
+  const auto to = request.query.find("to");
+  if (from == request.query.end() || to == request.query.end()) {
+    return problem({ErrorCode::kInvalidInput, "A route needs from=PLACE and to=PLACE.", "query"});
+  }
+  const auto loaded = maps.load(map_in(request));
+  if (!loaded) return problem_of(loaded);
+  planning::RouteRequest asked;
+  asked.from = PlaceId(from->second);
+  asked.to = PlaceId(to->second);
+  const auto found = planning::plan_route((*loaded)->map, asked);
+  if (!found) return problem_of(found);
+  return json_response(200, {{"places", wire::ids_to_json(found->places)}, {"cost_m", found->cost_m}});
+}
+
+Response remove_map(BuildJobs& jobs, db::Store& store, const Request& request) {
+  if (jobs.building(map_in(request))) {
+    return problem(
+        {ErrorCode::kConflict, "The map is being built; cancel the build first.", "maps/" + map_in(request).str()});
+  }
+  const Status status = store.remove_map(map_in(request));
+  return status ? empty_response(204) : problem_of(status);
+}
+
+Response export_map(db::Store& store, const Request& request) {
+  const auto record = store.map(map_in(request));
+  if (!record) return problem_of(record);
+  if (record->revision == 0) {
+    return problem({ErrorCode::kConflict, "The map has not been built yet.", "maps/" + map_in(request).str()});
+  }
+  const auto bytes = store.map_file_bytes(map_in(request));
+  if (!bytes) return problem_of(bytes);
+  Response response = bytes_response(*bytes, "application/vnd.sqlite3");
+  response.headers["content-disposition"] = "attachment; filename=\"" + map_in(request).str() + ".hwmap\"";
+  return response;
+}
+
+Response import_map(MapService& maps, const Request& request) {
+  const auto name = request.query.find("name");
+  const std::string text = name == request.query.end() || name->second.empty() ? "imported map" : name->second;
+  if (text.size() > 200) return problem({ErrorCode::kInvalidInput, "A name has at most 200 bytes.", "query/name"});
+  const auto record = maps.import(text, request.bytes());
+  if (!record) return problem_of(record);
+  return json_response(201, {{"map", wire::map_info_to_json(view_of(*record))}});
+}
+
+Response job_response(int status, const Result<wire::JobView>& job) {
+  return job ? json_response(status, wire::job_to_json(*job)) : problem_of(job);
+}
+
+}  // namespace
+
+void add_map_routes(Router& router, MapService& maps, BuildJobs& jobs, db::Store& store) {
+  MapService* m = &maps;
+  BuildJobs* j = &jobs;
+  db::Store* db = &store;
+  const std::string root = "/api/v1/maps";
+  const auto add = [&](const char* method, const std::string& path, const char* role, Handler handler,
+                       Lane lane = Lane::kWork, std::size_t max_body = kMaxJsonBody) {
+    router.add({method, root + path, role, lane, max_body, std::move(handler)});
+  };
+  add("GET", "", "viewer", [db](Request&) { return list_maps(*db); });
+  add("POST", "", "installer", [j](Request& request) { return add_map(*j, request); });
+  add("GET", "/{map}", "viewer", [db](Request& request) {
+    const auto map = db->map(map_in(request));
+    return map ? json_response(200, wire::map_info_to_json(view_of(*map))) : problem_of(map);
+  });
+  add("DELETE", "/{map}", "installer", [j, db](Request& request) { return remove_map(*j, *db, request); });
+  add("POST", "/{map}/builds", "installer", [j](Request& request) {
+    const auto job = j->rebuild(map_in(request));
+    return job ? json_response(202, {{"job", wire::job_to_json(*job)}}) : problem_of(job);
+  });
+  add("GET", "/{map}/graph", "viewer", [m](Request& request) { return graph(*m, request); });
+  add("GET", "/{map}/places/{place}/thumbnail", "viewer",
+      [m](Request& request) { return place_thumbnail(*m, request); });
+  add("GET", "/{map}/images/{tour}/{file}/thumbnail", "viewer", [m](Request& request) {
+    return thumbnail(*m, map_in(request), ImageId(request.parameter("tour") + "/" + request.parameter("file")));
+  });
+  add("POST", "/{map}/edits", "installer", [m](Request& request) { return edit(*m, request); });
+  add("GET", "/{map}/history", "viewer", [m](Request& request) { return history(*m, request); });
+  add("POST", "/{map}/undo", "installer", [m](Request& request) { return undo(*m, request); });
+  add("GET", "/{map}/export", "viewer", [db](Request& request) { return export_map(*db, request); });
+  add(
+      "POST", "/import", "installer", [m](Request& request) { return import_map(*m, request); }, Lane::kHeavy,
+      kMaxMapBody);
+  add("GET", "/{map}/route", "viewer", [m](Request& request) { return route(*m, request); });
+  add(
+      "POST", "/{map}/localise", "viewer",
+      [m](Request& request) {
+        const auto belief = m->localise(map_in(request), request.bytes());
+        return belief ? json_response(200, wire::belief_to_json(*belief)) : problem_of(belief);
+      },
+      Lane::kHeavy, kMaxImageBody);
+  router.add({"GET", "/api/v1/jobs/{job}", "viewer", Lane::kWork, 0,
+              [j](Request& request) { return job_response(200, j->get(JobId(request.parameter("job")))); }});
+  router.add({"POST", "/api/v1/jobs/{job}/cancel", "installer", Lane::kWork, kMaxJsonBody,
+              [j](Request& request) { return job_response(202, j->cancel(JobId(request.parameter("job")))); }});
+}
+
+}  // namespace homeward::server

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/services/maps.hpp"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "imageio/decode.hpp"
+#include "map/lookup.hpp"
+#include "mapping/edits.hpp"
+#include "pipeline/belief_tracker.hpp"
+#include "pipeline/thumbnail.hpp"
+#include "server/auth/authenticator.hpp"
+#include "server/services/belief_view.hpp"
+
+namespace homeward::server {
+namespace {
+
+constexpr std::size_t kMapsInMemory = 4;
+
+Error stale(const MapId& id, std::int64_t present, std::int64_t asked) {
+  return {ErrorCode::kStaleRevision,
+          "The map is at revision " + std::to_string(present) + ", the change was made against " +
+              std::to_string(asked) + ".",
+          "maps/" + id.str()};
+}
+
+}  // namespace
+
+wire::MapInfoView view_of(const db::MapRecord& record) {
+  return {record.id,     record.name,   record.state, record.revision,
+          record.places, record.images, record.tours, record.feature_config_id};
+}
+
+Result<LoadedMap> MapService::load(const MapId& id) {
+  const auto record = store_.map(id);
+  if (!record) return pass_on(record);
+  if (record->revision == 0) {
+    return fail(ErrorCode::kConflict, "The map has not been built yet.", "maps/" + id.str());
+  }
+  const auto from_cache = [&]() -> LoadedMap {
+    const std::scoped_lock lock(mutex_);
+    for (const Cached& entry : cache_) {
+      if (entry.id == id && entry.loaded->map.revision >= record->revision) return entry.loaded;
+    }
+    return nullptr;
+  };
+  if (LoadedMap loaded = from_cache()) return loaded;
+  const std::scoped_lock loading(loading_);
+  if (LoadedMap loaded = from_cache()) return loaded;
+  auto stored = store_.load_map_contents(id);
+  if (!stored) return pass_on(stored);
+  auto loaded = std::make_shared<const db::StoredMap>(std::move(*stored));
+  const std::scoped_lock lock(mutex_);
+  std::erase_if(cache_, [&](const Cached& entry) { return entry.id == id; });
+  cache_.push_back({id, loaded});
+  if (cache_.size() > kMapsInMemory) cache_.pop_front();
+  return LoadedMap(loaded);
+}
+
+Result<std::int64_t> MapService::change(const MapId& id, std::int64_t revision,
+                                        const std::function<Status(map::TopologicalMap&)>& apply) {
+  const std::scoped_lock changing(changing_);
+  const auto loaded = load(id);
+  if (!loaded) return pass_on(loaded);
+  if ((*loaded)->map.revision != revision) return tl::unexpected<Error>(stale(id, (*loaded)->map.revision, revision));
+  map::TopologicalMap changed = (*loaded)->map;
+  if (const Status status = apply(changed); !status) return pass_on(status);
+  const auto saved = store_.save_map_contents(id, changed, (*loaded)->thumbnails, revision);
+  if (!saved) return pass_on(saved);
+  tell(*saved);
+  return saved->revision;
+}
+
+Result<std::int64_t> MapService::edit(const MapId& id, std::int64_t revision,
+                                      const std::vector<wire::EditRequest>& edits, const std::string& by) {
+  return change(id, revision, [&](map::TopologicalMap& map) -> Status {
+    for (std::size_t i = 0; i < edits.size(); ++i) {
+      const std::string where = "body/edits/" + std::to_string(i);
+      const map::EditKind kind = edits[i].kind;
+      if (kind != map::EditKind::kRename && kind != map::EditKind::kBlockEdge) {
+        return fail(ErrorCode::kInvalidInput,
+                    "This version applies rename and block_edge, not " + std::string(wire::edit_kind_name(kind)) + ".",
+                    where);
+      }
+      const auto lasting = wire::edit_for_map(edits[i], map, by, wall_clock_us());
+      if (!lasting) return fail(lasting.error().code, lasting.error().message, where);
+      if (const Status status = mapping::apply_edit(map, *lasting); !status) {
+        return fail(status.error().code, status.error().message, where);
+      }
+    }
+    return {};
+  });
+}
+
+Result<std::int64_t> MapService::undo(const MapId& id, std::int64_t revision) {
+  return change(id, revision, [](map::TopologicalMap& map) { return mapping::undo_last_edit(map); });
+}
+
+Result<db::MapRecord> MapService::keep_build(const MapId& id, map::TopologicalMap contents,
+                                             const db::Thumbnails& thumbnails) {
+  const std::scoped_lock changing(changing_);
+  const auto record = store_.map(id);
+  if (!record) return pass_on(record);
+  if (record->revision > 0) {
+    const auto present = load(id);
+    if (!present) return pass_on(present);
+    // Edits that people made while this was built.
+    if ((*present)->map.edits.size() != contents.edits.size()) {
+      mapping::replay_edits(contents, (*present)->map.edits);
+    }
+  }
+  contents.revision = record->revision + 1;
+  auto saved = store_.save_map_contents(id, contents, thumbnails, record->revision);
+  if (saved) tell(*saved);
+  return saved;
+}
+
+Result<std::vector<std::uint8_t>> MapService::thumbnail(const MapId& id, const ImageId& image) {
+  const auto loaded = load(id);
+  if (!loaded) return pass_on(loaded);
+  const auto found = (*loaded)->thumbnails.find(image);
+  if (found != (*loaded)->thumbnails.end()) return found->second;
+  const std::string where = "maps/" + id.str() + "/images/" + image.str();
+  const std::size_t slash = image.str().find('/');
+  const auto known = map::image_indices((*loaded)->map);
+  if (!known.contains(image) || slash == std::string::npos) {
+    return fail(ErrorCode::kNotFound, "The map has no picture " + image.str() + ".", where);
+  }
+  const TourId tour(image.str().substr(0, slash));
+  const auto images = store_.tour_images(tour);
+  if (!images) return pass_on(images);
+  for (const db::TourImage& kept : *images) {
+    if (kept.file != image.str().substr(slash + 1)) continue;
+    const auto bytes = store_.image_bytes(tour, kept.number);
+    if (!bytes) return pass_on(bytes);
+    const auto picture = imageio::decode(*bytes, image.str());
+    if (!picture) return pass_on(picture);
+    const auto eye = pipeline::Eye::create((*loaded)->map.camera, (*loaded)->map.feature_config);
+    if (!eye) return pass_on(eye);
+    return pipeline::make_thumbnail(*eye, *picture);
+  }
+  return fail(ErrorCode::kNotFound, "The picture " + image.str() + " was not kept.", where);
+}
+
+Result<wire::BeliefView> MapService::localise(const MapId& id, std::span<const std::uint8_t> picture) {
+  const auto began = std::chrono::steady_clock::now();
+  const auto loaded = load(id);
+  if (!loaded) return pass_on(loaded);
+  const auto image = imageio::decode(picture, "body");
+  if (!image) return pass_on(image);
+  auto tracker = pipeline::BeliefTracker::create(contents_of(*loaded));
+  if (!tracker) return pass_on(tracker);
+  const auto belief = tracker->update(*image);
+  if (!belief) return pass_on(belief);
+  wire::BeliefView view = view_of(*belief);
+  view.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
+  return view;
+}
+
+Result<db::MapRecord> MapService::import(const std::string& name, std::span<const std::uint8_t> file) {
+  db::MapRecord record;
+  record.name = name;
+  record.state = wire::MapState::kReady;
+  record.created_us = wall_clock_us();
+  auto imported = store_.import_map(record, file);
+  if (imported) tell(*imported);
+  return imported;
+}
+
+}  // namespace homeward::server

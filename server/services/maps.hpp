@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+
+#include "db/store.hpp"
+#include "server/ws/event_hub.hpp"
+#include "wire/belief_json.hpp"
+#include "wire/edit_json.hpp"
+
+namespace homeward::server {
+
+using LoadedMap = std::shared_ptr<const db::StoredMap>;
+/// The map of a loaded one, sharing its life.
+inline std::shared_ptr<const map::TopologicalMap> contents_of(const LoadedMap& loaded) {
+  return {loaded, &loaded->map};
+}
+
+wire::MapInfoView view_of(const db::MapRecord& record);
+
+/// The maps that the server owns: loading, editing, asking.
+class MapService {
+ public:
+  MapService(db::Store& store, EventHub& events) : store_(store), events_(events) {}
+
+  /// The present revision; kept in memory while it is used. Errors: kNotFound, kConflict (not built yet).
+  Result<LoadedMap> load(const MapId& id);
+  /// Applies all edits or none. Errors: kStaleRevision, kInvalidInput (kinds that this version does not apply), those
+  /// of mapping::apply_edit. Returns the new revision.
+  Result<std::int64_t> edit(const MapId& id, std::int64_t revision, const std::vector<wire::EditRequest>& edits,
+                            const std::string& by);
+  /// Errors: kStaleRevision, those of mapping::undo_last_edit.
+  Result<std::int64_t> undo(const MapId& id, std::int64_t revision);
+  /// A small picture of an image of the map. Errors: kNotFound.
+  Result<std::vector<std::uint8_t>> thumbnail(const MapId& id, const ImageId& image);
+  /// Where a single picture was taken, from a uniform start.
+  Result<wire::BeliefView> localise(const MapId& id, std::span<const std::uint8_t> picture);
+  Result<db::MapRecord> import(const std::string& name, std::span<const std::uint8_t> file);
+
+  /// Keeps a new build, over edits that were made meanwhile. Errors: those of the store.
+  Result<db::MapRecord> keep_build(const MapId& id, map::TopologicalMap contents, const db::Thumbnails& thumbnails);
+  void tell(const db::MapRecord& record) { events_.publish(view_of(record)); }
+
+ private:
+  Result<std::int64_t> change(const MapId& id, std::int64_t revision,
+                              const std::function<Status(map::TopologicalMap&)>& apply);
+
+  struct Cached {
+    MapId id;
+    LoadedMap loaded;
+  };
+  db::Store& store_;
+  EventHub& events_;
+  std::mutex loading_;   // one load at a time
+  std::mutex changing_;  // one edit or new build at a time
+  std::mutex mutex_;     // of cache_
+  std::deque<Cached> cache_;
+};
+
+}  // namespace homeward::server

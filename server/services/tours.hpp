@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "db/store.hpp"
+#include "pipeline/tour.hpp"
+
+namespace homeward::server {
+
+/// A picture as it comes in with a PUT.
+struct ImageUpload {
+  TourId tour;
+  std::int64_t number = 0;
+  std::string file;  // name within the tour; empty: after its number
+  std::optional<TimeUs> t_us;
+  std::optional<Pose2> odometry;
+  std::span<const std::uint8_t> bytes;
+};
+
+struct ImageReceipt {
+  std::int64_t number = 0;
+  ImageId image;
+  std::int64_t bytes = 0;
+  bool is_new = false;
+};
+
+/// Guided tours on the server: what a person or robot uploads, checked before it is kept.
+class TourService {
+ public:
+  explicit TourService(db::Store& store) : store_(store) {}
+
+  Result<wire::TourView> add(const std::string& name, const camera::CameraConfig& camera);
+  Result<std::vector<wire::TourView>> list();
+  Result<wire::TourView> get(const TourId& id);
+  /// Decodes the whole picture before it keeps it. Errors: kNotFound, kConflict, kUnsupportedImage, kTruncatedImage,
+  /// kImageTooLarge, kWrongImageSize.
+  Result<ImageReceipt> put_image(const ImageUpload& upload);
+  /// Errors: kNotFound, kConflict (complete already), kInvalidInput (a mark on a picture that is not there).
+  Status set_marks(const TourId& id, const std::vector<wire::TourMark>& marks);
+  /// Errors: kNotFound, kConflict (pictures are missing, or there are fewer than 3).
+  Result<wire::TourView> complete(const TourId& id);
+
+ private:
+  db::Store& store_;
+};
+
+/// A complete tour of the store as the pipeline reads it. Image ids are "tour id/file".
+Result<std::unique_ptr<pipeline::TourSource>> stored_tour(db::Store& store, const TourId& id);
+
+/// The camera of a stored tour.
+Result<camera::CameraConfig> camera_of(const db::Tour& tour);
+
+}  // namespace homeward::server
