@@ -11,6 +11,7 @@ import { DestinationCard } from './destination_card';
 import { commands, forgetCommand, send } from './driving';
 import { hindrance, journeyOf, type Journey, type Target } from './journey';
 import { JourneyCard } from './journey_card';
+import { heading, reasonOf } from './journey_words';
 import { LeasePrompt, WhoDrives } from './lease_prompt';
 import { WhereaboutsCard } from './whereabouts_card';
 
@@ -61,6 +62,10 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
           onLeave={() => forgetCommand(robot.id)}
         />
       )}
+      {/* There from the start, so that screen readers announce each change of it. */}
+      <p class="hidden-text" role="status">
+        {journey && [heading(journey, graph), reasonOf(journey)].filter(Boolean).join('. ')}
+      </p>
       <div class={journey ? 'go-top two' : 'go-top'}>
         <WhereaboutsCard robot={robot} graph={graph} />
         {journey && (

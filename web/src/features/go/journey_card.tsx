@@ -31,7 +31,7 @@ export function JourneyCard({ journey, graph, onAgain, onDismiss }: Props) {
     >
       <div class="row journey-head">
         {active ? <span class="spinner" /> : <Icon name={phase === 'arrived' ? 'done' : 'warn'} size={30} />}
-        <h2 role="status">{heading(journey, graph)}</h2>
+        <h2>{heading(journey, graph)}</h2>
       </div>
       {reason !== null && <p>{reason}</p>}
       {isActive(phase) && steps > 0 && (
