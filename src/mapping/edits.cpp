@@ -113,7 +113,9 @@ void join_both_ways(TopologicalMap& map, const PlaceId& a, const PlaceId& b, con
   }
 }
 
-Status split(TopologicalMap& map, const ImageId& image_a, const std::vector<ImageId>& images) {
+Status split(TopologicalMap& map, const ImageId& image_a, const std::vector<ImageId>& named) {
+  const std::set<ImageId> once(named.begin(), named.end());
+  const std::vector<ImageId> images(once.begin(), once.end());
   Place* old_place = map::find_place_of(map, image_a);
   if (old_place == nullptr) return no_place_with(image_a);
   if (images.empty()) return fail(ErrorCode::kInvalidInput, "A split has to name the images that leave.", "images");
@@ -149,6 +151,7 @@ Status split(TopologicalMap& map, const ImageId& image_a, const std::vector<Imag
 Status move_images(TopologicalMap& map, const Edit& edit) {
   const Place* target = map::find_place_of(map, edit.image_a);
   if (target == nullptr) return no_place_with(edit.image_a);
+  if (edit.images.empty()) return fail(ErrorCode::kInvalidInput, "A move has to name the images that go.", "images");
   const PlaceId target_id = target->id;
   TopologicalMap changed = map;
   for (const ImageId& image : edit.images) {

@@ -362,11 +362,12 @@ map::TopologicalMap make_map(const MappingInput& input, const MappingConfig& con
     map.hypotheses.push_back(std::move(kept));
   }
   map.motion = measure_statistics(input, map, place_of_image, usual);
-  keep_identity(map, previous);
+  // Edits first: the places that a person made keep their ids like all others.
   if (previous != nullptr) {
     map.revision = previous->revision + 1;
     replay_edits(map, previous->edits);
   }
+  keep_identity(map, previous);
   return map;
 }
 

@@ -43,7 +43,7 @@ TourTrack::TourTrack(std::span<const map::MapImage> images, std::span<const int>
                                          static_cast<double>(both.turn_rad))));
   }
   turn_sigma_rad_ = std::max(config.least_turn_sigma_rad, quantile(misses, 0.9));
-  const double typical_parallax_rad = std::max(1e-6, quantile(parallaxes, 0.5));
+  const double typical_parallax_rad = quantile(parallaxes, 0.5);
   for (int i = 0; i + 1 < count; ++i) {
     const Point& from = points_[at(i)];
     Point& to = points_[at(i + 1)];
@@ -78,7 +78,8 @@ TourTrack::Step TourTrack::step(std::span<const map::MapImage> images, int i, do
     result.turn_variance = square(turn_seen ? turn_sigma_rad_ : config_.odometry_turn_sigma_rad);
     return result;
   }
-  result.broken = !turn_seen;
+  result.broken = !turn_seen || typical_parallax_rad < config_.least_typical_parallax_rad;
+  if (result.broken) return result;
   const double length = std::min(1.0, 2.0 * static_cast<double>(seen.parallax_rad) / typical_parallax_rad);
   const double direction_rad = static_cast<double>(seen.direction_rad);
   result.motion = {length * std::cos(direction_rad), length * std::sin(direction_rad), seen_turn_rad};

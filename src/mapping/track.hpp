@@ -11,12 +11,13 @@
 namespace homeward::mapping {
 
 struct TrackConfig {
-  int fewest_inliers = 15;                // a turn between two images on fewer is not believed
-  double least_turn_sigma_rad = 4e-3;     // of one step, however well the tour's own turns agree
-  double odometry_turn_sigma_rad = 0.05;  // of one step whose turn only odometry knows
-  double most_turn_conflict_rad = 0.35;   // between picture and odometry; beyond, the robot was carried or moved
-  double odometry_length_sigma = 0.1;     // of one step, as a share of its length
-  double picture_length_sigma = 0.35;     // the same where lengths are only known from parallax
+  int fewest_inliers = 15;                    // a turn between two images on fewer is not believed
+  double least_turn_sigma_rad = 4e-3;         // of one step, however well the tour's own turns agree
+  double odometry_turn_sigma_rad = 0.05;      // of one step whose turn only odometry knows
+  double most_turn_conflict_rad = 0.35;       // between picture and odometry; beyond, the robot was carried or moved
+  double odometry_length_sigma = 0.1;         // of one step, as a share of its length
+  double picture_length_sigma = 0.35;         // the same where lengths are only known from parallax
+  double least_typical_parallax_rad = 0.005;  // between tour neighbours; below, parallax does not tell lengths
   double sure_sigmas = 3.0;
   double least_turn_margin_rad = 0.17;  // a verified turn may miss the prediction by so much and 3 sigma
 };
