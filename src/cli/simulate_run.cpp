@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@ namespace {
 struct Options {
   std::string scenario;
   bool json = false;
+  std::string trace;
 };
 
 nlohmann::json to_json(const agent::MissionResult& result) {
@@ -33,6 +35,26 @@ nlohmann::json to_json(const agent::MissionResult& result) {
                           {"duration_s", result.duration_s}};
   for (const agent::StopEvent& stop : result.stops) value["stops"].push_back({{"t_s", stop.t_s}, {"reason", stop.reason}});
   return value;
+}
+
+nlohmann::json to_json(const agent::CycleTrace& cycle) {
+  return {{"t_s", cycle.t_s},
+          {"x_m", cycle.pose.x_m},
+          {"y_m", cycle.pose.y_m},
+          {"theta_rad", cycle.pose.theta_rad},
+          {"index", cycle.index},
+          {"views", cycle.views},
+          {"view", cycle.view},
+          {"answered", cycle.answered},
+          {"bearing_rad", cycle.bearing_rad},
+          {"confidence", cycle.confidence},
+          {"inliers", cycle.inliers},
+          {"parallax_rad", cycle.parallax_rad},
+          {"goal_m", {cycle.goal_x_m, cycle.goal_y_m}},
+          {"speed_mps", cycle.speed_mps},
+          {"turn_radps", cycle.turn_radps},
+          {"min_range_m", cycle.min_range_m},
+          {"state", cycle.state}};
 }
 
 void print(const agent::MissionResult& result) {
@@ -57,7 +79,14 @@ Status run(const Options& options) {
       print(result);
     }
   };
-  return agent::run_scenario(*scenario, std::filesystem::path(options.scenario).parent_path().string(), told, done);
+  agent::ScenarioListener listener{told, done, {}};
+  std::ofstream trace;
+  if (!options.trace.empty()) {
+    trace.open(options.trace);
+    if (!trace) return fail(ErrorCode::kIo, "The trace cannot be written.", options.trace);
+    listener.cycled = [&](const agent::CycleTrace& cycle) { trace << to_json(cycle).dump() << "\n"; };
+  }
+  return agent::run_scenario(*scenario, std::filesystem::path(options.scenario).parent_path().string(), listener);
 }
 
 }  // namespace
@@ -67,6 +96,7 @@ void register_simulate_run(CLI::App& simulate) {
   const auto options = std::make_shared<Options>();
   command->add_option("--scenario", options->scenario, "Scenario file")->required();
   command->add_flag("--json", options->json, "One JSON line for each mission");
+  command->add_option("--trace", options->trace, "Also write every control cycle as a JSON line to this file");
   run_on(*command, [options] { return run(*options); });
 }
 

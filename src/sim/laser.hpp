@@ -12,7 +12,7 @@
 namespace homeward::sim {
 
 struct LaserConfig {
-  double height_m = 0.3;
+  std::vector<double> heights_m = {0.3};  // of its layers; a ray's range is the shortest of them
   double range_max_m = 12.0;
   double noise_m = 0.01;
   int rays = 360;  // ray i points 2 pi i / rays counter-clockwise from forward

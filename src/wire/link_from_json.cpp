@@ -75,6 +75,19 @@ AgentStatus read_status(ObjectReader& reader) {
   return m;
 }
 
+std::optional<PathEdge> read_edge(ObjectReader& outer) {
+  const json& value = outer.value("next");
+  if (value.is_null()) return std::nullopt;
+  ObjectReader reader(value, outer.path_of("next"));
+  PathEdge edge;
+  edge.bearing_rad = number_or_null(reader, "bearing_rad");
+  edge.turn_rad = number_or_null(reader, "turn_rad");
+  edge.length_m = number_or_null(reader, "length_m");
+  edge.weak = reader.boolean("weak");
+  if (const Status status = reader.finish(); !status) outer.take<int>(pass_on(status));
+  return edge;
+}
+
 MissionOrder read_mission(ObjectReader& reader) {
   MissionOrder m;
   m.mission = MissionId(reader.text("mission", 100));
@@ -92,7 +105,7 @@ MissionOrder read_mission(ObjectReader& reader) {
     place.place = PlaceId(inner.text("place", 100));
     place.image = ImageId(inner.text("image", 600));
     place.appearance = read_bytes(inner, "appearance");
-    place.weak = inner.boolean("weak");
+    place.next = read_edge(inner);
     if (const Status status = inner.finish(); !status) reader.take<int>(pass_on(status));
     m.path.push_back(std::move(place));
   }

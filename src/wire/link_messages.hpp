@@ -90,11 +90,19 @@ struct Welcome {
   std::int64_t frame_period_ms = 200;
 };
 
+/// The way from one place of a path to the next, as the map knows it; what is unknown is nothing.
+struct PathEdge {
+  std::optional<double> bearing_rad;  // of the next prototype in this prototype's frame
+  std::optional<double> turn_rad;     // next heading minus this one
+  std::optional<double> length_m;
+  bool weak = false;  // homing along it is likely to fail
+};
+
 struct PathPlace {
   PlaceId place;
   ImageId image;                         // its prototype
   std::vector<std::uint8_t> appearance;  // appearance_blob.hpp
-  bool weak = false;                     // the edge to the next place is weak
+  std::optional<PathEdge> next;  // nothing at the last place
 };
 
 struct MissionOrder {

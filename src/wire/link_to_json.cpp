@@ -90,6 +90,14 @@ json write(const Welcome& m) {
   return value;
 }
 
+json edge_to_json(const std::optional<PathEdge>& edge) {
+  if (!edge) return nullptr;
+  return {{"bearing_rad", or_null(edge->bearing_rad)},
+          {"turn_rad", or_null(edge->turn_rad)},
+          {"length_m", or_null(edge->length_m)},
+          {"weak", edge->weak}};
+}
+
 json write(const MissionOrder& m) {
   json value = start("mission");
   value["mission"] = m.mission.str();
@@ -105,7 +113,7 @@ json write(const MissionOrder& m) {
     value["path"].push_back({{"place", place.place.str()},
                              {"image", place.image.str()},
                              {"appearance", json::binary(place.appearance)},
-                             {"weak", place.weak}});
+                             {"next", edge_to_json(place.next)}});
   }
   value["final"] = {{"image", m.final_image.str()}, {"appearance", json::binary(m.final_appearance)}, {"dock", m.dock}};
   return value;

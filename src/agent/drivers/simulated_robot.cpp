@@ -7,6 +7,12 @@
 
 namespace homeward::agent {
 
+sim::LaserConfig safety_scanner() {
+  sim::LaserConfig laser;
+  laser.heights_m = {0.12, 0.3, 0.46, 0.6, 0.73, 0.88, 1.05, 1.25, 1.38};
+  return laser;
+}
+
 Result<SimulatedRobot> SimulatedRobot::create(sim::LitWorld& world, const SimulatedRobotConfig& config, const Pose2& start) {
   auto camera = camera::Camera::create(config.camera);
   if (!camera) return pass_on(camera);

@@ -18,11 +18,15 @@
 
 namespace homeward::agent {
 
+/// The simulated chair's range sensor: layers from the floor to head height, because a single plane at 0.3 m sees the legs
+/// of a table and not its top.
+sim::LaserConfig safety_scanner();
+
 struct SimulatedRobotConfig {
   camera::CameraConfig camera;
   sim::LightPreset light = sim::LightPreset::kDay;
   sim::RobotProfile profile = sim::disc_profile();
-  sim::LaserConfig laser;
+  sim::LaserConfig laser = safety_scanner();
   int people = 0;
   std::uint64_t seed = 1;
 };

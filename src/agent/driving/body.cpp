@@ -7,7 +7,7 @@
 namespace homeward::agent {
 namespace {
 
-constexpr double kMargin_m = 0.04;    // kept between body and things
+constexpr double kMargin_m = 0.03;    // kept between body and things
 constexpr double kReaction_s = 0.25;  // from the sweep to the wheels
 constexpr double kStep_s = 0.1;
 

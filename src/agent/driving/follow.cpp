@@ -3,101 +3,110 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/angles.hpp"
 
 namespace homeward::agent {
 namespace {
 
-struct Answer {
-  int index = 0;
-  homing::HomeVector vector;
-};
+Eigen::Vector2d position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
 
 bool is_sure(const homing::HomeVector& vector, const FollowConfig& config) {
   return vector.confidence >= config.sure && vector.inliers >= config.sure_inliers;
 }
 
-double distance_guess_m(const homing::HomeVector& vector, const FollowConfig& config) {
-  return std::clamp(config.metres_per_parallax * vector.median_parallax_rad, 0.1, 4.0);
-}
-
-void remember(FollowState& state, const homing::HomeVector& vector, const Pose2& odometry, const FollowConfig& config) {
-  const double distance_m = distance_guess_m(vector, config);
-  state.goal_in_odom = odometry * Pose2{distance_m * std::cos(vector.bearing_rad), distance_m * std::sin(vector.bearing_rad),
-                                        vector.turn_rad};
-  state.seen_from = odometry;
-  state.last_parallax_rad = vector.median_parallax_rad;
-}
-
-/// The view to home to: the present one, or a later one that is clearly seen once the present one is near or unseen.
-std::optional<Answer> choose(const FollowState& state, const VisualPath& path, const features::Appearance& seen,
-                             const FollowConfig& config, std::uint64_t seed) {
-  const int last = static_cast<int>(path.views.size()) - 1;
-  std::optional<Answer> best;
-  for (int index = state.index; index <= std::min(last, state.index + config.look_ahead); ++index) {
-    const auto vector = homing::home_vector(seen, path.views[static_cast<std::size_t>(index)], config.homing, seed);
-    if (!vector || vector->confidence < config.believe) {
-      if (best && is_sure(best->vector, config)) break;  // what lies behind an unseen view is not sought past a good one
-      continue;
-    }
-    if (!best) {
-      best = Answer{index, *vector};
-      continue;
-    }
-    // The one before is passed, or near enough to cut the corner to this one.
-    const bool passed = best->vector.median_parallax_rad < config.pass_parallax_rad;
-    const bool behind = std::abs(best->vector.bearing_rad) > 0.55 * std::numbers::pi && is_sure(*vector, config) &&
-                        best->vector.median_parallax_rad < config.skip_parallax_rad;
-    const bool near = best->vector.median_parallax_rad < config.skip_parallax_rad && is_sure(*vector, config) &&
-                      std::abs(vector->bearing_rad - best->vector.bearing_rad) < 0.6;
-    if (!passed && !behind && !near) break;
-    best = Answer{index, *vector};
+/// Where the views after a known one must lie by the map's edges.
+void expect_onwards(FollowState& state, const VisualPath& path, int from) {
+  constexpr double kKnownTo_m = 3.0;  // beyond that much doubt an expectation is worth nothing
+  for (int i = from; i + 1 < static_cast<int>(path.views.size()); ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const ViewTrack& track = state.tracks[index];
+    const auto& edge = path.edges[index];
+    if (!track.known() || track.doubt_m() > kKnownTo_m || !edge || !edge->bearing_rad || !edge->length_m) return;
+    const double angle_rad = track.heading_rad() + *edge->bearing_rad;
+    const Eigen::Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
+    const Eigen::Vector2d across(-along.y(), along.x());
+    const double along_m = 0.35 * *edge->length_m + 0.15;
+    const double across_m = (edge->weak ? 0.5 : 0.25) * *edge->length_m + 0.1;
+    state.tracks[index + 1].expect(
+        track.position_m() + *edge->length_m * along,
+        track.covariance_m2() + along_m * along_m * along * along.transpose() + across_m * across_m * across * across.transpose(),
+        wrap_angle(track.heading_rad() + edge->turn_rad.value_or(0.0)));
   }
-  return best;
+}
+
+/// Whether a view on the way is done with: reached, or the robot is level with it on the way to the next.
+bool is_passed(const FollowState& state, int index, const Eigen::Vector2d& here, const FollowConfig& config) {
+  const ViewTrack& track = state.tracks[static_cast<std::size_t>(index)];
+  if (!track.known()) return false;
+  const Eigen::Vector2d to_view = track.position_m() - here;
+  if (to_view.norm() < config.pass_m) return true;
+  const ViewTrack& next = state.tracks[static_cast<std::size_t>(index) + 1];
+  if (!next.known() || to_view.norm() > config.abreast_m) return false;
+  return to_view.dot(next.position_m() - track.position_m()) < 0.0;
 }
 
 }  // namespace
 
-std::optional<Eigen::Vector2d> remembered_goal(const FollowState& state, const Pose2& odometry, const FollowConfig& config) {
-  if (!state.goal_in_odom) return std::nullopt;
-  const Pose2 moved = inverse(state.seen_from) * odometry;
-  if (std::hypot(moved.x_m, moved.y_m) > config.remember_m) return std::nullopt;
-  const Pose2 goal = inverse(odometry) * *state.goal_in_odom;
-  return Eigen::Vector2d(goal.x_m, goal.y_m);
+std::optional<Eigen::Vector2d> goal(const FollowState& state, const Pose2& odometry, const FollowConfig& config) {
+  if (state.tracks.empty()) return std::nullopt;
+  const Pose2 moved = inverse(state.odometry) * odometry;
+  const double blind_m = state.blind_m + std::hypot(moved.x_m, moved.y_m);
+  const ViewTrack& track = state.tracks[static_cast<std::size_t>(state.index)];
+  if (!track.known() || blind_m > config.blind_m) return std::nullopt;
+  const Pose2 view = inverse(odometry) * Pose2{track.position_m().x(), track.position_m().y(), 0.0};
+  return Eigen::Vector2d(view.x_m, view.y_m);
 }
 
 FollowResult follow(FollowState& state, const VisualPath& path, const features::Appearance& seen, const Pose2& odometry,
                     const FollowConfig& config, std::uint64_t seed) {
   FollowResult result;
   const int last = static_cast<int>(path.views.size()) - 1;
-  const std::optional<Answer> answer = choose(state, path, seen, config, seed);
-  if (!answer) {
-    ++state.unanswered;
-    result.goal_m = remembered_goal(state, odometry, config);
-    result.blind = !result.goal_m;
-    result.parallax_rad = state.last_parallax_rad;
-    return result;
+  if (state.tracks.size() != path.views.size()) {
+    state.tracks.assign(path.views.size(), ViewTrack());
+    state.odometry = odometry;
   }
-  state.unanswered = 0;
-  if (answer->index != state.index) {
-    state.index = answer->index;
-    state.least_parallax_rad = 1e9;
+  const Pose2 step = inverse(state.odometry) * odometry;
+  const double driven_m = std::hypot(step.x_m, step.y_m);
+  state.blind_m += driven_m;
+  state.odometry = odometry;
+  for (ViewTrack& track : state.tracks) track.drift(driven_m, config.track);
+
+  const Eigen::Vector2d here = position(odometry);
+  const int first = state.index;
+  int clearest = -1;
+  for (int index = first; index <= std::min(last, first + config.look_ahead); ++index) {
+    const auto vector = homing::home_vector(seen, path.views[static_cast<std::size_t>(index)], config.homing, seed);
+    if (!vector || vector->confidence < config.believe) continue;
+    ViewTrack& track = state.tracks[static_cast<std::size_t>(index)];
+    // A view that the map says nothing of yet is taken up only from a clear answer.
+    if (!track.known() && index != first && !is_sure(*vector, config)) continue;
+    if (!track.observe(odometry, *vector, config.track)) continue;
+    result.answered = true;
+    state.blind_m = 0.0;
+    if (index == first) {
+      result.vector = *vector;
+      const int fewer = std::min(seen.size(), path.views[static_cast<std::size_t>(index)].size());
+      state.alike = static_cast<double>(vector->inliers) / std::max(1, fewer);
+    }
+    if (is_sure(*vector, config) && clearest < 0) clearest = index;
+    expect_onwards(state, path, index);
+    if (index == last) state.heading_left_rad = vector->turn_rad;
   }
-  const homing::HomeVector& vector = answer->vector;
-  remember(state, vector, odometry, config);
-  result.vector = vector;
-  result.parallax_rad = vector.median_parallax_rad;
-  const double distance_m = distance_guess_m(vector, config);
-  result.goal_m = Eigen::Vector2d(distance_m * std::cos(vector.bearing_rad), distance_m * std::sin(vector.bearing_rad));
-  if (state.index == last) {
-    state.least_parallax_rad = std::min(state.least_parallax_rad, vector.median_parallax_rad);
-    const bool there = vector.median_parallax_rad < config.homing.arrived_parallax_rad;
-    // Driven past it: it lies behind, and it had been near.
-    const bool past = std::abs(vector.bearing_rad) > 0.5 * std::numbers::pi &&
-                      state.least_parallax_rad < 2.5 * config.homing.arrived_parallax_rad &&
-                      vector.median_parallax_rad < 4.0 * config.homing.arrived_parallax_rad;
-    result.at_end = there || past;
-    state.turn_at_end_rad = vector.turn_rad;
+  // The view homed to is not to be seen and a later one is: it has been cut off.
+  if (!state.tracks[static_cast<std::size_t>(first)].known() && clearest > first) state.index = clearest;
+  while (state.index < last && is_passed(state, state.index, here, config)) ++state.index;
+  expect_onwards(state, path, state.index);
+  if (state.index != first) result.vector.reset();
+
+  if (state.index == last && result.vector && state.tracks.back().known()) {
+    const double distance_m = (state.tracks.back().position_m() - here).norm();
+    // Bearings are sharp to within centimetres of a view: when it passes from ahead to behind, the robot is there.
+    const bool behind = is_sure(*result.vector, config) && std::cos(result.vector->bearing_rad) < 0.0;
+    state.behind = behind ? state.behind + 1 : 0;
+    const bool coincides = result.vector->median_parallax_rad < config.homing.arrived_parallax_rad &&
+                           state.alike > config.alike_share;
+    result.at_end = coincides || (state.behind >= 2 && distance_m < config.nearby_m);
   }
   return result;
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr double kCell_m = 0.06;
 constexpr int kHalfCells = 50;  // 3 m to each side
 constexpr int kSide = 2 * kHalfCells + 1;
-constexpr double kSpare_m = 0.03;     // beside the body's own radius
+constexpr double kSpare_m = 0.07;     // beside the body's own radius, more than the safety margin
 constexpr double kComfort_m = 0.35;   // beyond that nothing costs extra
 constexpr double kCarrot_m = 0.55;
 

@@ -99,12 +99,14 @@ Result<Mission> decode_mission(const wire::MissionOrder& order, const DrivingCon
     auto view = wire::decode_appearance(place.appearance, "place " + place.place.str());
     if (!view) return pass_on(view);
     mission.path.views.push_back(std::move(*view));
+    mission.path.edges.push_back(place.next);
   }
   auto last = wire::decode_appearance(order.final_appearance, order.final_image.str());
   if (!last) return pass_on(last);
   // The destination's own picture is often its place's prototype; passing it twice would be one view too many.
   if (!order.path.empty() && order.path.back().image == order.final_image) mission.path.views.pop_back();
   mission.path.views.push_back(std::move(*last));
+  mission.path.edges.resize(mission.path.views.size());
   return mission;
 }
 

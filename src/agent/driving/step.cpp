@@ -17,16 +17,16 @@ void take_picture(DrivingState& state, const SeenPicture& picture, const Driving
   ++state.pictures;
   if (state.drive != wire::DriveState::kDriving) return;
   const int index_before = state.follow.index;
+  state.covered = false;
   state.seen = follow(state.follow, state.mission->path, *picture.appearance, picture.odometry, config.follow, state.pictures);
-  if (state.seen.vector) {
+  if (state.seen.answered) {
     state.last_answer_ms = now_ms;
     state.answers_ms.push_back(now_ms);
   }
   if (picture.appearance->size() < kFewestFeatures) {
     // A covered lens: memory must not carry the robot on.
-    state.follow.goal_in_odom.reset();
     state.seen = {};
-    state.seen.blind = true;
+    state.covered = true;
   }
   const bool gained = state.follow.index != index_before;
   const Pose2 moved = inverse(state.gain_from) * picture.odometry;
@@ -62,8 +62,7 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   const bool last_view = state.follow.index + 1 == static_cast<int>(state.mission->path.views.size());
   if (state.docking) {
     // Heading at the end, by the latest answer and the turn made since.
-    const double turned_rad = (inverse(state.follow.seen_from) * inputs.odometry).theta_rad;
-    const double left_rad = wrap_angle(state.follow.turn_at_end_rad - turned_rad);
+    const double left_rad = wrap_angle(state.follow.tracks.back().heading_rad() - inputs.odometry.theta_rad);
     if (std::abs(left_rad) < config.dock_within_rad) {
       end_mission(state, wire::DriveState::kArrived, "");
       return {};
@@ -71,15 +70,27 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     const double turn = std::clamp(1.5 * left_rad, -0.6, 0.6);
     return {0.0, std::copysign(std::max(0.12, std::abs(turn)), left_rad)};
   }
-  const auto goal_m = remembered_goal(state.follow, inputs.odometry, config.follow);
-  if (!goal_m) return {};
-  const auto way = local_way(config.body, points_m, *goal_m);
-  if (!way) return {};
+  const auto goal_m = goal(state.follow, inputs.odometry, config.follow);
+  if (!goal_m || state.covered) return {};
   double speed_mps = std::min(state.mission->speed_limit_mps, config.body.max_speed_mps);
-  // The destination is approached so slowly that one picture's way is a fraction of the tolerance.
-  if (last_view) speed_mps = std::min(speed_mps, std::max(0.1, 0.9 * goal_m->norm()));
-  if (state.follow.unanswered > 0) speed_mps = std::min(speed_mps, 0.2);
-  if (state.seen.vector) speed_mps *= std::clamp(0.4 + 0.6 * state.seen.vector->confidence, 0.4, 1.0);
+  Eigen::Vector2d aim_m = *goal_m;
+  if (last_view) {
+    // The destination is approached so slowly that one picture's way is a fraction of the tolerance. How near it is, is
+    // known roughly; its direction is known well, so that is driven until it lies abeam.
+    const bool alike = state.follow.alike > 0.25;
+    speed_mps = std::min(speed_mps, std::max(alike ? 0.12 : 0.18, 0.6 * goal_m->norm()));
+    constexpr double kLeastAim_m = 0.4;
+    if (state.seen.vector && goal_m->norm() < kLeastAim_m) {
+      const double bearing_rad = state.seen.vector->bearing_rad;
+      aim_m = kLeastAim_m * Eigen::Vector2d(std::cos(bearing_rad), std::sin(bearing_rad));
+    }
+  }
+  const auto way = local_way(config.body, points_m, aim_m);
+  if (!way) return {};
+  // The less is recognised, the slower.
+  if (!state.seen.answered) speed_mps = std::min(speed_mps, 0.25);
+  const double doubt_m = state.follow.tracks[static_cast<std::size_t>(state.follow.index)].doubt_m();
+  speed_mps *= std::clamp(1.2 - 0.4 * doubt_m, 0.4, 1.0);
   return towards(way->carrot_m, speed_mps, config);
 }
 

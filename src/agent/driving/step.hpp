@@ -71,6 +71,7 @@ struct DrivingState {
   FollowState follow;
   FollowResult seen;                // of the latest picture
   bool docking = false;
+  bool covered = false;             // the latest picture shows next to nothing
   Milliseconds last_message_ms = 0;
   Milliseconds last_picture_ms = 0;
   Milliseconds last_answer_ms = 0;

@@ -9,13 +9,12 @@
 #include "agent/driving/step.hpp"
 #include "agent/files/world_folder.hpp"
 #include "core/angles.hpp"
-#include "map/lookup.hpp"
 #include "pipeline/belief_tracker.hpp"
 #include "planning/route.hpp"
 #include "sim/floor.hpp"
 #include "sim/generate/painting.hpp"
 #include "sim/tour_path.hpp"
-#include "wire/appearance_blob.hpp"
+#include "wire/mission_order.hpp"
 
 namespace homeward::agent {
 namespace {
@@ -62,22 +61,12 @@ Result<wire::MissionOrder> plan_order(const map::TopologicalMap& map, const Plac
   request.to = to.place;
   const auto route = planning::plan_route(map, request);
   if (!route) return pass_on(route);
-  wire::MissionOrder order;
+  wire::MissionOrder order = wire::order_for_route(map, route->places, to);
   order.mission = MissionId("simulated");
   order.order = {1, 1};
   order.map = MapId("taught");
-  order.revision = map.revision;
-  order.feature_config_id = map.feature_config_id;
   order.valid_for_ms = kPermit_ms;
   order.speed_limit_mps = kSpeedLimit_mps;
-  order.label = to.label;
-  for (const PlaceId& id : route->places) {
-    const map::Place& place = *map::find_place(map, id);
-    order.path.push_back({id, place.prototype, wire::encode_appearance(place.appearances.front()), false});
-  }
-  order.final_image = to.image;
-  order.final_appearance = wire::encode_appearance(to.appearance);
-  order.dock = true;
   return order;
 }
 
@@ -98,10 +87,12 @@ Result<std::optional<PlaceId>> find_place(const TaughtWorld& taught, SimulatedRo
 /// The loop of one mission: world, sensors and heart, cycle by cycle.
 class Drive {
  public:
-  Drive(SimulatedRobot& robot, const pipeline::Eye& eye, const MissionPlan& plan, const DrivingConfig& config)
-      : robot_(robot), eye_(eye), plan_(plan), config_(config) {}
+  Drive(SimulatedRobot& robot, const pipeline::Eye& eye, const MissionPlan& plan, const DrivingConfig& config,
+        const ScenarioListener& listener)
+      : robot_(robot), eye_(eye), plan_(plan), config_(config), listener_(listener) {}
 
   Status run(const wire::MissionOrder& order) {
+    order_ = &order;
     messages_.emplace_back(order);
     std::int64_t seq = order.order.seq;
     while (elapsed_s() < kLongest_s) {
@@ -140,18 +131,47 @@ class Drive {
     if (!active(plan_.faults, "scan_lost", elapsed_s())) inputs.scan = {now_ms_, robot_.sweep()};
     const bool was_driving = state_.drive == wire::DriveState::kDriving;
     const Outputs outputs = step(state_, inputs, config_, now_ms_);
-    if (state_.seen.vector && inputs.picture && state_.follow.unanswered == 0) ++vectors_;
+    if (state_.seen.answered && inputs.picture) ++vectors_;
     if (was_driving && !state_.reason.empty()) stops_.push_back({elapsed_s(), state_.reason});
+    if (listener_.cycled) listener_.cycled(trace(outputs));
     robot_.command(outputs.motion);
     robot_.advance(kCycle_s);
     now_ms_ += static_cast<Milliseconds>(1000.0 * kCycle_s);
     return {};
   }
 
+  [[nodiscard]] CycleTrace trace(const Outputs& outputs) const {
+    CycleTrace now;
+    now.t_s = elapsed_s();
+    now.pose = robot_.vehicle().pose();
+    now.index = state_.follow.index;
+    now.views = state_.mission ? static_cast<int>(state_.mission->path.views.size()) : 0;
+    const auto index = static_cast<std::size_t>(now.index);
+    now.view = (index + 1 < static_cast<std::size_t>(now.views) ? order_->path[index].image : order_->final_image).str();
+    now.answered = state_.seen.answered;
+    if (state_.seen.vector) {
+      now.parallax_rad = state_.seen.vector->median_parallax_rad;
+      now.bearing_rad = state_.seen.vector->bearing_rad;
+      now.confidence = state_.seen.vector->confidence;
+      now.inliers = state_.seen.vector->inliers;
+    }
+    if (const auto goal_m = goal(state_.follow, robot_.vehicle().odometry(), config_.follow)) {
+      now.goal_x_m = goal_m->x();
+      now.goal_y_m = goal_m->y();
+    }
+    now.speed_mps = outputs.motion.speed_mps;
+    now.turn_radps = outputs.motion.turn_radps;
+    now.min_range_m = state_.min_range_m.value_or(0.0);
+    now.state = wire::drive_state_name(state_.drive);
+    return now;
+  }
+
   SimulatedRobot& robot_;
   const pipeline::Eye& eye_;
   const MissionPlan& plan_;
   const DrivingConfig& config_;
+  const ScenarioListener& listener_;
+  const wire::MissionOrder* order_ = nullptr;
   DrivingState state_;
   std::vector<wire::ServerMessage> messages_;
   std::vector<StopEvent> stops_;
@@ -161,7 +181,8 @@ class Drive {
 
 }  // namespace
 
-Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, const sim::RobotProfile& profile) {
+Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, const sim::RobotProfile& profile,
+                                  const ScenarioListener& listener) {
   const sim::World& world = taught.world->world();
   const auto from_m = sim::room_point(world, plan.from);
   if (!from_m) return pass_on(from_m);
@@ -202,7 +223,7 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
       DrivingConfig config;
       config.body = body_of(profile);
       config.feature_config_id = taught.map->feature_config_id;
-      Drive drive(*robot, *eye, plan, config);
+      Drive drive(*robot, *eye, plan, config, listener);
       if (const Status driven = drive.run(*order); !driven) return pass_on(driven);
       result.arrived = drive.state().drive == wire::DriveState::kArrived;
       result.stops = drive.stops();

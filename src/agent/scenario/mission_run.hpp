@@ -21,6 +21,7 @@ struct MissionPlan {
 };
 
 /// Drives one mission in simulated time, with localiser and planner in the server's place.
-Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, const sim::RobotProfile& profile);
+Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, const sim::RobotProfile& profile,
+                                  const ScenarioListener& listener);
 
 }  // namespace homeward::agent

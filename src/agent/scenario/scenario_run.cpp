@@ -34,9 +34,10 @@ std::vector<MissionPlan> expanded(const wire::ScenarioFile& scenario, const Taug
 
 }  // namespace
 
-Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder,
-                    const std::function<void(const std::string&)>& told,
-                    const std::function<void(const MissionResult&)>& done) {
+Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder, const ScenarioListener& listener) {
+  const auto told = [&](const std::string& what) {
+    if (listener.told) listener.told(what);
+  };
   told("teaching " + scenario.world);
   auto taught = teach(scenario, folder);
   if (!taught) return pass_on(taught);
@@ -47,9 +48,9 @@ Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folde
   const sim::RobotProfile profile = scenario.robot == "chair" ? sim::chair_profile() : sim::disc_profile();
   for (const MissionPlan& plan : expanded(scenario, *taught)) {
     told("from " + plan.from + " to " + plan.to);
-    const auto result = run_mission(*taught, plan, profile);
+    const auto result = run_mission(*taught, plan, profile, listener);
     if (!result) return pass_on(result);
-    done(*result);
+    if (listener.done) listener.done(*result);
   }
   return {};
 }

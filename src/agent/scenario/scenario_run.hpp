@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/pose2.hpp"
 #include "core/result.hpp"
 #include "wire/scenario_json.hpp"
 
@@ -32,11 +33,36 @@ struct MissionResult {
   double duration_s = 0.0;
 };
 
+/// One control cycle of a mission, for whoever wants to see why it went as it did.
+struct CycleTrace {
+  double t_s = 0.0;
+  Pose2 pose;  // true
+  int index = 0;
+  int views = 0;
+  std::string view;  // the picture homed to
+  bool answered = false;
+  double bearing_rad = 0.0;
+  double confidence = 0.0;
+  int inliers = 0;
+  double parallax_rad = 0.0;
+  double goal_x_m = 0.0;  // robot frame
+  double goal_y_m = 0.0;
+  double speed_mps = 0.0;  // commanded
+  double turn_radps = 0.0;
+  double min_range_m = 0.0;
+  std::string state;
+};
+
+/// What a scenario's runner is told; functions that are not set are not called.
+struct ScenarioListener {
+  std::function<void(const std::string&)> told;
+  std::function<void(const MissionResult&)> done;
+  std::function<void(const CycleTrace&)> cycled;
+};
+
 /// Teaches a world by a tour, builds its map and drives the missions with the agent's own heart, in simulated time and as
-/// fast as the machine allows. Same scenario, same results. `told` is called with what goes on, `done` after each mission.
+/// fast as the machine allows. Same scenario, same results.
 /// Errors: those of load_world, plan_tour and build_map; kInvalidInput for a destination that the tour does not visit.
-Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder,
-                    const std::function<void(const std::string&)>& told,
-                    const std::function<void(const MissionResult&)>& done);
+Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder, const ScenarioListener& listener);
 
 }  // namespace homeward::agent

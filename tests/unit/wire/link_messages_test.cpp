@@ -50,7 +50,8 @@ std::vector<ServerMessage> server_messages() {
   mission.valid_for_ms = 1500;
   mission.speed_limit_mps = 0.6;
   mission.label = "kitchen";
-  mission.path = {{PlaceId("p1"), ImageId("t/1.jpg"), {1, 2, 3}, true}, {PlaceId("p2"), ImageId("t/2.jpg"), {}, false}};
+  mission.path = {{PlaceId("p1"), ImageId("t/1.jpg"), {1, 2, 3}, PathEdge{0.5, -0.25, std::nullopt, true}},
+                  {PlaceId("p2"), ImageId("t/2.jpg"), {}, std::nullopt}};
   mission.final_image = ImageId("t/3.jpg");
   mission.final_appearance = {9, 8};
   mission.dock = true;
@@ -83,8 +84,11 @@ TEST(LinkMessages, KeepEveryFieldOfAMission) {
   const auto& mission = std::get<MissionOrder>(*decoded);
   EXPECT_EQ(mission.order, (Order{2, 9}));
   EXPECT_EQ(mission.path[0].appearance, (std::vector<std::uint8_t>{1, 2, 3}));
-  EXPECT_TRUE(mission.path[0].weak);
-  EXPECT_FALSE(mission.path[1].weak);
+  ASSERT_TRUE(mission.path[0].next);
+  EXPECT_EQ(mission.path[0].next->bearing_rad, 0.5);
+  EXPECT_EQ(mission.path[0].next->length_m, std::nullopt);
+  EXPECT_TRUE(mission.path[0].next->weak);
+  EXPECT_FALSE(mission.path[1].next);
   EXPECT_EQ(mission.final_appearance, (std::vector<std::uint8_t>{9, 8}));
   EXPECT_EQ(mission.final_image.str(), "t/3.jpg");
   EXPECT_TRUE(mission.dock);

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/driving/view_track.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "core/angles.hpp"
+
+namespace homeward::agent {
+namespace {
+
+/// Standard deviation of a bearing by its confidence.
+double bearing_doubt_rad(const homing::HomeVector& answer) {
+  const double unsure = 1.0 - std::clamp(answer.confidence, 0.0, 1.0);
+  return 0.04 + 0.35 * unsure;
+}
+
+double distance_guess_m(const homing::HomeVector& answer, const ViewTrackConfig& config) {
+  return std::clamp(config.metres_per_parallax * answer.median_parallax_rad, 0.05, 5.0);
+}
+
+}  // namespace
+
+double ViewTrack::doubt_m() const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance_m2_);
+  return std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()));
+}
+
+void ViewTrack::begin(const Pose2& robot, const homing::HomeVector& answer, const ViewTrackConfig& config) {
+  const double distance_m = distance_guess_m(answer, config);
+  const double angle_rad = robot.theta_rad + answer.bearing_rad;
+  const Eigen::Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
+  const Eigen::Vector2d across(-along.y(), along.x());
+  const double along_m = 0.8 * distance_m + 0.6;
+  const double across_m = bearing_doubt_rad(answer) * distance_m + 0.05;
+  position_m_ = Eigen::Vector2d(robot.x_m, robot.y_m) + distance_m * along;
+  covariance_m2_ = along_m * along_m * along * along.transpose() + across_m * across_m * across * across.transpose();
+  heading_rad_ = wrap_angle(robot.theta_rad + answer.turn_rad);
+  known_ = true;
+  contradictions_ = 0;
+}
+
+bool ViewTrack::observe(const Pose2& robot, const homing::HomeVector& answer, const ViewTrackConfig& config) {
+  if (!known_) {
+    begin(robot, answer, config);
+    return true;
+  }
+  const Eigen::Vector2d here(robot.x_m, robot.y_m);
+  const double angle_rad = robot.theta_rad + answer.bearing_rad;
+  const Eigen::Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
+  const Eigen::Vector2d across(-along.y(), along.x());
+  const double apart_m = (position_m_ - here).norm();
+  // None of the way to the view lies across its bearing.
+  const double across_m = bearing_doubt_rad(answer) * std::max(0.2, apart_m) + 0.03;
+  const double off_across_m = -across.dot(position_m_ - here);
+  const double variance_across = across.dot(covariance_m2_ * across) + across_m * across_m;
+  // A view that is near may lie on any side; a far one must not change sides.
+  const bool turned_round = apart_m > 0.6 && along.dot(position_m_ - here) < -0.3;
+  if (turned_round || off_across_m * off_across_m > config.gate * config.gate * variance_across) {
+    constexpr int kPatience = 3;
+    if (++contradictions_ < kPatience) return false;
+    begin(robot, answer, config);
+    return true;
+  }
+  contradictions_ = 0;
+  measure(across, off_across_m, across_m);
+  // Bearings of one moment share their errors: repeated, they add up to no certainty.
+  constexpr double kLeastDoubt_m = 0.04;
+  covariance_m2_ += Eigen::Matrix2d::Identity() * kLeastDoubt_m * kLeastDoubt_m * 0.2;
+  const double blend = std::clamp(answer.confidence, 0.1, 0.7);
+  heading_rad_ = wrap_angle(heading_rad_ + blend * wrap_angle(robot.theta_rad + answer.turn_rad - heading_rad_));
+  return true;
+}
+
+void ViewTrack::measure(const Eigen::Vector2d& axis, double off_m, double doubt_m) {
+  const double variance = axis.dot(covariance_m2_ * axis) + doubt_m * doubt_m;
+  const Eigen::Vector2d gain = covariance_m2_ * axis / variance;
+  position_m_ += gain * off_m;
+  covariance_m2_ -= gain * (axis.transpose() * covariance_m2_);
+}
+
+void ViewTrack::expect(const Eigen::Vector2d& position_m, const Eigen::Matrix2d& covariance_m2, double heading_rad) {
+  if (!known_) {
+    known_ = true;
+    position_m_ = position_m;
+    covariance_m2_ = covariance_m2;
+    heading_rad_ = heading_rad;
+    return;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance_m2);
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const Eigen::Vector2d axis = axes.eigenvectors().col(k);
+    const double variance = axes.eigenvalues()[k];
+    // What was taken in once leaves less doubt than it brings, so nothing is counted twice.
+    if (axis.dot(covariance_m2_ * axis) <= variance) continue;
+    measure(axis, axis.dot(position_m - position_m_), std::sqrt(variance));
+  }
+}
+
+void ViewTrack::drift(double driven_m, const ViewTrackConfig& config) {
+  const double doubt_m = config.drift_per_m * driven_m;
+  covariance_m2_ += Eigen::Matrix2d::Identity() * doubt_m * doubt_m;
+}
+
+}  // namespace homeward::agent

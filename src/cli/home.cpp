@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "homing/home_vector.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "agent/files/csv.hpp"
+#include "agent/files/read_file.hpp"
+#include "cli/command.hpp"
+#include "pipeline/eye.hpp"
+
+namespace homeward::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string camera;
+  std::string current;
+  std::string target;
+  std::string pairs;
+  std::string method = "epipolar";
+  std::uint64_t seed = 1;
+};
+
+/// Appearances of pictures that were looked at already: a list of pairs names most pictures often.
+class Gallery {
+ public:
+  explicit Gallery(pipeline::Eye eye) : eye_(std::move(eye)) {}
+
+  Result<const features::Appearance*> look(const fs::path& file) {
+    const auto known = seen_.find(file);
+    if (known != seen_.end()) return &known->second;
+    const auto picture = agent::read_picture(file);
+    if (!picture) return pass_on(picture);
+    auto appearance = eye_.look(*picture);
+    if (!appearance) {
+      Error error = appearance.error();
+      error.where = file.string();
+      return tl::unexpected<Error>(error);
+    }
+    return &seen_.emplace(file, std::move(*appearance)).first->second;
+  }
+
+ private:
+  pipeline::Eye eye_;
+  std::map<fs::path, features::Appearance> seen_;
+};
+
+/// What is not known is null; a pair without an answer says why.
+Status answer(Gallery& gallery, const std::string& current, const std::string& target, const fs::path& folder,
+              std::uint64_t seed) {
+  const auto here = gallery.look(folder / current);
+  if (!here) return pass_on(here);
+  const auto there = gallery.look(folder / target);
+  if (!there) return pass_on(there);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto vector = homing::home_vector(**here, **there, {}, seed);
+  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  nlohmann::json line = {{"current", current}, {"target", target}, {"bearing_rad", nullptr}, {"turn_rad", nullptr},
+                         {"nearness", nullptr}, {"matches", 0},    {"inliers", 0},          {"confidence", 0.0},
+                         {"ms", ms}};
+  if (vector) {
+    line["bearing_rad"] = vector->bearing_rad;
+    line["turn_rad"] = vector->turn_rad;
+    if (vector->nearness) line["nearness"] = *vector->nearness;
+    line["matches"] = vector->matches;
+    line["inliers"] = vector->inliers;
+    line["confidence"] = vector->confidence;
+  } else {
+    line["reason"] = vector.error().message;
+  }
+  std::cout << line.dump() << "\n";
+  return {};
+}
+
+Status home(const Options& options) {
+  if (options.method != "epipolar") {
+    return fail(ErrorCode::kInvalidInput, "The method '" + options.method + "' is not known; there is epipolar.", "--method");
+  }
+  const bool one_pair = !options.current.empty() && !options.target.empty();
+  if (one_pair == !options.pairs.empty()) {
+    return fail(ErrorCode::kInvalidInput, "Give either --current and --target, or --pairs.", "home");
+  }
+  const auto config = agent::read_camera(options.camera);
+  if (!config) return pass_on(config);
+  const auto camera = camera::Camera::create(*config);
+  if (!camera) return pass_on(camera);
+  auto eye = pipeline::Eye::create(*config, pipeline::suited_feature_config(**camera));
+  if (!eye) return pass_on(eye);
+  Gallery gallery(std::move(*eye));
+  if (one_pair) return answer(gallery, options.current, options.target, {}, options.seed);
+  const auto table = agent::read_csv(options.pairs);
+  if (!table) return pass_on(table);
+  const auto current = table->column("current");
+  const auto target = table->column("target");
+  if (!current || !target) {
+    return fail(ErrorCode::kInvalidInput, "The first line must name the columns current and target.", options.pairs);
+  }
+  const fs::path folder = fs::path(options.pairs).parent_path();
+  for (const std::vector<std::string>& row : table->rows) {
+    if (const Status told = answer(gallery, row[*current], row[*target], folder, options.seed); !told) return told;
+  }
+  return {};
+}
+
+}  // namespace
+
+void register_home(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("home", "Which way to drive from one picture to another: a JSON line per pair");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--camera", options->camera, "camera.json")->required();
+  command->add_option("--current", options->current, "Picture taken here");
+  command->add_option("--target", options->target, "Picture taken there");
+  command->add_option("--pairs", options->pairs, "Table (CSV) with columns current and target; paths relative to it");
+  command->add_option("--method", options->method, "epipolar")->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of everything random");
+  run_on(*command, [options] { return home(*options); });
+}
+
+}  // namespace homeward::cli
