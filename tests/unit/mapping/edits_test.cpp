@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping/edits.hpp"
+
+#include <gtest/gtest.h>
+
+#include "map/lookup.hpp"
+#include "support/corridor_tour.hpp"
+
+namespace homeward::mapping {
+namespace {
+
+using map::EditKind;
+
+/// Three places: a (images 0 1 2), b (3 4), c (5), joined in a chain.
+map::TopologicalMap three_places() {
+  map::TopologicalMap map;
+  for (int i = 0; i < 6; ++i) map.images.push_back({ImageId("t/" + std::to_string(i)), std::nullopt, std::nullopt});
+  const auto place = [&](const char* id, std::vector<std::size_t> members, std::size_t prototype) {
+    map::Place made;
+    made.id = PlaceId(id);
+    made.prototype = map.images[prototype].id;
+    for (const std::size_t member : members) made.members.push_back(map.images[member].id);
+    made.appearances.resize(1);
+    map.places.push_back(made);
+  };
+  place("p1", {0, 1, 2}, 1);
+  place("p2", {3, 4}, 3);
+  place("p3", {5}, 5);
+  map.next_place_number = 4;
+  for (const auto& [from, to] : {std::pair("p1", "p2"), {"p2", "p1"}, {"p2", "p3"}, {"p3", "p2"}}) {
+    map::Edge edge;
+    edge.from = PlaceId(from);
+    edge.to = PlaceId(to);
+    edge.bearing_rad = 0.1;
+    map.edges.push_back(edge);
+  }
+  map.destinations.push_back({DestinationId("d1"), PlaceId("p2"), map.images[4].id, "table", {}});
+  return map;
+}
+
+map::Edit make(EditKind kind, int a, int b = -1, const std::string& text = {}, const std::vector<int>& images = {}) {
+  map::Edit edit;
+  edit.kind = kind;
+  edit.image_a = ImageId("t/" + std::to_string(a));
+  if (b >= 0) edit.image_b = ImageId("t/" + std::to_string(b));
+  edit.text = text;
+  for (const int image : images) edit.images.push_back(ImageId("t/" + std::to_string(image)));
+  return edit;
+}
+
+std::string members(map::TopologicalMap& map, int image) {
+  std::string text;
+  const map::Place* place = map::find_place_of(map, ImageId("t/" + std::to_string(image)));
+  if (place == nullptr) return "none";
+  for (const ImageId& member : place->members) text += member.str().substr(2);
+  return text;
+}
+
+bool joined(map::TopologicalMap& map, const char* a, const char* b) {
+  return map::find_edge(map, PlaceId(a), PlaceId(b)) != nullptr &&
+         map::find_edge(map, PlaceId(b), PlaceId(a)) != nullptr;
+}
+
+TEST(Edits, RenameAndUndo) {
+  auto map = three_places();
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kRename, 2, -1, "kitchen")));
+  EXPECT_EQ(map.places[0].label, "kitchen");
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kRename, 0, -1, "pantry")));
+  EXPECT_EQ(map.revision, 3);
+  ASSERT_TRUE(undo_last_edit(map));
+  EXPECT_EQ(map.places[0].label, "kitchen");
+  ASSERT_TRUE(undo_last_edit(map));
+  EXPECT_EQ(map.places[0].label, "");
+  EXPECT_EQ(map.revision, 5);
+  EXPECT_EQ(undo_last_edit(map).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(map.edits.size(), 2U);
+}
+
+TEST(Edits, MergeTakesEverythingAlong) {
+  auto map = three_places();
+  map.places[1].label = "hall";
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kMerge, 5, 3)));
+  EXPECT_EQ(members(map, 5), "345");
+  EXPECT_EQ(map.places.size(), 2U);
+  const map::Place* kept = map::find_place_of(map, ImageId("t/3"));
+  EXPECT_EQ(kept->id.str(), "p3");
+  EXPECT_EQ(kept->label, "hall");
+  EXPECT_EQ(kept->appearances.size(), 2U);
+  EXPECT_TRUE(joined(map, "p1", "p3"));
+  EXPECT_EQ(map.edges.size(), 2U);
+  EXPECT_FALSE(map.edges[0].bearing_rad);  // it belonged to another prototype
+  EXPECT_EQ(map.destinations[0].place.str(), "p3");
+  EXPECT_EQ(undo_last_edit(map).error().code, ErrorCode::kConflict);
+  EXPECT_FALSE(map.edits.back().undone);
+}
+
+TEST(Edits, SplitMakesANewPlaceWithItsEdges) {
+  auto map = three_places();
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kSplit, 1, -1, {}, {2})));
+  EXPECT_EQ(members(map, 2), "2");
+  EXPECT_EQ(members(map, 0), "01");
+  EXPECT_EQ(map.places.back().id.str(), "p4");
+  EXPECT_EQ(map.next_place_number, 5);
+  EXPECT_TRUE(joined(map, "p1", "p4"));
+  EXPECT_TRUE(joined(map, "p4", "p2"));
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kSplit, 3, -1, {}, {4, 4})));  // named twice, gone once
+  EXPECT_EQ(members(map, 4), "4");
+  EXPECT_EQ(map.destinations[0].place.str(), "p5");
+}
+
+TEST(Edits, MoveAndDelete) {
+  auto map = three_places();
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kMove, 0, -1, {}, {4})));
+  EXPECT_EQ(members(map, 0), "0124");
+  EXPECT_EQ(members(map, 3), "3");
+  EXPECT_EQ(map.destinations[0].place.str(), "p1");
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kDelete, 0)));
+  EXPECT_EQ(members(map, 0), "none");
+  EXPECT_EQ(map.edges.size(), 2U);
+  EXPECT_TRUE(map.destinations.empty());
+}
+
+TEST(Edits, EdgesComeGoAndAreBlocked) {
+  auto map = three_places();
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kAddEdge, 0, 5)));
+  EXPECT_TRUE(joined(map, "p1", "p3"));
+  EXPECT_EQ(map.edges.back().by, "person");
+  ASSERT_TRUE(undo_last_edit(map));
+  EXPECT_EQ(map::find_edge(map, PlaceId("p1"), PlaceId("p3")), nullptr);
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kBlockEdge, 0, 3, "true")));
+  EXPECT_TRUE(map::find_edge(map, PlaceId("p1"), PlaceId("p2"))->blocked);
+  EXPECT_FALSE(map::find_edge(map, PlaceId("p2"), PlaceId("p1"))->blocked);  // one direction alone
+  ASSERT_TRUE(undo_last_edit(map));
+  EXPECT_FALSE(map::find_edge(map, PlaceId("p1"), PlaceId("p2"))->blocked);
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kRemoveEdge, 3, 5)));
+  EXPECT_EQ(map.edges.size(), 2U);
+}
+
+TEST(Edits, WhatCannotBeIsRefusedAndChangesNothing) {
+  const auto refused = [](const map::Edit& edit, ErrorCode code) {
+    auto map = three_places();
+    const Status status = apply_edit(map, edit);
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, code) << status.error().message;
+    EXPECT_EQ(map.revision, 1);
+    EXPECT_TRUE(map.edits.empty());
+    EXPECT_EQ(map.places.size(), 3U);
+    EXPECT_EQ(members(map, 0), "012");
+    EXPECT_EQ(members(map, 3), "34");
+    EXPECT_EQ(map.next_place_number, 4);
+  };
+  refused(make(EditKind::kRename, 77, -1, "x"), ErrorCode::kNotFound);
+  refused(make(EditKind::kRename, 0, -1, std::string(201, 'x')), ErrorCode::kInvalidInput);
+  refused(make(EditKind::kMerge, 0, 1), ErrorCode::kInvalidInput);
+  refused(make(EditKind::kMerge, 0, 77), ErrorCode::kNotFound);
+  refused(make(EditKind::kSplit, 0, -1, {}, {}), ErrorCode::kInvalidInput);
+  refused(make(EditKind::kSplit, 0, -1, {}, {1}), ErrorCode::kInvalidInput);    // the prototype stays
+  refused(make(EditKind::kSplit, 0, -1, {}, {0, 4}), ErrorCode::kNotFound);     // 4 is elsewhere
+  refused(make(EditKind::kMove, 0, -1, {}, {4, 5}), ErrorCode::kInvalidInput);  // 5 is a prototype; 4 stays too
+  refused(make(EditKind::kMove, 0, -1, {}, {}), ErrorCode::kInvalidInput);
+  refused(make(EditKind::kDelete, 77), ErrorCode::kNotFound);
+  refused(make(EditKind::kAddEdge, 0, 1), ErrorCode::kInvalidInput);
+  refused(make(EditKind::kRemoveEdge, 0, 5), ErrorCode::kNotFound);
+  refused(make(EditKind::kBlockEdge, 0, 5, "true"), ErrorCode::kNotFound);
+  refused(make(EditKind::kBlockEdge, 0, 3, "perhaps"), ErrorCode::kInvalidInput);
+  refused(make(EditKind::kDecide, 0, 3, "accept"), ErrorCode::kNotFound);
+  refused(make(EditKind::kDecide, 0, 3, "maybe"), ErrorCode::kInvalidInput);
+}
+
+}  // namespace
+}  // namespace homeward::mapping
