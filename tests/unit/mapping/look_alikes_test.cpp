@@ -182,7 +182,9 @@ TEST_P(LookAlikeRooms, NeverShareAPlaceAndTheFirstIsKnownAgainByOdometry) {
     known_again += room == 0 && last - first > 60 ? 1 : 0;
   }
   // Counting steps alone is too unsure to tell the first room again from the next one: it stays apart.
-  if (GetParam()) EXPECT_GE(known_again, 2);
+  if (GetParam()) {
+    EXPECT_GE(known_again, 2);
+  }
   // What looks alike and was kept apart is kept for a person to see.
   EXPECT_GT(std::ranges::count_if(map.hypotheses,
                                   [](const map::Hypothesis& hypothesis) {
