@@ -78,7 +78,7 @@ double weigh_way(std::span<LoopHypothesis> hypotheses, const WayFunction& way, c
     decided += hypothesis.similarity;
     if (hypothesis.way.verdict == TrackVerdict::kAgrees) agreed += hypothesis.similarity;
   }
-  const double reliability = decided > 0.0 ? agreed / decided : 1.0;
+  const double reliability = decided > 0.0 ? std::max(0.0, agreed - (decided - agreed)) / decided : 1.0;
   for (LoopHypothesis& hypothesis : hypotheses) {
     if (hypothesis.way.verdict == TrackVerdict::kUnknown) {
       hypothesis.reliability = reliability;

@@ -69,13 +69,14 @@ TourTrack::Step TourTrack::step(std::span<const map::MapImage> images, int i, do
     const Pose2 driven = inverse(*images[at(i)].odometry) * *images[at(i + 1)].odometry;
     const double conflict_rad = wrap_angle(seen_turn_rad - driven.theta_rad);
     result.broken = turn_seen && std::abs(conflict_rad) > config_.most_turn_conflict_rad;
-    const double turn_rad = turn_seen ? seen_turn_rad : driven.theta_rad;
+    const bool by_picture = turn_seen && turn_sigma_rad_ < config_.odometry_turn_sigma_rad;
+    const double turn_rad = by_picture ? seen_turn_rad : driven.theta_rad;
     // Half of the correction of the turn has happened by the middle of the step.
-    const Pose2 turned{0.0, 0.0, turn_seen ? conflict_rad / 2.0 : 0.0};
+    const Pose2 turned{0.0, 0.0, by_picture ? conflict_rad / 2.0 : 0.0};
     result.motion = turned * Pose2{driven.x_m, driven.y_m, 0.0};
     result.motion.theta_rad = turn_rad;
     result.length_variance = square(config_.odometry_length_sigma * std::hypot(driven.x_m, driven.y_m));
-    result.turn_variance = square(turn_seen ? turn_sigma_rad_ : config_.odometry_turn_sigma_rad);
+    result.turn_variance = square(by_picture ? turn_sigma_rad_ : config_.odometry_turn_sigma_rad);
     return result;
   }
   result.broken = !turn_seen || typical_parallax_rad < config_.least_typical_parallax_rad;
@@ -124,7 +125,7 @@ WayEvidence TourTrack::judge(int a, int b) const {
   if (beyond > predicted.distance_sigma || predicted.distance_sigma > place_extent_) return {};
   const double place = square(kFarthestExtents * place_extent_);
   const double elsewhere = square(predicted.distance) + square(predicted.distance_sigma);
-  return {TrackVerdict::kAgrees, place / (place + elsewhere)};
+  return {TrackVerdict::kAgrees, std::exp(-0.5 * elsewhere / place)};
 }
 
 }  // namespace homeward::mapping
