@@ -85,7 +85,10 @@ struct Localiser::State {
       likelihoods[place] = likelihood(nearest);
     }
     for (std::size_t i = 0; i < belief.size(); ++i) belief[i] *= likelihoods[i];
-    elsewhere *= likelihood(config.unknown_distance);
+    // Also where the map's own distances are so small that the floor hides the difference: a picture that no place
+    // explains speaks for being elsewhere.
+    constexpr double kOverFloor = 10.0;
+    elsewhere *= std::max(likelihood(config.unknown_distance), kOverFloor * config.sensor_floor);
     const double total = sum_of(belief) + elsewhere;
     for (double& probability : belief) probability /= total;
     elsewhere /= total;
