@@ -220,6 +220,22 @@ const checks = [
     }),
   ],
   [
+    'a place that gets a name becomes a goal for riders',
+    withHouse(async (page) => {
+      await tab(page, 'Map');
+      await page
+        .getByRole('button', { name: /^Near the hall/ })
+        .first()
+        .click();
+      await page.getByLabel('Name', { exact: true }).fill('Coat stand');
+      await page.getByRole('button', { name: 'Save', exact: true }).click();
+      await page.getByText('Named Coat stand.').waitFor();
+      await tab(page, 'Go');
+      await destination(page, 'Coat stand').click();
+      await journey(page).getByText('Arrived: Coat stand').waitFor();
+    }),
+  ],
+  [
     'a way is closed, and the chair is then refused with the reason',
     withHouse(async (page, house) => {
       await tab(page, 'Map');

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
-import type { Destination, Graph } from '../../api/types';
+import type { Graph } from '../../api/types';
 import { Icon } from '../../components/icons';
-import { titled } from '../../lib/words';
+import type { Goal } from './goals';
 import type { Phase } from './journey';
 import { toneOf } from './journey_words';
 
 interface Props {
-  destination: Destination;
+  goal: Goal;
   graph: Graph;
   phase: Phase | null; // of the newest journey, when it leads here
   here: boolean;
@@ -27,12 +27,11 @@ const kMarks: Readonly<Record<Phase, string>> = {
 };
 
 /** One place to go to: its picture, its name, and how far a journey there has come. */
-export function DestinationCard({ destination, graph, phase, here, disabled, onGo }: Props) {
+export function DestinationCard({ goal, graph, phase, here, disabled, onGo }: Props) {
   const [attempt, setAttempt] = useState(0);
-  const name = titled(destination.label) || destination.place;
   const sources = [
-    calls.imageThumbnailUrl(graph.map, destination.image),
-    calls.placeThumbnailUrl(graph.map, destination.place, graph.revision),
+    calls.imageThumbnailUrl(graph.map, goal.image),
+    calls.placeThumbnailUrl(graph.map, goal.place, graph.revision),
   ];
   const src = sources[attempt];
   const mark = phase ? kMarks[phase] : here ? 'I am here' : null;
@@ -54,7 +53,7 @@ export function DestinationCard({ destination, graph, phase, here, disabled, onG
           <img class="picture" src={src} alt="" onError={() => setAttempt(attempt + 1)} />
         )}
         <span class="destination-name">
-          {name}
+          {goal.name}
           {mark && <span class={`pill ${phase ? toneOf(phase) : ''}`}>{mark}</span>}
         </span>
       </button>

@@ -9,11 +9,14 @@ import { atLeast } from '../../lib/roles';
 import { titled } from '../../lib/words';
 import { DestinationCard } from './destination_card';
 import { commands, forgetCommand, send } from './driving';
+import { goalsOf, leadsTo, targetOf } from './goals';
 import { hindrance, journeyOf, type Journey, type Target } from './journey';
 import { JourneyCard } from './journey_card';
 import { heading, reasonOf } from './journey_words';
 import { LeasePrompt, WhoDrives } from './lease_prompt';
 import { WhereaboutsCard } from './whereabouts_card';
+
+const kHereProbability = 0.5;
 
 /** Missions whose end the reader has put away. */
 const hidden = signal<ReadonlySet<string>>(new Set());
@@ -110,21 +113,21 @@ interface DestinationsProps {
 }
 
 function Destinations({ robot, graph, disabled, journey, onGo }: DestinationsProps) {
-  if (graph.destinations.length === 0)
+  const goals = goalsOf(graph);
+  if (goals.length === 0)
     return <Notice still>This map has no named places yet. Give some a name under Map.</Notice>;
-  const here =
-    robot.belief && !robot.belief.lost && (robot.belief.probability ?? 0) > 0.5 ? robot.belief.place : null;
+  const sure = robot.belief && !robot.belief.lost && (robot.belief.probability ?? 0) > kHereProbability;
   return (
     <ul class="destinations">
-      {graph.destinations.map((one) => (
+      {goals.map((goal) => (
         <DestinationCard
-          key={`${one.id}-${one.image}`}
-          destination={one}
+          key={goal.key}
+          goal={goal}
           graph={graph}
-          phase={journey?.destination === one.id ? journey.phase : null}
-          here={here === one.place}
+          phase={journey && leadsTo(journey, goal) ? journey.phase : null}
+          here={sure === true && robot.belief?.place === goal.place}
           disabled={disabled}
-          onGo={() => onGo({ destination: one.id, label: titled(one.label) })}
+          onGo={() => onGo(targetOf(goal))}
         />
       ))}
     </ul>

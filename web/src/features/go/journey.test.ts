@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
 import type { Mission, Robot } from '../../api/types';
-import { hindrance, journeyOf, progressOf } from './journey';
+import { hindrance, journeyOf, placesToGo, progressOf } from './journey';
 
 const mission: Mission = {
   format: 'homeward-mission',
@@ -72,7 +72,9 @@ describe('journeyOf', () => {
 describe('progressOf', () => {
   it('goes from 0 to 1 and bears odd paths', () => {
     const journey = journeyOf(robot, undefined);
-    expect(journey && progressOf(journey)).toBe(0.5);
+    expect(journey && [placesToGo(journey), progressOf(journey)]).toEqual([3, 0.25]);
+    const started = journeyOf({ ...robot, mission: { ...mission, path_index: 0 } }, undefined);
+    expect(started && [placesToGo(started), progressOf(started)]).toEqual([4, 0]);
     const odd = journeyOf({ ...robot, mission: { ...mission, path: ['p5'], path_index: 7 } }, undefined);
     expect(odd && progressOf(odd)).toBe(0);
     const there = journeyOf({ ...robot, mission: { ...mission, state: 'arrived' } }, undefined);

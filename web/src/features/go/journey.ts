@@ -65,10 +65,17 @@ function newest(told: Mission | null, sent: Mission | null): Mission | null {
   return told.id !== sent.id && sent.created_us > told.created_us ? sent : told;
 }
 
+/** How many places are still ahead; the robot drives to the one at path_index. */
+export function placesToGo(journey: Journey): number {
+  if (journey.phase === 'arrived') return 0;
+  return Math.max(0, journey.path.length - Math.max(1, journey.path_index));
+}
+
 /** Share of the way that is done, 0 to 1. */
 export function progressOf(journey: Journey): number {
   if (journey.phase === 'arrived') return 1;
-  return journey.path.length < 2 ? 0 : journey.path_index / (journey.path.length - 1);
+  const steps = journey.path.length - 1;
+  return steps < 1 ? 0 : 1 - placesToGo(journey) / steps;
 }
 
 /** Why the robot cannot be sent anywhere just now; null when it can. */

@@ -4,7 +4,8 @@ import type { Graph } from '../../api/types';
 import { Icon } from '../../components/icons';
 import { Bar } from '../../components/notice';
 import { placeTitle } from '../../lib/whereabouts';
-import { isActive, progressOf, type Journey } from './journey';
+import { count } from '../../lib/words';
+import { isActive, placesToGo, progressOf, type Journey } from './journey';
 import { heading, reasonOf, toneOf } from './journey_words';
 
 const kShownSteps = 6;
@@ -38,7 +39,7 @@ export function JourneyCard({ journey, graph, onAgain, onDismiss }: Props) {
         <div class="stack tight">
           <Bar share={progressOf(journey)} label="Progress" />
           <p class="soft small">
-            {journey.path_index >= steps ? 'Almost there' : `${steps - journey.path_index} places to go`}
+            {journey.path_index >= steps ? 'Almost there' : `${count(placesToGo(journey), 'place')} to go`}
           </p>
         </div>
       )}

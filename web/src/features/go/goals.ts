@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Graph } from '../../api/types';
+import { titled } from '../../lib/words';
+import type { Journey, Target } from './journey';
+
+/** Something that a rider can choose: a destination of the tour, or another place that a person has named. */
+export interface Goal {
+  key: string;
+  destination: string | null;
+  place: string;
+  image: string;
+  name: string;
+}
+
+export function goalsOf(graph: Graph): Goal[] {
+  const destinations = graph.destinations.map((one) => ({
+    key: `d ${one.id} ${one.image}`,
+    destination: one.id,
+    place: one.place,
+    image: one.image,
+    name: titled(one.label) || one.place,
+  }));
+  const covered = new Set(destinations.map((one) => one.place));
+  const named = graph.places
+    .filter((one) => one.label.trim() !== '' && !covered.has(one.id))
+    .map((one) => ({
+      key: `p ${one.id}`,
+      destination: null,
+      place: one.id,
+      image: one.prototype,
+      name: titled(one.label),
+    }));
+  return [...destinations, ...named];
+}
+
+export function targetOf(goal: Goal): Target {
+  return goal.destination === null
+    ? { place: goal.place, label: goal.name }
+    : { destination: goal.destination, label: goal.name };
+}
+
+/** Whether a journey leads to this goal. */
+export function leadsTo(journey: Journey, goal: Goal): boolean {
+  return goal.destination === null
+    ? journey.destination === null && journey.place === goal.place
+    : journey.destination === goal.destination;
+}
