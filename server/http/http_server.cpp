@@ -109,6 +109,7 @@ struct HttpServer::State {
   std::set<beast::tcp_stream*> streams;
   std::jthread thread;
   bool stopped = false;
+  bool cutting = false;  // socket thread alone
 };
 
 asio::awaitable<void> HttpServer::State::accept_all() {
@@ -259,6 +260,7 @@ asio::awaitable<void> HttpServer::State::upgrade(beast::tcp_stream& stream, Pars
   error_code error;
   while (!waiter->answer) co_await waiter->timer.async_wait(asio::redirect_error(asio::use_awaitable, error));
   Front::Upgrade answer = std::move(*waiter->answer);
+  if (cutting) co_return;
   if (auto* refusal = std::get_if<Response>(&answer)) {
     co_await write(stream, std::move(*refusal), parser.get().version(), false, false);
     co_return;
@@ -287,6 +289,7 @@ void HttpServer::State::tick(const std::shared_ptr<asio::steady_timer>& timer, i
 }
 
 void HttpServer::State::cut_all() {
+  cutting = true;
   error_code ignored;
   acceptor.close(ignored);
   const auto open = sockets;

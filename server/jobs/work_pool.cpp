@@ -31,6 +31,15 @@ void WorkPool::stop() {
   workers_.clear();  // joins
 }
 
+void WorkPool::finish() {
+  {
+    std::unique_lock lock(mutex_);
+    stopping_ = true;
+    idle_.wait(lock, [&] { return queue_.empty() && running_ == 0; });
+  }
+  stop();
+}
+
 std::size_t WorkPool::waiting() const {
   const std::scoped_lock lock(mutex_);
   return queue_.size();
@@ -44,8 +53,15 @@ void WorkPool::work(const std::stop_token& stop) {
       if (!ready_.wait(lock, stop, [&] { return !queue_.empty(); })) return;
       task = std::move(queue_.front());
       queue_.pop_front();
+      ++running_;
     }
     task();
+    task = nullptr;
+    {
+      const std::scoped_lock lock(mutex_);
+      --running_;
+    }
+    idle_.notify_all();
   }
 }
 

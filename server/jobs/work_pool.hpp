@@ -25,6 +25,8 @@ class WorkPool {
   [[nodiscard]] bool try_run(Task task);
   /// Ends the workers; the same as destruction, callable earlier and more than once.
   void stop();
+  /// Runs all that waits, then ends the workers.
+  void finish();
   [[nodiscard]] std::size_t waiting() const;
 
  private:
@@ -35,6 +37,8 @@ class WorkPool {
   std::condition_variable_any ready_;
   std::deque<Task> queue_;
   bool stopping_ = false;
+  std::size_t running_ = 0;
+  std::condition_variable idle_;
   std::vector<std::jthread> workers_;
 };
 

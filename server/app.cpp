@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/app.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <fstream>
+#include <thread>
+
+#include "db/secrets.hpp"
+#include "server/auth/account_routes.hpp"
+#include "server/auth/passwords.hpp"
+#include "server/driving/robot_routes.hpp"
+#include "server/http/app_front.hpp"
+#include "server/http/operation_routes.hpp"
+#include "server/jobs/build_jobs.hpp"
+#include "server/services/map_routes.hpp"
+#include "server/services/tour_routes.hpp"
+
+namespace homeward::server {
+namespace {
+
+constexpr int kRequestWorkers = 4;
+constexpr std::size_t kRequestQueue = 256;
+constexpr std::size_t kHeavyQueue = 64;
+constexpr std::size_t kJournalQueue = 100'000;
+constexpr int kTickMs = 100;
+const char* const kBuild = "homeward-server/0.1.0";
+
+int threads_of(const AppConfig& config) {
+  if (config.threads > 0) return config.threads;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+// A secret file is made readable by its owner alone before anything is in it.
+Status write_private_file(const std::filesystem::path& file, const std::string& text) {
+  std::error_code error;
+  std::filesystem::remove(file, error);
+  {
+    const std::ofstream empty(file);
+    if (!empty) return fail(ErrorCode::kIo, "Cannot write " + file.string() + ".", file.string());
+  }
+  using std::filesystem::perms;
+  std::filesystem::permissions(file, perms::owner_read | perms::owner_write, error);
+  std::ofstream stream(file);
+  stream << text << '\n';
+  stream.close();
+  if (error || !stream) return fail(ErrorCode::kIo, "Cannot write " + file.string() + ".", file.string());
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const AppConfig& config) {
+  std::vector<std::string> list;
+  if (config.data.empty()) list.emplace_back("--data names no folder.");
+  if (!is_loopback(config.address) && !config.allow_plain_http) {
+    list.push_back("--listen " + config.address +
+                   " can be reached from other machines, and plain HTTP would show passwords to the network. Put a "
+                   "TLS proxy in front and listen on 127.0.0.1, or say --allow-plain-http.");
+  }
+  if (!config.web.empty() && !std::filesystem::is_regular_file(config.web / "index.html")) {
+    list.push_back("--web " + config.web.string() + " has no index.html; build the dashboard first.");
+  }
+  if (config.threads < 0 || config.threads > 256) list.emplace_back("--threads must be between 0 and 256.");
+  return list;
+}
+
+struct App::Parts {
+  Parts(const AppConfig& config, std::unique_ptr<db::Store> opened)
+      : store(std::move(opened)),
+        workers(kRequestWorkers, kRequestQueue),
+        heavy(threads_of(config), kHeavyQueue),
+        journal(1, kJournalQueue),
+        access(config.allowed_hosts),
+        files(config.web),
+        authenticator(*store),
+        idempotency(*store),
+        tours(*store),
+        maps(*store, events),
+        driving(*store, maps, events, heavy, journal),
+        jobs(*store, maps, events, threads_of(config)),
+        front({router, access, files, authenticator, idempotency, metrics, workers, heavy, driving, events,
+               [this] { return snapshot(); }}) {
+    add_account_routes(router, authenticator, *store);
+    add_tour_routes(router, tours, *store);
+    add_map_routes(router, maps, jobs, *store);
+    add_robot_routes(router, driving, *store);
+    add_operation_routes(router, metrics, *store);
+    metrics.gauge("homeward_robots_online", "Robots with a link", [this] { return double(driving.online()); });
+    metrics.gauge("homeward_dashboards", "Open event sockets", [this] { return double(events.subscribers()); });
+    metrics.gauge("homeward_heavy_queue", "Pictures and passwords that wait",
+                  [this] { return double(heavy.waiting()); });
+  }
+
+  // Sockets first, so that nothing new comes in; the journal is written to its end.
+  ~Parts() {
+    if (http) http->stop();
+    workers.stop();
+    heavy.stop();
+    journal.finish();
+  }
+
+  wire::Snapshot snapshot() {
+    wire::Snapshot snapshot;
+    snapshot.build = kBuild;
+    snapshot.robots = driving.list();
+    if (const auto all = store->jobs()) {
+      // Finished ones from long ago are history.
+      const std::size_t first = all->size() > 50 ? all->size() - 50 : 0;
+      for (std::size_t i = first; i < all->size(); ++i) {
+        const auto now = jobs.get((*all)[i].id);
+        snapshot.jobs.push_back(now ? *now : (*all)[i]);
+      }
+    }
+    if (const auto all = store->maps()) {
+      for (const db::MapRecord& map : *all) snapshot.maps.push_back(view_of(map));
+    }
+    return snapshot;
+  }
+
+  Status offer_setup(const AppConfig& config) {
+    const auto users = store->users();
+    if (!users) return pass_on(users);
+    if (!users->empty()) return {};
+    const std::string secret = db::random_secret();
+    if (const Status status = store->set_setup_hash(db::secret_hash(secret)); !status) return status;
+    const bool any = config.address == "0.0.0.0" || config.address == "::";
+    const std::string host = any ? "localhost" : (config.address == "::1" ? "[::1]" : config.address);
+    setup_link = "http://" + host + ":" + std::to_string(http->port()) + "/setup?token=" + secret;
+    return config.setup_file.empty() ? Status() : write_private_file(config.setup_file, setup_link);
+  }
+
+  std::unique_ptr<db::Store> store;
+  EventHub events;
+  Metrics metrics;
+  WorkPool workers;
+  WorkPool heavy;
+  WorkPool journal;
+  AccessPolicy access;
+  StaticFiles files;
+  Authenticator authenticator;
+  Idempotency idempotency;
+  TourService tours;
+  MapService maps;
+  Driving driving;
+  BuildJobs jobs;
+  Router router;
+  AppFront front;
+  std::unique_ptr<HttpServer> http;
+  std::string setup_link;
+};
+
+App::App() = default;
+App::~App() = default;
+
+Result<std::unique_ptr<App>> App::start(const AppConfig& config) {
+  auto store = db::open_sqlite_store(config.data);
+  if (!store) return pass_on(store);
+  hash_of_nobody();  // the first login must not take longer than others
+  std::unique_ptr<App> app(new App());
+  app->parts_ = std::make_unique<Parts>(config, std::move(*store));
+  Parts& parts = *app->parts_;
+  if (const Status status = parts.driving.load(); !status) return pass_on(status);
+  auto http = HttpServer::start(config.address, config.port, parts.front);
+  if (!http) return pass_on(http);
+  parts.http = std::move(*http);
+  if (const Status status = parts.offer_setup(config); !status) return pass_on(status);
+  parts.http->every(kTickMs, [&parts] { parts.driving.tick(std::chrono::steady_clock::now()); });
+  return app;
+}
+
+std::uint16_t App::port() const { return parts_->http->port(); }
+
+const std::string& App::setup_link() const { return parts_->setup_link; }
+
+}  // namespace homeward::server

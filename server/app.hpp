@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "core/result.hpp"
+
+namespace homeward::server {
+
+struct AppConfig {
+  std::filesystem::path data;
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 8080;         // 0: any free one
+  std::filesystem::path web;         // empty: no dashboard
+  std::filesystem::path setup_file;  // where the one-time link is written besides the log; empty: nowhere
+  std::set<std::string> allowed_hosts;
+  bool allow_plain_http = false;
+  int threads = 0;  // of the pool for pictures and of builds; 0: as many as the machine has
+};
+
+/// Everything that is wrong with a configuration; empty when it is fine.
+std::vector<std::string> problems(const AppConfig& config);
+
+/// The whole server: store, services, pools and front, wired together.
+class App {
+ public:
+  /// Errors: those of the store and of listening.
+  static Result<std::unique_ptr<App>> start(const AppConfig& config);
+  ~App();
+  App(const App&) = delete;
+  App& operator=(const App&) = delete;
+
+  [[nodiscard]] std::uint16_t port() const;
+  /// The one-time link, or empty when there is an administrator already.
+  [[nodiscard]] const std::string& setup_link() const;
+
+ private:
+  struct Parts;
+  App();
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace homeward::server

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <mutex>
+
+#include "server/ws/socket.hpp"
+#include "wire/link_messages.hpp"
+
+namespace homeward::server {
+
+class AgentLink;
+
+/// Hears what agents say. Called on the socket thread; must not wait.
+class LinkListener {
+ public:
+  virtual ~LinkListener() = default;
+  virtual void heard(const std::shared_ptr<AgentLink>& link, wire::AgentMessage message) = 0;
+  virtual void closed(const std::shared_ptr<AgentLink>& link) = 0;
+};
+
+/// The connection to one robot: CBOR messages both ways. A stop overtakes everything that waits to be sent.
+class AgentLink : public SocketHandler, public std::enable_shared_from_this<AgentLink> {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  AgentLink(LinkListener& listener, RobotId robot) : listener_(listener), robot_(std::move(robot)) {}
+
+  /// From any thread. `first`: before all that waits.
+  void send(const wire::ServerMessage& message, bool first = false);
+  void close(std::uint16_t code, const std::string& reason);
+  [[nodiscard]] const RobotId& robot() const { return robot_; }
+  /// When the last message came in, or the link was opened.
+  [[nodiscard]] Time last_heard() const { return last_heard_.load(); }
+
+  void on_open(const std::shared_ptr<Socket>& socket) override;
+  void on_message(std::span<const std::uint8_t> bytes, bool text) override;
+  std::optional<Outgoing> next_message() override;
+  void on_closed() override;
+  [[nodiscard]] std::size_t max_message_bytes() const override { return wire::kMaxLinkMessageBytes; }
+
+ private:
+  std::shared_ptr<Socket> socket();
+
+  LinkListener& listener_;
+  RobotId robot_;
+  std::atomic<Time> last_heard_{std::chrono::steady_clock::now()};
+  bool greeted_ = false;  // socket thread alone
+  bool broken_ = false;   // socket thread alone
+  std::mutex mutex_;
+  std::shared_ptr<Socket> socket_;
+  std::deque<Outgoing> waiting_;
+};
+
+}  // namespace homeward::server

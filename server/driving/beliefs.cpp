@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <spdlog/spdlog.h>
+
+#include "imageio/decode.hpp"
+#include "server/driving/driving.hpp"
+#include "server/services/belief_view.hpp"
+
+namespace homeward::server {
+namespace {
+
+// An edit of names or blocked ways leaves the places as they are; the belief then goes on.
+bool same_places(const map::TopologicalMap& a, const map::TopologicalMap& b) {
+  if (a.places.size() != b.places.size() || a.edges.size() != b.edges.size()) return false;
+  for (std::size_t i = 0; i < a.places.size(); ++i) {
+    if (a.places[i].id != b.places[i].id || a.places[i].prototype != b.places[i].prototype ||
+        a.places[i].members.size() != b.places[i].members.size()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void Driving::begin_looking(const Unit& unit) {
+  if (unit->looking || !unit->waiting_frame) return;
+  if (!unit->map) {
+    unit->waiting_frame.reset();
+    return;
+  }
+  // When the pool is full this picture is left out; the next one comes soon.
+  unit->looking = heavy_.try_run([this, unit] { look(unit); });
+}
+
+Result<std::shared_ptr<Tracking>> Driving::tracking_for(std::shared_ptr<Tracking> present, const MapId& map,
+                                                        const camera::CameraConfig& camera) {
+  const auto loaded = maps_.load(map);
+  if (!loaded) return pass_on(loaded);
+  if (present && present->map_id == map && same_places(present->tracker.map(), (*loaded)->map)) return present;
+  auto tracker = pipeline::BeliefTracker::create(contents_of(*loaded), camera);
+  if (!tracker) return pass_on(tracker);
+  return std::make_shared<Tracking>(Tracking{map, std::move(*tracker)});
+}
+
+void Driving::look(const Unit& unit) {
+  const auto began = std::chrono::steady_clock::now();
+  std::shared_ptr<const wire::Frame> frame;
+  std::shared_ptr<Tracking> tracking;
+  std::optional<MapId> map;
+  camera::CameraConfig camera;
+  std::shared_ptr<AgentLink> link;
+  {
+    const std::scoped_lock lock(unit->mutex);
+    frame = std::move(unit->waiting_frame);
+    unit->waiting_frame.reset();
+    if (unit->restart_tracking) unit->tracking.reset();
+    unit->restart_tracking = false;
+    tracking = unit->tracking;
+    map = unit->map;
+    camera = unit->hello.camera;
+    link = unit->link;
+  }
+  Result<wire::BeliefView> seen = fail(ErrorCode::kConflict, "The robot has no map.", "robots/" + unit->id.str());
+  if (frame && map && link) {
+    const auto look_once = [&]() -> Result<wire::BeliefView> {
+      auto fitting = tracking_for(tracking, *map, camera);
+      if (!fitting) return pass_on(fitting);
+      tracking = *fitting;
+      const auto picture = imageio::decode(frame->jpeg, "frame " + std::to_string(frame->seq));
+      if (!picture) return pass_on(picture);
+      const auto belief = tracking->tracker.update(*picture);
+      if (!belief) return pass_on(belief);
+      wire::BeliefView view = view_of(*belief);
+      view.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
+      view.t_us = frame->t_us;
+      return view;
+    };
+    try {
+      seen = look_once();
+    } catch (const std::exception& exception) {
+      seen = fail(ErrorCode::kInternal, exception.what(), "robots/" + unit->id.str());
+    }
+    if (!seen) spdlog::warn("robot {} cannot be localised: {}", unit->id.str(), seen.error().message);
+  }
+  const std::scoped_lock lock(unit->mutex);
+  unit->looking = false;
+  unit->tracking = tracking;
+  // What was seen through a connection or in a map that is gone says nothing about now.
+  if (frame && unit->link == link && link && unit->map == map && !unit->restart_tracking) {
+    if (seen) {
+      unit->belief = *seen;
+      unit->belief_at = std::chrono::steady_clock::now();
+      link->send(wire::BeliefReport{frame->seq, seen->place, seen->probability.value_or(0.0), seen->lost});
+    } else {
+      unit->belief.reset();
+    }
+    tell(*unit);
+  }
+  begin_looking(unit);
+}
+
+}  // namespace homeward::server

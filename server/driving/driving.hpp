@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "db/store.hpp"
+#include "server/driving/robot_unit.hpp"
+#include "server/http/message.hpp"
+#include "server/jobs/work_pool.hpp"
+#include "server/services/maps.hpp"
+#include "server/ws/event_hub.hpp"
+
+namespace homeward::server {
+
+/// Robots: their links, where they are, who drives them, and their missions. Who may move a robot is decided here and
+/// on the robot: a mission is a permit that is renewed every tick while link and lease live; whatever breaks, it stops.
+class Driving : public LinkListener {
+ public:
+  /// `heavy` looks at pictures, `journal` (one worker) writes to the store what need not be waited for.
+  Driving(db::Store& store, MapService& maps, EventHub& events, WorkPool& heavy, WorkPool& journal)
+      : store_(store), maps_(maps), events_(events), heavy_(heavy), journal_(journal) {}
+
+  /// Reads the robots of the store. Errors: those of the store.
+  Status load();
+  /// Every 100 ms, on the socket thread: permits, leases that end, agents that fell silent.
+  void tick(SteadyTime now);
+
+  // Robots. Errors: kNotFound.
+  Result<wire::RobotView> add(const std::string& name);
+  std::vector<wire::RobotView> list();
+  Result<wire::RobotView> get(const RobotId& id);
+  /// Errors: also kConflict (it is driving).
+  Result<wire::RobotView> set_map(const RobotId& id, const std::optional<MapId>& map);
+  /// The newest picture.
+  Result<std::vector<std::uint8_t>> frame(const RobotId& id);
+  [[nodiscard]] std::size_t online();
+
+  // Leases. The view has the lease's id. Errors: kNotFound, kLeaseHeld.
+  Result<wire::LeaseView> take_lease(const RobotId& id, const Caller& caller, bool take_over);
+  Result<wire::LeaseView> keep_lease(const RobotId& id, const std::string& lease_id);
+  Status release_lease(const RobotId& id, const std::string& lease_id);
+
+  // Missions.
+  struct MissionRequest {
+    std::string lease_id;
+    std::optional<DestinationId> destination;  // or else
+    PlaceId place;
+    std::string by;
+  };
+  /// Errors: kNotFound, kLeaseHeld, kRobotOffline, kLost, kConflict (no map), kUnknownPlace, kNoRoute.
+  Result<wire::MissionView> start(const RobotId& id, const MissionRequest& request);
+  Result<wire::MissionView> mission(const RobotId& id, const MissionId& mission);
+  /// Anyone may stop. Does not wait for the disk. Returns the stop's id.
+  Result<std::string> stop(const RobotId& id, const std::string& by, const std::string& reason);
+
+  /// The near end of a new link.
+  std::shared_ptr<SocketHandler> open_link(const RobotId& id);
+  void heard(const std::shared_ptr<AgentLink>& link, wire::AgentMessage message) override;
+  void closed(const std::shared_ptr<AgentLink>& link) override;
+
+ private:
+  using Unit = std::shared_ptr<RobotUnit>;
+  struct Plan {
+    wire::MissionView mission;
+    wire::MissionOrder order;
+  };
+
+  Result<Unit> find(const RobotId& id);
+  std::vector<Unit> units();
+  // With the unit locked:
+  wire::RobotView view(const RobotUnit& unit, SteadyTime now) const;
+  wire::LeaseView lease_view(const RobotUnit& unit, SteadyTime now) const;
+  bool lease_lives(const RobotUnit& unit, SteadyTime now) const;
+  void tell(const RobotUnit& unit);
+  void end_mission(RobotUnit& unit, wire::MissionState state, const std::string& reason);
+  void stop_robot(RobotUnit& unit, const std::string& stop_id, const std::string& reason, const std::string& by);
+  void begin_looking(const Unit& unit);
+
+  void heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello);
+  void heard_status(RobotUnit& unit, wire::AgentStatus status);
+  void heard_refusal(RobotUnit& unit, const wire::MissionRefused& refusal);
+  void welcome(const Unit& unit, const std::shared_ptr<AgentLink>& link);
+  void look(const Unit& unit);
+  Result<std::shared_ptr<Tracking>> tracking_for(std::shared_ptr<Tracking> present, const MapId& map,
+                                                 const camera::CameraConfig& camera);
+  Result<Plan> plan(const Unit& unit, const MissionRequest& request);
+  void keep(const wire::MissionView& mission);
+
+  db::Store& store_;
+  MapService& maps_;
+  EventHub& events_;
+  WorkPool& heavy_;
+  WorkPool& journal_;
+  std::mutex mutex_;  // of units_; never taken while a unit is locked
+  std::map<RobotId, Unit> units_;
+};
+
+}  // namespace homeward::server

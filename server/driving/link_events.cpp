@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <spdlog/spdlog.h>
+
+#include "server/driving/driving.hpp"
+
+namespace homeward::server {
+namespace {
+
+constexpr std::int64_t kFramePeriodMs = 200;
+const char* const kServerName = "homeward-server/0.1.0";
+
+}  // namespace
+
+std::shared_ptr<SocketHandler> Driving::open_link(const RobotId& id) { return std::make_shared<AgentLink>(*this, id); }
+
+void Driving::heard(const std::shared_ptr<AgentLink>& link, wire::AgentMessage message) {
+  const auto found = find(link->robot());
+  if (!found) return link->close(kClosePolicy, "this robot was removed");
+  if (auto* hello = std::get_if<wire::Hello>(&message)) return heard_hello(*found, link, std::move(*hello));
+  RobotUnit& unit = **found;
+  const std::scoped_lock lock(unit.mutex);
+  if (unit.link != link) return;  // an older connection, on its way out
+  if (auto* frame = std::get_if<wire::Frame>(&message)) {
+    unit.frame = std::make_shared<const wire::Frame>(std::move(*frame));
+    unit.waiting_frame = unit.frame;
+    begin_looking(*found);
+  } else if (auto* status = std::get_if<wire::AgentStatus>(&message)) {
+    heard_status(unit, std::move(*status));
+  } else if (auto* refusal = std::get_if<wire::MissionRefused>(&message)) {
+    heard_refusal(unit, *refusal);
+  } else if (auto* stopped = std::get_if<wire::Stopped>(&message)) {
+    spdlog::info("robot {} has stopped for stop {}", unit.id.str(), stopped->stop_id);
+  }
+}
+
+void Driving::heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello) {
+  {
+    const std::scoped_lock lock(unit->mutex);
+    if (unit->under_way) stop_robot(*unit, "", "the robot connected anew", "server");
+    if (unit->link) unit->link->close(kClosePolicy, "the robot connected anew");
+    spdlog::info("robot {} connected: {}", unit->id.str(), hello.agent);
+    unit->link = link;
+    unit->welcomed = false;
+    unit->hello = std::move(hello);
+    unit->status.reset();
+    unit->belief.reset();
+    unit->waiting_frame.reset();
+    unit->restart_tracking = true;
+  }
+  // The new epoch is written to disk, which the socket thread must not wait for.
+  if (!journal_.try_run([this, unit, link] { welcome(unit, link); })) link->close(kCloseGoingAway, "the server ends");
+}
+
+void Driving::welcome(const Unit& unit, const std::shared_ptr<AgentLink>& link) {
+  const auto epoch = store_.next_epoch(unit->id);
+  if (!epoch) {
+    spdlog::error("robot {} gets no epoch: {}", unit->id.str(), epoch.error().message);
+    return link->close(kCloseTryLater, "the server cannot write to its disk");
+  }
+  const std::scoped_lock lock(unit->mutex);
+  if (unit->link != link) return;
+  if (*epoch > unit->epoch) {
+    unit->epoch = *epoch;
+    unit->seq = 0;
+  }
+  unit->welcomed = true;
+  link->send(wire::Welcome{kServerName, unit->id, unit->epoch, kFramePeriodMs});
+  tell(*unit);
+}
+
+void Driving::heard_status(RobotUnit& unit, wire::AgentStatus status) {
+  unit.status_at = std::chrono::steady_clock::now();
+  unit.status = std::move(status);
+  const wire::AgentStatus& now = *unit.status;
+  if (unit.under_way && now.mission == unit.mission->id) {
+    wire::MissionView& mission = *unit.mission;
+    const std::int64_t last = static_cast<std::int64_t>(mission.path.size()) - 1;
+    const std::int64_t index = std::clamp<std::int64_t>(now.path_index, 0, std::max<std::int64_t>(0, last));
+    const bool moved_on = index != mission.path_index;
+    mission.path_index = index;
+    switch (now.state) {
+      case wire::DriveState::kArrived:
+        end_mission(unit, wire::MissionState::kArrived, "");
+        break;
+      case wire::DriveState::kFailed:
+        end_mission(unit, wire::MissionState::kFailed, now.reason.value_or("the robot cannot go on"));
+        break;
+      case wire::DriveState::kStopped:
+        end_mission(unit, wire::MissionState::kStopped, now.reason.value_or("the robot stopped"));
+        break;
+      case wire::DriveState::kDriving:
+        if (mission.state != wire::MissionState::kDriving || moved_on) {
+          mission.state = wire::MissionState::kDriving;
+          keep(mission);
+        }
+        break;
+      case wire::DriveState::kIdle:
+        break;
+    }
+  }
+  tell(unit);
+}
+
+void Driving::heard_refusal(RobotUnit& unit, const wire::MissionRefused& refusal) {
+  if (!unit.under_way || unit.mission->id != refusal.mission) return;
+  end_mission(unit, wire::MissionState::kRefused, refusal.reason);
+  tell(unit);
+}
+
+void Driving::closed(const std::shared_ptr<AgentLink>& link) {
+  const auto found = find(link->robot());
+  if (!found) return;
+  RobotUnit& unit = **found;
+  const std::scoped_lock lock(unit.mutex);
+  if (unit.link != link) return;
+  spdlog::info("robot {} is gone", unit.id.str());
+  unit.link.reset();
+  unit.welcomed = false;
+  if (unit.under_way) end_mission(unit, wire::MissionState::kStopped, "the connection to the robot was lost");
+  unit.status.reset();
+  unit.belief.reset();
+  unit.waiting_frame.reset();
+  unit.restart_tracking = true;
+  tell(unit);
+}
+
+}  // namespace homeward::server

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <spdlog/spdlog.h>
+
+#include "db/secrets.hpp"
+#include "map/lookup.hpp"
+#include "planning/route.hpp"
+#include "server/auth/authenticator.hpp"
+#include "server/driving/driving.hpp"
+#include "wire/mission_order.hpp"
+
+namespace homeward::server {
+namespace {
+
+constexpr std::int64_t kPermitMs = 1500;
+constexpr double kTopSpeedMps = 0.8;
+// A permit goes only to an agent that was heard within this time; it tells its status four times a second.
+constexpr std::chrono::milliseconds kHeardWithin{1000};
+constexpr std::chrono::seconds kSilentTooLong{4};
+constexpr std::chrono::seconds kTakeUpWithin{10};
+constexpr std::chrono::seconds kBeliefFresh{5};
+
+std::string where_of(const RobotUnit& unit) { return "robots/" + unit.id.str(); }
+
+// What forbids a mission now, with the unit locked.
+Status may_start(const RobotUnit& unit, const std::string& lease_id, SteadyTime now) {
+  if (!unit.lease || now >= unit.lease->expires || unit.lease->id != lease_id) {
+    const bool other = unit.lease && now < unit.lease->expires;
+    return fail(ErrorCode::kLeaseHeld,
+                other ? unit.lease->holder + " is driving." : "Take the lease first; this one is over.",
+                where_of(unit) + "/lease");
+  }
+  if (!unit.online()) return fail(ErrorCode::kRobotOffline, "The robot is not connected.", where_of(unit));
+  if (!unit.map) return fail(ErrorCode::kConflict, "The robot has no map to drive on.", where_of(unit));
+  if (!unit.belief || unit.belief->lost || !unit.belief->place) {
+    return fail(ErrorCode::kLost, "The robot does not know where it is.", where_of(unit));
+  }
+  if (now - unit.belief_at > kBeliefFresh) {
+    return fail(ErrorCode::kLost, "The robot has not sent a picture for a while.", where_of(unit));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& request) {
+  MapId map_id;
+  PlaceId from;
+  {
+    const std::scoped_lock lock(unit->mutex);
+    const Status status = may_start(*unit, request.lease_id, std::chrono::steady_clock::now());
+    if (!status) return pass_on(status);
+    map_id = *unit->map;
+    from = *unit->belief->place;
+  }
+  const auto loaded = maps_.load(map_id);
+  if (!loaded) return pass_on(loaded);
+  const map::TopologicalMap& map = (*loaded)->map;
+  Plan plan;
+  plan.mission.place = request.place;
+  const map::Destination* destination = nullptr;
+  if (request.destination) {
+    for (const map::Destination& candidate : map.destinations) {
+      if (candidate.id == *request.destination) destination = &candidate;
+    }
+    if (destination == nullptr) {
+      return fail(ErrorCode::kUnknownPlace, "The map has no destination " + request.destination->str() + ".",
+                  "maps/" + map_id.str());
+    }
+    plan.mission.destination = destination->id;
+    plan.mission.place = destination->place;
+  }
+  planning::RouteRequest asked;
+  asked.from = from;
+  asked.to = plan.mission.place;
+  const auto route = planning::plan_route(map, asked);
+  if (!route) return pass_on(route);
+  plan.order = destination != nullptr ? wire::order_for_route(map, route->places, *destination)
+                                      : wire::order_for_route(map, route->places);
+  plan.mission.id = MissionId(db::random_id());
+  plan.mission.robot = unit->id;
+  plan.mission.map = map_id;
+  plan.mission.revision = map.revision;
+  plan.mission.path = route->places;
+  plan.mission.created_us = wall_clock_us();
+  plan.mission.by = request.by;
+  plan.order.mission = plan.mission.id;
+  plan.order.map = map_id;
+  plan.order.valid_for_ms = kPermitMs;
+  return plan;
+}
+
+Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest& request) {
+  const auto found = find(id);
+  if (!found) return pass_on(found);
+  RobotUnit& unit = **found;
+  auto planned = plan(*found, request);
+  if (!planned) return pass_on(planned);
+  // On disk before the robot hears of it, so that no restart can forget a mission that was driven.
+  const auto added = store_.add_mission(planned->mission);
+  if (!added) return pass_on(added);
+  wire::MissionView mission = *added;
+
+  const std::scoped_lock lock(unit.mutex);
+  const auto now = std::chrono::steady_clock::now();
+  Status status = may_start(unit, request.lease_id, now);
+  if (status && unit.map != mission.map) {
+    status = fail(ErrorCode::kConflict, "The robot was given another map just now.", where_of(unit));
+  }
+  if (!status) {
+    mission.state = wire::MissionState::kRefused;
+    mission.reason = status.error().message;
+    keep(mission);
+    return pass_on(status);
+  }
+  if (unit.under_way) end_mission(unit, wire::MissionState::kStopped, "another mission was given");
+  mission.epoch = unit.epoch;
+  mission.seq = ++unit.seq;
+  planned->order.order = {unit.epoch, unit.seq};
+  planned->order.speed_limit_mps = std::min(kTopSpeedMps, unit.hello.max_speed_mps);
+  unit.mission = mission;
+  unit.under_way = true;
+  unit.mission_at = now;
+  unit.link->send(planned->order);
+  spdlog::info("robot {} mission {} to {} over {} places, by {}", id.str(), mission.id.str(), mission.place.str(),
+               mission.path.size(), mission.by);
+  keep(mission);
+  tell(unit);
+  return mission;
+}
+
+Result<wire::MissionView> Driving::mission(const RobotId& id, const MissionId& mission) {
+  const auto unit = find(id);
+  if (!unit) return pass_on(unit);
+  {
+    const std::scoped_lock lock((*unit)->mutex);
+    if ((*unit)->mission && (*unit)->mission->id == mission) return *(*unit)->mission;
+  }
+  auto stored = store_.mission(mission);
+  if (stored && stored->robot != id) {
+    return fail(ErrorCode::kNotFound, "The robot had no mission " + mission.str() + ".", "robots/" + id.str());
+  }
+  return stored;
+}
+
+void Driving::end_mission(RobotUnit& unit, wire::MissionState state, const std::string& reason) {
+  unit.under_way = false;
+  if (!unit.mission) return;
+  unit.mission->state = state;
+  if (!reason.empty()) unit.mission->reason = reason;
+  spdlog::info("robot {} mission {} {}{}{}", unit.id.str(), unit.mission->id.str(), wire::mission_state_name(state),
+               reason.empty() ? "" : ": ", reason);
+  keep(*unit.mission);
+}
+
+void Driving::stop_robot(RobotUnit& unit, const std::string& stop_id, const std::string& reason,
+                         const std::string& by) {
+  if (unit.link) {
+    unit.link->send(wire::StopOrder{stop_id.empty() ? db::random_id() : stop_id, unit.epoch, reason, by}, true);
+  }
+  if (unit.under_way) end_mission(unit, wire::MissionState::kStopped, reason);
+}
+
+Result<std::string> Driving::stop(const RobotId& id, const std::string& by, const std::string& reason) {
+  const auto found = find(id);
+  if (!found) return pass_on(found);
+  RobotUnit& unit = **found;
+  const std::scoped_lock lock(unit.mutex);
+  const std::string stop_id = db::random_id();
+  stop_robot(unit, stop_id, reason.empty() ? "stopped by " + by : reason, by);
+  tell(unit);
+  return stop_id;
+}
+
+void Driving::tick(SteadyTime now) {
+  for (const Unit& found : units()) {
+    RobotUnit& unit = *found;
+    const std::scoped_lock lock(unit.mutex);
+    if (unit.lease && now >= unit.lease->expires) {
+      if (unit.under_way) stop_robot(unit, "", "nobody was watching any more", unit.lease->holder);
+      unit.lease.reset();
+      tell(unit);
+    }
+    if (!unit.link) continue;
+    const auto silent = now - unit.link->last_heard();
+    if (silent > kSilentTooLong) {
+      unit.link->close(kClosePolicy, "nothing was heard for too long");
+      continue;
+    }
+    if (!unit.under_way || !unit.online()) continue;
+    if (unit.mission->state == wire::MissionState::kAccepted && now - unit.mission_at > kTakeUpWithin) {
+      stop_robot(unit, "", "the robot did not take up the mission", "server");
+      tell(unit);
+      continue;
+    }
+    if (silent <= kHeardWithin) {
+      ++unit.seq;
+      unit.link->send(wire::Permit{unit.mission->id, {unit.epoch, unit.seq}, kPermitMs});
+    }
+  }
+}
+
+}  // namespace homeward::server

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/driving/robot_routes.hpp"
+
+#include "server/auth/account_routes.hpp"
+#include "server/http/json_body.hpp"
+#include "wire/mission_json.hpp"
+#include "wire/robot_json.hpp"
+
+namespace homeward::server {
+namespace {
+
+using nlohmann::json;
+
+RobotId robot_in(const Request& request) { return RobotId(request.parameter("robot")); }
+
+Response robot_response(const Result<wire::RobotView>& robot) {
+  return robot ? json_response(200, wire::robot_to_json(*robot)) : problem_of(robot);
+}
+
+Response lease_response(const Result<wire::LeaseView>& lease) {
+  return lease ? json_response(200, {{"lease", wire::lease_to_json(*lease)}}) : problem_of(lease);
+}
+
+Response add_robot(Driving& driving, db::Store& store, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  const std::string name = reader.text("name", 200);
+  if (name.empty()) reader.problem("name", "A robot needs a name.");
+  if (const Status status = reader.finish(); !status) return problem_of(status);
+  const auto robot = driving.add(name);
+  if (!robot) return problem_of(robot);
+  const auto token = make_token(store, name, db::Role::kRobot, robot->id);
+  if (!token) return problem_of(token);
+  return json_response(201, {{"id", robot->id.str()}, {"name", robot->name}, {"token", token->secret}});
+}
+
+Response set_map(Driving& driving, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  std::optional<MapId> map;
+  const json& value = reader.value("map");
+  if (value.is_string()) {
+    map = MapId(value.get<std::string>());
+  } else if (!value.is_null() || !body->contains("map")) {
+    reader.problem("map", "The id of a map, or null.");
+  }
+  if (const Status status = reader.finish(); !status) return problem_of(status);
+  return robot_response(driving.set_map(robot_in(request), map));
+}
+
+Response take_lease(Driving& driving, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  const bool take_over = reader.has("take_over") && reader.boolean("take_over");
+  if (const Status status = reader.finish(); !status) return problem_of(status);
+  return lease_response(driving.take_lease(robot_in(request), request.caller, take_over));
+}
+
+Result<std::string> lease_id_in(const json& body) {
+  wire::ObjectReader reader(body, "body");
+  std::string lease = reader.text("lease_id", 100);
+  if (const Status status = reader.finish(); !status) return pass_on(status);
+  return lease;
+}
+
+Response keep_lease(Driving& driving, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  const auto lease = lease_id_in(*body);
+  if (!lease) return problem_of(lease);
+  return lease_response(driving.keep_lease(robot_in(request), *lease));
+}
+
+Response release_lease(Driving& driving, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  const auto lease = lease_id_in(*body);
+  if (!lease) return problem_of(lease);
+  const Status status = driving.release_lease(robot_in(request), *lease);
+  return status ? empty_response(204) : problem_of(status);
+}
+
+Response start_mission(Driving& driving, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  Driving::MissionRequest asked;
+  asked.lease_id = reader.text("lease_id", 100);
+  if (reader.has("destination")) {
+    asked.destination = DestinationId(reader.text("destination", 100));
+    if (reader.has("place")) reader.problem("place", "A mission goes to a destination or a place, not both.");
+  } else {
+    asked.place = PlaceId(reader.text("place", 100));
+  }
+  if (const Status status = reader.finish(); !status) return problem_of(status);
+  asked.by = request.caller.name;
+  const auto mission = driving.start(robot_in(request), asked);
+  return mission ? json_response(201, wire::mission_to_json(*mission)) : problem_of(mission);
+}
+
+Response list_missions(Driving& driving, db::Store& store, const Request& request) {
+  if (const auto robot = driving.get(robot_in(request)); !robot) return problem_of(robot);
+  const auto missions = store.missions(robot_in(request));
+  if (!missions) return problem_of(missions);
+  json list = json::array();
+  for (const wire::MissionView& mission : *missions) list.push_back(wire::mission_to_json(mission));
+  return json_response(200, {{"missions", list}});
+}
+
+// A stop that is asked for badly is still a stop: a body that cannot be read only loses its reason.
+Response stop(Driving& driving, const Request& request) {
+  std::string reason;
+  if (const auto body = json_body(request); body && body->is_object()) {
+    const auto found = body->find("reason");
+    if (found != body->end() && found->is_string()) reason = found->get<std::string>().substr(0, 300);
+  }
+  for (char& c : reason) {
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  }
+  const auto stop_id = driving.stop(robot_in(request), request.caller.name, reason);
+  return stop_id ? json_response(202, {{"stop_id", *stop_id}}) : problem_of(stop_id);
+}
+
+}  // namespace
+
+void add_robot_routes(Router& router, Driving& driving, db::Store& store) {
+  Driving* d = &driving;
+  db::Store* db = &store;
+  const std::string root = "/api/v1/robots";
+  const auto add = [&](const char* method, const std::string& path, const char* role, Handler handler) {
+    router.add({method, root + path, role, Lane::kWork, kMaxJsonBody, std::move(handler)});
+  };
+  add("GET", "", "viewer", [d](Request&) {
+    json list = json::array();
+    for (const wire::RobotView& robot : d->list()) list.push_back(wire::robot_to_json(robot));
+    return json_response(200, {{"robots", list}});
+  });
+  add("POST", "", "installer", [d, db](Request& request) { return add_robot(*d, *db, request); });
+  add("GET", "/{robot}", "viewer", [d](Request& request) { return robot_response(d->get(robot_in(request))); });
+  add("PUT", "/{robot}/map", "installer", [d](Request& request) { return set_map(*d, request); });
+  add("POST", "/{robot}/lease", "rider", [d](Request& request) { return take_lease(*d, request); });
+  add("PUT", "/{robot}/lease", "rider", [d](Request& request) { return keep_lease(*d, request); });
+  add("DELETE", "/{robot}/lease", "rider", [d](Request& request) { return release_lease(*d, request); });
+  add("GET", "/{robot}/missions", "viewer", [d, db](Request& request) { return list_missions(*d, *db, request); });
+  add("POST", "/{robot}/missions", "rider", [d](Request& request) { return start_mission(*d, request); });
+  add("GET", "/{robot}/missions/{mission}", "viewer", [d](Request& request) {
+    const auto mission = d->mission(robot_in(request), MissionId(request.parameter("mission")));
+    return mission ? json_response(200, wire::mission_to_json(*mission)) : problem_of(mission);
+  });
+  router.add({"POST", root + "/{robot}/stop", "viewer", Lane::kNow, 4096,
+              [d](Request& request) { return stop(*d, request); }});
+  add("GET", "/{robot}/frame", "viewer", [d](Request& request) {
+    const auto frame = d->frame(robot_in(request));
+    return frame ? bytes_response(*frame, "image/jpeg") : problem_of(frame);
+  });
+}
+
+}  // namespace homeward::server

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "pipeline/belief_tracker.hpp"
+#include "server/driving/agent_link.hpp"
+#include "wire/robot_json.hpp"
+
+namespace homeward::server {
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+/// The right to drive.
+struct Lease {
+  std::string id;
+  std::string holder;  // name, shown to others
+  std::string caller;  // id of the user
+  SteadyTime expires;
+};
+
+/// The localisation of one robot in one map, used by one worker at a time.
+struct Tracking {
+  MapId map_id;
+  pipeline::BeliefTracker tracker;
+};
+
+/// What the server knows of one robot. `mutex` guards everything but `id`.
+struct RobotUnit {
+  explicit RobotUnit(RobotId robot) : id(std::move(robot)) {}
+
+  const RobotId id;
+  std::mutex mutex;
+  std::string name;
+  std::optional<MapId> map;
+
+  std::shared_ptr<AgentLink> link;  // null: not connected
+  bool welcomed = false;            // the new epoch is known and told
+  wire::Hello hello;
+  std::optional<wire::AgentStatus> status;
+  std::optional<SteadyTime> status_at;
+  std::shared_ptr<const wire::Frame> frame;  // the newest one, for people
+
+  bool looking = false;                              // a worker has a frame of this robot in hand
+  std::shared_ptr<const wire::Frame> waiting_frame;  // the newest one that was not looked at
+  std::shared_ptr<Tracking> tracking;                // the worker's while `looking`
+  bool restart_tracking = false;
+  std::optional<wire::BeliefView> belief;
+  SteadyTime belief_at;
+
+  std::optional<Lease> lease;
+  std::int64_t epoch = 0;
+  std::int64_t seq = 0;  // of the last mission or permit of this epoch
+  std::optional<wire::MissionView> mission;
+  bool under_way = false;  // `mission` is accepted or driving: permits go out
+  SteadyTime mission_at;   // when it was sent
+
+  [[nodiscard]] bool online() const { return link != nullptr && welcomed; }
+};
+
+}  // namespace homeward::server

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/app_front.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+
+namespace homeward::server {
+namespace {
+
+using std::chrono::steady_clock;
+
+bool changes_something(const Request& request) {
+  return request.method != "GET" && request.method != "HEAD" && request.method != "OPTIONS";
+}
+
+bool brings_a_secret(const Request& request) {
+  return !request.header("authorization").empty() || !cookie_value(request.header("cookie"), kSessionCookie).empty();
+}
+
+bool is_application_path(const std::string& path) { return path == "/api" || path.starts_with("/api/"); }
+
+Response sign_in_first() {
+  return problem({ErrorCode::kUnauthenticated, "Sign in, or send a token in the Authorization header.", ""});
+}
+
+Response broken(const std::string& what) {
+  spdlog::error("a request failed: {}", what);
+  return problem({ErrorCode::kInternal, "The server has a fault; its log says more.", ""});
+}
+
+// An answer with a secret in it must not lie on the disk.
+bool answer_is_secret(const Route& route) {
+  return route.pattern == "/api/v1/tokens" || route.pattern == "/api/v1/robots" ||
+         route.pattern == "/api/v1/robots/{robot}/lease";
+}
+
+}  // namespace
+
+std::variant<std::size_t, Response> AppFront::admit(Request& request) {
+  if (!parts_.access.host_allowed(request.header("host"))) {
+    return problem({ErrorCode::kForbidden, "This server does not answer to that name; --allow-host adds one.", "Host"});
+  }
+  const Router::Match match = parts_.router.find(request.method, request.path);
+  if (match.route == nullptr) return std::size_t{0};  // answered without its body
+  if (match.route->role != "anyone" && !brings_a_secret(request)) return sign_in_first();
+  return match.route->max_body;
+}
+
+void AppFront::answer(std::shared_ptr<Request> request, Reply reply) {
+  const Router::Match match = parts_.router.find(request->method, request->path);
+  if (match.route == nullptr) {
+    const bool read = request->method == "GET" || request->method == "HEAD";
+    if (!match.allowed.empty()) {
+      Response response = request->method == "OPTIONS"
+                              ? empty_response(204)
+                              : problem(405, "Method not allowed", "This path takes " + match.allowed + ".");
+      response.headers["allow"] = match.allowed;
+      return reply(response);
+    }
+    if (is_application_path(request->path)) {
+      return reply(problem({ErrorCode::kNotFound, "There is no " + request->path + " here.", request->path}));
+    }
+    if (!read) {
+      Response response = problem(405, "Method not allowed", "Pages are only read.");
+      response.headers["allow"] = "GET, HEAD";
+      return reply(response);
+    }
+    const bool queued = parts_.workers.try_run([this, request, reply] {
+      Response response;
+      try {
+        response = parts_.files.serve(*request);
+      } catch (const std::exception& exception) {
+        response = broken(exception.what());
+      }
+      reply(std::move(response));
+    });
+    if (!queued) reply(problem({ErrorCode::kOverloaded, "The server is busy.", request->path}));
+    return;
+  }
+  request->parameters = match.parameters;
+  const Route* route = match.route;
+  if (route->lane == Lane::kNow) {
+    const auto caller = parts_.authenticator.identify_at_once(*request);
+    if (route->role == "anyone" || caller) return reply(checked(*request, *route, caller));
+  }
+  WorkPool& pool = route->lane == Lane::kHeavy ? parts_.heavy : parts_.workers;
+  const bool queued = pool.try_run([this, request, route, reply] { reply(handle(*request, *route)); });
+  if (!queued) reply(problem({ErrorCode::kOverloaded, "The server is busy; try again in a second.", request->path}));
+}
+
+Response AppFront::handle(Request& request, const Route& route) {
+  try {
+    const auto caller = parts_.authenticator.identify(request);
+    // A wrong token is refused even where nobody needs one.
+    if (!caller) return problem_of(caller);
+    return checked(request, route, *caller);
+  } catch (const std::exception& exception) {
+    return broken(exception.what());
+  }
+}
+
+std::optional<Response> AppFront::refusal(const Request& request, const std::string& role,
+                                          const std::optional<Caller>& caller) {
+  if (role != "anyone") {
+    if (!caller) return sign_in_first();
+    if (!role_allows(caller->role, role)) {
+      return problem(
+          {ErrorCode::kForbidden, "This needs the role " + role + "; yours is " + caller->role + ".", request.path});
+    }
+  }
+  return std::nullopt;
+}
+
+Response AppFront::checked(Request& request, const Route& route, const std::optional<Caller>& caller) {
+  const auto began = steady_clock::now();
+  const auto run = [&]() -> Response {
+    if (auto refused = refusal(request, route.role, caller)) return *refused;
+    const bool by_token = caller && !caller->by_cookie;
+    if (changes_something(request) && !by_token) {
+      const bool signed_by_cookie = caller && caller->by_cookie;
+      const bool foreign_origin = !request.header("origin").empty() && !parts_.access.from_own_page(request);
+      if (foreign_origin || (signed_by_cookie && route.role != "anyone" && !parts_.access.from_own_page(request))) {
+        return problem({ErrorCode::kForbidden, "A change must come from a page of this server.", "Origin"});
+      }
+    }
+    if (caller) request.caller = *caller;
+    // A stop must not wait for the disk, and stopping twice does no harm.
+    if (route.lane == Lane::kNow) return route.handler(request);
+    return parts_.idempotency.run(request, answer_is_secret(route), route.handler);
+  };
+  Response response;
+  try {
+    response = run();
+  } catch (const std::exception& exception) {
+    response = broken(exception.what());
+  }
+  const double seconds = std::chrono::duration<double>(steady_clock::now() - began).count();
+  parts_.metrics.answered(request.method, route.pattern, response.status, seconds);
+  spdlog::debug("{} {} {} by {} in {:.1f} ms", request.method, route.pattern, response.status,
+                caller ? caller->id : "nobody", seconds * 1e3);
+  return response;
+}
+
+void AppFront::upgrade(std::shared_ptr<Request> request, std::function<void(Upgrade)> reply) {
+  const bool queued = parts_.workers.try_run([this, request, reply] {
+    try {
+      reply(open_socket(*request));
+    } catch (const std::exception& exception) {
+      reply(broken(exception.what()));
+    }
+  });
+  if (!queued) reply(problem({ErrorCode::kOverloaded, "The server is busy.", request->path}));
+}
+
+Front::Upgrade AppFront::open_socket(Request& request) {
+  if (!parts_.access.host_allowed(request.header("host"))) {
+    return problem({ErrorCode::kForbidden, "This server does not answer to that name.", "Host"});
+  }
+  // The sockets are routes of their own; only what they are for differs.
+  Router sockets;
+  sockets.add({"GET", "/api/v1/events", "viewer", Lane::kWork, 0, {}});
+  sockets.add({"GET", "/api/v1/robots/{robot}/link", "robot", Lane::kWork, 0, {}});
+  const Router::Match match = sockets.find(request.method, request.path);
+  if (match.route == nullptr) {
+    return problem({ErrorCode::kNotFound, "There is no WebSocket at " + request.path + ".", request.path});
+  }
+  const auto caller = parts_.authenticator.identify(request);
+  if (!caller) return problem_of(caller);
+  if (auto refused = refusal(request, match.route->role, *caller)) return *refused;
+  const bool has_origin = !request.header("origin").empty();
+  if (((*caller)->by_cookie || has_origin) && !parts_.access.from_own_page(request)) {
+    return problem({ErrorCode::kForbidden, "A socket must be opened by a page of this server.", "Origin"});
+  }
+  if (match.route->role == "viewer") return parts_.events.subscribe(parts_.snapshot);
+  const RobotId robot(match.parameters.at("robot"));
+  if (const auto known = parts_.driving.get(robot); !known) return problem_of(known);
+  if ((*caller)->robot != robot.str()) {
+    return problem({ErrorCode::kForbidden, "This token does not speak for robot " + robot.str() + ".", request.path});
+  }
+  return parts_.driving.open_link(robot);
+}
+
+}  // namespace homeward::server

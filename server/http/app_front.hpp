@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "server/auth/authenticator.hpp"
+#include "server/driving/driving.hpp"
+#include "server/http/access.hpp"
+#include "server/http/http_server.hpp"
+#include "server/http/idempotency.hpp"
+#include "server/http/metrics.hpp"
+#include "server/http/router.hpp"
+#include "server/http/static_files.hpp"
+#include "server/jobs/work_pool.hpp"
+#include "server/ws/event_hub.hpp"
+
+namespace homeward::server {
+
+/// What the front needs of the application.
+struct FrontParts {
+  const Router& router;
+  const AccessPolicy& access;
+  const StaticFiles& files;
+  Authenticator& authenticator;
+  Idempotency& idempotency;
+  Metrics& metrics;
+  WorkPool& workers;
+  WorkPool& heavy;
+  Driving& driving;
+  EventHub& events;
+  EventHub::MakeSnapshot snapshot;
+};
+
+/// Checks who asks, from where and for what, and hands the request to its handler in the right lane.
+class AppFront : public Front {
+ public:
+  explicit AppFront(FrontParts parts) : parts_(std::move(parts)) {}
+
+  std::variant<std::size_t, Response> admit(Request& request) override;
+  void answer(std::shared_ptr<Request> request, Reply reply) override;
+  void upgrade(std::shared_ptr<Request> request, std::function<void(Upgrade)> reply) override;
+
+ private:
+  Response handle(Request& request, const Route& route);
+  Response checked(Request& request, const Route& route, const std::optional<Caller>& caller);
+  Upgrade open_socket(Request& request);
+  std::optional<Response> refusal(const Request& request, const std::string& role, const std::optional<Caller>& caller);
+
+  FrontParts parts_;
+};
+
+}  // namespace homeward::server

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http/operation_routes.hpp"
+
+namespace homeward::server {
+namespace {
+
+Response text_response(int status, const std::string& type, std::string text) {
+  Response response;
+  response.status = status;
+  response.headers["content-type"] = type;
+  response.body = std::move(text);
+  return response;
+}
+
+std::string html_escaped(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '&':
+        escaped += "&amp;";
+        break;
+      default:
+        escaped.push_back(c);
+    }
+  }
+  return escaped;
+}
+
+}  // namespace
+
+void add_operation_routes(Router& router, Metrics& metrics, db::Store& store) {
+  Metrics* m = &metrics;
+  db::Store* db = &store;
+  router.add({"GET", "/healthz", "anyone", Lane::kNow, 0,
+              [](Request&) { return text_response(200, "text/plain; charset=utf-8", "ok\n"); }});
+  router.add({"GET", "/readyz", "anyone", Lane::kWork, 0, [db](Request&) {
+                const bool ready = db->setup_hash().has_value();
+                return text_response(ready ? 200 : 503, "text/plain; charset=utf-8", ready ? "ready\n" : "not ready\n");
+              }});
+  router.add({"GET", "/metrics", "anyone", Lane::kWork, 0,
+              [m](Request&) { return text_response(200, "text/plain; version=0.0.4; charset=utf-8", m->text()); }});
+  router.add({"GET", "/api/docs", "anyone", Lane::kWork, 0, [](Request&) {
+                return text_response(200, "text/html; charset=utf-8",
+                                     "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\">"
+                                     "<title>Homeward: the REST interface</title></head><body>"
+                                     "<h1>The REST interface</h1><pre>" +
+                                         html_escaped(openapi_text()) + "</pre></body></html>");
+              }});
+}
+
+}  // namespace homeward::server
