@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/build_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "features/appearance.hpp"
+#include "support/painted_tour.hpp"
+
+namespace homeward::pipeline {
+namespace {
+
+using homeward::testing::drive;
+using homeward::testing::MemoryTour;
+
+const camera::CameraConfig& camera_config() {
+  static const camera::CameraConfig config = homeward::testing::sphere_camera(512);
+  return config;
+}
+
+const camera::Camera& the_camera() {
+  static const auto camera = camera::Camera::create(camera_config()).value();
+  return *camera;
+}
+
+/// Six pictures forth and six back.
+const MemoryTour& sample_tour() {
+  static const MemoryTour tour = [] {
+    MemoryTour made("forth_and_back");
+    drive(made, the_camera(), 6, 0.6);
+    drive(made, the_camera(), 6, 0.6, true);
+    made.mark("1003.png", "bed");
+    return made;
+  }();
+  return tour;
+}
+
+BuildOptions options(int threads) { return {"house", threads, 1}; }
+
+const map::TopologicalMap& sample_map() {
+  static const map::TopologicalMap map = build_map({&sample_tour()}, camera_config(), options(2)).value();
+  return map;
+}
+
+TEST(BuildMap, MakesAMapOfATour) {
+  const map::TopologicalMap& map = sample_map();
+  EXPECT_EQ(map.name, "house");
+  EXPECT_EQ(map.images.size(), 12U);
+  EXPECT_EQ(map.feature_config_id, features::feature_config_id(map.feature_config));
+  EXPECT_EQ(map.camera.width_px, 512);
+  EXPECT_EQ(map.revision, 1);
+  EXPECT_GE(map.places.size(), 3U);
+  EXPECT_LE(map.places.size(), 12U);
+  EXPECT_FALSE(map.edges.empty());
+  std::set<ImageId> held;
+  for (const map::Place& place : map.places) {
+    held.insert(place.members.begin(), place.members.end());
+    EXPECT_GT(place.appearances.at(0).size(), 100);
+  }
+  EXPECT_EQ(held.size(), 12U);
+  ASSERT_EQ(map.destinations.size(), 1U);
+  EXPECT_EQ(map.destinations[0].label, "bed");
+  EXPECT_EQ(map.destinations[0].image.str(), "forth_and_back/1003.png");
+}
+
+TEST(BuildMap, EdgesOfAStraightDriveLeadAheadOrBehind) {
+  int checked = 0;
+  for (const map::Edge& edge : sample_map().edges) {
+    if (!edge.bearing_rad || edge.confidence < 0.8) continue;
+    ++checked;
+    EXPECT_LT(std::min(std::abs(*edge.bearing_rad), kPi - std::abs(*edge.bearing_rad)), 0.3);
+  }
+  EXPECT_GE(checked, 3);
+}
+
+TEST(BuildMap, IsTheSameWithOneThread) {
+  const auto one = build_map({&sample_tour()}, camera_config(), options(1));
+  ASSERT_TRUE(one);
+  const map::TopologicalMap& two = sample_map();
+  ASSERT_EQ(one->places.size(), two.places.size());
+  for (std::size_t i = 0; i < two.places.size(); ++i) {
+    EXPECT_EQ(one->places[i].id, two.places[i].id);
+    EXPECT_EQ(one->places[i].members, two.places[i].members);
+    EXPECT_EQ(one->places[i].appearances[0].sift.descriptors, two.places[i].appearances[0].sift.descriptors);
+  }
+  ASSERT_EQ(one->edges.size(), two.edges.size());
+  for (std::size_t i = 0; i < two.edges.size(); ++i) {
+    EXPECT_EQ(one->edges[i].from, two.edges[i].from);
+    EXPECT_EQ(one->edges[i].bearing_rad, two.edges[i].bearing_rad);
+    EXPECT_EQ(one->edges[i].length_m, two.edges[i].length_m);
+  }
+}
+
+TEST(BuildMap, TellsItsProgress) {
+  MemoryTour tour("short");
+  drive(tour, the_camera(), 4, 0.6);
+  double last = 0.0;
+  std::set<std::string> stages;
+  ASSERT_TRUE(build_map({&tour}, camera_config(), options(1), nullptr, [&](const BuildProgress& progress) {
+    EXPECT_GE(progress.share, last);
+    last = progress.share;
+    stages.insert(progress.stage);
+  }));
+  EXPECT_DOUBLE_EQ(last, 1.0);
+  EXPECT_EQ(stages, (std::set<std::string>{"features", "compare", "cluster", "places"}));
+}
+
+TEST(BuildMap, CanBeCancelledBeforeAndAmidst) {
+  std::stop_source before;
+  before.request_stop();
+  const auto none = build_map({&sample_tour()}, camera_config(), options(1), nullptr, {}, before.get_token());
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::kCancelled);
+  std::stop_source amidst;
+  double last = 0.0;
+  const auto cut = build_map(
+      {&sample_tour()}, camera_config(), options(1), nullptr,
+      [&](const BuildProgress& progress) {
+        last = progress.share;
+        if (progress.share > 0.1) amidst.request_stop();
+      },
+      amidst.get_token());
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(cut.error().code, ErrorCode::kCancelled);
+  EXPECT_LT(last, 0.5);
+}
+
+ErrorCode code_of(const std::vector<const TourSource*>& tours, const camera::CameraConfig& camera = camera_config()) {
+  const auto map = build_map(tours, camera, options(1));
+  EXPECT_FALSE(map);
+  return map ? ErrorCode::kInternal : map.error().code;
+}
+
+TEST(BuildMap, TooLittleToWorkOnIsSaid) {
+  EXPECT_EQ(code_of({}), ErrorCode::kEmptyInput);
+  const MemoryTour empty("empty");
+  EXPECT_EQ(code_of({&empty}), ErrorCode::kEmptyInput);
+  MemoryTour two("two");
+  drive(two, the_camera(), 2, 0.5);
+  const auto map = build_map({&two}, camera_config(), options(1));
+  ASSERT_FALSE(map);
+  EXPECT_EQ(map.error().code, ErrorCode::kTooFewImages);
+  EXPECT_NE(map.error().message.find("2 pictures"), std::string::npos) << map.error().message;
+}
+
+TEST(BuildMap, BlackPicturesAreNamed) {
+  MemoryTour black("black");
+  drive(black, the_camera(), 1, 0.5);
+  for (int i = 0; i < 4; ++i) black.add(Image(512, 256, 3));
+  const auto map = build_map({&black}, camera_config(), options(1));
+  ASSERT_FALSE(map);
+  EXPECT_EQ(map.error().code, ErrorCode::kTooFewFeatures);
+  EXPECT_EQ(map.error().where, "black/1001.png");
+  EXPECT_NE(map.error().message.find("80 %"), std::string::npos) << map.error().message;
+}
+
+TEST(BuildMap, ABadPictureIsNamed) {
+  MemoryTour size("size");
+  drive(size, the_camera(), 3, 0.5);
+  size.add(Image(100, 50, 3));
+  const auto wrong = build_map({&size}, camera_config(), options(2));
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().code, ErrorCode::kWrongImageSize);
+  EXPECT_EQ(wrong.error().where, "size/1003.png");
+  MemoryTour broken("broken");
+  drive(broken, the_camera(), 1, 0.5);
+  broken.add_broken(ErrorCode::kTruncatedImage);
+  broken.add_broken(ErrorCode::kIo);
+  const auto cut = build_map({&broken}, camera_config(), options(2));
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(cut.error().code, ErrorCode::kTruncatedImage);  // the first of the tour, whichever was met first
+  EXPECT_EQ(cut.error().where, "broken/1001.png");
+}
+
+TEST(BuildMap, WrongMarksDoubleImagesAndBadCamerasAreRefused) {
+  MemoryTour tour("tour");
+  for (int i = 0; i < 3; ++i) tour.add(Image(512, 256, 3));
+  EXPECT_EQ(code_of({&tour, &tour}), ErrorCode::kInvalidInput);
+  camera::CameraConfig bad = camera_config();
+  bad.robot_from_camera_rotation.coeffs() *= 2.0;
+  EXPECT_EQ(code_of({&tour}, bad), ErrorCode::kInvalidInput);
+  tour.mark("7777.png", "bed");
+  const auto marked = build_map({&tour}, camera_config(), options(1));
+  ASSERT_FALSE(marked);
+  EXPECT_EQ(marked.error().code, ErrorCode::kInvalidInput);
+  EXPECT_EQ(marked.error().where, "7777.png");
+}
+
+}  // namespace
+}  // namespace homeward::pipeline
