@@ -78,7 +78,9 @@ double weigh_way(std::span<LoopHypothesis> hypotheses, const WayFunction& way, c
     decided += hypothesis.similarity;
     if (hypothesis.way.verdict == TrackVerdict::kAgrees) agreed += hypothesis.similarity;
   }
-  const double reliability = decided > 0.0 ? std::max(0.0, agreed - (decided - agreed)) / decided : 1.0;
+  const double contradicted = decided - agreed;
+  const double reliability =
+      std::max(0.0, config.looks_trusted + agreed - contradicted) / (config.looks_trusted + decided);
   for (LoopHypothesis& hypothesis : hypotheses) {
     if (hypothesis.way.verdict == TrackVerdict::kUnknown) {
       hypothesis.reliability = reliability;

@@ -18,6 +18,7 @@ struct HypothesisConfig {
   double accept_support = 0.8;  // above the 0.75 that one hypothesis alone can reach: neighbours must agree
   double reject_plausibility = 0.4;
   double agreeing_way_mass = 0.95;       // at most, for a hypothesis that the way driven agrees with
+  double looks_trusted = 3.0;            // as if looks had been right so often before the first was held to the way
   double contradicting_way_mass = 0.99;  // against one that it excludes
 };
 
@@ -46,9 +47,10 @@ std::vector<LoopHypothesis> formulate_hypotheses(std::span<const Subcluster> sub
 
 /// Weighs in the way driven. A hypothesis that it excludes is rejected whatever it looks like, and says nothing to
 /// others; one that it agrees with gains mass. Where it cannot tell, looks count as far as they were right where it
-/// could: the visual masses of such hypotheses are discounted (Shafer 1976, ch. 11) by the share, weighted by s_V, of
-/// agreement among the hypotheses that the way decides. In a building of look-alike rooms looks alone then decide
-/// nothing, and pairs without other evidence stay apart. Returns that share; 1 where the way decides nothing.
+/// could: the visual masses of such hypotheses are discounted (Shafer 1976, ch. 11) by (agreements - contradictions) /
+/// (agreements + contradictions), weighted by s_V, at least 0. The difference, not the share of agreements: those lie
+/// mostly a short way apart, where agreeing is easy. In a building of look-alike rooms looks alone then decide nothing,
+/// and pairs without other evidence stay apart. Returns that factor; 1 where the way decides nothing.
 double weigh_way(std::span<LoopHypothesis> hypotheses, const WayFunction& way, const HypothesisConfig& config);
 
 /// Combines each hypothesis with the initial masses of its neighbours, in the order of the list, and decides.
