@@ -136,6 +136,21 @@ const checks = [
           );
           assert.ok(box.width >= 200 && box.height >= 80, `STOP is small on ${name}`);
         }
+        for (const size of [
+          kWide,
+          { width: 844, height: 390 },
+          { width: 640, height: 400 },
+          { width: 320, height: 568 },
+        ]) {
+          await page.setViewportSize(size);
+          await page.waitForTimeout(200); // dynamic viewport units follow a little later
+          const box = await page.getByRole('button', { name: /^STOP/ }).boundingBox();
+          const name = `${size.width} x ${size.height}`;
+          assert.ok(box && box.y >= 0 && box.y + box.height <= size.height, `STOP is out of view at ${name}`);
+          assert.ok(box.width >= 200 && box.height >= 64, `STOP is small at ${name}`);
+          assert.ok(!(await sticksOut(page)), `the page is wider than ${name}`);
+          await shoot(page, out, `size-${size.width}x${size.height}`);
+        }
         await page.getByRole('button', { name: /^STOP/ }).click();
         await page.getByTestId('stop-word').getByText('Chair has stopped.').waitFor();
       },

@@ -116,6 +116,8 @@ function follow(event: MouseEvent): void {
   event.preventDefault();
   navigate(event.currentTarget.pathname);
   scrollTo(0, 0);
+  // The new page begins here for keyboards and screen readers.
+  requestAnimationFrame(() => document.getElementById('content')?.focus({ preventScroll: true }));
 }
 
 function ConnectionNotice() {

@@ -10,6 +10,7 @@ import { titled } from '../../lib/words';
 import { DestinationCard } from './destination_card';
 import { commands, forgetCommand, send } from './driving';
 import { goalsOf, leadsTo, targetOf } from './goals';
+import { FirstSteps } from './first_steps';
 import { hindrance, journeyOf, type Journey, type Target } from './journey';
 import { JourneyCard } from './journey_card';
 import { heading, reasonOf } from './journey_words';
@@ -33,7 +34,7 @@ export function GoPage() {
     return (
       <>
         <h1>Where to?</h1>
-        <Notice still>There is no robot yet. Somebody who may install things adds one under Robots.</Notice>
+        <FirstSteps />
       </>
     );
   return <Going robot={robot} graph={chosenGraph.value} />;
@@ -53,7 +54,8 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
         <h1>Where to?</h1>
         <RobotPicker />
       </div>
-      {barrier !== null && (
+      {robot.map === null && <FirstSteps />}
+      {barrier !== null && robot.map !== null && (
         <Notice tone="warn" still>
           {barrier}
         </Notice>
