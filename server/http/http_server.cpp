@@ -14,6 +14,7 @@
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <future>
+#include <limits>
 #include <set>
 #include <thread>
 
@@ -156,7 +157,7 @@ asio::awaitable<bool> HttpServer::State::exchange(beast::tcp_stream& stream, bea
                                                   const std::string& remote) {
   Parser parser;
   parser.header_limit(static_cast<std::uint32_t>(limits.max_header_bytes));
-  parser.body_limit(boost::none);
+  parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // the route decides, once the head was read
   error_code error;
   stream.expires_after(std::chrono::milliseconds(limits.header_timeout_ms));
   co_await http::async_read_header(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
