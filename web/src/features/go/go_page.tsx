@@ -46,7 +46,11 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
   const journey = newest && newest.id !== null && hidden.value.has(newest.id) ? null : newest;
   const held = command?.kind === 'held' ? command : null;
   const barrier = hindrance(robot, connected.value, atLeast(me.value?.role, 'rider'));
-  const go = (target: Target, take_over = false) => void send(robot.id, target, take_over);
+  const go = (target: Target, take_over = false) => {
+    void send(robot.id, target, take_over);
+    // What becomes of it is told at the top; on a phone that may be out of sight.
+    requestAnimationFrame(() => document.getElementById('go-top')?.scrollIntoView({ block: 'nearest' }));
+  };
   const again = journey && againTarget(journey.destination, journey.place, graph);
   return (
     <>
@@ -71,7 +75,7 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
       <p class="hidden-text" role="status">
         {journey && [heading(journey, graph), reasonOf(journey)].filter(Boolean).join('. ')}
       </p>
-      <div class={journey ? 'go-top two' : 'go-top'}>
+      <div id="go-top" class={journey ? 'go-top two' : 'go-top'}>
         <WhereaboutsCard robot={robot} graph={graph} />
         {journey && (
           <JourneyCard
