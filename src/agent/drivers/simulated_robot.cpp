@@ -38,9 +38,11 @@ void SimulatedRobot::advance(double seconds) {
   seconds_ += seconds;
 }
 
-Image SimulatedRobot::picture() {
-  return renderer_.render(vehicle_.pose(), walkers_.people(), config_.seed * 7'919 + ++readings_);
+SimulatedRobot::View SimulatedRobot::view() {
+  return {vehicle_.pose(), vehicle_.odometry(), walkers_.people(), config_.seed * 7'919 + ++readings_};
 }
+
+Image SimulatedRobot::render(const View& view) const { return renderer_.render(view.pose, view.people, view.noise_seed); }
 
 Scan SimulatedRobot::sweep() {
   Scan scan;

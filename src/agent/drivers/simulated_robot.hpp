@@ -39,7 +39,16 @@ class SimulatedRobot {
 
   void command(const Motion& motion) { command_ = {motion.speed_mps, motion.turn_radps}; }
   void advance(double seconds);
-  [[nodiscard]] Image picture();
+  /// What a picture taken now depends on; rendering it takes long and may be done elsewhere meanwhile.
+  struct View {
+    Pose2 pose;
+    Pose2 odometry;
+    std::vector<sim::Person> people;
+    std::uint64_t noise_seed = 0;
+  };
+  [[nodiscard]] View view();
+  [[nodiscard]] Image render(const View& view) const;
+  [[nodiscard]] Image picture() { return render(view()); }
   [[nodiscard]] Scan sweep();
 
   [[nodiscard]] const sim::Vehicle& vehicle() const { return vehicle_; }

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <stop_token>
+
+#include "agent/driving/body.hpp"
+#include "agent/driving/scan.hpp"
+#include "camera/camera_config.hpp"
+#include "core/image.hpp"
+#include "core/pose2.hpp"
+#include "core/result.hpp"
+
+namespace homeward::agent {
+
+/// What a robot knows about itself and its surroundings at one moment.
+struct Reading {
+  Pose2 odometry;
+  double speed_mps = 0.0;
+  std::optional<Scan> scan;  // a new sweep, when there is one
+};
+
+/// A picture with the odometry of the moment at which it was taken.
+struct TakenPicture {
+  Image picture;
+  Pose2 odometry;
+};
+
+/// A robot's sensors and wheels. `read` and `command` are called from one thread, `next_picture` from another.
+class Driver {
+ public:
+  virtual ~Driver() = default;
+  [[nodiscard]] virtual const camera::CameraConfig& camera() const = 0;
+  [[nodiscard]] virtual Body body() const = 0;
+  virtual Reading read() = 0;
+  /// Obeyed until the next one; a driver stops by itself when none comes for half a second.
+  virtual void command(const Motion& motion) = 0;
+  /// Waits for the next picture; nothing when `stop` was asked for or there are no more.
+  /// Errors: a picture that cannot be read (kIo and those of imageio::decode).
+  virtual Result<std::optional<TakenPicture>> next_picture(std::stop_token stop) = 0;
+};
+
+}  // namespace homeward::agent

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/drivers/folder_driver.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+
+#include "agent/files/read_file.hpp"
+#include "agent/files/tour_folder.hpp"
+
+namespace homeward::agent {
+namespace {
+
+class FolderDriver final : public Driver {
+ public:
+  FolderDriver(std::vector<std::filesystem::path> files, camera::CameraConfig camera, const FolderDriverConfig& config)
+      : files_(std::move(files)),
+        camera_(std::move(camera)),
+        period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / config.pictures_per_s))),
+        repeat_(config.repeat) {}
+
+  [[nodiscard]] const camera::CameraConfig& camera() const override { return camera_; }
+  [[nodiscard]] Body body() const override { return {}; }
+  Reading read() override { return {}; }
+  void command(const Motion&) override {}
+
+  Result<std::optional<TakenPicture>> next_picture(std::stop_token stop) override {
+    std::unique_lock lock(mutex_);
+    pause_.wait_until(lock, stop, taken_ + period_, [] { return false; });
+    if (next_ == files_.size() && repeat_) next_ = 0;
+    if (stop.stop_requested() || next_ == files_.size()) return std::optional<TakenPicture>();
+    taken_ = Clock::now();
+    auto picture = read_picture(files_[next_++]);
+    if (!picture) return pass_on(picture);
+    return std::optional(TakenPicture{std::move(*picture), {}});
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::vector<std::filesystem::path> files_;
+  camera::CameraConfig camera_;
+  Clock::duration period_;
+  bool repeat_;
+  std::size_t next_ = 0;
+  std::mutex mutex_;
+  std::condition_variable_any pause_;
+  Clock::time_point taken_ = Clock::now() - std::chrono::hours(1);
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Driver>> make_folder_driver(const FolderDriverConfig& config) {
+  if (!(config.pictures_per_s > 0.0 && config.pictures_per_s <= 60.0)) {
+    return fail(ErrorCode::kInvalidInput, "The rate must lie between 0 and 60 pictures a second.", "--rate");
+  }
+  auto files = pictures_in(config.folder);
+  if (!files) return pass_on(files);
+  const std::filesystem::path beside = std::filesystem::path(config.folder) / "camera.json";
+  auto camera = read_camera(config.camera.empty() ? beside : std::filesystem::path(config.camera));
+  if (!camera) return pass_on(camera);
+  return std::make_unique<FolderDriver>(std::move(*files), std::move(*camera), config);
+}
+
+}  // namespace homeward::agent

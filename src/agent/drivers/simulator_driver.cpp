@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/drivers/simulator_driver.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <fstream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "agent/drivers/usual_cameras.hpp"
+#include "agent/files/read_file.hpp"
+#include "agent/files/world_folder.hpp"
+#include "sim/tour_path.hpp"
+
+namespace homeward::agent {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kPicturePeriod = std::chrono::milliseconds(100);
+constexpr auto kTruthPeriod = std::chrono::milliseconds(100);
+constexpr auto kCommandLife = std::chrono::milliseconds(500);
+
+class SimulatorDriver final : public Driver {
+ public:
+  SimulatorDriver(std::unique_ptr<sim::LitWorld> world, SimulatedRobot robot, SimulatedRobotConfig config, Body body,
+                  const std::string& truth_file)
+      : world_(std::move(world)), robot_(std::move(robot)), config_(std::move(config)), body_(std::move(body)) {
+    if (!truth_file.empty()) truth_.open(truth_file, std::ios::app);
+  }
+
+  [[nodiscard]] const camera::CameraConfig& camera() const override { return config_.camera; }
+  [[nodiscard]] Body body() const override { return body_; }
+
+  Reading read() override {
+    const std::lock_guard lock(mutex_);
+    const auto now = Clock::now();
+    if (now - commanded_ > kCommandLife) robot_.command({});
+    constexpr double kLongestStep_s = 0.1;
+    const double seconds = std::min(kLongestStep_s, std::chrono::duration<double>(now - advanced_).count());
+    advanced_ = now;
+    if (seconds > 0.0) robot_.advance(seconds);
+    tell_truth(now);
+    Reading reading{robot_.vehicle().odometry(), robot_.vehicle().motion().speed_mps, robot_.sweep()};
+    return reading;
+  }
+
+  void command(const Motion& motion) override {
+    const std::lock_guard lock(mutex_);
+    commanded_ = Clock::now();
+    robot_.command(motion);
+  }
+
+  Result<std::optional<TakenPicture>> next_picture(std::stop_token stop) override {
+    std::unique_lock lock(mutex_);
+    // Waiting on a condition that nobody signals: a sleep that `stop` can end.
+    pause_.wait_until(lock, stop, pictured_ + kPicturePeriod, [] { return false; });
+    if (stop.stop_requested()) return std::optional<TakenPicture>();
+    pictured_ = Clock::now();
+    const SimulatedRobot::View view = robot_.view();
+    lock.unlock();
+    return std::optional(TakenPicture{robot_.render(view), view.odometry});
+  }
+
+ private:
+  void tell_truth(Clock::time_point now) {
+    if (!truth_.is_open() || now - told_ < kTruthPeriod) return;
+    told_ = now;
+    const sim::Vehicle& vehicle = robot_.vehicle();
+    const auto t_us = std::chrono::duration_cast<std::chrono::microseconds>(
+                          std::chrono::system_clock::now().time_since_epoch())
+                          .count();
+    const nlohmann::json line = {{"t_us", t_us},
+                                 {"x_m", vehicle.pose().x_m},
+                                 {"y_m", vehicle.pose().y_m},
+                                 {"theta_rad", vehicle.pose().theta_rad},
+                                 {"speed_mps", vehicle.motion().speed_mps},
+                                 {"collisions", vehicle.collisions()}};
+    truth_ << line.dump() << std::endl;
+  }
+
+  std::unique_ptr<sim::LitWorld> world_;
+  SimulatedRobot robot_;
+  SimulatedRobotConfig config_;
+  Body body_;
+  std::ofstream truth_;
+  std::mutex mutex_;
+  std::condition_variable_any pause_;
+  Clock::time_point advanced_ = Clock::now();
+  Clock::time_point commanded_ = Clock::now();
+  Clock::time_point pictured_ = Clock::now();
+  Clock::time_point told_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Driver>> make_simulator_driver(const SimulatorDriverConfig& config) {
+  SimulatedRobotConfig robot_config;
+  robot_config.people = config.people;
+  robot_config.seed = config.seed;
+  robot_config.profile = config.robot == "chair" ? sim::chair_profile() : sim::disc_profile();
+  if (const auto usual = usual_camera(config.camera)) {
+    robot_config.camera = *usual;
+  } else {
+    const auto camera = read_camera(config.camera);
+    if (!camera) return pass_on(camera);
+    robot_config.camera = *camera;
+  }
+  const auto light = light_named(config.light);
+  if (!light) return pass_on(light);
+  robot_config.light = *light;
+  auto loaded = load_world(config.world);
+  if (!loaded) return pass_on(loaded);
+  auto world = std::make_unique<sim::LitWorld>(std::move(*loaded));
+  Pose2 start = world->world().start;
+  if (!config.start_room.empty()) {
+    const auto point = sim::room_point(world->world(), config.start_room);
+    if (!point) return pass_on(point);
+    start = {point->x(), point->y(), 0.0};
+  }
+  prepare_light(*world, *light);
+  auto robot = SimulatedRobot::create(*world, robot_config, start);
+  if (!robot) return pass_on(robot);
+  Body body = body_of(robot_config.profile);
+  return std::make_unique<SimulatorDriver>(std::move(world), std::move(*robot), std::move(robot_config), std::move(body),
+                                           config.truth_file);
+}
+
+}  // namespace homeward::agent

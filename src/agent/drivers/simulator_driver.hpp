@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "agent/drivers/driver.hpp"
+#include "agent/drivers/simulated_robot.hpp"
+
+namespace homeward::agent {
+
+struct SimulatorDriverConfig {
+  std::string world = "house:1";
+  std::string light = "day";
+  std::string robot = "disc";      // or "chair"
+  std::string start_room;          // empty: the world's start
+  std::string camera = "hyperbolic_mirror";
+  std::string truth_file;          // empty: none. Else a JSON line with the true pose and the collisions so far, 10 a second
+  int people = 0;
+  std::uint64_t seed = 1;
+};
+
+/// A simulated robot whose time is the machine's own; when the machine is too slow, simulated time falls behind.
+/// Errors: those of load_world; kNotFound for a room.
+Result<std::unique_ptr<Driver>> make_simulator_driver(const SimulatorDriverConfig& config);
+
+}  // namespace homeward::agent

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "core/result.hpp"
+
+namespace homeward::agent {
+
+/// Where a server listens.
+struct ServerAddress {
+  bool tls = false;
+  std::string host;
+  std::string port;
+  [[nodiscard]] std::string host_header() const { return host + ":" + port; }
+};
+
+/// "http://127.0.0.1:8080" or "https://house.example". Errors: kInvalidInput.
+Result<ServerAddress> parse_address(const std::string& text);
+
+}  // namespace homeward::agent

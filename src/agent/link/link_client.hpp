@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "agent/link/address.hpp"
+#include "core/ids.hpp"
+#include "wire/link_messages.hpp"
+
+namespace homeward::agent {
+
+/// The robot's side of the link: connects, says hello, connects again when the connection is lost. All functions may be
+/// called from any thread and never wait for the network.
+class LinkClient {
+ public:
+  /// `told`, called from the link's thread, hears of connections made and lost.
+  LinkClient(ServerAddress address, RobotId robot, std::string token, wire::Hello hello,
+             std::function<void(const std::string&)> told);
+  ~LinkClient();
+  LinkClient(const LinkClient&) = delete;
+  LinkClient& operator=(const LinkClient&) = delete;
+
+  /// Whether the server has said welcome on the present connection.
+  [[nodiscard]] bool up() const;
+  /// What has arrived since the last call, in order.
+  std::vector<wire::ServerMessage> take_messages();
+  /// Sends a message when connected, else drops it. Of frames only the newest waits, and always behind other messages.
+  void send(const wire::AgentMessage& message);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace homeward::agent

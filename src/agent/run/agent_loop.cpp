@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/run/agent_loop.hpp"
+
+#include <sodium.h>
+
+#include <chrono>
+#include <thread>
+
+#include "agent/driving/step.hpp"
+#include "agent/link/link_client.hpp"
+#include "agent/run/looker.hpp"
+#include "imageio/decode.hpp"
+#include "pipeline/eye.hpp"
+
+namespace homeward::agent {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kCycle = std::chrono::milliseconds(40);
+constexpr Milliseconds kStatusPeriod_ms = 250;
+constexpr int kQuality = 90;
+
+Milliseconds now_ms() {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now().time_since_epoch()).count();
+}
+
+TimeUs now_us() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+std::string random_session() {
+  if (sodium_init() < 0) return "unknown";
+  std::string text(16, '0');
+  for (char& letter : text) letter = "0123456789abcdef"[randombytes_uniform(16)];
+  return text;
+}
+
+wire::AgentStatus status_of(const DrivingState& state, const Reading& reading, std::int64_t seq) {
+  wire::AgentStatus status;
+  status.seq = seq;
+  status.t_us = now_us();
+  status.state = state.drive;
+  if (state.mission) status.mission = state.mission->id;
+  status.epoch = state.newest.epoch;
+  status.path_index = state.follow.index;
+  if (!state.reason.empty()) status.reason = state.reason;
+  status.speed_mps = reading.speed_mps;
+  if (state.drive == wire::DriveState::kDriving && state.seen.vector) {
+    status.home = wire::HomeReport{state.seen.vector->bearing_rad, state.seen.vector->confidence, state.seen.vector->inliers};
+  }
+  status.min_range_m = state.min_range_m;
+  status.vectors_per_s = static_cast<double>(state.answers_ms.size());
+  return status;
+}
+
+/// The driver stands still however the loop is left.
+class StandStill {
+ public:
+  explicit StandStill(Driver& driver) : driver_(driver) {}
+  ~StandStill() { driver_.command({}); }
+  StandStill(const StandStill&) = delete;
+  StandStill& operator=(const StandStill&) = delete;
+
+ private:
+  Driver& driver_;
+};
+
+}  // namespace
+
+Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_token& stop) {
+  const auto camera = camera::Camera::create(driver.camera());
+  if (!camera) return pass_on(camera);
+  const features::FeatureConfig features = pipeline::suited_feature_config(**camera);
+  const auto eye = pipeline::Eye::create(driver.camera(), features);
+  if (!eye) return pass_on(eye);
+  DrivingConfig config;
+  config.body = driver.body();
+  config.feature_config_id = features::feature_config_id(features);
+
+  wire::Hello hello{"homeward-agent/0.1.0",     options.robot_name,    random_session(), driver.camera(),
+                    config.body.radius_m, config.body.max_speed_mps};
+  const StandStill at_the_end(driver);
+  LinkClient link(options.server, options.robot, options.token, std::move(hello), options.told);
+  std::int64_t frame_seq = 0;
+  Looker looker(driver, *eye, now_ms, [&](const Image& picture) {
+    if (link.up()) link.send(wire::Frame{++frame_seq, now_us(), imageio::encode_jpeg(picture, kQuality)});
+  });
+
+  DrivingState state;
+  std::int64_t status_seq = 0;
+  Milliseconds status_ms = 0;
+  wire::DriveState told_state = wire::DriveState::kIdle;
+  auto next_cycle = Clock::now();
+  while (!stop.stop_requested()) {
+    if (auto trouble = looker.trouble()) return tl::unexpected<Error>(*trouble);
+    const Reading reading = driver.read();
+    Inputs inputs;
+    inputs.odometry = reading.odometry;
+    inputs.link_up = link.up();
+    inputs.messages = link.take_messages();
+    inputs.picture = looker.take();
+    const Milliseconds now = now_ms();
+    if (reading.scan) inputs.scan = {now, *reading.scan};
+    for (const wire::ServerMessage& message : inputs.messages) {
+      if (const auto* welcome = std::get_if<wire::Welcome>(&message)) looker.set_show_period(welcome->frame_period_ms);
+    }
+    const Outputs outputs = step(state, inputs, config, now);
+    driver.command(outputs.motion);
+    for (wire::AgentMessage message : outputs.messages) {
+      if (auto* stopped = std::get_if<wire::Stopped>(&message)) stopped->t_us = now_us();
+      link.send(message);
+    }
+    looker.set_looking(state.drive == wire::DriveState::kDriving);
+    const bool changed = state.drive != told_state;
+    if (changed) options.told(std::string(wire::drive_state_name(state.drive)) + (state.reason.empty() ? "" : ": " + state.reason));
+    told_state = state.drive;
+    if (changed || now - status_ms >= kStatusPeriod_ms) {
+      status_ms = now;
+      link.send(status_of(state, reading, ++status_seq));
+    }
+    next_cycle = std::max(next_cycle + kCycle, Clock::now());
+    std::this_thread::sleep_until(next_cycle);
+  }
+  return {};
+}
+
+}  // namespace homeward::agent

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <string>
+
+#include "agent/drivers/driver.hpp"
+#include "agent/link/address.hpp"
+#include "core/ids.hpp"
+#include "core/result.hpp"
+
+namespace homeward::agent {
+
+struct AgentOptions {
+  ServerAddress server;
+  RobotId robot;
+  std::string token;
+  std::string robot_name;
+  std::function<void(const std::string&)> told;  // what happens, for a log
+};
+
+/// Runs a robot until `stop` is asked for: one thread looks at pictures, one (the caller's) decides 25 times a second and
+/// commands the driver, one speaks with the server. The driver is commanded to zero at the end, however it ends.
+/// Errors: those of the eye and of pictures.
+Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_token& stop);
+
+}  // namespace homeward::agent

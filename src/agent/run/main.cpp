@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <spdlog/spdlog.h>
+#include <thread>
+
+#include "agent/drivers/folder_driver.hpp"
+#include "agent/drivers/simulator_driver.hpp"
+#include "agent/files/read_file.hpp"
+#include "agent/run/agent_loop.hpp"
+#include "agent/run/upload.hpp"
+#include "wire/error_table.hpp"
+
+namespace {
+
+using namespace homeward;  // NOLINT(google-build-using-namespace): a program's own file
+
+struct ServerOptions {
+  std::string address = "http://127.0.0.1:8080";
+  std::string token_file;
+};
+
+void add_server_options(CLI::App& command, ServerOptions& options) {
+  command.add_option("--server", options.address, "Address of the server")->capture_default_str();
+  command.add_option("--token-file", options.token_file, "File with the robot's token")->required();
+}
+
+Result<std::string> read_token(const std::string& file) {
+  auto text = agent::read_text(file);
+  if (!text) return pass_on(text);
+  while (!text->empty() && std::isspace(static_cast<unsigned char>(text->back())) != 0) text->pop_back();
+  if (text->empty()) return fail(ErrorCode::kInvalidInput, "The file holds no token.", file);
+  return *text;
+}
+
+struct RunOptions {
+  ServerOptions server;
+  std::string robot;
+  std::string robot_name = "Homeward robot";
+  std::string driver = "simulator";
+  agent::SimulatorDriverConfig simulator;
+  agent::FolderDriverConfig folder;
+};
+
+Result<std::unique_ptr<agent::Driver>> make_driver(const RunOptions& options) {
+  if (options.driver == "simulator") return agent::make_simulator_driver(options.simulator);
+  return agent::make_folder_driver(options.folder);
+}
+
+/// Waits for SIGINT or SIGTERM in a thread of its own, so that the loop can end in order.
+class SignalWatch {
+ public:
+  SignalWatch() {
+    sigemptyset(&signals_);
+    sigaddset(&signals_, SIGINT);
+    sigaddset(&signals_, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+    thread_ = std::thread([this] {
+      int number = 0;
+      sigwait(&signals_, &number);
+      stop_.request_stop();
+    });
+  }
+  ~SignalWatch() {
+    pthread_kill(thread_.native_handle(), SIGTERM);
+    thread_.join();
+  }
+  SignalWatch(const SignalWatch&) = delete;
+  SignalWatch& operator=(const SignalWatch&) = delete;
+  [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
+
+ private:
+  sigset_t signals_{};
+  std::stop_source stop_;
+  std::thread thread_;
+};
+
+Status run(const RunOptions& options) {
+  const SignalWatch signals;
+  const auto address = agent::parse_address(options.server.address);
+  if (!address) return pass_on(address);
+  const auto token = read_token(options.server.token_file);
+  if (!token) return pass_on(token);
+  spdlog::info("preparing the {}", options.driver);
+  const auto driver = make_driver(options);
+  if (!driver) return pass_on(driver);
+  const agent::AgentOptions agent_options{*address, RobotId(options.robot), *token, options.robot_name,
+                                          [](const std::string& what) { spdlog::info("{}", what); }};
+  return agent::run_agent(**driver, agent_options, signals.token());
+}
+
+struct UploadCommand {
+  ServerOptions server;
+  agent::UploadOptions upload;
+};
+
+Status upload(const UploadCommand& options) {
+  const auto address = agent::parse_address(options.server.address);
+  if (!address) return pass_on(address);
+  const auto token = read_token(options.server.token_file);
+  if (!token) return pass_on(token);
+  agent::RestClient server(*address, *token);
+  int told = -1;
+  const auto progress = [&](double share) {
+    const int tenths = static_cast<int>(share * 10.0);
+    if (tenths == told) return;
+    told = tenths;
+    std::fprintf(stderr, "uploading: %d %%\n", tenths * 10);
+  };
+  const auto id = agent::upload_tour(server, options.upload, progress);
+  if (!id) return pass_on(id);
+  std::cout << *id << "\n";
+  return {};
+}
+
+void run_on(CLI::App& command, const std::function<Status()>& work) {
+  command.callback([work] {
+    const Status status = work();
+    if (status) return;
+    const Error& error = status.error();
+    std::cerr << "homeward-agent: " << error.message << (error.where.empty() ? "" : " (" + error.where + ")") << "\n";
+    throw CLI::RuntimeError(wire::exit_code(error.code));
+  });
+}
+
+void register_run(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("run", "Drive a robot for a server");
+  const auto options = std::make_shared<RunOptions>();
+  add_server_options(*command, options->server);
+  command->add_option("--robot", options->robot, "The robot's id on the server")->required();
+  command->add_option("--name", options->robot_name, "The robot's name, for the log")->capture_default_str();
+  command->add_option("--driver", options->driver, "simulator or folder")
+      ->check(CLI::IsMember({"simulator", "folder"}))
+      ->capture_default_str();
+  command->add_option("--world", options->simulator.world, "Simulator: house:SEED, offices:SEED or a world.json")
+      ->capture_default_str();
+  command->add_option("--light", options->simulator.light, "Simulator: day, night or half")->capture_default_str();
+  command->add_option("--profile", options->simulator.robot, "Simulator: disc or chair")
+      ->check(CLI::IsMember({"disc", "chair"}))
+      ->capture_default_str();
+  command->add_option("--start-room", options->simulator.start_room, "Simulator: room to start in");
+  command->add_option("--people", options->simulator.people, "Simulator: people who walk about")->check(CLI::Range(0, 50));
+  command->add_option("--seed", options->simulator.seed, "Simulator: seed of noise and people");
+  command->add_option("--truth-file", options->simulator.truth_file, "Simulator: append true poses to this file");
+  command->add_option("--camera", options->simulator.camera, "Model of the simulated camera, or a camera.json")
+      ->capture_default_str();
+  command->add_option("--images", options->folder.folder, "Folder: where the pictures are");
+  command->add_option("--rate", options->folder.pictures_per_s, "Folder: pictures a second")->capture_default_str();
+  command->add_flag("--repeat", options->folder.repeat, "Folder: begin again after the last picture");
+  run_on(*command, [options] { return run(*options); });
+}
+
+void register_upload(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("upload", "Bring a tour's pictures to a server");
+  const auto options = std::make_shared<UploadCommand>();
+  add_server_options(*command, options->server);
+  command->add_option("--tour", options->upload.folder, "Folder of the tour")->required();
+  command->add_option("--camera", options->upload.camera, "camera.json (otherwise the one in the folder)");
+  command->add_option("--name", options->upload.name, "Name of the tour")->required();
+  run_on(*command, [options] { return upload(*options); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program("The robot's side of Homeward", "homeward-agent");
+  program.require_subcommand(1);
+  register_run(program);
+  register_upload(program);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::RuntimeError& failed) {
+    return failed.get_exit_code();
+  } catch (const CLI::ParseError& wrong) {
+    return program.exit(wrong) == 0 ? 0 : wire::exit_code(ErrorCode::kInvalidInput);
+  } catch (const std::exception& broken) {
+    std::cerr << "homeward-agent: " << broken.what() << "\n";
+    return wire::exit_code(ErrorCode::kInternal);
+  }
+  return 0;
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/run/upload.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "agent/files/read_file.hpp"
+#include "agent/files/tour_folder.hpp"
+#include "wire/camera_json.hpp"
+#include "wire/error_table.hpp"
+
+namespace homeward::agent {
+namespace {
+
+using nlohmann::json;
+
+/// What the server says against it, in its own words.
+Error refusal(const RestAnswer& answer, const std::string& what) {
+  const json problem = json::parse(answer.body, nullptr, false);
+  Error error{ErrorCode::kIo, what + ": the server answered " + std::to_string(answer.status) + ".", what};
+  if (!problem.is_object()) return error;
+  if (const auto* row = wire::error_row(std::string_view(problem.value("code", std::string())))) error.code = row->code;
+  const std::string detail = problem.value("detail", problem.value("title", std::string()));
+  if (!detail.empty()) error.message = what + ": " + detail;
+  return error;
+}
+
+Result<json> call(RestClient& server, const std::string& method, const std::string& path, const json* body) {
+  const auto answer = server.call(method, path, body != nullptr ? body->dump() : "", {{"Content-Type", "application/json"}});
+  if (!answer) return pass_on(answer);
+  if (answer->status < 200 || answer->status >= 300) return tl::unexpected<Error>(refusal(*answer, method + " " + path));
+  json value = json::parse(answer->body, nullptr, false);
+  if (value.is_discarded()) return fail(ErrorCode::kIo, "The server's answer is no JSON.", path);
+  return value;
+}
+
+/// An open tour of this name to carry on with, or a new one.
+Result<std::string> open_tour(RestClient& server, const std::string& name, const camera::CameraConfig& camera) {
+  const auto known = call(server, "GET", "/api/v1/tours", nullptr);
+  if (!known) return pass_on(known);
+  for (const json& tour : known->value("tours", json::array())) {
+    if (tour.value("name", std::string()) == name && tour.value("state", std::string()) == "open") {
+      return tour.value("id", std::string());
+    }
+  }
+  const json request = {{"name", name}, {"camera", wire::camera_to_json(camera)}};
+  const auto made = call(server, "POST", "/api/v1/tours", &request);
+  if (!made) return pass_on(made);
+  return made->value("id", std::string());
+}
+
+std::string file_name(const pipeline::TourImage& image) {
+  const std::string& id = image.id.str();
+  return id.substr(id.find('/') + 1);
+}
+
+Status put_picture(RestClient& server, const std::string& tour, std::size_t number, const std::filesystem::path& file,
+                   const pipeline::TourImage& image) {
+  const auto bytes = read_text(file);
+  if (!bytes) return pass_on(bytes);
+  const bool png = file.extension() == ".png" || file.extension() == ".PNG";
+  std::map<std::string, std::string> headers = {{"Content-Type", png ? "image/png" : "image/jpeg"},
+                                                {"X-Homeward-Filename", file_name(image)}};
+  if (image.t_us) headers["X-Homeward-T-Us"] = std::to_string(*image.t_us);
+  if (image.odometry) {
+    char text[100];
+    std::snprintf(text, sizeof text, "%.6f,%.6f,%.6f", image.odometry->x_m, image.odometry->y_m, image.odometry->theta_rad);
+    headers["X-Homeward-Odometry"] = text;
+  }
+  const auto answer = server.call("PUT", "/api/v1/tours/" + tour + "/images/" + std::to_string(number), *bytes, headers);
+  if (!answer) return pass_on(answer);
+  if (answer->status != 200 && answer->status != 201) return tl::unexpected<Error>(refusal(*answer, file.string()));
+  return {};
+}
+
+}  // namespace
+
+Result<std::string> upload_tour(RestClient& server, const UploadOptions& options,
+                                const std::function<void(double)>& progress) {
+  const auto tour = TourFolder::open(options.folder);
+  if (!tour) return pass_on(tour);
+  const std::filesystem::path folder(options.folder);
+  const auto camera = read_camera(options.camera.empty() ? folder / "camera.json" : std::filesystem::path(options.camera));
+  if (!camera) return pass_on(camera);
+  const auto id = open_tour(server, options.name, *camera);
+  if (!id) return pass_on(id);
+  const auto files = pictures_in(options.folder);
+  if (!files) return pass_on(files);
+  for (std::size_t i = 0; i < files->size(); ++i) {
+    if (const Status put = put_picture(server, *id, i, (*files)[i], tour->images()[i]); !put) return pass_on(put);
+    progress(static_cast<double>(i + 1) / static_cast<double>(files->size()));
+  }
+  json marks = {{"marks", json::array()}};
+  for (const pipeline::TourMark& mark : tour->marks()) marks["marks"].push_back({{"image", mark.image}, {"label", mark.label}});
+  if (const auto put = call(server, "PUT", "/api/v1/tours/" + *id + "/marks", &marks); !put) return pass_on(put);
+  const json nothing = json::object();
+  if (const auto done = call(server, "POST", "/api/v1/tours/" + *id + "/complete", &nothing); !done) return pass_on(done);
+  return *id;
+}
+
+}  // namespace homeward::agent

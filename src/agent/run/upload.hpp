@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "agent/link/rest_client.hpp"
+
+namespace homeward::agent {
+
+struct UploadOptions {
+  std::string folder;
+  std::string camera;  // camera.json; empty: the one in the folder
+  std::string name;
+};
+
+/// Brings a folder's tour to a server: pictures, times, odometry and marks. A tour of the same name that is still open is
+/// carried on with. Returns the tour's id. Errors: those of TourFolder and read_camera, kIo, and what the server refuses.
+Result<std::string> upload_tour(RestClient& server, const UploadOptions& options,
+                                const std::function<void(double)>& progress);
+
+}  // namespace homeward::agent
