@@ -18,7 +18,7 @@ struct HypothesisConfig {
   double accept_support = 0.8;  // above the 0.75 that one hypothesis alone can reach: neighbours must agree
   double reject_plausibility = 0.4;
   double agreeing_way_mass = 0.95;       // at most, for a hypothesis that the way driven agrees with
-  double looks_trusted = 3.0;            // as if looks had been right so often before the first was held to the way
+  double looks_trusted = 1.0;            // as if looks had been right so often before the first was held to the way
   double contradicting_way_mass = 0.99;  // against one that it excludes
 };
 
