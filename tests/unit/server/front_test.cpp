@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fstream>
+
+#include "server/http/access.hpp"
+#include "server/http/router.hpp"
+#include "support/server_fixture.hpp"
+
+namespace homeward::server {
+namespace {
+
+TEST(Router, FindsByMethodAndPathAndDecodesParameters) {
+  Router router;
+  router.add({"GET", "/maps/{map}", "viewer", Lane::kWork, 0, {}});
+  router.add({"DELETE", "/maps/{map}", "installer", Lane::kWork, 0, {}});
+  router.add({"GET", "/maps/import", "viewer", Lane::kWork, 1, {}});
+  EXPECT_EQ(router.find("GET", "/maps/a%20b").parameters.at("map"), "a b");
+  EXPECT_EQ(router.find("HEAD", "/maps/a").route->method, "GET");
+  EXPECT_EQ(router.find("GET", "/maps/import").route->max_body, 1U) << "a path spelled out beats a parameter";
+  EXPECT_EQ(router.find("PUT", "/maps/a").route, nullptr);
+  EXPECT_EQ(router.find("PUT", "/maps/a").allowed, "DELETE, GET, HEAD, OPTIONS");
+  EXPECT_EQ(router.find("GET", "/maps/").route, nullptr) << "an empty parameter is none";
+  EXPECT_EQ(router.find("GET", "/maps/a/b").allowed, "");
+  EXPECT_EQ(router.find("GET", "/maps/a%00").route, nullptr);
+}
+
+TEST(Access, AnswersToItsOwnNamesAlone) {
+  const AccessPolicy access({"Home.Local"});
+  EXPECT_TRUE(access.host_allowed("localhost:8080"));
+  EXPECT_TRUE(access.host_allowed("[::1]:8080"));
+  EXPECT_TRUE(access.host_allowed("home.local"));
+  EXPECT_FALSE(access.host_allowed("evil.example"));
+  EXPECT_FALSE(access.host_allowed("localhost.evil.example"));
+  EXPECT_FALSE(access.host_allowed(""));
+  EXPECT_TRUE(access.origin_allowed("http://localhost:8080", "localhost:8080"));
+  EXPECT_FALSE(access.origin_allowed("http://localhost:9999", "localhost:8080")) << "another port is another site";
+  EXPECT_FALSE(access.origin_allowed("null", "localhost:8080"));
+  EXPECT_FALSE(access.origin_allowed("http://evil.example", "evil.example"));
+}
+
+TEST(Access, EachRoleIncludesThoseBeforeIt) {
+  EXPECT_TRUE(role_allows("admin", "installer"));
+  EXPECT_FALSE(role_allows("carer", "installer"));
+  EXPECT_TRUE(role_allows("robot", "installer, robot"));
+  EXPECT_TRUE(role_allows("admin", "installer, robot"));
+  EXPECT_FALSE(role_allows("carer", "installer, robot"));
+  EXPECT_FALSE(role_allows("robot", "viewer"));
+  EXPECT_FALSE(role_allows("admin", "robot"));
+  EXPECT_FALSE(role_allows("", "viewer"));
+}
+
+TEST(Message, BrokenEscapesAreRefused) {
+  EXPECT_EQ(percent_decoded("a%2Fb").value_or(""), "a/b");
+  EXPECT_FALSE(percent_decoded("%2").has_value());
+  EXPECT_FALSE(percent_decoded("%zz").has_value());
+  EXPECT_FALSE(percent_decoded("%00").has_value());
+  EXPECT_EQ(parse_query("from=p1&to=p%202&x")->at("to"), "p 2");
+  EXPECT_EQ(cookie_value("a=1; homeward_session=x; b=2", "homeward_session"), "x");
+  EXPECT_EQ(cookie_value("xhomeward_session=x", "homeward_session"), "");
+}
+
+TEST(Config, PlainHttpForOthersHasToBeAskedFor) {
+  AppConfig config;
+  config.data = "data";
+  EXPECT_TRUE(problems(config).empty());
+  config.address = "0.0.0.0";
+  EXPECT_EQ(problems(config).size(), 1U);
+  config.allow_plain_http = true;
+  EXPECT_TRUE(problems(config).empty());
+}
+
+class FrontTest : public testing::ServerTest {};
+
+TEST_F(FrontTest, ForeignHostsAndOriginsAreRefused) {
+  EXPECT_EQ(admin->get("/api/v1/maps", {{"Host", "evil.example"}}).status, 403);
+  EXPECT_EQ(admin->post("/api/v1/robots", {{"name", "r"}}, {{"Origin", "http://evil.example"}}).status, 403);
+  admin->defaults.clear();
+  EXPECT_EQ(admin->post("/api/v1/robots", {{"name", "r"}}).status, 403) << "a cookie needs an origin";
+  EXPECT_EQ(admin->get("/api/v1/robots").status, 200);
+  EXPECT_TRUE(admin->get("/api/v1/robots").json().at("robots").empty());
+}
+
+TEST_F(FrontTest, SpeaksProperHttp) {
+  const testing::Answer head = admin->send("HEAD", "/api/v1/maps");
+  EXPECT_EQ(head.status, 200);
+  EXPECT_TRUE(head.body.empty());
+  EXPECT_EQ(admin->send("OPTIONS", "/api/v1/maps").headers["allow"], "GET, HEAD, OPTIONS, POST");
+  EXPECT_EQ(admin->send("PATCH", "/api/v1/maps").status, 405);
+  EXPECT_EQ(admin->get("/api/v1/nothing").status, 404);
+  EXPECT_EQ(admin->send("POST", "/api/v1/robots", "{broken").status, 400);
+  EXPECT_EQ(admin->post("/api/v1/robots", {{"name", "r"}, {"extra", 1}}).status, 422);
+  EXPECT_EQ(admin->send("POST", "/api/v1/robots", std::string(2'000'000, 'x')).status, 413);
+  EXPECT_EQ(admin->get("/api/v1/maps", {{"X-Long", std::string(20'000, 'x')}}).status, 431);
+  const testing::Answer health = admin->get("/healthz");
+  EXPECT_EQ(health.status, 200);
+  EXPECT_EQ(health.headers.at("x-content-type-options"), "nosniff");
+  EXPECT_NE(health.headers.at("content-security-policy").find("frame-ancestors 'none'"), std::string::npos);
+  EXPECT_EQ(admin->get("/readyz").status, 200);
+  EXPECT_NE(admin->get("/metrics").body.find("homeward_http_requests_total"), std::string::npos);
+  EXPECT_NE(admin->get("/api/docs").body.find("openapi: 3.1"), std::string::npos);
+}
+
+TEST_F(FrontTest, ServesTheDashboardAndNothingBesideIt) {
+  const std::filesystem::path web = config.data / "web";
+  std::filesystem::create_directories(web / "assets");
+  std::ofstream(web / "index.html") << "<p>home</p>";
+  std::ofstream(web / "assets" / "a.js") << "1";
+  std::ofstream(config.data / "secret.txt") << "secret";
+  config.web = web;
+  restart();
+  const testing::Answer page = admin->get("/");
+  EXPECT_EQ(page.body, "<p>home</p>");
+  EXPECT_EQ(admin->get("/", {{"If-None-Match", page.headers.at("etag")}}).status, 304);
+  EXPECT_EQ(admin->get("/settings/users").body, "<p>home</p>") << "a page of the dashboard";
+  EXPECT_EQ(admin->get("/assets/a.js").headers["content-type"], "text/javascript; charset=utf-8");
+  EXPECT_EQ(admin->get("/assets/b.js").status, 404);
+  for (const char* path : {"/../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt", "/assets/../../secret.txt"}) {
+    EXPECT_EQ(admin->get(path).body.find("secret\n"), std::string::npos) << path;
+    EXPECT_NE(admin->get(path).body, "secret") << path;
+  }
+}
+
+}  // namespace
+}  // namespace homeward::server

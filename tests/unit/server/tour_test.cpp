@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/server_fixture.hpp"
+
+namespace homeward::server {
+namespace {
+
+using nlohmann::json;
+using testing::Answer;
+using testing::room_picture;
+
+class TourTest : public testing::ServerTest {
+ protected:
+  Answer put(const std::string& tour, const std::string& number, const std::string& bytes,
+             const testing::Headers& headers = {}) {
+    return admin->send("PUT", "/api/v1/tours/" + tour + "/images/" + number, bytes, headers);
+  }
+};
+
+TEST_F(TourTest, OnlyWholePicturesOfTheRightKindAreKept) {
+  const std::string tour = add_tour();
+  const std::string picture = room_picture(1, 1);
+  Answer text = put(tour, "0", "this is no picture", {{"Content-Type", "image/jpeg"}});
+  EXPECT_EQ(text.status, 415);
+  EXPECT_EQ(text.code(), "unsupported_image");
+  Answer half = put(tour, "0", picture.substr(0, picture.size() / 2));
+  EXPECT_EQ(half.status, 422);
+  EXPECT_EQ(half.code(), "truncated_image");
+  const auto small = imageio::encode_jpeg(Image(64, 64, 3), 80);
+  Answer wrong = put(tour, "0", {small.begin(), small.end()});
+  EXPECT_EQ(wrong.status, 422);
+  EXPECT_EQ(wrong.code(), "wrong_image_size");
+  EXPECT_EQ(put(tour, "0", "").status, 415);
+  EXPECT_EQ(admin->get("/api/v1/tours/" + tour).json().at("images"), 0) << "nothing of it was kept";
+  EXPECT_EQ(put(tour, "-1", picture).status, 422);
+  EXPECT_EQ(put(tour, "1x", picture).status, 422);
+  EXPECT_EQ(put("none", "0", picture).status, 404);
+  EXPECT_EQ(put(tour, "0", picture, {{"X-Homeward-Filename", "../x.jpg"}}).status, 422);
+  EXPECT_EQ(put(tour, "0", picture, {{"X-Homeward-Odometry", "1,2"}}).status, 422);
+  EXPECT_EQ(put(tour, "0", picture, {{"X-Homeward-Odometry", "1,2,nan"}}).status, 422);
+}
+
+TEST_F(TourTest, UploadsAreIdempotentAndResumable) {
+  const std::string tour = add_tour();
+  const std::string a = room_picture(1, 1);
+  const std::string b = room_picture(1, 2);
+  const Answer first = put(tour, "0", a, {{"X-Homeward-Filename", "a.jpg"}, {"X-Homeward-Odometry", "0.5,-1,3.1"}});
+  EXPECT_EQ(first.status, 201) << first.body;
+  EXPECT_EQ(first.json().at("image"), tour + "/a.jpg");
+  EXPECT_EQ(put(tour, "0", a, {{"X-Homeward-Filename", "a.jpg"}}).status, 200);
+  EXPECT_EQ(put(tour, "0", b, {{"X-Homeward-Filename", "a.jpg"}}).status, 409);
+  EXPECT_EQ(put(tour, "3", b).status, 201);
+  EXPECT_EQ(admin->get("/api/v1/tours/" + tour).json().at("missing"), json({1, 2}));
+  EXPECT_EQ(admin->post("/api/v1/tours/" + tour + "/complete").status, 409) << "two pictures are missing";
+  restart();
+  EXPECT_EQ(put(tour, "0", a, {{"X-Homeward-Filename", "a.jpg"}}).status, 200) << "kept over a restart";
+  EXPECT_EQ(put(tour, "1", room_picture(1, 3)).status, 201);
+  EXPECT_EQ(put(tour, "2", room_picture(1, 4)).status, 201);
+  EXPECT_EQ(admin->put("/api/v1/tours/" + tour + "/marks", {{"marks", {{{"image", "z.jpg"}, {"label", "x"}}}}}).status,
+            422);
+  EXPECT_EQ(admin->post("/api/v1/tours/" + tour + "/complete").json().at("state"), "complete");
+  EXPECT_EQ(put(tour, "4", a).status, 409) << "a complete tour takes no more";
+  EXPECT_EQ(admin->get("/api/v1/tours/" + tour + "/images/0").body, a);
+  EXPECT_EQ(admin->get("/api/v1/tours/" + tour + "/images/9").status, 404);
+}
+
+TEST_F(TourTest, AMapIsBuiltAskedAndEdited) {
+  EXPECT_EQ(admin->post("/api/v1/maps", {{"name", "m"}, {"tours", {add_tour()}}}).status, 409) << "not complete";
+  EXPECT_EQ(admin->post("/api/v1/maps", {{"name", "m"}, {"tours", {"none"}}}).status, 404);
+  const std::string map = built_map(3);
+  const std::string root = "/api/v1/maps/" + map;
+  EXPECT_EQ(admin->get(root).json().at("state"), "ready");
+
+  const Answer graph = admin->get(root + "/graph");
+  ASSERT_EQ(graph.status, 200) << graph.body;
+  EXPECT_EQ(graph.headers.at("etag"), "\"r1\"");
+  EXPECT_EQ(admin->get(root + "/graph", {{"If-None-Match", "\"r1\""}}).status, 304);
+  const json places = graph.json().at("places");
+  ASSERT_GE(places.size(), 3U);
+  ASSERT_EQ(graph.json().at("destinations").size(), 1U);
+  EXPECT_EQ(graph.json().at("destinations")[0].at("label"), "home");
+  const std::string first = places.front().at("id");
+  const std::string last = places.back().at("id");
+  EXPECT_EQ(admin->get(root + "/places/" + first + "/thumbnail").headers["content-type"], "image/jpeg");
+  EXPECT_EQ(admin->get(root + "/places/p999/thumbnail").code(), "unknown_place");
+  EXPECT_EQ(
+      admin->get(root + "/images/" + places.front().at("members").back().get<std::string>() + "/thumbnail").status,
+      200);
+
+  const Answer belief = admin->send("POST", root + "/localise", room_picture(1, 77));
+  ASSERT_EQ(belief.status, 200) << belief.body;
+  EXPECT_FALSE(belief.json().at("lost").get<bool>());
+  EXPECT_EQ(admin->send("POST", root + "/localise", "no picture").status, 415);
+
+  EXPECT_EQ(admin->get(root + "/route?from=" + first + "&to=" + last).json().at("places").back(), last);
+  EXPECT_EQ(admin->get(root + "/route?from=" + first + "&to=p999").code(), "unknown_place");
+
+  const json rename = {{"edits", {{{"kind", "rename"}, {"place", first}, {"label", "porch"}}}}};
+  EXPECT_EQ(admin->post(root + "/edits", rename).status, 428);
+  EXPECT_EQ(admin->post(root + "/edits", rename, {{"If-Match", "\"r7\""}}).code(), "stale_revision");
+  EXPECT_EQ(
+      admin->post(root + "/edits", {{"edits", {{{"kind", "delete"}, {"place", first}}}}}, {{"If-Match", "\"r1\""}})
+          .status,
+      422);
+  EXPECT_EQ(admin->post(root + "/edits", rename, {{"If-Match", "\"r1\""}}).json().at("revision"), 2);
+  EXPECT_EQ(admin->get(root + "/history").json().at("edits")[0].at("by"), "anna");
+
+  json block = {{"edits", json::array()}};
+  for (const json& edge : graph.json().at("edges")) {
+    if (edge.at("to") == last) {
+      block["edits"].push_back({{"kind", "block_edge"}, {"from", edge.at("from")}, {"to", last}, {"blocked", true}});
+    }
+  }
+  const Answer blocked = admin->post(root + "/edits", block, {{"If-Match", "\"r2\""}});
+  ASSERT_EQ(blocked.status, 200) << blocked.body;
+  const Answer no_way = admin->get(root + "/route?from=" + first + "&to=" + last);
+  EXPECT_EQ(no_way.status, 409);
+  EXPECT_EQ(no_way.code(), "no_route");
+  EXPECT_EQ(admin->post(root + "/undo", json::object(), {{"If-Match", blocked.headers.at("etag")}}).status, 200);
+
+  restart();
+  EXPECT_EQ(admin->get(root + "/graph").json().at("places").front().at("label"), "porch");
+  const Answer file = admin->get(root + "/export");
+  EXPECT_EQ(file.headers.at("content-type"), "application/vnd.sqlite3");
+  const Answer imported = admin->send("POST", "/api/v1/maps/import?name=copy", file.body);
+  ASSERT_EQ(imported.status, 201) << imported.body;
+  EXPECT_EQ(imported.json().at("map").at("places"), places.size());
+  EXPECT_EQ(admin->send("POST", "/api/v1/maps/import", "no map").status, 422);
+  EXPECT_EQ(admin->send("DELETE", root).status, 204);
+  EXPECT_EQ(admin->get(root).status, 404);
+}
+
+TEST_F(TourTest, ABuildIsCancelledOrOutlivesARestart) {
+  const std::string tour = complete_tour(6);
+  const json first = admin->post("/api/v1/maps", {{"name", "a"}, {"tours", {tour}}}).json();
+  const json second = admin->post("/api/v1/maps", {{"name", "b"}, {"tours", {tour}}}).json();
+  const std::string second_job = second.at("job").at("id");
+  EXPECT_EQ(admin->post("/api/v1/jobs/" + second_job + "/cancel").status, 202);
+  EXPECT_EQ(wait_for_job(second_job).at("state"), "cancelled");
+  EXPECT_EQ(admin->get("/api/v1/maps/" + second.at("map").at("id").get<std::string>()).json().at("state"), "failed");
+  restart();
+  const json ended = wait_for_job(first.at("job").at("id"));
+  EXPECT_EQ(ended.at("state"), "done") << ended.dump();
+  EXPECT_EQ(admin->post("/api/v1/jobs/" + first.at("job").at("id").get<std::string>() + "/cancel").status, 409);
+  EXPECT_EQ(admin->get("/api/v1/jobs/none").status, 404);
+}
+
+}  // namespace
+}  // namespace homeward::server
