@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/driving/follow.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/landmarks.hpp"
+
+namespace homeward::agent {
+namespace {
+
+using homeward::testing::Landmarks;
+
+// Five views round a corner to the left; the robot starts a little behind the first.
+const std::vector<Pose2> kViews = {
+    {0.8, 0.0, 0.0}, {1.6, 0.1, 0.3}, {2.2, 0.5, 0.9}, {2.5, 1.2, 1.4}, {2.5, 2.0, kPi / 2.0}};
+
+Landmarks corner() { return homeward::testing::landmarks_around(kViews, 160, 5); }
+
+VisualPath path_through(const Landmarks& landmarks, bool with_edges) {
+  VisualPath path;
+  for (std::size_t i = 0; i < kViews.size(); ++i) {
+    path.views.push_back(seen_from(landmarks, kViews[i], 100 + i));
+    std::optional<wire::PathEdge> edge;
+    if (with_edges && i + 1 < kViews.size()) {
+      const Pose2 next = inverse(kViews[i]) * kViews[i + 1];
+      edge = wire::PathEdge{std::atan2(next.y_m, next.x_m), next.theta_rad, std::hypot(next.x_m, next.y_m), false};
+    }
+    path.edges.push_back(edge);
+  }
+  return path;
+}
+
+struct Drive {
+  bool at_end = false;
+  double error_m = 1e9;
+  double way_m = 0.0;
+  std::vector<int> indices;  // of the views homed to, in order
+};
+
+/// Drives towards the goal at each picture, ten a second, until the destination's view is reached.
+Drive drive(const Landmarks& landmarks, const VisualPath& path, double foreign_share, const Pose2& start) {
+  Drive result;
+  FollowState state;
+  const FollowConfig config;
+  Pose2 pose = start;
+  const Pose2 odometry_from_world = Pose2{3.0, -1.0, 2.0} * inverse(start);  // odometry starts anywhere
+  for (std::uint64_t k = 1; k <= 400; ++k) {
+    const auto seen = seen_from(landmarks, pose, 1000 + k, foreign_share);
+    const Pose2 odometry = odometry_from_world * pose;
+    const FollowResult followed = follow(state, path, seen, odometry, config, k);
+    if (result.indices.empty() || result.indices.back() != state.index) result.indices.push_back(state.index);
+    if (followed.at_end) {
+      result.at_end = true;
+      break;
+    }
+    const auto to = goal(state, odometry, config);
+    if (!to) continue;
+    constexpr double kStep_s = 0.1;
+    const double angle_rad = std::atan2(to->y(), to->x());
+    const double speed_mps = std::abs(angle_rad) > 0.9 ? 0.0 : std::clamp(0.6 * to->norm(), 0.15, 0.5);
+    const double turn_rad = std::clamp(1.8 * angle_rad, -1.0, 1.0) * kStep_s;
+    pose = pose * Pose2{speed_mps * kStep_s, 0.0, turn_rad};
+    result.way_m += speed_mps * kStep_s;
+  }
+  result.error_m = std::hypot(pose.x_m - kViews.back().x_m, pose.y_m - kViews.back().y_m);
+  return result;
+}
+
+TEST(Follow, PassesViewAfterViewRoundACornerAndEndsAtTheLast) {
+  const Landmarks landmarks = corner();
+  for (const bool with_edges : {true, false}) {
+    const Drive driven = drive(landmarks, path_through(landmarks, with_edges), 0.0, {0.0, 0.0, 0.0});
+    EXPECT_TRUE(driven.at_end) << "edges " << with_edges;
+    EXPECT_LT(driven.error_m, 0.2) << "edges " << with_edges;
+    EXPECT_LT(driven.way_m, 5.0) << "edges " << with_edges;
+    EXPECT_TRUE(std::is_sorted(driven.indices.begin(), driven.indices.end()));
+    EXPECT_EQ(driven.indices.back(), 4);
+  }
+}
+
+TEST(Follow, StandsThirtyPercentOfForeignFeatures) {
+  const Landmarks landmarks = corner();
+  const Drive driven = drive(landmarks, path_through(landmarks, true), 0.3, {0.0, 0.0, 0.2});
+  EXPECT_TRUE(driven.at_end);
+  EXPECT_LT(driven.error_m, 0.2);
+}
+
+TEST(Follow, TurnsRoundWhenTheFirstViewLiesBehind) {
+  const Landmarks landmarks = corner();
+  const Drive driven = drive(landmarks, path_through(landmarks, true), 0.0, {0.0, 0.1, 2.8});
+  EXPECT_TRUE(driven.at_end);
+  EXPECT_LT(driven.error_m, 0.2);
+}
+
+TEST(Follow, SkipsAViewThatIsNotToBeSeenWhenALaterOneIs) {
+  const Landmarks landmarks = corner();
+  VisualPath path = path_through(landmarks, false);
+  path.views[0] = seen_from(homeward::testing::landmarks_around(kViews, 160, 77), kViews[0], 1);
+  FollowState state;
+  follow(state, path, seen_from(landmarks, {}, 1), {}, {}, 1);
+  EXPECT_GE(state.index, 1);
+  const Drive driven = drive(landmarks, path, 0.0, {0.0, 0.0, 0.0});
+  EXPECT_TRUE(driven.at_end);
+  EXPECT_LT(driven.error_m, 0.2);
+}
+
+TEST(Follow, AForeignPictureSaysNothingAndMovesNothing) {
+  const Landmarks landmarks = corner();
+  const VisualPath path = path_through(landmarks, true);
+  const Landmarks elsewhere = homeward::testing::landmarks_around(kViews, 160, 77);
+  FollowState state;
+  const FollowResult result = follow(state, path, seen_from(elsewhere, {}, 1), {}, {}, 1);
+  EXPECT_FALSE(result.answered);
+  EXPECT_FALSE(result.at_end);
+  EXPECT_FALSE(result.vector);
+  EXPECT_EQ(state.index, 0);
+  EXPECT_FALSE(goal(state, {}, {}));
+}
+
+TEST(Follow, DrivesOnBlindlyOnlySoFar) {
+  const Landmarks landmarks = corner();
+  const VisualPath path = path_through(landmarks, true);
+  const FollowConfig config;
+  FollowState state;
+  follow(state, path, seen_from(landmarks, {}, 1), {}, config, 1);
+  ASSERT_TRUE(goal(state, {}, config));
+  EXPECT_TRUE(goal(state, {0.9 * config.blind_m, 0.0, 0.0}, config));
+  EXPECT_FALSE(goal(state, {1.1 * config.blind_m, 0.0, 0.0}, config));
+  // Way counts from picture to picture, there and back too.
+  const features::Appearance dark;
+  for (int k = 0; k < 4; ++k) {
+    const Pose2 odometry{k % 2 == 0 ? 0.45 : 0.0, 0.0, 0.0};
+    EXPECT_FALSE(follow(state, path, dark, odometry, config, 2).answered);
+  }
+  EXPECT_FALSE(goal(state, {0.0, 0.0, 0.0}, config));
+}
+
+TEST(Follow, IsTheSameForTheSameSeed) {
+  const Landmarks landmarks = corner();
+  const VisualPath path = path_through(landmarks, true);
+  const auto seen = seen_from(landmarks, {0.2, 0.1, 0.1}, 3, 0.3);
+  FollowState one;
+  FollowState two;
+  follow(one, path, seen, {}, {}, 9);
+  follow(two, path, seen, {}, {}, 9);
+  const auto goal_one = goal(one, {}, {});
+  const auto goal_two = goal(two, {}, {});
+  ASSERT_TRUE(goal_one);
+  ASSERT_TRUE(goal_two);
+  EXPECT_EQ(*goal_one, *goal_two);
+}
+
+}  // namespace
+}  // namespace homeward::agent

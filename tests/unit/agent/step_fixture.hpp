@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "agent/driving/step.hpp"
+#include "support/landmarks.hpp"
+#include "wire/appearance_blob.hpp"
+
+namespace homeward::agent {
+
+/// A robot in open space whose ideal wheels do what they are told; the test decides what it is given.
+class StepTest : public ::testing::Test {
+ protected:
+  static constexpr Milliseconds kTick_ms = 50;
+
+  StepTest() : landmarks_(homeward::testing::landmarks_around(views(), 120, 3)) {
+    config_.feature_config_id = "hw1-test";
+  }
+
+  static std::vector<Pose2> views() { return {{0.8, 0.0, 0.0}, {1.6, 0.0, 0.0}, {2.4, 0.0, 0.0}}; }
+
+  [[nodiscard]] wire::MissionOrder mission(const std::string& id, std::int64_t epoch, std::int64_t seq) const {
+    wire::MissionOrder order;
+    order.mission = MissionId(id);
+    order.order = {epoch, seq};
+    order.feature_config_id = config_.feature_config_id;
+    order.valid_for_ms = 1500;
+    order.speed_limit_mps = 0.5;
+    order.label = "kitchen";
+    const auto poses = views();
+    for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
+      wire::PathPlace place;
+      place.place = PlaceId("p" + std::to_string(i));
+      place.image = ImageId("tour/" + std::to_string(i) + ".jpg");
+      place.appearance = wire::encode_appearance(seen_from(landmarks_, poses[i], 50 + i));
+      place.next = wire::PathEdge{0.0, 0.0, 0.8, false};
+      order.path.push_back(place);
+    }
+    order.path.back().next.reset();
+    order.final_image = ImageId("tour/9.jpg");
+    order.final_appearance = wire::encode_appearance(seen_from(landmarks_, poses.back(), 59));
+    return order;
+  }
+
+  static wire::Permit permit(const std::string& id, std::int64_t epoch, std::int64_t seq) {
+    return {MissionId(id), {epoch, seq}, 1500};
+  }
+
+  /// One tick later. Fresh picture and sweep unless switched off; the messages given, and a word of the server.
+  Outputs tick(std::vector<wire::ServerMessage> messages = {}) {
+    now_ms_ += kTick_ms;
+    Inputs inputs;
+    inputs.link_up = link_up_;
+    inputs.odometry = pose_;
+    inputs.messages = std::move(messages);
+    if (server_talks_) inputs.messages.emplace_back(wire::BeliefReport{});
+    if (pictures_) {
+      const auto count = static_cast<std::uint64_t>(now_ms_);
+      auto seen = covered_ ? features::Appearance() : seen_from(landmarks_, pose_, count);
+      inputs.picture = SeenPicture{now_ms_, std::make_shared<const features::Appearance>(std::move(seen)), pose_};
+    }
+    if (sweeps_) {
+      Scan scan;
+      scan.ranges_m = ranges_m_;
+      scan.angle_step_rad = 2.0 * kPi / static_cast<double>(ranges_m_.size());
+      inputs.scan = SeenScan{now_ms_, scan};
+    }
+    const Outputs outputs = step(state_, inputs, config_, now_ms_);
+    const double seconds = static_cast<double>(kTick_ms) / 1000.0;
+    pose_ = pose_ * Pose2{outputs.motion.speed_mps * seconds, 0.0, outputs.motion.turn_radps * seconds};
+    return outputs;
+  }
+
+  /// Sends a mission and drives for a moment; fails the test when nothing moves.
+  void set_off(std::int64_t epoch = 1, std::int64_t seq = 1) {
+    seq_ = seq;
+    tick({mission("m1", epoch, seq)});
+    double speed_mps = 0.0;
+    for (int k = 0; k < 4; ++k) speed_mps = tick({permit("m1", epoch, ++seq_)}).motion.speed_mps;
+    ASSERT_GT(speed_mps, 0.05) << state_.reason;
+    ASSERT_EQ(state_.drive, wire::DriveState::kDriving);
+  }
+
+  static bool stands(const Outputs& outputs) {
+    return outputs.motion.speed_mps == 0.0 && outputs.motion.turn_radps == 0.0;
+  }
+
+  /// Ticks until it no longer drives, with permits when asked; milliseconds gone, or -1 when it never stopped.
+  Milliseconds until_stopped(bool permits, Milliseconds at_most_ms = 5000) {
+    const Milliseconds from_ms = now_ms_;
+    while (now_ms_ - from_ms < at_most_ms) {
+      std::vector<wire::ServerMessage> messages;
+      if (permits) messages.emplace_back(permit("m1", state_.newest.epoch, ++seq_));
+      const Outputs outputs = tick(std::move(messages));
+      if (state_.drive == wire::DriveState::kDriving) continue;
+      EXPECT_TRUE(stands(outputs));
+      return now_ms_ - from_ms;
+    }
+    return -1;
+  }
+
+  /// Everything is fine again, and permits come: it must not move.
+  void expect_stays() {
+    link_up_ = server_talks_ = pictures_ = sweeps_ = true;
+    covered_ = false;
+    const Pose2 before = pose_;
+    for (int k = 0; k < 40; ++k) {
+      EXPECT_TRUE(stands(tick({permit("m1", state_.newest.epoch, ++seq_)})));
+      EXPECT_NE(state_.drive, wire::DriveState::kDriving);
+    }
+    EXPECT_DOUBLE_EQ(pose_.x_m, before.x_m);
+  }
+
+  DrivingConfig config_;
+  DrivingState state_;
+  homeward::testing::Landmarks landmarks_;
+  Milliseconds now_ms_ = 1'000'000;
+  std::int64_t seq_ = 1;
+  Pose2 pose_;
+  bool link_up_ = true;
+  bool server_talks_ = true;
+  bool pictures_ = true;
+  bool sweeps_ = true;
+  bool covered_ = false;
+  std::vector<float> ranges_m_ = std::vector<float>(90, 5.0F);
+};
+
+}  // namespace homeward::agent

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/driving/step.hpp"
+
+#include <gtest/gtest.h>
+
+#include "unit/agent/step_fixture.hpp"
+
+namespace homeward::agent {
+namespace {
+
+using wire::DriveState;
+
+TEST_F(StepTest, StandsWithoutAMission) {
+  for (int k = 0; k < 20; ++k) EXPECT_TRUE(stands(tick({permit("m1", 1, k + 1)})));
+  EXPECT_EQ(state_.drive, DriveState::kIdle);
+}
+
+TEST_F(StepTest, DrivesAMissionToItsEnd) {
+  set_off();
+  for (int k = 0; k < 400 && state_.drive == DriveState::kDriving; ++k) {
+    const Outputs outputs = tick({permit("m1", 1, ++seq_)});
+    EXPECT_LE(outputs.motion.speed_mps, 0.5);
+  }
+  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+  EXPECT_LT(std::hypot(pose_.x_m - 2.4, pose_.y_m), 0.2);
+  expect_stays();
+}
+
+TEST_F(StepTest, TakesTheHeadingOfTheDestinationWhenItDocks) {
+  wire::MissionOrder order = mission("m1", 1, 1);
+  order.dock = true;
+  order.final_appearance = wire::encode_appearance(seen_from(landmarks_, {2.4, 0.0, 1.2}, 7));
+  tick({order});
+  for (int k = 0; k < 600 && state_.drive != DriveState::kArrived; ++k) tick({permit("m1", 1, ++seq_)});
+  ASSERT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+  EXPECT_LT(std::abs(wrap_angle(pose_.theta_rad - 1.2)), 0.12);
+}
+
+TEST_F(StepTest, ALinkThatIsDownStopsAtOnce) {
+  set_off();
+  link_up_ = false;
+  EXPECT_TRUE(stands(tick()));
+  EXPECT_EQ(state_.drive, DriveState::kStopped);
+  EXPECT_EQ(state_.reason, "The connection to the house is lost.");
+  expect_stays();
+}
+
+TEST_F(StepTest, ASilentServerStopsWithinItsLimit) {
+  set_off();
+  server_talks_ = false;
+  const Milliseconds after_ms = until_stopped(false);
+  EXPECT_GE(after_ms, config_.link_silence_ms);
+  EXPECT_LE(after_ms, config_.link_silence_ms + kTick_ms);
+  EXPECT_EQ(state_.reason, "The house has fallen silent.");
+  expect_stays();
+}
+
+TEST_F(StepTest, APermitThatIsNotRenewedRunsOut) {
+  set_off();  // the last permit came with the last tick
+  const Milliseconds after_ms = until_stopped(false);
+  EXPECT_GE(after_ms, 1500);
+  EXPECT_LE(after_ms, 1500 + kTick_ms);
+  EXPECT_EQ(state_.reason, "The permit to drive has run out.");
+  expect_stays();
+}
+
+TEST_F(StepTest, ACameraThatFallsSilentStops) {
+  set_off();
+  pictures_ = false;
+  const Milliseconds after_ms = until_stopped(true);
+  EXPECT_GE(after_ms, config_.frame_silence_ms);
+  EXPECT_LE(after_ms, config_.frame_silence_ms + kTick_ms);
+  EXPECT_EQ(state_.reason, "The camera gives no pictures.");
+  expect_stays();
+}
+
+TEST_F(StepTest, PicturesThatComeTooLateAreAsGoodAsNone) {
+  set_off();
+  pictures_ = false;
+  const auto old = std::make_shared<const features::Appearance>(seen_from(landmarks_, pose_, 1));
+  Inputs inputs;
+  inputs.link_up = true;
+  inputs.odometry = pose_;
+  inputs.messages = {permit("m1", 1, ++seq_)};
+  inputs.scan = state_.scan;
+  inputs.scan->taken_ms = now_ms_ + 10;
+  inputs.picture = SeenPicture{now_ms_ - config_.frame_silence_ms, old, pose_};
+  EXPECT_TRUE(stands(step(state_, inputs, config_, now_ms_ + 10)));
+  EXPECT_EQ(state_.drive, DriveState::kStopped);
+  EXPECT_EQ(state_.reason, "The camera gives no pictures.");
+}
+
+TEST_F(StepTest, ARangeSensorThatFallsSilentStops) {
+  set_off();
+  sweeps_ = false;
+  const Milliseconds after_ms = until_stopped(true);
+  EXPECT_GE(after_ms, config_.scan_silence_ms);
+  EXPECT_LE(after_ms, config_.scan_silence_ms + kTick_ms);
+  EXPECT_EQ(state_.reason, "The range sensor gives no readings.");
+  expect_stays();
+}
+
+TEST_F(StepTest, WithoutAnySweepItNeverSetsOff) {
+  sweeps_ = false;
+  EXPECT_TRUE(stands(tick({mission("m1", 1, 1)})));
+  EXPECT_EQ(state_.drive, DriveState::kStopped);
+}
+
+TEST_F(StepTest, AStopIsAnsweredAndObeyedInTheSameStep) {
+  set_off();
+  const Outputs outputs = tick({wire::StopOrder{"s7", 1, "", "anna"}});
+  EXPECT_TRUE(stands(outputs));
+  ASSERT_EQ(outputs.messages.size(), 1U);
+  ASSERT_TRUE(std::holds_alternative<wire::Stopped>(outputs.messages[0]));
+  EXPECT_EQ(std::get<wire::Stopped>(outputs.messages[0]).stop_id, "s7");
+  EXPECT_EQ(state_.drive, DriveState::kStopped);
+  EXPECT_NE(state_.reason.find("anna"), std::string::npos);
+  expect_stays();
+  EXPECT_TRUE(stands(tick({mission("m1", 1, 1)})));  // the mission of before the stop, once more
+  EXPECT_EQ(state_.drive, DriveState::kStopped);
+  set_off(1, seq_ + 1);  // a newer mission moves it again
+}
+
+TEST_F(StepTest, AStopOfAnOlderEpochStopsTooAndIsAnsweredWhileStanding) {
+  set_off(4, 1);
+  EXPECT_TRUE(stands(tick({wire::StopOrder{"s1", 2, "Enough.", "anna"}})));
+  EXPECT_EQ(state_.reason, "Enough.");
+  EXPECT_EQ(tick({wire::StopOrder{"s2", 4, "", "bert"}}).messages.size(), 1U);
+}
+
+TEST_F(StepTest, OrdersOfAnOlderEpochOrNumberAreIgnored) {
+  set_off(3, 10);
+  tick({mission("older epoch", 2, 99), mission("older number", 3, 10)});
+  ASSERT_TRUE(state_.mission);
+  EXPECT_EQ(state_.mission->id.str(), "m1");
+  // Permits that are old, repeated, of another mission or of another epoch renew nothing.
+  const Milliseconds ends_ms = state_.permit_ends_ms;
+  tick({permit("m1", 3, seq_), permit("m1", 2, 99), permit("m2", 3, seq_ + 1), permit("m1", 4, 1)});
+  EXPECT_EQ(state_.permit_ends_ms, ends_ms);
+  tick({permit("m1", 3, seq_ + 1)});
+  EXPECT_GT(state_.permit_ends_ms, ends_ms);
+}
+
+TEST_F(StepTest, ANewConnectionStopsAndItsOlderMissionsMoveNothing) {
+  set_off(1, 1);
+  EXPECT_TRUE(stands(tick({wire::Welcome{"server", RobotId("r1"), 2, 200}})));
+  EXPECT_EQ(state_.drive, DriveState::kStopped);
+  EXPECT_EQ(state_.reason, "The connection to the house was made anew.");
+  expect_stays();
+  EXPECT_TRUE(stands(tick({mission("m1", 1, seq_ + 100)})));
+  EXPECT_EQ(state_.drive, DriveState::kStopped);
+  set_off(2, 1);
+}
+
+TEST_F(StepTest, AWelcomeOfTheSameEpochChangesNothing) {
+  set_off(2, 1);
+  tick({wire::Welcome{"server", RobotId("r1"), 2, 200}});
+  EXPECT_EQ(state_.drive, DriveState::kDriving);
+}
+
+TEST_F(StepTest, RefusesAMissionMadeWithOtherFeatures) {
+  wire::MissionOrder order = mission("m9", 5, 6);
+  order.feature_config_id = "hw1-other";
+  const Outputs outputs = tick({order});
+  EXPECT_TRUE(stands(outputs));
+  ASSERT_EQ(outputs.messages.size(), 1U);
+  ASSERT_TRUE(std::holds_alternative<wire::MissionRefused>(outputs.messages[0]));
+  const auto& refused = std::get<wire::MissionRefused>(outputs.messages[0]);
+  EXPECT_EQ(refused.mission.str(), "m9");
+  EXPECT_EQ(refused.order, (wire::Order{5, 6}));
+  EXPECT_NE(refused.reason.find("rebuild"), std::string::npos);
+  EXPECT_EQ(state_.drive, DriveState::kIdle);
+}
+
+TEST_F(StepTest, RefusesAMissionWhoseViewsAreDamagedAndStopsTheOneUnderWay) {
+  set_off();
+  wire::MissionOrder order = mission("m2", 1, seq_ + 1);
+  order.path[1].appearance.resize(40);
+  const Outputs outputs = tick({order});
+  EXPECT_TRUE(stands(outputs));
+  ASSERT_EQ(outputs.messages.size(), 1U);
+  EXPECT_TRUE(std::holds_alternative<wire::MissionRefused>(outputs.messages[0]));
+  EXPECT_EQ(state_.drive, DriveState::kStopped);
+}
+
+TEST_F(StepTest, ACoveredCameraStandsAndGivesUpAfterAWhile) {
+  set_off();
+  covered_ = true;
+  EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));  // at once
+  EXPECT_EQ(state_.drive, DriveState::kDriving);
+  const Milliseconds after_ms = until_stopped(true, 10'000);
+  EXPECT_GT(after_ms, 0);
+  EXPECT_LE(after_ms, config_.blind_ms + 2 * kTick_ms);
+  EXPECT_EQ(state_.drive, DriveState::kFailed);
+  expect_stays();
+}
+
+TEST_F(StepTest, ACameraUncoveredInTimeDrivesOn) {
+  set_off();
+  covered_ = true;
+  for (int k = 0; k < 10; ++k) EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
+  covered_ = false;
+  double speed_mps = 0.0;
+  for (int k = 0; k < 4; ++k) speed_mps = tick({permit("m1", 1, ++seq_)}).motion.speed_mps;
+  EXPECT_GT(speed_mps, 0.05);
+}
+
+TEST_F(StepTest, TheRangeSensorHasTheLastWord) {
+  set_off();
+  ranges_m_.assign(90, 0.4F);  // walled in all round
+  for (int k = 0; k < 5; ++k) EXPECT_LE(tick({permit("m1", 1, ++seq_)}).motion.speed_mps, 0.0);
+  ASSERT_TRUE(state_.min_range_m);
+  EXPECT_NEAR(*state_.min_range_m, 0.4, 1e-6);
+}
+
+TEST_F(StepTest, AWayThatStaysBlockedFailsTheMission) {
+  config_.stuck_ms = 2000;
+  set_off();
+  ranges_m_.assign(90, 0.4F);
+  const Milliseconds after_ms = until_stopped(true, 10'000);
+  EXPECT_GT(after_ms, 0);
+  EXPECT_LE(after_ms, 2 * config_.stuck_ms);  // the nearest view may count as passed in the meantime
+  EXPECT_EQ(state_.reason, "The way is blocked.");
+  expect_stays();
+}
+
+TEST_F(StepTest, IsTheSameForTheSameInputs) {
+  set_off();
+  DrivingState copy = state_;
+  Inputs inputs;
+  inputs.link_up = true;
+  inputs.odometry = pose_;
+  inputs.picture =
+      SeenPicture{now_ms_, std::make_shared<const features::Appearance>(seen_from(landmarks_, pose_, 5)), pose_};
+  const Outputs one = step(state_, inputs, config_, now_ms_ + 10);
+  const Outputs two = step(copy, inputs, config_, now_ms_ + 10);
+  EXPECT_EQ(one.motion.speed_mps, two.motion.speed_mps);
+  EXPECT_EQ(one.motion.turn_radps, two.motion.turn_radps);
+}
+
+}  // namespace
+}  // namespace homeward::agent
