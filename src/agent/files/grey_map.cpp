@@ -63,10 +63,11 @@ Result<Image> read_grey_map(const std::filesystem::path& file) {
   if (*width > kMaxSide_px || *height > kMaxSide_px) {
     return fail(ErrorCode::kImageTooLarge, "A floor picture may have at most 20000 x 20000 cells.", file.string());
   }
-  Image image(*width, *height, 1);
-  if (text->size() < header.pixels() + image.data.size()) {
+  const auto count = static_cast<std::size_t>(*width) * static_cast<std::size_t>(*height);
+  if (text->size() < header.pixels() + count) {
     return fail(ErrorCode::kTruncatedImage, "The picture ends before its last row.", file.string());
   }
+  Image image(*width, *height, 1);
   std::copy_n(text->begin() + static_cast<std::ptrdiff_t>(header.pixels()), image.data.size(), image.data.begin());
   return image;
 }
