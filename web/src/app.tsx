@@ -16,7 +16,7 @@ import { RobotsPage } from './features/robots/robots_page';
 import { SettingsPage } from './features/settings/settings_page';
 import { ToursPage } from './features/tours/tours_page';
 import { chosenMap } from './lib/chosen';
-import { kViews, navigate, path, viewOf, type View } from './lib/router';
+import { follow, kViews, path, viewOf, type View } from './lib/router';
 import { ageText } from './lib/words';
 
 const kPages: Readonly<Record<View, { title: string; page: ComponentType }>> = {
@@ -107,17 +107,6 @@ function Shell() {
       </div>
     </div>
   );
-}
-
-/** Links change the view without loading the page again, unless the reader asks for another window. */
-function follow(event: MouseEvent): void {
-  if (event.ctrlKey || event.metaKey || event.shiftKey || !(event.currentTarget instanceof HTMLAnchorElement))
-    return;
-  event.preventDefault();
-  navigate(event.currentTarget.pathname);
-  scrollTo(0, 0);
-  // The new page begins here for keyboards and screen readers.
-  requestAnimationFrame(() => document.getElementById('content')?.focus({ preventScroll: true }));
 }
 
 function ConnectionNotice() {

@@ -18,4 +18,15 @@ export function navigate(to: string, replace = false): void {
   path.value = location.pathname;
 }
 
+/** A press on a link changes the view without loading the page again, unless the reader asks for another window. */
+export function follow(event: MouseEvent): void {
+  if (event.ctrlKey || event.metaKey || event.shiftKey || !(event.currentTarget instanceof HTMLAnchorElement))
+    return;
+  event.preventDefault();
+  navigate(event.currentTarget.pathname);
+  scrollTo(0, 0);
+  // The new page begins here for keyboards and screen readers.
+  requestAnimationFrame(() => document.getElementById('content')?.focus({ preventScroll: true }));
+}
+
 addEventListener('popstate', () => (path.value = location.pathname));

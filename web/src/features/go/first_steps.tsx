@@ -4,6 +4,7 @@ import { Icon } from '../../components/icons';
 import { Notice } from '../../components/notice';
 import { maps, robots } from '../../lib/chosen';
 import { atLeast } from '../../lib/roles';
+import { follow } from '../../lib/router';
 
 /** What a new house still needs before a chair can be sent, with where to do it. */
 export function FirstSteps() {
@@ -31,7 +32,7 @@ export function FirstSteps() {
               {one.done && <span class="hidden-text"> (done)</span>}
             </span>
             {!one.done && (
-              <a class="button" href={one.to}>
+              <a class="button" href={one.to} onClick={follow}>
                 {one.to === '/tours' ? 'To Tours' : 'To Robots'}
                 <span class="hidden-text">: {one.what}</span>
               </a>

@@ -13,6 +13,21 @@ export function newestJob(jobs: readonly Job[], map: string): Job | null {
   return own.reduce<Job | null>((best, job) => (best && best.created_us > job.created_us ? best : job), null);
 }
 
+const kStages: Readonly<Record<string, string>> = {
+  features: 'Looking at the pictures',
+  compare: 'Comparing the pictures',
+  cluster: 'Finding the places',
+  places: 'Finding the places',
+  thumbnails: 'Making small pictures',
+};
+
+/** What a build does now, for people; stages that this version does not know are shown as they are called. */
+export function stageWords(job: Job): string {
+  if (job.state === 'queued') return 'Waiting for its turn';
+  const { stage } = job.progress;
+  return kStages[stage] ?? sentence(stage).replace(/\.$/, '');
+}
+
 /** How the building of a map goes, or why it ended without one. */
 export function BuildProgress({ map, mayCancel }: { map: MapInfo; mayCancel: boolean }) {
   const job = newestJob(connection.value.house?.jobs ?? [], map.id);
@@ -25,8 +40,7 @@ export function BuildProgress({ map, mayCancel }: { map: MapInfo; mayCancel: boo
       </Notice>
     );
   if (job.state === 'cancelled') return <Notice tone="warn">Building was cancelled.</Notice>;
-  const words =
-    job.state === 'queued' ? 'Waiting for its turn' : sentence(job.progress.stage).replace(/\.$/, '');
+  const words = stageWords(job);
   return (
     <div class="build stack tight">
       <Bar share={job.progress.share} label={`Building ${map.name}`} />

@@ -23,7 +23,12 @@ export function NewTour({ tours, onEnd }: { tours: readonly Tour[]; onEnd: () =>
   const submit = (event: Event) => {
     event.preventDefault();
     if (!files || !ready || running) return;
-    void uploadTour(continued?.name ?? name.trim(), files, cameraFile, continued).then(onEnd);
+    void uploadTour(continued?.name ?? name.trim(), files, cameraFile, continued).then(() => {
+      // The name is asked for again, so that a second press cannot send the same tour twice.
+      if (upload.peek().kind === 'done') setName('');
+      setGoOn('');
+      onEnd();
+    });
   };
   return (
     <section class="card stack" aria-labelledby="new-tour">
