@@ -95,6 +95,7 @@ struct HttpServer::State {
   asio::awaitable<void> serve(beast::tcp_stream stream);
   asio::awaitable<bool> exchange(beast::tcp_stream& stream, beast::flat_buffer& buffer, const std::string& remote);
   asio::awaitable<void> upgrade(beast::tcp_stream& stream, Parser& parser, std::shared_ptr<Request> request);
+  asio::awaitable<void> refuse(beast::tcp_stream& stream, Response response, unsigned version, bool head);
   asio::awaitable<bool> write(beast::tcp_stream& stream, Response response, unsigned version, bool head, bool keep);
   void tick(const std::shared_ptr<asio::steady_timer>& timer, int period_ms,
             const std::shared_ptr<std::function<void()>>& call);
@@ -163,7 +164,7 @@ asio::awaitable<bool> HttpServer::State::exchange(beast::tcp_stream& stream, bea
   co_await http::async_read_header(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
   if (error == http::error::header_limit) {
     Response large = problem(431, "Header too large", "The head of the request is larger than 16 KiB.");
-    co_await write(stream, std::move(large), 11, false, false);
+    co_await refuse(stream, std::move(large), 11, false);
     co_return false;
   }
   if (error == http::error::end_of_stream || error == asio::error::operation_aborted ||
@@ -200,8 +201,11 @@ asio::awaitable<bool> HttpServer::State::exchange(beast::tcp_stream& stream, bea
     }
   }
   if (auto* refusal = std::get_if<Response>(&admitted)) {
-    const bool without_body = parser.is_done();
-    const bool keep = without_body && parser.get().keep_alive();
+    if (!parser.is_done()) {
+      co_await refuse(stream, std::move(*refusal), version, head);
+      co_return false;
+    }
+    const bool keep = parser.get().keep_alive();
     const bool kept = co_await write(stream, std::move(*refusal), version, head, keep);
     co_return kept;
   }
@@ -215,7 +219,7 @@ asio::awaitable<bool> HttpServer::State::exchange(beast::tcp_stream& stream, bea
     co_await http::async_read(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
     if (error == http::error::body_limit) {
       Response large = problem({ErrorCode::kTooLarge, "The body is larger than this route takes.", request->path});
-      co_await write(stream, std::move(large), version, head, false);
+      co_await refuse(stream, std::move(large), version, head);
       co_return false;
     }
     if (error) co_return false;
@@ -229,6 +233,22 @@ asio::awaitable<bool> HttpServer::State::exchange(beast::tcp_stream& stream, bea
   Response response = std::move(*waiter->answer);
   const bool kept = co_await write(stream, std::move(response), version, head, keep);
   co_return kept;
+}
+
+/// Answers before the request was read to its end, then takes what still comes for a moment: closing at once would make
+/// the other end's system throw the answer away.
+asio::awaitable<void> HttpServer::State::refuse(beast::tcp_stream& stream, Response response, unsigned version,
+                                                bool head) {
+  co_await write(stream, std::move(response), version, head, false);
+  error_code error;
+  stream.socket().shutdown(tcp::socket::shutdown_send, error);
+  stream.expires_after(std::chrono::seconds(2));
+  std::array<char, 16384> thrown_away{};
+  std::size_t total = 0;
+  while (!error && total < kMaxImageBody) {
+    total +=
+        co_await stream.async_read_some(asio::buffer(thrown_away), asio::redirect_error(asio::use_awaitable, error));
+  }
 }
 
 asio::awaitable<bool> HttpServer::State::write(beast::tcp_stream& stream, Response response, unsigned version,

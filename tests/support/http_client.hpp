@@ -98,7 +98,16 @@ class SocketClient {
     websocket::response_type response;
     boost::beast::error_code error;
     stream_.handshake(response, host, path, error);
-    return static_cast<int>(response.result_int());
+    if (!error) return static_cast<int>(response.result_int());
+    // Beast tells nothing of a refusal that has a body: ask again in plain HTTP.
+    HttpClient plain(port);
+    plain.defaults = headers;
+    return plain
+        .get(path, {{"Connection", "Upgrade"},
+                    {"Upgrade", "websocket"},
+                    {"Sec-WebSocket-Version", "13"},
+                    {"Sec-WebSocket-Key", "MDEyMzQ1Njc4OWFiY2RlZg=="}})
+        .status;
   }
 
   void send(const std::string& bytes, bool text) {

@@ -105,7 +105,8 @@ TEST_F(TourTest, AMapIsBuiltAskedAndEdited) {
   EXPECT_EQ(admin->get(root + "/history").json().at("edits")[0].at("by"), "anna");
 
   json block = {{"edits", json::array()}};
-  for (const json& edge : graph.json().at("edges")) {
+  const json edges = graph.json().at("edges");
+  for (const json& edge : edges) {
     if (edge.at("to") == last) {
       block["edits"].push_back({{"kind", "block_edge"}, {"from", edge.at("from")}, {"to", last}, {"blocked", true}});
     }
