@@ -6,6 +6,7 @@
 
 #include "agent/driving/body.hpp"
 #include "agent/driving/scan.hpp"
+#include "agent/driving/step.hpp"
 #include "camera/camera_config.hpp"
 #include "core/image.hpp"
 #include "core/pose2.hpp"
@@ -15,6 +16,7 @@ namespace homeward::agent {
 
 /// What a robot knows about itself and its surroundings at one moment.
 struct Reading {
+  Milliseconds t_ms = 0;  // by the driver's clock: the machine's steady one, or simulated time
   Pose2 odometry;
   double speed_mps = 0.0;
   std::optional<Scan> scan;  // a new sweep, when there is one
@@ -22,6 +24,7 @@ struct Reading {
 
 /// A picture with the odometry of the moment at which it was taken.
 struct TakenPicture {
+  Milliseconds t_ms = 0;
   Image picture;
   Pose2 odometry;
 };

@@ -22,7 +22,7 @@ class FolderDriver final : public Driver {
 
   [[nodiscard]] const camera::CameraConfig& camera() const override { return camera_; }
   [[nodiscard]] Body body() const override { return {}; }
-  Reading read() override { return {}; }
+  Reading read() override { return {now_ms(), {}, 0.0, std::nullopt}; }
   void command(const Motion&) override {}
 
   Result<std::optional<TakenPicture>> next_picture(std::stop_token stop) override {
@@ -33,11 +33,15 @@ class FolderDriver final : public Driver {
     taken_ = Clock::now();
     auto picture = read_picture(files_[next_++]);
     if (!picture) return pass_on(picture);
-    return std::optional(TakenPicture{std::move(*picture), {}});
+    return std::optional(TakenPicture{now_ms(), std::move(*picture), {}});
   }
 
  private:
   using Clock = std::chrono::steady_clock;
+  static Milliseconds now_ms() {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now().time_since_epoch()).count();
+  }
+
   std::vector<std::filesystem::path> files_;
   camera::CameraConfig camera_;
   Clock::duration period_;

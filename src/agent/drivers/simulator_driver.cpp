@@ -18,6 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kPicturePeriod = std::chrono::milliseconds(100);
 constexpr auto kTruthPeriod = std::chrono::milliseconds(100);
+constexpr double kPictureLife_s = 0.12;
 constexpr auto kCommandLife = std::chrono::milliseconds(500);
 
 class SimulatorDriver final : public Driver {
@@ -34,19 +35,25 @@ class SimulatorDriver final : public Driver {
   Reading read() override {
     const std::lock_guard lock(mutex_);
     const auto now = Clock::now();
-    if (now - commanded_ > kCommandLife) robot_.command({});
+    if (now - commanded_ > kCommandLife) {
+      moves_ = false;
+      robot_.command({});
+    }
     constexpr double kLongestStep_s = 0.1;
-    const double seconds = std::min(kLongestStep_s, std::chrono::duration<double>(now - advanced_).count());
+    double seconds = std::min(kLongestStep_s, std::chrono::duration<double>(now - advanced_).count());
     advanced_ = now;
+    // A robot under way sees ten pictures a second of its own time: where rendering cannot keep up, its time waits.
+    if (moves_) seconds = std::min(seconds, until_picture_s_);
+    until_picture_s_ -= seconds;
     if (seconds > 0.0) robot_.advance(seconds);
     tell_truth(now);
-    Reading reading{robot_.vehicle().odometry(), robot_.vehicle().motion().speed_mps, robot_.sweep()};
-    return reading;
+    return {simulated_ms(), robot_.vehicle().odometry(), robot_.vehicle().motion().speed_mps, robot_.sweep()};
   }
 
   void command(const Motion& motion) override {
     const std::lock_guard lock(mutex_);
     commanded_ = Clock::now();
+    moves_ = motion.speed_mps != 0.0 || motion.turn_radps != 0.0;
     robot_.command(motion);
   }
 
@@ -56,12 +63,16 @@ class SimulatorDriver final : public Driver {
     pause_.wait_until(lock, stop, pictured_ + kPicturePeriod, [] { return false; });
     if (stop.stop_requested()) return std::optional<TakenPicture>();
     pictured_ = Clock::now();
+    until_picture_s_ = kPictureLife_s;
     const SimulatedRobot::View view = robot_.view();
+    const Milliseconds taken_ms = simulated_ms();
     lock.unlock();
-    return std::optional(TakenPicture{robot_.render(view), view.odometry});
+    return std::optional(TakenPicture{taken_ms, robot_.render(view), view.odometry});
   }
 
  private:
+  [[nodiscard]] Milliseconds simulated_ms() const { return static_cast<Milliseconds>(1000.0 * robot_.seconds()); }
+
   void tell_truth(Clock::time_point now) {
     if (!truth_.is_open() || now - told_ < kTruthPeriod) return;
     told_ = now;
@@ -89,6 +100,8 @@ class SimulatorDriver final : public Driver {
   Clock::time_point commanded_ = Clock::now();
   Clock::time_point pictured_ = Clock::now();
   Clock::time_point told_;
+  bool moves_ = false;
+  double until_picture_s_ = kPictureLife_s;  // that simulated time may still pass before the next picture
 };
 
 }  // namespace

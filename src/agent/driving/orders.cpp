@@ -41,9 +41,7 @@ struct Clerk {
     state.follow = {};
     state.seen = {};
     state.docking = false;
-    state.last_answer_ms = now_ms;
-    state.last_gain_ms = now_ms;
-    state.last_picture_ms = now_ms;
+    state.pictured = false;
     state.last_message_ms = now_ms;
   }
 

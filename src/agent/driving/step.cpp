@@ -18,6 +18,7 @@ void take_picture(DrivingState& state, const SeenPicture& picture, const Driving
   if (state.drive != wire::DriveState::kDriving) return;
   const int index_before = state.follow.index;
   state.covered = false;
+  state.pictured = true;
   state.seen = follow(state.follow, state.mission->path, *picture.appearance, picture.odometry, config.follow, state.pictures);
   if (state.seen.answered) {
     state.last_answer_ms = now_ms;
@@ -38,12 +39,13 @@ void take_picture(DrivingState& state, const SeenPicture& picture, const Driving
 
 /// Why the robot must not drive any more, or nothing.
 std::optional<std::string> reason_to_stop(const DrivingState& state, const Inputs& inputs, const DrivingConfig& config,
-                                          Milliseconds now_ms) {
+                                          Milliseconds now_ms, Milliseconds sensors_ms) {
   if (!inputs.link_up) return "The connection to the house is lost.";
   if (now_ms - state.last_message_ms > config.link_silence_ms) return "The house has fallen silent.";
   if (now_ms > state.permit_ends_ms) return "The permit to drive has run out.";
-  if (now_ms - state.last_picture_ms > config.frame_silence_ms) return "The camera gives no pictures.";
-  if (!state.scan || now_ms - state.scan->taken_ms > config.scan_silence_ms) return "The range sensor gives no readings.";
+  const Milliseconds patience_ms = state.pictured ? config.frame_silence_ms : config.first_frame_ms;
+  if (sensors_ms - state.last_picture_ms > patience_ms) return "The camera gives no pictures.";
+  if (!state.scan || sensors_ms - state.scan->taken_ms > config.scan_silence_ms) return "The range sensor gives no readings.";
   return std::nullopt;
 }
 
@@ -118,7 +120,13 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
 
 Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds now_ms) {
   Outputs outputs;
+  const Milliseconds sensors_ms = inputs.sensors_now_ms.value_or(now_ms);
+  const std::shared_ptr<const Mission> before = state.mission;
   obey(state, inputs.messages, config, now_ms, outputs);
+  if (state.mission != before) {
+    state.last_answer_ms = state.last_gain_ms = state.last_picture_ms = sensors_ms;
+    state.gain_from = inputs.odometry;
+  }
   if (inputs.scan) state.scan = inputs.scan;
   std::vector<Eigen::Vector2d> points_m;
   if (state.scan) points_m = hit_points(state.scan->scan);
@@ -126,14 +134,14 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   for (const Eigen::Vector2d& point : points_m) {
     state.min_range_m = std::min(state.min_range_m.value_or(1e9), point.norm());
   }
-  if (inputs.picture) take_picture(state, *inputs.picture, config, now_ms);
-  std::erase_if(state.answers_ms, [&](Milliseconds then) { return now_ms - then > 1000; });
+  if (inputs.picture) take_picture(state, *inputs.picture, config, sensors_ms);
+  std::erase_if(state.answers_ms, [&](Milliseconds then) { return sensors_ms - then > 1000; });
   if (state.drive != wire::DriveState::kDriving) return outputs;
-  if (auto reason = reason_to_stop(state, inputs, config, now_ms)) {
+  if (auto reason = reason_to_stop(state, inputs, config, now_ms, sensors_ms)) {
     end_mission(state, wire::DriveState::kStopped, std::move(*reason));
     return outputs;
   }
-  judge_progress(state, config, now_ms);
+  judge_progress(state, config, sensors_ms);
   if (state.drive != wire::DriveState::kDriving) return outputs;
   const Motion wanted = drive(state, inputs, config, points_m);
   if (state.drive == wire::DriveState::kDriving) outputs.motion = made_safe(wanted, config.body, points_m);

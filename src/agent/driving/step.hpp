@@ -25,7 +25,8 @@ struct DrivingConfig {
   FollowConfig follow;
   std::string feature_config_id;         // of this robot's eye: missions made with another are refused
   Milliseconds link_silence_ms = 400;    // no message for so long while driving: stop
-  Milliseconds frame_silence_ms = 700;   // no picture for so long while driving: stop
+  Milliseconds frame_silence_ms = 1000;  // no picture for so long while driving: stop
+  Milliseconds first_frame_ms = 4000;    // a mission waits so long, standing, for its first picture
   Milliseconds scan_silence_ms = 400;    // no sweep for so long while driving: stop
   Milliseconds blind_ms = 4000;          // nothing recognised for so long: the mission fails
   Milliseconds stuck_ms = 20'000;        // no way gained for so long: the mission fails
@@ -33,7 +34,8 @@ struct DrivingConfig {
   double dock_within_rad = 0.06;         // heading at the end
 };
 
-/// What is new since the last step. Pictures and sweeps carry the time at which they were taken.
+/// What is new since the last step. Pictures and sweeps carry the time at which they were taken, by the sensors' clock: the
+/// machine's own on a robot, simulated time in a simulator.
 struct SeenPicture {
   Milliseconds taken_ms = 0;
   std::shared_ptr<const features::Appearance> appearance;
@@ -49,6 +51,7 @@ struct Inputs {
   Pose2 odometry;
   std::vector<wire::ServerMessage> messages;  // in the order of their arrival
   bool link_up = false;
+  std::optional<Milliseconds> sensors_now_ms;  // by the sensors' clock; nothing: it is the machine's own
 };
 
 /// One mission that was permitted.
@@ -70,6 +73,7 @@ struct DrivingState {
   Milliseconds permit_ends_ms = 0;
   FollowState follow;
   FollowResult seen;                // of the latest picture
+  bool pictured = false;            // a picture has come since the mission began
   bool docking = false;
   bool covered = false;             // the latest picture shows next to nothing
   Milliseconds last_message_ms = 0;
