@@ -35,6 +35,21 @@ bool answer_is_secret(const Route& route) {
          route.pattern == "/api/v1/robots/{robot}/lease";
 }
 
+// The answer to what is neither a route nor a page.
+std::optional<Response> no_route(const Request& request, const Router::Match& match) {
+  const bool page = match.allowed.empty() && !is_application_path(request.path);
+  const std::string allowed = page ? "GET, HEAD, OPTIONS" : match.allowed;
+  if (allowed.empty()) {
+    return problem({ErrorCode::kNotFound, "There is no " + request.path + " here.", request.path});
+  }
+  if (page && (request.method == "GET" || request.method == "HEAD")) return std::nullopt;
+  Response response = request.method == "OPTIONS"
+                          ? empty_response(204)
+                          : problem(405, "Method not allowed", "This path takes " + allowed + ".");
+  response.headers["allow"] = allowed;
+  return response;
+}
+
 }  // namespace
 
 std::variant<std::size_t, Response> AppFront::admit(Request& request) {
@@ -42,7 +57,10 @@ std::variant<std::size_t, Response> AppFront::admit(Request& request) {
     return problem({ErrorCode::kForbidden, "This server does not answer to that name; --allow-host adds one.", "Host"});
   }
   const Router::Match match = parts_.router.find(request.method, request.path);
-  if (match.route == nullptr) return std::size_t{0};  // answered without its body
+  if (match.route == nullptr) {
+    if (auto refused = no_route(request, match)) return *refused;
+    return std::size_t{0};  // a page of the dashboard
+  }
   if (match.route->role != "anyone" && !brings_a_secret(request)) return sign_in_first();
   return match.route->max_body;
 }
@@ -50,22 +68,6 @@ std::variant<std::size_t, Response> AppFront::admit(Request& request) {
 void AppFront::answer(std::shared_ptr<Request> request, Reply reply) {
   const Router::Match match = parts_.router.find(request->method, request->path);
   if (match.route == nullptr) {
-    const bool read = request->method == "GET" || request->method == "HEAD";
-    if (!match.allowed.empty()) {
-      Response response = request->method == "OPTIONS"
-                              ? empty_response(204)
-                              : problem(405, "Method not allowed", "This path takes " + match.allowed + ".");
-      response.headers["allow"] = match.allowed;
-      return reply(response);
-    }
-    if (is_application_path(request->path)) {
-      return reply(problem({ErrorCode::kNotFound, "There is no " + request->path + " here.", request->path}));
-    }
-    if (!read) {
-      Response response = problem(405, "Method not allowed", "Pages are only read.");
-      response.headers["allow"] = "GET, HEAD";
-      return reply(response);
-    }
     const bool queued = parts_.workers.try_run([this, request, reply] {
       Response response;
       try {
