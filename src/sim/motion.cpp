@@ -72,7 +72,8 @@ void WheelOdometry::follow(const Pose2& from, const Pose2& to) {
   const Pose2 step = inverse(from) * to;
   const double length_m = std::hypot(step.x_m, step.y_m);
   const double scale = slip_ * (1.0 + 0.02 * centred(random_));
-  const double error_rad = length_m * (drift_rad_per_m_ + 0.02 * centred(random_)) + step.theta_rad * 0.01 * centred(random_);
+  const double error_rad =
+      length_m * (drift_rad_per_m_ + 0.02 * centred(random_)) + step.theta_rad * 0.01 * centred(random_);
   reading_ = reading_ * Pose2{scale * step.x_m, scale * step.y_m, step.theta_rad + error_rad};
 }
 
@@ -103,7 +104,9 @@ void Vehicle::advance(double dt_s, const MotionCommand& command, const Obstacles
     motion_ = {};
     return;
   }
-  touching_ = false;
+  // Coming to rest against a thing in ever smaller steps is one collision.
+  constexpr double kApart_m = 0.05;
+  touching_ = touching_ && clearance_m < kApart_m;
   odometry_.follow(pose_, next);
   pose_ = next;
   path_m_ += std::abs(length_m);

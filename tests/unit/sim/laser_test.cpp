@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/laser.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/box_world.hpp"
+
+namespace homeward::sim {
+namespace {
+
+constexpr double kNoNoise_m = 1e-9;
+
+TEST(Laser, MeasuresABoxRoomExactly) {
+  const World world = homeward::testing::box_world();
+  const RayScene rays(world.scene);
+  LaserConfig config;
+  config.noise_m = kNoNoise_m;
+  const Pose2 robot{0.3, -0.2, 0.7};
+  const std::vector<float> ranges_m = scan(rays, robot, {}, config, 1);
+  ASSERT_EQ(ranges_m.size(), 360U);
+  for (int i = 0; i < 360; ++i) {
+    const double angle_rad = robot.theta_rad + 2.0 * kPi * i / 360.0;
+    const double c = std::cos(angle_rad);
+    const double s = std::sin(angle_rad);
+    const double to_x_m = ((c > 0.0 ? 2.0 : -2.0) - robot.x_m) / c;
+    const double to_y_m = ((s > 0.0 ? 1.5 : -1.5) - robot.y_m) / s;
+    EXPECT_NEAR(ranges_m[static_cast<std::size_t>(i)], std::min(to_x_m, to_y_m), 1e-4) << i;
+  }
+}
+
+TEST(Laser, SeesNothingBeyondItsRange) {
+  const World world = homeward::testing::box_world();
+  const RayScene rays(world.scene);
+  LaserConfig config;
+  config.noise_m = kNoNoise_m;
+  config.range_max_m = 1.6;
+  config.rays = 4;
+  const std::vector<float> ranges_m = scan(rays, {}, {}, config, 1);
+  EXPECT_TRUE(std::isinf(ranges_m[0]));
+  EXPECT_NEAR(ranges_m[1], 1.5, 1e-4);  // left
+  EXPECT_TRUE(std::isinf(ranges_m[2]));
+  EXPECT_NEAR(ranges_m[3], 1.5, 1e-4);
+}
+
+TEST(Laser, SeesPeopleBeforeWalls) {
+  const World world = homeward::testing::box_world();
+  const RayScene rays(world.scene);
+  LaserConfig config;
+  config.noise_m = kNoNoise_m;
+  config.rays = 4;
+  const std::vector<float> ranges_m = scan(rays, {}, {{1.0, 0.0, 3}}, config, 1);
+  EXPECT_NEAR(ranges_m[0], 1.0 - kPersonRadius_m, 1e-4);
+  EXPECT_NEAR(ranges_m[2], 2.0, 1e-4);
+}
+
+TEST(Laser, TakesTheShortestOfItsLayers) {
+  SceneBuilder builder;
+  const Surface grey{builder.add_material("grey", std::array{0.5F, 0.5F, 0.5F}), 0.0};
+  builder.box({}, {1.0, -1.0, 0.6}, {1.2, 1.0, 0.8}, {grey, grey});  // a table top
+  builder.box({}, {2.0, -1.0, 0.0}, {2.2, 1.0, 2.0}, {grey, grey});  // a wall behind it
+  const RayScene rays(builder.take());
+  LaserConfig config;
+  config.noise_m = kNoNoise_m;
+  config.rays = 1;
+  EXPECT_NEAR(scan(rays, {}, {}, config, 1)[0], 2.0, 1e-4);  // below the table
+  config.heights_m = {0.3, 0.7};
+  EXPECT_NEAR(scan(rays, {}, {}, config, 1)[0], 1.0, 1e-4);
+}
+
+TEST(Laser, ItsNoiseHasTheStatedSpreadAndComesFromTheSeed) {
+  const World world = homeward::testing::box_world();
+  const RayScene rays(world.scene);
+  LaserConfig config;
+  config.noise_m = kNoNoise_m;
+  const auto exact = scan(rays, {}, {}, config, 1);
+  config.noise_m = 0.02;
+  const auto noisy = scan(rays, {}, {}, config, 1);
+  EXPECT_EQ(noisy, scan(rays, {}, {}, config, 1));
+  EXPECT_NE(noisy, scan(rays, {}, {}, config, 2));
+  double sum2 = 0.0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const double error_m = static_cast<double>(noisy[i] - exact[i]);
+    sum2 += error_m * error_m;
+  }
+  EXPECT_NEAR(std::sqrt(sum2 / static_cast<double>(exact.size())), 0.02, 0.003);
+}
+
+}  // namespace
+}  // namespace homeward::sim

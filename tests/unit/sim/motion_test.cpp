@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sim/floor.hpp"
+#include "support/box_world.hpp"
+
+namespace homeward::sim {
+namespace {
+
+constexpr double kTick_s = 0.05;
+
+TEST(Vehicle, SpeedsUpSlowsDownAndKeepsItsLimits) {
+  World world = homeward::testing::box_world();
+  const Obstacles obstacles(world);
+  RobotProfile profile = disc_profile();
+  Vehicle vehicle(profile, {-1.6, 0.0, 0.0}, 1);
+  double before = 0.0;
+  for (int k = 0; k < 20; ++k) {
+    vehicle.advance(kTick_s, {5.0, 0.0}, obstacles, {});
+    EXPECT_LE(vehicle.motion().speed_mps - before, profile.acceleration_mps2 * kTick_s + 1e-12);
+    EXPECT_LE(vehicle.motion().speed_mps, profile.max_speed_mps);
+    before = vehicle.motion().speed_mps;
+  }
+  EXPECT_NEAR(before, 0.5, 1e-9);  // 1 s at 0.5 m/s^2
+  int ticks = 0;
+  while (vehicle.motion().speed_mps > 1e-9 && ticks < 100) {
+    vehicle.advance(kTick_s, {}, obstacles, {});
+    EXPECT_LE(before - vehicle.motion().speed_mps, profile.deceleration_mps2 * kTick_s + 1e-12);
+    before = vehicle.motion().speed_mps;
+    ++ticks;
+  }
+  EXPECT_EQ(ticks, 10);  // 0.5 s at 1 m/s^2
+  EXPECT_EQ(vehicle.collisions(), 0);
+}
+
+TEST(Vehicle, DrivesAnArcAsItIsTold) {
+  const World world = homeward::testing::box_world();
+  const Obstacles obstacles(world);
+  RobotProfile profile = disc_profile();
+  profile.acceleration_mps2 = profile.turn_acceleration_radps2 = 1e6;
+  Vehicle vehicle(profile, {0.0, -0.5, 0.0}, 1);
+  for (int k = 0; k < 40; ++k) vehicle.advance(kTick_s, {0.2, 0.5 * kPi / 2.0}, obstacles, {});  // 2 s: a quarter
+  const double radius_m = 0.2 / (0.5 * kPi / 2.0);
+  EXPECT_NEAR(vehicle.pose().x_m, radius_m, 1e-6);
+  EXPECT_NEAR(vehicle.pose().y_m, -0.5 + radius_m, 1e-6);
+  EXPECT_NEAR(vehicle.pose().theta_rad, kPi / 2.0, 1e-9);
+  EXPECT_NEAR(vehicle.path_m(), 0.4, 1e-9);
+}
+
+TEST(Vehicle, NeverPassesThroughWallsAndCountsOneCollision) {
+  const World world = homeward::testing::box_world();
+  const Obstacles obstacles(world);
+  Vehicle vehicle(disc_profile(), {0.0, 0.0, 0.0}, 1);
+  for (int k = 0; k < 200; ++k) {
+    vehicle.advance(kTick_s, {0.8, 0.0}, obstacles, {});
+    EXPECT_LT(vehicle.pose().x_m, 2.0 - 0.35);
+  }
+  EXPECT_EQ(vehicle.collisions(), 1);  // leaning on the wall is one collision
+  EXPECT_LE(vehicle.min_clearance_m(), 0.0);
+  for (int k = 0; k < 40; ++k) vehicle.advance(kTick_s, {-0.2, 0.0}, obstacles, {});
+  EXPECT_LT(vehicle.pose().x_m, 1.5);  // away is possible
+  for (int k = 0; k < 200; ++k) vehicle.advance(kTick_s, {0.8, 0.0}, obstacles, {});
+  EXPECT_EQ(vehicle.collisions(), 2);
+  vehicle.reset_counts();
+  EXPECT_EQ(vehicle.collisions(), 0);
+  EXPECT_EQ(vehicle.path_m(), 0.0);
+}
+
+TEST(Vehicle, RandomDrivingStaysOutsideThings) {
+  const World world = homeward::testing::box_world(true);
+  const Obstacles obstacles(world);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> speed(-1.0, 1.0);
+  std::uniform_real_distribution<double> turn(-2.0, 2.0);
+  for (const RobotProfile& profile : {disc_profile(), chair_profile()}) {
+    Vehicle vehicle(profile, world.start, 1);
+    for (int k = 0; k < 1500; ++k) {
+      vehicle.advance(kTick_s, {speed(random), turn(random)}, obstacles, {});
+      EXPECT_GT(obstacles.clearance_m(profile, vehicle.pose(), {}), 0.0) << profile.name;
+    }
+  }
+}
+
+TEST(Vehicle, SomebodyWhoWalksIntoAStandingRobotIsNoCollision) {
+  const World world = homeward::testing::box_world();
+  const Obstacles obstacles(world);
+  Vehicle vehicle(disc_profile(), {0.0, 0.0, 0.0}, 1);
+  const std::vector<Person> touching = {{0.5, 0.0, 7}};
+  ASSERT_LT(obstacles.clearance_m(vehicle.profile(), vehicle.pose(), touching), 0.0);
+  for (int k = 0; k < 10; ++k) vehicle.advance(kTick_s, {}, obstacles, touching);
+  EXPECT_EQ(vehicle.collisions(), 0);
+  vehicle.advance(kTick_s, {0.8, 0.0}, obstacles, touching);  // driving on into them is one
+  EXPECT_EQ(vehicle.collisions(), 1);
+  EXPECT_EQ(vehicle.pose().x_m, 0.0);
+}
+
+TEST(WheelOdometry, DriftsALittleAndTheSameForTheSameSeed) {
+  WheelOdometry one(3);
+  WheelOdometry two(3);
+  Pose2 pose;
+  for (int k = 0; k < 200; ++k) {
+    const Pose2 next = pose * Pose2{0.05, 0.0, k < 100 ? 0.01 : -0.01};
+    one.follow(pose, next);
+    two.follow(pose, next);
+    pose = next;
+  }
+  const double off_m = std::hypot(one.reading().x_m - pose.x_m, one.reading().y_m - pose.y_m);
+  EXPECT_GT(off_m, 0.001);
+  EXPECT_LT(off_m, 0.8);  // of 10 m
+  EXPECT_EQ(one.reading().x_m, two.reading().x_m);
+  EXPECT_EQ(one.reading().theta_rad, two.reading().theta_rad);
+}
+
+TEST(Walkers, StayOnTheFloorAndKeepAwayFromTheRobot) {
+  const World world = homeward::testing::box_world();
+  const Pose2 robot{-1.3, 0.0, 0.0};
+  Walkers walkers(world, 2, 9, robot);
+  ASSERT_EQ(walkers.people().size(), 2U);
+  double walked_m = 0.0;
+  for (int k = 0; k < 400; ++k) {
+    const auto before = walkers.people();
+    walkers.advance(0.1, robot);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const Person& person = walkers.people()[i];
+      const double step_m = std::hypot(person.x_m - before[i].x_m, person.y_m - before[i].y_m);
+      walked_m += step_m;
+      EXPECT_LE(step_m, 1.1 * 0.1 + 1e-9);
+      EXPECT_TRUE(is_set(world.drivable, {person.x_m, person.y_m}));
+      const double now_m = std::hypot(person.x_m - robot.x_m, person.y_m - robot.y_m);
+      if (step_m > 0.0 && now_m < 0.9) {
+        EXPECT_GE(now_m, std::hypot(before[i].x_m - robot.x_m, before[i].y_m - robot.y_m) - 1e-9);
+      }
+    }
+  }
+  EXPECT_GT(walked_m, 2.0);
+}
+
+}  // namespace
+}  // namespace homeward::sim
