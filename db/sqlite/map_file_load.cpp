@@ -230,6 +230,11 @@ void check_kind_and_version(SQLite::Database& database) {
 StoredMap read_database(const std::filesystem::path& file) {
   SQLite::Database database(file.string(), SQLite::OPEN_READONLY);
   check_kind_and_version(database);
+  // SQLite takes what is missing of its last page for zeros.
+  const std::int64_t pages = database.execAndGet("PRAGMA page_count").getInt64();
+  const std::int64_t whole_bytes = pages * database.execAndGet("PRAGMA page_size").getInt64();
+  const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(file));
+  if (bytes < whole_bytes) refuse("The map file ends early: copy it again.");
   StoredMap stored;
   get_meta(database, stored.map);
   get_images(database, stored.map);
@@ -248,7 +253,7 @@ StoredMap read_database(const std::filesystem::path& file) {
     stored.thumbnails.emplace(ImageId(thumbnails.getColumn(0).getString()),
                               std::vector<std::uint8_t>(first, first + jpeg.getBytes()));
   }
-  stored.bytes = static_cast<std::int64_t>(std::filesystem::file_size(file)) - thumbnail_bytes;
+  stored.bytes = bytes - thumbnail_bytes;
   return stored;
 }
 

@@ -41,6 +41,10 @@ Result<ImageHeader> jpeg_header(std::span<const std::uint8_t> bytes) {
     return fail(ErrorCode::kTruncatedImage,
                 std::string("The JPEG's header cannot be read: ") + tjGetErrorStr2(decompressor.get()) + ".");
   }
+  // A file of tables alone counts as a success to the decoder.
+  if (header.width_px < 1 || header.height_px < 1) {
+    return fail(ErrorCode::kTruncatedImage, "The JPEG ends before its picture begins.");
+  }
   if (colour_space == TJCS_CMYK || colour_space == TJCS_YCCK) {
     return fail(ErrorCode::kUnsupportedImage, "The JPEG is made for printing (CMYK); send RGB or grey.");
   }

@@ -30,6 +30,7 @@ class ScratchFolder {
 
   std::filesystem::path put(const std::string& name, std::string_view bytes) const {
     std::filesystem::create_directories((path_ / name).parent_path());
+    std::filesystem::remove(path_ / name);  // cutting a file short instead makes some file systems wait for the disk
     std::ofstream stream(path_ / name, std::ios::binary);
     stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return path_ / name;

@@ -74,8 +74,7 @@ Status read_times(const fs::path& folder, std::vector<pipeline::TourImage>& imag
   std::map<std::string, TimeUs> times;
   for (const Row& row : *rows) {
     const auto t_us = number<TimeUs>(row.cells[1]);
-    if (!t_us)
-      return fail(ErrorCode::kInvalidInput, "t_us has to be an integer, not \"" + row.cells[1] + "\".", row.where);
+    if (!t_us) return fail(ErrorCode::kInvalidInput, "t_us has to be an integer.", row.where);
     times[row.cells[0]] = *t_us;
   }
   for (std::size_t i = 0; i < images.size(); ++i) {
