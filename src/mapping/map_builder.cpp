@@ -21,7 +21,6 @@ namespace homeward::mapping {
 namespace {
 
 constexpr double kToursApartImages = 1e6;  // so far apart along the way are images of different tours
-constexpr double kLongestEdgeM = 20.0;     // odometry of prototypes further apart than this has drifted too much
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
@@ -157,19 +156,17 @@ std::vector<Run> runs(const MappingInput& input, std::span<const int> place_of_i
   return result;
 }
 
-/// How long the way between two prototypes is: by odometry where it can be trusted, else by the middle of the runs.
-double edge_length(const MappingInput& input, const TourPath& path, const Run& from, const Run& to, int from_prototype,
+/// How far two prototypes are apart: by the way reckoned where it can be trusted, else by the middle of the runs.
+double edge_length(const TourPath& path, const TourTrack& track, const Run& from, const Run& to, int from_prototype,
                    int to_prototype) {
-  const auto& a = input.images[at(from_prototype)].odometry;
-  const auto& b = input.images[at(to_prototype)].odometry;
-  const auto within = [](const Run& run, int image) { return run.first <= image && image <= run.last; };
-  if (path.metric() && a && b && within(from, from_prototype) && within(to, to_prototype)) {
-    const double straight_m = std::hypot(b->x_m - a->x_m, b->y_m - a->y_m);
-    if (straight_m <= kLongestEdgeM) return std::max(straight_m, 0.05);
-  }
+  const double unit = path.metric() ? 1.0 : path.step();
+  const double least = path.metric() ? 0.05 : 0.5;
+  const TrackPrediction reckoned = track.predict(from_prototype, to_prototype);
+  constexpr double kTrusted = 0.3;  // standard deviation, as a share of the way between them
   const double from_middle = path.length(from.first, from.last) / 2.0 + path.length(from.last, to.first);
-  const double length = from_middle + path.length(to.first, to.last) / 2.0;
-  return std::max(length / (path.metric() ? 1.0 : path.step()), path.metric() ? 0.05 : 0.5);
+  const double by_runs = (from_middle + path.length(to.first, to.last) / 2.0) / unit;
+  if (reckoned.known && reckoned.distance_sigma < kTrusted * by_runs) return std::max(reckoned.distance, least);
+  return std::max(by_runs, least);
 }
 
 map::Edge make_edge(const MappingInput& input, const MappingConfig& config, int from_prototype, int to_prototype) {
@@ -185,7 +182,8 @@ map::Edge make_edge(const MappingInput& input, const MappingConfig& config, int 
 }
 
 /// Every transition between places that a tour drove, in both directions.
-std::vector<map::Edge> form_edges(const MappingInput& input, const TourPath& path, const MappingConfig& config,
+std::vector<map::Edge> form_edges(const MappingInput& input, const TourPath& path, const TourTrack& track,
+                                  const MappingConfig& config,
                                   std::span<const map::Place> places, std::span<const int> place_of_image) {
   std::unordered_map<ImageId, int> index;
   for (std::size_t i = 0; i < input.images.size(); ++i) index.emplace(input.images[i].id, static_cast<int>(i));
@@ -196,7 +194,7 @@ std::vector<map::Edge> form_edges(const MappingInput& input, const TourPath& pat
     const Run& before = stretches[r - 1];
     const Run& after = stretches[r];
     if (before.place == after.place || input.tour_of[at(before.last)] != input.tour_of[at(after.first)]) continue;
-    const double length_m = edge_length(input, path, before, after, prototype(before.place), prototype(after.place));
+    const double length_m = edge_length(path, track, before, after, prototype(before.place), prototype(after.place));
     for (const auto& [from, to] : {std::pair(before.place, after.place), std::pair(after.place, before.place)}) {
       const auto [known, is_new] = edges.try_emplace({from, to});
       map::Edge& edge = known->second;
@@ -346,7 +344,7 @@ map::TopologicalMap make_map(const MappingInput& input, const MappingConfig& con
   map::TopologicalMap map;
   map.images.assign(input.images.begin(), input.images.end());
   map.places = form_places(input, parts, place_of_part, labels);
-  map.edges = form_edges(input, path, config, map.places, place_of_image);
+  map.edges = form_edges(input, path, track, config, map.places, place_of_image);
   map.destinations = form_destinations(input, map.places, place_of_image);
   for (const LoopHypothesis& hypothesis : hypotheses) {
     map::Hypothesis kept;

@@ -9,12 +9,17 @@
 namespace homeward::wire {
 namespace {
 
-std::optional<PathEdge> edge_between(const map::TopologicalMap& map, const PlaceId& from, const PlaceId& to) {
+/// Lengths are metres only where the tours had odometry.
+bool is_metric(const map::TopologicalMap& map) {
+  return std::all_of(map.images.begin(), map.images.end(), [](const map::MapImage& image) { return image.odometry.has_value(); });
+}
+
+std::optional<PathEdge> edge_between(const map::TopologicalMap& map, const PlaceId& from, const PlaceId& to, bool metric) {
   const auto edge = std::find_if(map.edges.begin(), map.edges.end(), [&](const map::Edge& candidate) {
     return candidate.from == from && candidate.to == to;
   });
   if (edge == map.edges.end()) return std::nullopt;
-  return PathEdge{edge->bearing_rad, edge->turn_rad, edge->length_m, edge->weak};
+  return PathEdge{edge->bearing_rad, edge->turn_rad, metric ? std::optional(edge->length_m) : std::nullopt, edge->weak};
 }
 
 }  // namespace
@@ -23,10 +28,11 @@ MissionOrder order_for_route(const map::TopologicalMap& map, std::span<const Pla
   MissionOrder order;
   order.revision = map.revision;
   order.feature_config_id = map.feature_config_id;
+  const bool metric = is_metric(map);
   for (std::size_t i = 0; i < route.size(); ++i) {
     const map::Place& place = *map::find_place(map, route[i]);
     PathPlace step{place.id, place.prototype, encode_appearance(place.appearances.front()), std::nullopt};
-    if (i + 1 < route.size()) step.next = edge_between(map, route[i], route[i + 1]);
+    if (i + 1 < route.size()) step.next = edge_between(map, route[i], route[i + 1], metric);
     order.path.push_back(std::move(step));
   }
   order.final_image = order.path.back().image;

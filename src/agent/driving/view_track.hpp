@@ -16,7 +16,7 @@ struct ViewTrackConfig {
 };
 
 /// Where one view lies in the frame of odometry: bearings from several poses, triangulated as they come (a bearing-only
-/// Kalman filter in its pseudo-linear form). Depth comes from the map's edges, from bearings that turn as the robot drives, and,
+/// Kalman filter). Depth comes from the map's edges, from bearings that turn as the robot drives, and,
 /// where nothing else is known, as a first guess from the parallax.
 class ViewTrack {
  public:
@@ -42,7 +42,7 @@ class ViewTrack {
 
  private:
   void measure(const Eigen::Vector2d& axis, double off_m, double doubt_m);
-  void begin(const Pose2& robot, const homing::HomeVector& answer, const ViewTrackConfig& config);
+  void begin(const Pose2& robot, const homing::HomeVector& answer, double distance_m);
 
   bool known_ = false;
   int contradictions_ = 0;
