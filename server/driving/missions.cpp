@@ -12,7 +12,8 @@ namespace homeward::server {
 namespace {
 
 constexpr std::int64_t kPermitMs = 1500;
-constexpr double kTopSpeedMps = 0.8;
+// So slow that braking at 1 m/s^2 ends within half a second of a link that falls silent.
+constexpr double kTopSpeedMps = 0.4;
 // A permit goes only to an agent that was heard within this time; it tells its status four times a second.
 constexpr std::chrono::milliseconds kHeardWithin{1000};
 constexpr std::chrono::seconds kSilentTooLong{4};

@@ -1,0 +1,206 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What the command line says to bad input: an exit code, one sentence that names what and where, and no half results."""
+
+import json
+import sqlite3
+import sys
+import unittest
+from pathlib import Path
+
+from program import CliTest, Program, write_png
+
+BUILD = ("map", "build", "--tour", "tour", "--camera", "tour/camera.json", "--out", "out.map")
+
+
+class BadTours(CliTest):
+    def test_no_such_folder(self):
+        self.tour("other")
+        self.assert_refused(3, ["no-tour"], "map", "build", "--tour", "no-tour", "--camera", "other/camera.json", "--out", "out.map")
+
+    def test_empty_folder(self):
+        self.tour("other")
+        (self.folder / "tour").mkdir()
+        self.assert_refused(2, ["tour", "no pictures"], "map", "build", "--tour", "tour", "--camera", "other/camera.json", "--out", "out.map")
+
+    def test_text_named_jpg(self):
+        (self.tour() / "00003.jpg").write_text("This is no picture.")
+        self.assert_refused(2, ["00003.jpg"], *BUILD)
+
+    def test_empty_picture(self):
+        (self.tour() / "00003.jpg").write_bytes(b"")
+        self.assert_refused(2, ["00003.jpg"], *BUILD)
+
+    def test_truncated_jpeg(self):
+        picture = self.tour() / "00003.jpg"
+        picture.write_bytes(picture.read_bytes()[:picture.stat().st_size // 2])
+        self.assert_refused(2, ["00003.jpg"], *BUILD)
+
+    def test_picture_of_another_size(self):
+        tour = self.tour()
+        (tour / "00003.jpg").unlink()
+        write_png(tour / "00003.png", 640, 480, 90)
+        (tour / "times.csv").unlink()
+        (tour / "odometry.csv").unlink()
+        self.assert_refused(2, ["00003.png", "640", "1024"], *BUILD)
+
+    def test_two_pictures(self):
+        tour = self.tour(without=("poses.csv", "scans.csv", "tour.json", "times.csv", "odometry.csv"))
+        for picture in sorted(tour.glob("*.jpg"))[2:]:
+            picture.unlink()
+        self.assert_refused(4, ["2"], *BUILD)
+
+    def test_black_pictures(self):
+        tour = self.tour(without=("*.csv", "*.jpg", "tour.json"))
+        for number in range(5):
+            write_png(tour / f"{number:05}.png", 1024, 512, 0)
+        self.assert_refused(4, ["0000"], *BUILD)
+
+    def test_broken_tables(self):
+        (self.tour() / "odometry.csv").write_text("t_us,x_m,y_m,theta_rad\n0,here,0,0\n")
+        self.assert_refused(2, ["odometry.csv:2"], *BUILD)
+
+    def test_broken_marks(self):
+        (self.tour() / "tour.json").write_text('{"marks": [{"image": 3}]}')
+        self.assert_refused(2, ["tour.json"], *BUILD)
+
+    def test_mark_of_a_picture_that_is_not_there(self):
+        (self.tour() / "tour.json").write_text('{"marks": [{"image": "99999.jpg", "label": "cellar"}]}')
+        self.assert_refused(2, ["99999.jpg"], *BUILD)
+
+    def test_an_older_map_outlives_a_build_that_fails(self):
+        self.good_map("out.map")
+        (self.tour() / "00003.jpg").write_text("This is no picture.")
+        self.assert_refused(2, ["00003.jpg"], *BUILD)  # checks that no file has changed
+
+    def test_a_map_that_cannot_be_written(self):
+        self.tour()
+        self.assert_refused(5, ["none/out.map"], *BUILD[:-1], "none/out.map")
+
+
+class BadCameras(CliTest):
+    def build_with(self, code, names, change):
+        camera = json.loads((self.tour() / "camera.json").read_text())
+        change(camera)
+        (self.folder / "camera.json").write_text(json.dumps(camera))
+        self.assert_refused(code, ["camera.json", *names], "map", "build", "--tour", "tour", "--camera", "camera.json", "--out", "out.map")
+
+    def test_unknown_key(self):
+        self.build_with(2, ["colour"], lambda camera: camera.update(colour="red"))
+
+    def test_missing_key(self):
+        self.build_with(2, ["width_px"], lambda camera: camera.pop("width_px"))
+
+    def test_another_version(self):
+        self.build_with(2, ["version"], lambda camera: camera.update(version=9))
+
+    def test_number_out_of_range(self):
+        self.build_with(2, ["width_px"], lambda camera: camera.update(width_px=-4))
+
+    def test_no_json(self):
+        self.tour()
+        (self.folder / "camera.json").write_text('{"format": ')
+        self.assert_refused(2, ["camera.json"], "map", "build", "--tour", "tour", "--camera", "camera.json", "--out", "out.map")
+
+    def test_no_file(self):
+        self.tour()
+        self.assert_refused(3, ["nowhere.json"], "map", "build", "--tour", "tour", "--camera", "nowhere.json", "--out", "out.map")
+
+
+class BadMaps(CliTest):
+    def test_no_such_map(self):
+        self.assert_refused(3, ["none.map"], "map", "inspect", "none.map")
+        self.assert_refused(3, ["none.map"], "route", "--map", "none.map", "--from", "p1", "--to", "p2")
+
+    def test_files_that_are_no_map(self):
+        (self.folder / "text.map").write_text("This is no map.\n" * 100)
+        (self.folder / "empty.map").write_bytes(b"")
+        other = sqlite3.connect(self.folder / "other.map")
+        other.execute("CREATE TABLE cheese (name TEXT)")
+        other.commit()
+        other.close()
+        for name in ("text.map", "empty.map", "other.map"):
+            self.assert_refused(2, [name], "map", "inspect", name)
+
+    def test_half_a_map(self):
+        file = self.good_map("half.map")
+        file.write_bytes(file.read_bytes()[:file.stat().st_size // 2])
+        self.assert_refused(2, ["half.map"], "map", "inspect", "half.map")
+
+    def test_unknown_place(self):
+        self.good_map()
+        self.assert_refused(3, ["cellar"], "route", "--map", "good.map", "--from", "p1", "--to", "cellar")
+        self.assert_refused(3, ["cellar"], "route", "--map", "good.map", "--from", "cellar", "--to", "p1")
+
+    def test_no_route(self):
+        database = sqlite3.connect(self.good_map())
+        database.execute("DELETE FROM edges")
+        database.commit()
+        database.close()
+        self.assert_refused(4, ["corridor", "office_1"], "route", "--map", "good.map", "--from", "corridor", "--to", "office_1")
+
+    def test_pictures_of_another_camera(self):
+        self.good_map()
+        (self.folder / "pictures").mkdir()
+        write_png(self.folder / "pictures" / "a.png", 320, 240, 90)
+        self.assert_refused(2, ["a.png"], "localise", "--map", "good.map", "--images", "pictures")
+
+    def test_no_pictures(self):
+        self.good_map()
+        (self.folder / "pictures").mkdir()
+        self.assert_refused(2, ["pictures"], "localise", "--map", "good.map", "--images", "pictures")
+        self.assert_refused(3, ["nowhere"], "localise", "--map", "good.map", "--images", "nowhere")
+
+
+class BadPictures(CliTest):
+    def home(self, current, target):
+        return ("home", "--camera", "tour/camera.json", "--current", current, "--target", target)
+
+    def test_no_such_picture(self):
+        self.tour()
+        self.assert_refused(3, ["none.jpg"], *self.home("tour/00001.jpg", "tour/none.jpg"))
+
+    def test_black_picture(self):
+        write_png(self.tour() / "black.png", 1024, 512, 0)
+        self.assert_refused(4, ["black.png"], *self.home("tour/00001.jpg", "tour/black.png"))
+
+    def test_one_picture_alone(self):
+        self.tour()
+        self.assert_refused(2, ["--target"], "home", "--camera", "tour/camera.json", "--current", "tour/00001.jpg")
+
+    def test_table_without_its_columns(self):
+        self.tour()
+        (self.folder / "pairs.csv").write_text("from,to\n00001.jpg,00002.jpg\n")
+        self.assert_refused(2, ["pairs.csv", "current"], "home", "--camera", "tour/camera.json", "--pairs", "pairs.csv")
+
+
+class WrongUse(CliTest):
+    def test_unknown_option(self):
+        self.assert_refused(2, ["--fast"], *BUILD, "--fast")
+
+    def test_missing_option(self):
+        self.assert_refused(2, ["--out"], *BUILD[:-2])
+
+    def test_number_that_is_none(self):
+        self.assert_refused(2, ["--threads", "many"], *BUILD, "--threads", "many")
+
+    def test_no_command(self):
+        self.assert_refused(2, ["subcommand"])
+
+    def test_unknown_room_world_light_and_step(self):
+        tour = ("simulate", "tour", "--out", "new")
+        self.assert_refused(3, ["cellar", "corridor"], *tour, "--world", "offices:1", "--rooms", "corridor,cellar")
+        self.assert_refused(3, ["none.json"], *tour, "--world", "none.json", "--rooms", "a,b")
+        self.assert_refused(2, ["noon"], *tour, "--world", "offices:1", "--rooms", "corridor,office_1", "--light", "noon")
+        self.assert_refused(2, ["step"], *tour, "--world", "offices:1", "--rooms", "corridor,office_1", "--step-m", "0")
+
+    def test_broken_scenario(self):
+        (self.folder / "scenario.json").write_text('{"format": "homeward-scenario", "version": 1, "wrold": "house:1"}')
+        self.assert_refused(2, ["scenario.json"], "simulate", "run", "--scenario", "scenario.json", "--json")
+        self.assert_refused(3, ["none.json"], "simulate", "run", "--scenario", "none.json", "--json")
+
+
+if __name__ == "__main__":
+    executable = sys.argv.pop(1)
+    CliTest.program = Program(executable, Path(executable).parent / "cli-cache")
+    unittest.main()

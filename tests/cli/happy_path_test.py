@@ -1,0 +1,151 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The command line from a tour to a way home: render, build, inspect, localise, route, home."""
+
+import csv
+import json
+import math
+import sqlite3
+import sys
+import unittest
+from pathlib import Path
+
+from program import CliTest, Program
+
+
+def wrapped(angle_rad):
+    return math.atan2(math.sin(angle_rad), math.cos(angle_rad))
+
+
+class HappyPath(CliTest):
+    def inspect(self, name):
+        return json.loads(self.result_of("map", "inspect", name, "--json"))
+
+    def content(self, name):
+        """All rows of a map file, but for the time that building took."""
+        database = sqlite3.connect(self.folder / name)
+        rows = [line for line in database.iterdump() if "'build_seconds'" not in line]
+        database.close()
+        return rows
+
+    def poses(self):
+        with open(self.shared / "tour" / "poses.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        return {row["filename"]: (float(row["x_m"]), float(row["y_m"]), float(row["theta_rad"])) for row in rows}
+
+    def test_a_tour_has_all_its_files(self):
+        tour = self.shared / "tour"
+        pictures = sorted(tour.glob("*.jpg"))
+        self.assertGreater(len(pictures), 5)
+        for name, header in (("times.csv", "filename,t_us"), ("odometry.csv", "t_us,x_m,y_m,theta_rad")):
+            lines = (tour / name).read_text().splitlines()
+            self.assertEqual(lines[0], header)
+            self.assertEqual(len(lines), len(pictures) + 1)
+        self.assertIn("room", (tour / "poses.csv").read_text().splitlines()[0].split(","))
+        self.assertTrue((tour / "scans.csv").exists())
+        labels = [mark["label"] for mark in json.loads((tour / "tour.json").read_text())["marks"]]
+        self.assertEqual(labels, ["corridor", "office_1"])
+
+    def test_the_same_command_renders_the_same_tour(self):
+        self.result_of("simulate", "tour", "--world", "offices:1", "--rooms", "corridor,office_1", "--step-m", 1, "--marks",
+                       "--camera", "equirectangular", "--out", "tour")
+        for file in sorted((self.shared / "tour").iterdir()):
+            self.assertEqual(file.read_bytes(), (self.folder / "tour" / file.name).read_bytes(), file.name)
+
+    def test_the_same_tour_gives_the_same_map_with_any_number_of_threads(self):
+        self.tour()
+        for name, threads in (("one.map", 1), ("two.map", 2)):
+            self.result_of("map", "build", "--tour", "tour", "--camera", "tour/camera.json", "--out", name, "--threads", threads)
+        self.good_map()
+        reports = []
+        for name in ("one.map", "two.map", "good.map"):
+            report = self.inspect(name)
+            self.assertGreater(report.pop("build_seconds"), 0.0)
+            reports.append(report)
+        self.assertEqual(reports[0], reports[1])
+        self.assertEqual(reports[0], reports[2])
+        self.assertEqual([line for line in self.content("one.map") if "'name'" not in line],
+                         [line for line in self.content("two.map") if "'name'" not in line])
+
+    def test_inspect_holds_together(self):
+        report = self.inspect(self.good_map().name)
+        places = {place["id"] for place in report["places"]}
+        members = [member for place in report["places"] for member in place["members"]]
+        self.assertEqual(report["images"], len(members))
+        self.assertEqual(len(members), len(set(members)))
+        for place in report["places"]:
+            self.assertIn(place["prototype"], place["members"])
+            self.assertGreater(place["features"], 50)
+        self.assertGreater(len(report["edges"]), 0)
+        for edge in report["edges"]:
+            self.assertIn(edge["from"], places)
+            self.assertIn(edge["to"], places)
+        for hypothesis in report["hypotheses"]:
+            self.assertLessEqual(hypothesis["support"], hypothesis["plausibility"] + 1e-9)
+            self.assertIn(hypothesis["decision"], ("accepted", "rejected", "undecided"))
+
+    def test_export_in_its_formats(self):
+        self.good_map()
+        if self.run_program("map", "export", "--help").returncode != 0:
+            self.skipTest("this version has no map export")
+        graph = json.loads(self.result_of("map", "export", "good.map", "--format", "json"))
+        self.assertGreater(len(graph["places"]), 2)
+        self.assertTrue(self.result_of("map", "export", "good.map", "--format", "graphml").lstrip().startswith("<?xml"))
+        geo = json.loads(self.result_of("map", "export", "good.map", "--format", "geojson"))
+        self.assertEqual(geo["type"], "FeatureCollection")
+
+    def test_localises_its_own_tour(self):
+        report = self.inspect(self.good_map().name)
+        place_of = {member.split("/")[-1]: place["id"] for place in report["places"] for member in place["members"]}
+        answers = self.lines_of("localise", "--map", "good.map", "--images", self.shared / "tour")
+        self.assertEqual([answer["image"] for answer in answers], sorted(place_of))
+        right = sum(answer["place"] == place_of[answer["image"]] for answer in answers)
+        self.assertGreaterEqual(right, 0.6 * len(answers))
+        for number, answer in enumerate(answers, 1):
+            self.assertEqual(answer["updates"], number)
+            chances = [entry["probability"] for entry in answer["top"]]
+            self.assertEqual(chances, sorted(chances, reverse=True))
+            self.assertLessEqual(sum(chances), 1.0 + 1e-9)
+        alone = self.lines_of("localise", "--map", "good.map", "--images", self.shared / "tour", "--restart-every", 1)
+        self.assertTrue(all(answer["updates"] == 1 for answer in alone))
+        self.assertGreaterEqual(sum(answer["place"] == place_of[answer["image"]] for answer in alone), 0.6 * len(alone))
+
+    def test_routes_from_label_to_label(self):
+        self.good_map()
+        there = json.loads(self.result_of("route", "--map", "good.map", "--from", "corridor", "--to", "office_1", "--json"))
+        back = json.loads(self.result_of("route", "--map", "good.map", "--from", "office_1", "--to", "corridor", "--json"))
+        self.assertGreater(len(there["places"]), 2)
+        self.assertEqual(there["places"], back["places"][::-1])
+
+    def test_homes_from_picture_to_picture(self):
+        poses = self.poses()
+        names = sorted(poses)
+        (self.folder / "pairs.csv").write_text(
+            "current,target\n" + "".join(f"{self.shared}/tour/{a},{self.shared}/tour/{b}\n" for a, b in zip(names, names[1:])))
+        camera = self.shared / "tour" / "camera.json"
+        answers = self.lines_of("home", "--camera", camera, "--pairs", "pairs.csv")
+        self.assertEqual(len(answers), len(names) - 1)
+        good = compared = 0
+        for answer, (a, b) in zip(answers, zip(names, names[1:])):
+            dx, dy = poses[b][0] - poses[a][0], poses[b][1] - poses[a][1]
+            if math.hypot(dx, dy) < 0.3 or answer.get("bearing_rad") is None:
+                continue
+            compared += 1
+            good += abs(wrapped(answer["bearing_rad"] - (math.atan2(dy, dx) - poses[a][2]))) < math.radians(15)
+        self.assertGreaterEqual(compared, 4)
+        self.assertGreaterEqual(good, compared - 1)
+        one = self.lines_of("home", "--camera", camera, "--current", self.shared / "tour" / names[0], "--target",
+                            self.shared / "tour" / names[1])
+        self.assertEqual(len(one), 1)
+        self.assertAlmostEqual(one[0]["bearing_rad"], answers[0]["bearing_rad"])
+        self.assertIsNone(one[0]["nearness"])
+
+    def test_helps(self):
+        for command in ((), ("map",), ("map", "build"), ("localise",), ("home",), ("route",), ("simulate", "tour")):
+            self.assertIn("Usage:", self.result_of(*command, "--help"))
+
+
+if __name__ == "__main__":
+    executable = sys.argv.pop(1)
+    CliTest.program = Program(executable, Path(executable).parent / "cli-cache")
+    unittest.main()

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""Closed loops in the generated house, in simulated time: teach, build, drive; and stop when something fails.
+
+usage: missions_test.py BIN_FOLDER WEB_FOLDER
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BIN = pathlib.Path(sys.argv[1]).resolve()
+ARRIVED_WITHIN_M = 0.5
+
+
+def scenario(missions):
+    return {"format": "homeward-scenario", "version": 1, "world": "house:1", "seed": 1,
+            "camera": {"model": "hyperbolic_mirror"},
+            "tour": {"rooms": ["hall", "kitchen", "living_room", "bathroom", "hall"], "light": "day"},
+            "missions": missions}
+
+
+def drive(missions):
+    with tempfile.TemporaryDirectory(prefix="homeward-missions-") as folder:
+        file = pathlib.Path(folder) / "scenario.json"
+        file.write_text(json.dumps(scenario(missions)))
+        done = subprocess.run([BIN / "homeward", "simulate", "run", "--scenario", file, "--json"], check=True,
+                              capture_output=True, text=True)
+        return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+class Missions(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.results = drive([
+            {"from": "hall", "to": "kitchen"},
+            {"from": "kitchen", "to": "bathroom"},
+            {"from": "bathroom", "to": "living_room", "people": 2},
+            {"from": "hall", "to": "kitchen", "faults": [{"kind": "camera_occluded", "at_s": 4, "for_s": 60, "share": 1.0}]},
+            {"from": "hall", "to": "kitchen", "faults": [{"kind": "link_lost", "at_s": 4, "for_s": 60}]},
+            {"from": "hall", "to": "kitchen", "faults": [{"kind": "scan_lost", "at_s": 4, "for_s": 60}]},
+            {"from": "hall", "to": "kitchen", "faults": [{"kind": "camera_frozen", "at_s": 4, "for_s": 60}]},
+            {"from": "hall", "to": "kitchen", "faults": [{"kind": "stop", "at_s": 4, "for_s": 0.2}]},
+        ])
+
+    def test_missions_arrive_where_the_destination_was_taught(self):
+        for result in self.results[:3]:
+            with self.subTest(to=result["to"]):
+                self.assertTrue(result["arrived"], result)
+                self.assertLessEqual(result["final_error_m"], ARRIVED_WITHIN_M, result)
+
+    def test_the_chair_takes_up_the_taught_heading(self):
+        for result in self.results[:3]:
+            self.assertLessEqual(result["final_error_rad"], 0.15, result)
+
+    def test_nothing_is_touched(self):
+        for result in self.results:
+            self.assertEqual(result["collisions"], 0, result)
+
+    def test_every_failure_ends_in_a_stop_that_says_why(self):
+        words = ["recognise", "connection", "range sensor", "pictures", "hand"]
+        for result, word in zip(self.results[3:], words, strict=True):
+            with self.subTest(reason=word):
+                self.assertFalse(result["arrived"], result)
+                self.assertEqual(len(result["stops"]), 1, result)
+                self.assertIn(word, result["stops"][0]["reason"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
