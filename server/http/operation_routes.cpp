@@ -39,6 +39,15 @@ void add_operation_routes(Router& router, Metrics& metrics, db::Store& store) {
   db::Store* db = &store;
   router.add({"GET", "/healthz", "anyone", Lane::kNow, 0,
               [](Request&) { return text_response(200, "text/plain; charset=utf-8", "ok\n"); }});
+  // The handshakes themselves are taken before routes are looked at.
+  for (const auto& [path, role] :
+       {std::pair("/api/v1/events", "viewer"), std::pair("/api/v1/robots/{robot}/link", "robot")}) {
+    router.add({"GET", path, role, Lane::kWork, 0, [](Request&) {
+                  Response response = problem(426, "Upgrade required", "This is a WebSocket.");
+                  response.headers["upgrade"] = "websocket";
+                  return response;
+                }});
+  }
   router.add({"GET", "/readyz", "anyone", Lane::kWork, 0, [db](Request&) {
                 const bool ready = db->setup_hash().has_value();
                 return text_response(ready ? 200 : 503, "text/plain; charset=utf-8", ready ? "ready\n" : "not ready\n");

@@ -86,6 +86,7 @@ TEST_F(FrontTest, SpeaksProperHttp) {
   EXPECT_EQ(admin->send("OPTIONS", "/api/v1/maps").headers["allow"], "GET, HEAD, OPTIONS, POST");
   EXPECT_EQ(admin->send("PATCH", "/api/v1/maps").status, 405);
   EXPECT_EQ(admin->get("/api/v1/nothing").status, 404);
+  EXPECT_EQ(admin->get("/api/v1/events").status, 426);
   EXPECT_EQ(admin->post("/api/v1/nothing", {{"a", 1}}).status, 404);
   EXPECT_EQ(admin->post("/index.html", {{"a", 1}}).status, 405);
   EXPECT_EQ(admin->send("POST", "/api/v1/robots", "{broken").status, 400);
