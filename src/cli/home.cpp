@@ -61,9 +61,9 @@ Status answer(Gallery& gallery, const std::string& current, const std::string& t
   const auto begin = std::chrono::steady_clock::now();
   const auto vector = homing::home_vector(**here, **there, {}, seed);
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-  nlohmann::json line = {{"current", current}, {"target", target}, {"bearing_rad", nullptr}, {"turn_rad", nullptr},
-                         {"nearness", nullptr}, {"matches", 0},    {"inliers", 0},          {"confidence", 0.0},
-                         {"ms", ms}};
+  nlohmann::json line = {{"current", current},  {"target", target},    {"bearing_rad", nullptr},
+                         {"turn_rad", nullptr}, {"nearness", nullptr}, {"matches", 0},
+                         {"inliers", 0},        {"confidence", 0.0},   {"ms", ms}};
   if (vector) {
     line["bearing_rad"] = vector->bearing_rad;
     line["turn_rad"] = vector->turn_rad;
@@ -80,7 +80,8 @@ Status answer(Gallery& gallery, const std::string& current, const std::string& t
 
 Status home(const Options& options) {
   if (options.method != "epipolar") {
-    return fail(ErrorCode::kInvalidInput, "The method '" + options.method + "' is not known; there is epipolar.", "--method");
+    return fail(ErrorCode::kInvalidInput, "The method '" + options.method + "' is not known; there is epipolar.",
+                "--method");
   }
   const bool one_pair = !options.current.empty() && !options.target.empty();
   if (one_pair == !options.pairs.empty()) {
@@ -111,7 +112,8 @@ Status home(const Options& options) {
 }  // namespace
 
 void register_home(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("home", "Which way to drive from one picture to another: a JSON line per pair");
+  CLI::App* command =
+      program.add_subcommand("home", "Which way to drive from one picture to another: a JSON line per pair");
   const auto options = std::make_shared<Options>();
   command->add_option("--camera", options->camera, "camera.json")->required();
   command->add_option("--current", options->current, "Picture taken here");

@@ -10,6 +10,7 @@ void register_map(CLI::App& program) {
   map->require_subcommand(1);
   register_map_build(*map);
   register_map_inspect(*map);
+  register_map_export(*map);
 }
 
 }  // namespace homeward::cli

@@ -36,7 +36,8 @@ Status make_grid(const Options& options) {
       poses.emplace_back(Pose2{at.x(), at.y(), options.theta_rad}, room);
     }
   }
-  if (poses.empty()) return fail(ErrorCode::kEmptyInput, "No point of the grid is on the free floor.", options.stage.world);
+  if (poses.empty())
+    return fail(ErrorCode::kEmptyInput, "No point of the grid is on the free floor.", options.stage.world);
   ProgressBar bar;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (const Status added = writer->add(poses[i].first, poses[i].second, nullptr); !added) return added;

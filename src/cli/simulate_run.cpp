@@ -33,7 +33,8 @@ nlohmann::json to_json(const agent::MissionResult& result) {
                           {"stops", nlohmann::json::array()},
                           {"vectors_per_s", result.vectors_per_s},
                           {"duration_s", result.duration_s}};
-  for (const agent::StopEvent& stop : result.stops) value["stops"].push_back({{"t_s", stop.t_s}, {"reason", stop.reason}});
+  for (const agent::StopEvent& stop : result.stops)
+    value["stops"].push_back({{"t_s", stop.t_s}, {"reason", stop.reason}});
   return value;
 }
 
@@ -58,9 +59,9 @@ nlohmann::json to_json(const agent::CycleTrace& cycle) {
 }
 
 void print(const agent::MissionResult& result) {
-  std::printf("%-14s -> %-14s %-8s %5.2f m off, %5.1f m driven (shortest %5.1f m), %d collisions, %5.1f s", result.from.c_str(),
-              result.to.c_str(), result.arrived ? "arrived" : "failed", result.final_error_m, result.path_m,
-              result.shortest_m, result.collisions, result.duration_s);
+  std::printf("%-14s -> %-14s %-8s %5.2f m off, %5.1f m driven (shortest %5.1f m), %d collisions, %5.1f s",
+              result.from.c_str(), result.to.c_str(), result.arrived ? "arrived" : "failed", result.final_error_m,
+              result.path_m, result.shortest_m, result.collisions, result.duration_s);
   for (const agent::StopEvent& stop : result.stops) std::printf("; at %.1f s: %s", stop.t_s, stop.reason.c_str());
   std::printf("\n");
   std::fflush(stdout);
@@ -92,7 +93,8 @@ Status run(const Options& options) {
 }  // namespace
 
 void register_simulate_run(CLI::App& simulate) {
-  CLI::App* command = simulate.add_subcommand("run", "Teach a world, build its map and drive missions, in simulated time");
+  CLI::App* command =
+      simulate.add_subcommand("run", "Teach a world, build its map and drive missions, in simulated time");
   const auto options = std::make_shared<Options>();
   command->add_option("--scenario", options->scenario, "Scenario file")->required();
   command->add_flag("--json", options->json, "One JSON line for each mission");

@@ -88,14 +88,16 @@ Status TourWriter::add(const Pose2& pose, const std::string& room, const Pose2* 
   const std::uint64_t noise_seed = p.seed * 1'000'003 + static_cast<std::uint64_t>(p.count);
   const Image picture = p.renderer->render(pose, {}, noise_seed);
   const std::vector<std::uint8_t> jpeg = imageio::encode_jpeg(picture, kQuality);
-  if (const Status written = agent::write_file(p.folder / name, {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
+  if (const Status written =
+          agent::write_file(p.folder / name, {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
       !written) {
     return written;
   }
   p.poses += p.last_name + formatted(",%.4f,%.4f,%.5f,", pose.x_m, pose.y_m, pose.theta_rad) + room + "\n";
   p.times += p.last_name + "," + std::to_string(p.t_us) + "\n";
   if (odometry != nullptr) {
-    p.odometry += std::to_string(p.t_us) + formatted(",%.4f,%.4f,%.5f\n", odometry->x_m, odometry->y_m, odometry->theta_rad);
+    p.odometry +=
+        std::to_string(p.t_us) + formatted(",%.4f,%.4f,%.5f\n", odometry->x_m, odometry->y_m, odometry->theta_rad);
   }
   const sim::LaserConfig laser;
   const std::vector<float> ranges = sim::scan(p.world.rays(), pose, {}, laser, noise_seed);
@@ -118,10 +120,11 @@ Status TourWriter::add(const Pose2& pose, const std::string& room, const Pose2* 
 
 Status TourWriter::finish(const std::vector<std::pair<std::string, std::string>>& marks) {
   const Parts& p = *parts_;
-  std::vector<std::pair<std::string, std::string>> files = {{"poses.csv", p.poses},
-                                                            {"times.csv", p.times},
-                                                            {"scans.csv", p.scans},
-                                                            {"camera.json", wire::camera_to_json(p.camera).dump(2) + "\n"}};
+  std::vector<std::pair<std::string, std::string>> files = {
+      {"poses.csv", p.poses},
+      {"times.csv", p.times},
+      {"scans.csv", p.scans},
+      {"camera.json", wire::camera_to_json(p.camera).dump(2) + "\n"}};
   if (p.odometry.find('\n') + 1 < p.odometry.size()) files.emplace_back("odometry.csv", p.odometry);
   if (!marks.empty()) {
     nlohmann::json tour = {{"marks", nlohmann::json::array()}};

@@ -160,9 +160,11 @@ class BadPictures(CliTest):
         self.tour()
         self.assert_refused(3, ["none.jpg"], *self.home("tour/00001.jpg", "tour/none.jpg"))
 
-    def test_black_picture(self):
+    def test_a_black_picture_gives_no_direction(self):
         write_png(self.tour() / "black.png", 1024, 512, 0)
-        self.assert_refused(4, ["black.png"], *self.home("tour/00001.jpg", "tour/black.png"))
+        (answer,) = self.lines_of(*self.home("tour/00001.jpg", "tour/black.png"))
+        self.assertIsNone(answer["bearing_rad"])
+        self.assertIsNone(answer["turn_rad"])
 
     def test_one_picture_alone(self):
         self.tour()
@@ -183,6 +185,10 @@ class WrongUse(CliTest):
 
     def test_number_that_is_none(self):
         self.assert_refused(2, ["--threads", "many"], *BUILD, "--threads", "many")
+
+    def test_unknown_format(self):
+        self.good_map()
+        self.assert_refused(2, ["pdf", "graphml"], "map", "export", "good.map", "--format", "pdf")
 
     def test_no_command(self):
         self.assert_refused(2, ["subcommand"])
