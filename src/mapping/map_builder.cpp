@@ -183,8 +183,8 @@ map::Edge make_edge(const MappingInput& input, const MappingConfig& config, int 
 
 /// Every transition between places that a tour drove, in both directions.
 std::vector<map::Edge> form_edges(const MappingInput& input, const TourPath& path, const TourTrack& track,
-                                  const MappingConfig& config,
-                                  std::span<const map::Place> places, std::span<const int> place_of_image) {
+                                  const MappingConfig& config, std::span<const map::Place> places,
+                                  std::span<const int> place_of_image) {
   std::unordered_map<ImageId, int> index;
   for (std::size_t i = 0; i < input.images.size(); ++i) index.emplace(input.images[i].id, static_cast<int>(i));
   const auto prototype = [&](int place) { return index.at(places[at(place)].prototype); };

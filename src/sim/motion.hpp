@@ -46,7 +46,8 @@ class Obstacles {
   std::vector<float> distance_m_;
 };
 
-/// What wheels say about the way: starts at zero, drifts with slip of about 1 % in length and 1 degree a metre in heading.
+/// What wheels say about the way: starts at zero, drifts with slip of about 1 % in length and 1 degree a metre in
+/// heading.
 class WheelOdometry {
  public:
   explicit WheelOdometry(std::uint64_t seed);

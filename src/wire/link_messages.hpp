@@ -102,7 +102,7 @@ struct PathPlace {
   PlaceId place;
   ImageId image;                         // its prototype
   std::vector<std::uint8_t> appearance;  // appearance_blob.hpp
-  std::optional<PathEdge> next;  // nothing at the last place
+  std::optional<PathEdge> next;          // nothing at the last place
 };
 
 struct MissionOrder {

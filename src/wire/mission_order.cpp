@@ -11,10 +11,12 @@ namespace {
 
 /// Lengths are metres only where the tours had odometry.
 bool is_metric(const map::TopologicalMap& map) {
-  return std::all_of(map.images.begin(), map.images.end(), [](const map::MapImage& image) { return image.odometry.has_value(); });
+  return std::all_of(map.images.begin(), map.images.end(),
+                     [](const map::MapImage& image) { return image.odometry.has_value(); });
 }
 
-std::optional<PathEdge> edge_between(const map::TopologicalMap& map, const PlaceId& from, const PlaceId& to, bool metric) {
+std::optional<PathEdge> edge_between(const map::TopologicalMap& map, const PlaceId& from, const PlaceId& to,
+                                     bool metric) {
   const auto edge = std::find_if(map.edges.begin(), map.edges.end(), [&](const map::Edge& candidate) {
     return candidate.from == from && candidate.to == to;
   });

@@ -9,8 +9,8 @@
 namespace homeward::wire {
 
 /// The path part of a mission: the places of a route with their prototypes' appearances and what the map knows of the
-/// ways between them, and the destination's own picture, to whose heading the robot turns. Ids, order, permit and speed are
-/// the caller's. Precondition: the places are in the map.
+/// ways between them, and the destination's own picture, to whose heading the robot turns. Ids, order, permit and speed
+/// are the caller's. Precondition: the places are in the map.
 MissionOrder order_for_route(const map::TopologicalMap& map, std::span<const PlaceId> route,
                              const map::Destination& destination);
 

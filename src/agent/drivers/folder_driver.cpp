@@ -17,7 +17,8 @@ class FolderDriver final : public Driver {
   FolderDriver(std::vector<std::filesystem::path> files, camera::CameraConfig camera, const FolderDriverConfig& config)
       : files_(std::move(files)),
         camera_(std::move(camera)),
-        period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / config.pictures_per_s))),
+        period_(
+            std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / config.pictures_per_s))),
         repeat_(config.repeat) {}
 
   [[nodiscard]] const camera::CameraConfig& camera() const override { return camera_; }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-
 namespace homeward::agent {
 
 sim::LaserConfig safety_scanner() {
@@ -13,7 +12,8 @@ sim::LaserConfig safety_scanner() {
   return laser;
 }
 
-Result<SimulatedRobot> SimulatedRobot::create(sim::LitWorld& world, const SimulatedRobotConfig& config, const Pose2& start) {
+Result<SimulatedRobot> SimulatedRobot::create(sim::LitWorld& world, const SimulatedRobotConfig& config,
+                                              const Pose2& start) {
   auto camera = camera::Camera::create(config.camera);
   if (!camera) return pass_on(camera);
   return SimulatedRobot(world, config, start, std::move(*camera));
@@ -42,7 +42,9 @@ SimulatedRobot::View SimulatedRobot::view() {
   return {vehicle_.pose(), vehicle_.odometry(), walkers_.people(), config_.seed * 7'919 + ++readings_};
 }
 
-Image SimulatedRobot::render(const View& view) const { return renderer_.render(view.pose, view.people, view.noise_seed); }
+Image SimulatedRobot::render(const View& view) const {
+  return renderer_.render(view.pose, view.people, view.noise_seed);
+}
 
 Scan SimulatedRobot::sweep() {
   Scan scan;

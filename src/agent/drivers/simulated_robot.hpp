@@ -18,8 +18,8 @@
 
 namespace homeward::agent {
 
-/// The simulated chair's range sensor: layers from the floor to head height, because a single plane at 0.3 m sees the legs
-/// of a table and not its top.
+/// The simulated chair's range sensor: layers from the floor to head height, because a single plane at 0.3 m sees the
+/// legs of a table and not its top.
 sim::LaserConfig safety_scanner();
 
 struct SimulatedRobotConfig {

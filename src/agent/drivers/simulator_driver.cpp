@@ -77,9 +77,9 @@ class SimulatorDriver final : public Driver {
     if (!truth_.is_open() || now - told_ < kTruthPeriod) return;
     told_ = now;
     const sim::Vehicle& vehicle = robot_.vehicle();
-    const auto t_us = std::chrono::duration_cast<std::chrono::microseconds>(
-                          std::chrono::system_clock::now().time_since_epoch())
-                          .count();
+    const auto t_us =
+        std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
+            .count();
     const nlohmann::json line = {{"t_us", t_us},
                                  {"x_m", vehicle.pose().x_m},
                                  {"y_m", vehicle.pose().y_m},
@@ -134,8 +134,8 @@ Result<std::unique_ptr<Driver>> make_simulator_driver(const SimulatorDriverConfi
   auto robot = SimulatedRobot::create(*world, robot_config, start);
   if (!robot) return pass_on(robot);
   Body body = body_of(robot_config.profile);
-  return std::make_unique<SimulatorDriver>(std::move(world), std::move(*robot), std::move(robot_config), std::move(body),
-                                           config.truth_file);
+  return std::make_unique<SimulatorDriver>(std::move(world), std::move(*robot), std::move(robot_config),
+                                           std::move(body), config.truth_file);
 }
 
 }  // namespace homeward::agent

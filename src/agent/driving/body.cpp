@@ -12,7 +12,8 @@ constexpr double kReaction_s = 0.25;  // from the sweep to the wheels
 constexpr double kStep_s = 0.1;
 
 /// The points after the robot moved along an arc for a while, in its new frame.
-std::vector<Eigen::Vector2d> seen_after(std::span<const Eigen::Vector2d> points_m, const Motion& motion, double seconds) {
+std::vector<Eigen::Vector2d> seen_after(std::span<const Eigen::Vector2d> points_m, const Motion& motion,
+                                        double seconds) {
   const double turned_rad = motion.turn_radps * seconds;
   const double length_m = motion.speed_mps * seconds;
   const double half_rad = 0.5 * turned_rad;

@@ -27,8 +27,8 @@ struct Motion {
 /// From the body's outline to the nearest point, metres; negative inside. Far when there is no point.
 double clearance_m(const Body& body, std::span<const Eigen::Vector2d> points_m);
 
-/// The wanted motion, slowed or stopped so that the body could still brake before touching any point: range sensors have
-/// the last word. What only turns a body away from contact stays allowed.
+/// The wanted motion, slowed or stopped so that the body could still brake before touching any point: range sensors
+/// have the last word. What only turns a body away from contact stays allowed.
 Motion made_safe(const Motion& wanted, const Body& body, std::span<const Eigen::Vector2d> points_m);
 
 }  // namespace homeward::agent

@@ -28,10 +28,10 @@ void expect_onwards(FollowState& state, const VisualPath& path, int from) {
     const Eigen::Vector2d across(-along.y(), along.x());
     const double along_m = 0.35 * *edge->length_m + 0.15;
     const double across_m = (edge->weak ? 0.5 : 0.25) * *edge->length_m + 0.1;
-    state.tracks[index + 1].expect(
-        track.position_m() + *edge->length_m * along,
-        track.covariance_m2() + along_m * along_m * along * along.transpose() + across_m * across_m * across * across.transpose(),
-        wrap_angle(track.heading_rad() + edge->turn_rad.value_or(0.0)));
+    state.tracks[index + 1].expect(track.position_m() + *edge->length_m * along,
+                                   track.covariance_m2() + along_m * along_m * along * along.transpose() +
+                                       across_m * across_m * across * across.transpose(),
+                                   wrap_angle(track.heading_rad() + edge->turn_rad.value_or(0.0)));
   }
 }
 
@@ -104,8 +104,8 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
     // Bearings are sharp to within centimetres of a view: when it passes from ahead to behind, the robot is there.
     const bool behind = is_sure(*result.vector, config) && std::cos(result.vector->bearing_rad) < 0.0;
     state.behind = behind ? state.behind + 1 : 0;
-    const bool coincides = result.vector->median_parallax_rad < config.homing.arrived_parallax_rad &&
-                           state.alike > config.alike_share;
+    const bool coincides =
+        result.vector->median_parallax_rad < config.homing.arrived_parallax_rad && state.alike > config.alike_share;
     result.at_end = coincides || (state.behind >= 2 && distance_m < config.nearby_m);
   }
   return result;

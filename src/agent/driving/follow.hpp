@@ -22,9 +22,9 @@ struct VisualPath {
 struct FollowConfig {
   homing::HomingConfig homing;
   ViewTrackConfig track;
-  double pass_m = 0.5;        // a view on the way is passed within this distance
-  double abreast_m = 1.1;     // or when the robot is level with it within this one
-  double sure = 0.8;          // confidence of a clear answer
+  double pass_m = 0.5;     // a view on the way is passed within this distance
+  double abreast_m = 1.1;  // or when the robot is level with it within this one
+  double sure = 0.8;       // confidence of a clear answer
   int sure_inliers = 24;
   double believe = 0.5;       // below that an answer says nothing
   int look_ahead = 3;         // views tried beyond the present one
@@ -51,8 +51,8 @@ struct FollowResult {
 };
 
 /// One picture further along a path of views: takes the answers of the view homed to and of those after it, keeps where
-/// they lie, and passes on to the next view when one is reached or left behind (Goedemé 2007 §7, with the home vector of
-/// each picture alone and its distance triangulated over odometry).
+/// they lie, and passes on to the next view when one is reached or left behind (Goedemé 2007 §7, with the home vector
+/// of each picture alone and its distance triangulated over odometry).
 FollowResult follow(FollowState& state, const VisualPath& path, const features::Appearance& seen, const Pose2& odometry,
                     const FollowConfig& config, std::uint64_t seed);
 

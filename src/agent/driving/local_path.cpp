@@ -14,8 +14,8 @@ namespace {
 constexpr double kCell_m = 0.06;
 constexpr int kHalfCells = 50;  // 3 m to each side
 constexpr int kSide = 2 * kHalfCells + 1;
-constexpr double kSpare_m = 0.07;     // beside the body's own radius, more than the safety margin
-constexpr double kComfort_m = 0.35;   // beyond that nothing costs extra
+constexpr double kSpare_m = 0.07;    // beside the body's own radius, more than the safety margin
+constexpr double kComfort_m = 0.35;  // beyond that nothing costs extra
 constexpr double kCarrot_m = 0.55;
 
 struct Cell {
@@ -67,7 +67,8 @@ std::vector<Eigen::Vector2d> thinned(std::span<const Eigen::Vector2d> points_m) 
 
 }  // namespace
 
-std::optional<LocalWay> local_way(const Body& body, std::span<const Eigen::Vector2d> points_m, const Eigen::Vector2d& goal_m) {
+std::optional<LocalWay> local_way(const Body& body, std::span<const Eigen::Vector2d> points_m,
+                                  const Eigen::Vector2d& goal_m) {
   const double blocked_m = body.radius_m + kSpare_m;
   const std::vector<float> distance = distances(thinned(points_m), blocked_m + kComfort_m);
   const Cell start{kHalfCells, kHalfCells};
@@ -100,7 +101,8 @@ std::optional<LocalWay> local_way(const Body& body, std::span<const Eigen::Vecto
         if ((dx == 0 && dy == 0) || !inside(next)) continue;
         const auto clear_m = static_cast<double>(distance[slot(next)]);
         // Standing too close already, the robot may still move to where there is more room.
-        if (clear_m < blocked_m && !(start_clear < blocked_m && clear_m >= static_cast<double>(distance[index]))) continue;
+        if (clear_m < blocked_m && !(start_clear < blocked_m && clear_m >= static_cast<double>(distance[index])))
+          continue;
         const double crowding = std::max(0.0, 1.0 - (clear_m - blocked_m) / kComfort_m);
         const auto step = static_cast<float>(kCell_m * std::sqrt(dx * dx + dy * dy) * (1.0 + 2.5 * crowding));
         if (cost[index] + step >= cost[slot(next)]) continue;

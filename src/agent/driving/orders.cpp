@@ -55,8 +55,7 @@ struct Clerk {
   void operator()(const wire::StopOrder& stop) const {
     // A stop is obeyed whatever its age: stopping once too often harms nobody.
     if (state.drive == wire::DriveState::kDriving) {
-      end_mission(state, wire::DriveState::kStopped,
-                  stop.reason.empty() ? "Stopped by " + stop.by + "." : stop.reason);
+      end_mission(state, wire::DriveState::kStopped, stop.reason.empty() ? "Stopped by " + stop.by + "." : stop.reason);
     }
     outputs.messages.emplace_back(wire::Stopped{stop.stop_id, 0});
   }
@@ -84,8 +83,8 @@ void obey(DrivingState& state, const std::vector<wire::ServerMessage>& messages,
 Result<Mission> decode_mission(const wire::MissionOrder& order, const DrivingConfig& config) {
   if (order.feature_config_id != config.feature_config_id) {
     return fail(ErrorCode::kFeatureConfigMismatch,
-                "The map's features (" + order.feature_config_id + ") are not this robot's (" + config.feature_config_id +
-                    "); rebuild the map from the kept images.",
+                "The map's features (" + order.feature_config_id + ") are not this robot's (" +
+                    config.feature_config_id + "); rebuild the map from the kept images.",
                 "mission/feature_config_id");
   }
   Mission mission;

@@ -6,8 +6,8 @@
 
 namespace homeward::agent {
 
-/// One sweep of range sensors in the robot frame. Ray i points angle_min_rad + i * angle_step_rad counter-clockwise from
-/// forward; a range that is not finite or beyond range_max_m saw nothing.
+/// One sweep of range sensors in the robot frame. Ray i points angle_min_rad + i * angle_step_rad counter-clockwise
+/// from forward; a range that is not finite or beyond range_max_m saw nothing.
 struct Scan {
   std::vector<float> ranges_m;
   double angle_min_rad = 0.0;

@@ -19,7 +19,8 @@ void take_picture(DrivingState& state, const SeenPicture& picture, const Driving
   const int index_before = state.follow.index;
   state.covered = false;
   state.pictured = true;
-  state.seen = follow(state.follow, state.mission->path, *picture.appearance, picture.odometry, config.follow, state.pictures);
+  state.seen =
+      follow(state.follow, state.mission->path, *picture.appearance, picture.odometry, config.follow, state.pictures);
   if (state.seen.answered) {
     state.last_answer_ms = now_ms;
     state.answers_ms.push_back(now_ms);
@@ -45,7 +46,8 @@ std::optional<std::string> reason_to_stop(const DrivingState& state, const Input
   if (now_ms > state.permit_ends_ms) return "The permit to drive has run out.";
   const Milliseconds patience_ms = state.pictured ? config.frame_silence_ms : config.first_frame_ms;
   if (sensors_ms - state.last_picture_ms > patience_ms) return "The camera gives no pictures.";
-  if (!state.scan || sensors_ms - state.scan->taken_ms > config.scan_silence_ms) return "The range sensor gives no readings.";
+  if (!state.scan || sensors_ms - state.scan->taken_ms > config.scan_silence_ms)
+    return "The range sensor gives no readings.";
   return std::nullopt;
 }
 

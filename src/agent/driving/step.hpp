@@ -34,8 +34,8 @@ struct DrivingConfig {
   double dock_within_rad = 0.06;         // heading at the end
 };
 
-/// What is new since the last step. Pictures and sweeps carry the time at which they were taken, by the sensors' clock: the
-/// machine's own on a robot, simulated time in a simulator.
+/// What is new since the last step. Pictures and sweeps carry the time at which they were taken, by the sensors' clock:
+/// the machine's own on a robot, simulated time in a simulator.
 struct SeenPicture {
   Milliseconds taken_ms = 0;
   std::shared_ptr<const features::Appearance> appearance;
@@ -66,20 +66,20 @@ struct Mission {
 /// Everything that the heart of the agent remembers between two steps. Copies are cheap: views are shared.
 struct DrivingState {
   wire::DriveState drive = wire::DriveState::kIdle;
-  std::string reason;       // why it stopped or failed, for people
-  wire::Order newest;       // the newest order obeyed
+  std::string reason;  // why it stopped or failed, for people
+  wire::Order newest;  // the newest order obeyed
   std::int64_t least_epoch = 0;
   std::shared_ptr<const Mission> mission;
   Milliseconds permit_ends_ms = 0;
   FollowState follow;
-  FollowResult seen;                // of the latest picture
-  bool pictured = false;            // a picture has come since the mission began
+  FollowResult seen;      // of the latest picture
+  bool pictured = false;  // a picture has come since the mission began
   bool docking = false;
-  bool covered = false;             // the latest picture shows next to nothing
+  bool covered = false;  // the latest picture shows next to nothing
   Milliseconds last_message_ms = 0;
   Milliseconds last_picture_ms = 0;
   Milliseconds last_answer_ms = 0;
-  Milliseconds last_gain_ms = 0;    // when way was last gained
+  Milliseconds last_gain_ms = 0;  // when way was last gained
   Pose2 gain_from;
   std::optional<SeenScan> scan;
   std::optional<double> min_range_m;
@@ -98,7 +98,8 @@ struct Outputs {
 /// sweeps fresh; everything else is a stop, after which only a newer mission moves it again (design §3.10).
 Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds now_ms);
 
-/// A mission as the heart needs it, its views decoded. Errors: kFeatureConfigMismatch, kCorruptFile, kUnsupportedFormat.
+/// A mission as the heart needs it, its views decoded. Errors: kFeatureConfigMismatch, kCorruptFile,
+/// kUnsupportedFormat.
 Result<Mission> decode_mission(const wire::MissionOrder& order, const DrivingConfig& config);
 
 }  // namespace homeward::agent

@@ -10,9 +10,10 @@
 namespace homeward::agent {
 
 struct ViewTrackConfig {
-  double metres_per_parallax = 4.0;  // rough depth of rooms: how far a view is for its parallax; along corridors far off
-  double drift_per_m = 0.03;         // of odometry
-  double gate = 3.5;                 // standard deviations beyond which an answer contradicts what is known
+  double metres_per_parallax =
+      4.0;                    // rough depth of rooms: how far a view is for its parallax; along corridors far off
+  double drift_per_m = 0.03;  // of odometry
+  double gate = 3.5;          // standard deviations beyond which an answer contradicts what is known
 };
 
 /// Where one view lies in the frame of odometry: bearings from several poses, triangulated as they come (a bearing-only
@@ -31,8 +32,8 @@ class ViewTrack {
   /// contradicted three times in a row starts anew from the last answer.
   bool observe(const Pose2& robot, const homing::HomeVector& answer, const ViewTrackConfig& config);
 
-  /// Takes into account where the view must lie by the map: the whole of it when nothing is known yet, else only what is
-  /// known worse than the map knows it.
+  /// Takes into account where the view must lie by the map: the whole of it when nothing is known yet, else only what
+  /// is known worse than the map knows it.
   void expect(const Eigen::Vector2d& position_m, const Eigen::Matrix2d& covariance_m2, double heading_rad);
 
   /// The robot drove on: odometry has drifted.

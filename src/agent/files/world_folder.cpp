@@ -24,7 +24,8 @@ Result<std::optional<std::uint64_t>> seed_after(const std::string& name, const s
   std::uint64_t seed = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), seed);
   if (error != std::errc() || end != digits.data() + digits.size() || digits.empty()) {
-    return fail(ErrorCode::kInvalidInput, "'" + digits + "' is no seed: a number is wanted after '" + kind + ":'.", name);
+    return fail(ErrorCode::kInvalidInput, "'" + digits + "' is no seed: a number is wanted after '" + kind + ":'.",
+                name);
   }
   return std::optional(seed);
 }
@@ -100,7 +101,8 @@ Result<sim::LightPreset> light_named(const std::string& name) {
   if (name == "day") return sim::LightPreset::kDay;
   if (name == "night") return sim::LightPreset::kNight;
   if (name == "half") return sim::LightPreset::kHalf;
-  return fail(ErrorCode::kInvalidInput, "The light '" + name + "' is not known; there are day, night and half.", "light");
+  return fail(ErrorCode::kInvalidInput, "The light '" + name + "' is not known; there are day, night and half.",
+              "light");
 }
 
 }  // namespace homeward::agent

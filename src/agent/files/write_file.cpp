@@ -34,7 +34,8 @@ Status write_file(const std::filesystem::path& file, std::string_view bytes) {
   if (descriptor < 0) return trouble(file, "The file cannot be made");
   Status status = write_all(descriptor, bytes, file);
   ::close(descriptor);
-  if (status && ::rename(unfinished.c_str(), file.c_str()) != 0) status = trouble(file, "The file cannot be put in place");
+  if (status && ::rename(unfinished.c_str(), file.c_str()) != 0)
+    status = trouble(file, "The file cannot be put in place");
   if (!status) ::unlink(unfinished.c_str());
   return status;
 }

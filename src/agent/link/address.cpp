@@ -30,8 +30,9 @@ Result<ServerAddress> parse_address(const std::string& text) {
     address.port = rest.substr(colon + 1);
     rest = rest.substr(0, colon);
   }
-  const bool digits = !address.port.empty() && address.port.size() <= 5 &&
-                      std::all_of(address.port.begin(), address.port.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  const bool digits =
+      !address.port.empty() && address.port.size() <= 5 &&
+      std::all_of(address.port.begin(), address.port.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
   if (!digits) return wrong("The port must be a number.");
   if (bracketed && rest.ends_with(']')) rest = rest.substr(1, rest.size() - 2);
   if (rest.empty()) return wrong("The address names no host.");

@@ -170,10 +170,11 @@ struct LinkClient::Impl {
         request.set(beast::http::field::authorization, "Bearer " + token);
         request.set(beast::http::field::user_agent, hello.agent);
       }));
-      socket.async_handshake(address.host_header(), "/api/v1/robots/" + robot.str() + "/link", [&](beast::error_code error) {
-        if (error) return close("the server refused the link: " + error.message());
-        greet();
-      });
+      socket.async_handshake(address.host_header(), "/api/v1/robots/" + robot.str() + "/link",
+                             [&](beast::error_code error) {
+                               if (error) return close("the server refused the link: " + error.message());
+                               greet();
+                             });
     };
     Tcp::resolver resolver(context);
     const auto targets = resolver.resolve(address.host, address.port);
@@ -181,7 +182,9 @@ struct LinkClient::Impl {
     beast::get_lowest_layer(socket).async_connect(targets, [&](beast::error_code error, const Tcp::endpoint&) {
       if (error) return close(error.message());
       beast::get_lowest_layer(socket).socket().set_option(Tcp::no_delay(true));
-      if constexpr (requires { socket.next_layer().async_handshake(asio::ssl::stream_base::client, [](beast::error_code) {}); }) {
+      if constexpr (requires {
+                      socket.next_layer().async_handshake(asio::ssl::stream_base::client, [](beast::error_code) {});
+                    }) {
         socket.next_layer().async_handshake(asio::ssl::stream_base::client, [&](beast::error_code tls_error) {
           if (tls_error) return close(tls_error.message());
           upgrade();

@@ -25,7 +25,8 @@ Milliseconds now_ms() {
 }
 
 TimeUs now_us() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+  return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
 }
 
 std::string random_session() {
@@ -46,7 +47,8 @@ wire::AgentStatus status_of(const DrivingState& state, const Reading& reading, s
   if (!state.reason.empty()) status.reason = state.reason;
   status.speed_mps = reading.speed_mps;
   if (state.drive == wire::DriveState::kDriving && state.seen.vector) {
-    status.home = wire::HomeReport{state.seen.vector->bearing_rad, state.seen.vector->confidence, state.seen.vector->inliers};
+    status.home =
+        wire::HomeReport{state.seen.vector->bearing_rad, state.seen.vector->confidence, state.seen.vector->inliers};
   }
   status.min_range_m = state.min_range_m;
   status.vectors_per_s = static_cast<double>(state.answers_ms.size());
@@ -77,8 +79,8 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
   config.body = driver.body();
   config.feature_config_id = features::feature_config_id(features);
 
-  wire::Hello hello{"homeward-agent/0.1.0",     options.robot_name,    random_session(), driver.camera(),
-                    config.body.radius_m, config.body.max_speed_mps};
+  wire::Hello hello{"homeward-agent/0.1.0", options.robot_name,   random_session(),
+                    driver.camera(),        config.body.radius_m, config.body.max_speed_mps};
   const StandStill at_the_end(driver);
   LinkClient link(options.server, options.robot, options.token, std::move(hello), options.told);
   std::int64_t frame_seq = 0;
@@ -113,7 +115,9 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
     }
     looker.set_looking(state.drive == wire::DriveState::kDriving);
     const bool changed = state.drive != told_state;
-    if (changed) options.told(std::string(wire::drive_state_name(state.drive)) + (state.reason.empty() ? "" : ": " + state.reason));
+    if (changed)
+      options.told(std::string(wire::drive_state_name(state.drive)) +
+                   (state.reason.empty() ? "" : ": " + state.reason));
     told_state = state.drive;
     if (changed || now - status_ms >= kStatusPeriod_ms) {
       status_ms = now;

@@ -20,8 +20,8 @@ struct AgentOptions {
   std::function<void(const std::string&)> told;  // what happens, for a log
 };
 
-/// Runs a robot until `stop` is asked for: one thread looks at pictures, one (the caller's) decides 25 times a second and
-/// commands the driver, one speaks with the server. The driver is commanded to zero at the end, however it ends.
+/// Runs a robot until `stop` is asked for: one thread looks at pictures, one (the caller's) decides 25 times a second
+/// and commands the driver, one speaks with the server. The driver is commanded to zero at the end, however it ends.
 /// Errors: those of the eye and of pictures.
 Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_token& stop);
 

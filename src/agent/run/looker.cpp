@@ -46,7 +46,8 @@ void Looker::run(const std::stop_token& stop) {
     auto appearance = eye_.look((*taken)->picture);
     if (!appearance) return fail_with(appearance.error());
     const std::lock_guard lock(mutex_);
-    newest_ = {(*taken)->t_ms, std::make_shared<const features::Appearance>(std::move(*appearance)), (*taken)->odometry};
+    newest_ = {(*taken)->t_ms, std::make_shared<const features::Appearance>(std::move(*appearance)),
+               (*taken)->odometry};
   }
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <memory>
-#include <spdlog/spdlog.h>
 #include <thread>
 
 #include "agent/drivers/folder_driver.hpp"
@@ -142,7 +142,8 @@ void register_run(CLI::App& program) {
       ->check(CLI::IsMember({"disc", "chair"}))
       ->capture_default_str();
   command->add_option("--start-room", options->simulator.start_room, "Simulator: room to start in");
-  command->add_option("--people", options->simulator.people, "Simulator: people who walk about")->check(CLI::Range(0, 50));
+  command->add_option("--people", options->simulator.people, "Simulator: people who walk about")
+      ->check(CLI::Range(0, 50));
   command->add_option("--seed", options->simulator.seed, "Simulator: seed of noise and people");
   command->add_option("--truth-file", options->simulator.truth_file, "Simulator: append true poses to this file");
   command->add_option("--camera", options->simulator.camera, "Model of the simulated camera, or a camera.json")

@@ -27,9 +27,11 @@ Error refusal(const RestAnswer& answer, const std::string& what) {
 }
 
 Result<json> call(RestClient& server, const std::string& method, const std::string& path, const json* body) {
-  const auto answer = server.call(method, path, body != nullptr ? body->dump() : "", {{"Content-Type", "application/json"}});
+  const auto answer =
+      server.call(method, path, body != nullptr ? body->dump() : "", {{"Content-Type", "application/json"}});
   if (!answer) return pass_on(answer);
-  if (answer->status < 200 || answer->status >= 300) return tl::unexpected<Error>(refusal(*answer, method + " " + path));
+  if (answer->status < 200 || answer->status >= 300)
+    return tl::unexpected<Error>(refusal(*answer, method + " " + path));
   json value = json::parse(answer->body, nullptr, false);
   if (value.is_discarded()) return fail(ErrorCode::kIo, "The server's answer is no JSON.", path);
   return value;
@@ -65,10 +67,12 @@ Status put_picture(RestClient& server, const std::string& tour, std::size_t numb
   if (image.t_us) headers["X-Homeward-T-Us"] = std::to_string(*image.t_us);
   if (image.odometry) {
     char text[100];
-    std::snprintf(text, sizeof text, "%.6f,%.6f,%.6f", image.odometry->x_m, image.odometry->y_m, image.odometry->theta_rad);
+    std::snprintf(text, sizeof text, "%.6f,%.6f,%.6f", image.odometry->x_m, image.odometry->y_m,
+                  image.odometry->theta_rad);
     headers["X-Homeward-Odometry"] = text;
   }
-  const auto answer = server.call("PUT", "/api/v1/tours/" + tour + "/images/" + std::to_string(number), *bytes, headers);
+  const auto answer =
+      server.call("PUT", "/api/v1/tours/" + tour + "/images/" + std::to_string(number), *bytes, headers);
   if (!answer) return pass_on(answer);
   if (answer->status != 200 && answer->status != 201) return tl::unexpected<Error>(refusal(*answer, file.string()));
   return {};
@@ -81,7 +85,8 @@ Result<std::string> upload_tour(RestClient& server, const UploadOptions& options
   const auto tour = TourFolder::open(options.folder);
   if (!tour) return pass_on(tour);
   const std::filesystem::path folder(options.folder);
-  const auto camera = read_camera(options.camera.empty() ? folder / "camera.json" : std::filesystem::path(options.camera));
+  const auto camera =
+      read_camera(options.camera.empty() ? folder / "camera.json" : std::filesystem::path(options.camera));
   if (!camera) return pass_on(camera);
   const auto id = open_tour(server, options.name, *camera);
   if (!id) return pass_on(id);
@@ -92,10 +97,12 @@ Result<std::string> upload_tour(RestClient& server, const UploadOptions& options
     progress(static_cast<double>(i + 1) / static_cast<double>(files->size()));
   }
   json marks = {{"marks", json::array()}};
-  for (const pipeline::TourMark& mark : tour->marks()) marks["marks"].push_back({{"image", mark.image}, {"label", mark.label}});
+  for (const pipeline::TourMark& mark : tour->marks())
+    marks["marks"].push_back({{"image", mark.image}, {"label", mark.label}});
   if (const auto put = call(server, "PUT", "/api/v1/tours/" + *id + "/marks", &marks); !put) return pass_on(put);
   const json nothing = json::object();
-  if (const auto done = call(server, "POST", "/api/v1/tours/" + *id + "/complete", &nothing); !done) return pass_on(done);
+  if (const auto done = call(server, "POST", "/api/v1/tours/" + *id + "/complete", &nothing); !done)
+    return pass_on(done);
   return *id;
 }
 

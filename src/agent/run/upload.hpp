@@ -14,8 +14,9 @@ struct UploadOptions {
   std::string name;
 };
 
-/// Brings a folder's tour to a server: pictures, times, odometry and marks. A tour of the same name that is still open is
-/// carried on with. Returns the tour's id. Errors: those of TourFolder and read_camera, kIo, and what the server refuses.
+/// Brings a folder's tour to a server: pictures, times, odometry and marks. A tour of the same name that is still open
+/// is carried on with. Returns the tour's id. Errors: those of TourFolder and read_camera, kIo, and what the server
+/// refuses.
 Result<std::string> upload_tour(RestClient& server, const UploadOptions& options,
                                 const std::function<void(double)>& progress);
 

@@ -42,7 +42,8 @@ void occlude(Image& picture, double share) {
 Pose2 starting_pose(const sim::World& world, const Eigen::Vector2d& point_m, std::uint64_t seed) {
   sim::Random random(seed);
   for (int attempt = 0; attempt < 50; ++attempt) {
-    const Eigen::Vector2d at_m = point_m + Eigen::Vector2d(sim::uniform(random, -0.3, 0.3), sim::uniform(random, -0.3, 0.3));
+    const Eigen::Vector2d at_m =
+        point_m + Eigen::Vector2d(sim::uniform(random, -0.3, 0.3), sim::uniform(random, -0.3, 0.3));
     if (sim::is_set(world.drivable, at_m)) return {at_m.x(), at_m.y(), sim::uniform(random, -kPi, kPi)};
   }
   return {point_m.x(), point_m.y(), sim::uniform(random, -kPi, kPi)};
@@ -100,7 +101,8 @@ class Drive {
       if (link_up && elapsed_s() > 0.0) {
         messages_.emplace_back(wire::Permit{order.mission, {order.order.epoch, ++seq}, kPermit_ms});
       }
-      if (active(plan_.faults, "stop", elapsed_s())) messages_.emplace_back(wire::StopOrder{"s1", 1, "Stopped by hand.", "test"});
+      if (active(plan_.faults, "stop", elapsed_s()))
+        messages_.emplace_back(wire::StopOrder{"s1", 1, "Stopped by hand.", "test"});
       if (const Status cycled = cycle(link_up); !cycled) return cycled;
       const bool standing = std::abs(robot_.vehicle().motion().speed_mps) < 1e-3;
       if (state_.drive != wire::DriveState::kDriving && standing) break;
@@ -122,7 +124,8 @@ class Drive {
     if (!active(plan_.faults, "camera_frozen", elapsed_s())) {
       Image picture = robot_.picture();
       for (const wire::ScenarioFault& fault : plan_.faults) {
-        if (fault.kind == "camera_occluded" && active({fault}, "camera_occluded", elapsed_s())) occlude(picture, fault.share);
+        if (fault.kind == "camera_occluded" && active({fault}, "camera_occluded", elapsed_s()))
+          occlude(picture, fault.share);
       }
       auto appearance = eye_.look(picture);
       if (!appearance) return pass_on(appearance);
@@ -147,7 +150,8 @@ class Drive {
     now.index = state_.follow.index;
     now.views = state_.mission ? static_cast<int>(state_.mission->path.views.size()) : 0;
     const auto index = static_cast<std::size_t>(now.index);
-    now.view = (index + 1 < static_cast<std::size_t>(now.views) ? order_->path[index].image : order_->final_image).str();
+    now.view =
+        (index + 1 < static_cast<std::size_t>(now.views) ? order_->path[index].image : order_->final_image).str();
     now.answered = state_.seen.answered;
     if (state_.seen.vector) {
       now.parallax_rad = state_.seen.vector->median_parallax_rad;
@@ -189,7 +193,8 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
   const map::Destination* destination = destination_named(*taught.map, plan.to);
   const auto target = taught.destination_poses.find(plan.to);
   if (destination == nullptr || target == taught.destination_poses.end()) {
-    return fail(ErrorCode::kInvalidInput, "The tour does not visit '" + plan.to + "', so it is no destination.", "missions");
+    return fail(ErrorCode::kInvalidInput, "The tour does not visit '" + plan.to + "', so it is no destination.",
+                "missions");
   }
   const auto light = light_named(plan.light);
   if (!light) return pass_on(light);
@@ -209,8 +214,8 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
   MissionResult result;
   result.from = plan.from;
   result.to = plan.to;
-  result.shortest_m =
-      sim::length_m(sim::shortest_way(world.drivable, {start.x_m, start.y_m}, {target->second.x_m, target->second.y_m}));
+  result.shortest_m = sim::length_m(
+      sim::shortest_way(world.drivable, {start.x_m, start.y_m}, {target->second.x_m, target->second.y_m}));
   const auto place = find_place(taught, *robot);
   if (!place) return pass_on(place);
   if (!*place) {

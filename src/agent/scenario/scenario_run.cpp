@@ -44,7 +44,8 @@ Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folde
   if (taught->destination_poses.size() < 2) {
     return fail(ErrorCode::kInvalidInput, "The tour visits fewer than two rooms.", "tour/rooms");
   }
-  told(std::to_string(taught->map->images.size()) + " pictures, " + std::to_string(taught->map->places.size()) + " places");
+  told(std::to_string(taught->map->images.size()) + " pictures, " + std::to_string(taught->map->places.size()) +
+       " places");
   const sim::RobotProfile profile = scenario.robot == "chair" ? sim::chair_profile() : sim::disc_profile();
   for (const MissionPlan& plan : expanded(scenario, *taught)) {
     told("from " + plan.from + " to " + plan.to);

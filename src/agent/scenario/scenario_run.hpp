@@ -60,9 +60,9 @@ struct ScenarioListener {
   std::function<void(const CycleTrace&)> cycled;
 };
 
-/// Teaches a world by a tour, builds its map and drives the missions with the agent's own heart, in simulated time and as
-/// fast as the machine allows. Same scenario, same results.
-/// Errors: those of load_world, plan_tour and build_map; kInvalidInput for a destination that the tour does not visit.
+/// Teaches a world by a tour, builds its map and drives the missions with the agent's own heart, in simulated time and
+/// as fast as the machine allows. Same scenario, same results. Errors: those of load_world, plan_tour and build_map;
+/// kInvalidInput for a destination that the tour does not visit.
 Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder, const ScenarioListener& listener);
 
 }  // namespace homeward::agent

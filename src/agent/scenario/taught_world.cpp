@@ -21,9 +21,7 @@ class RenderedTour final : public pipeline::TourSource {
     images_.push_back({ImageId("tour/" + name), std::nullopt, odometry});
     jpegs_.push_back(std::move(jpeg));
   }
-  void mark_last(const std::string& label) {
-    marks_.push_back({images_.back().id.str().substr(5), label});
-  }
+  void mark_last(const std::string& label) { marks_.push_back({images_.back().id.str().substr(5), label}); }
   [[nodiscard]] const std::vector<pipeline::TourImage>& images() const override { return images_; }
   [[nodiscard]] const std::vector<pipeline::TourMark>& marks() const override { return marks_; }
   [[nodiscard]] Result<Image> read(std::size_t index) const override {
@@ -40,7 +38,8 @@ class RenderedTour final : public pipeline::TourSource {
 
 Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string& folder) {
   TaughtWorld taught;
-  taught.camera = scenario.camera ? *scenario.camera : usual_camera(scenario.camera_model).value_or(camera::CameraConfig{});
+  taught.camera =
+      scenario.camera ? *scenario.camera : usual_camera(scenario.camera_model).value_or(camera::CameraConfig{});
   auto camera = camera::Camera::create(taught.camera);
   if (!camera) return pass_on(camera);
   // Generated worlds have a name with a colon; files lie beside the scenario.

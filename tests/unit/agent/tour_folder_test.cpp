@@ -87,6 +87,17 @@ TEST(TourFolder, TakesOneRowForEachPictureWithoutTimes) {
   EXPECT_EQ(tour.open().error().code, ErrorCode::kInvalidInput);
 }
 
+TEST(TourFolder, StandsWildTimes) {
+  const Tour tour;
+  tour.folder.put("tour/times.csv", "filename,t_us\na.PNG,0\nb.png,5\nc.jpeg,9223372036854775807\n");
+  tour.folder.put("tour/odometry.csv",
+                  "t_us,x_m,y_m,theta_rad\n-9223372036854775808,0,0,0\n9223372036854775807,2,0,0\n");
+  const auto opened = tour.open();
+  ASSERT_TRUE(opened);
+  EXPECT_NEAR(opened->images()[0].odometry->x_m, 1.0, 1e-6);
+  EXPECT_NEAR(opened->images()[2].odometry->x_m, 2.0, 1e-6);
+}
+
 TEST(TourFolder, NeverReadsTheTruth) {
   const Tour tour;
   tour.folder.put("tour/poses.csv", "broken,,,\n\xff");
