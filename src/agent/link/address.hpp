@@ -12,7 +12,10 @@ struct ServerAddress {
   bool tls = false;
   std::string host;
   std::string port;
-  [[nodiscard]] std::string host_header() const { return host + ":" + port; }
+  /// As in the Host header and in addresses: IPv6 in brackets.
+  [[nodiscard]] std::string host_header() const {
+    return (host.find(':') == std::string::npos ? host : "[" + host + "]") + ":" + port;
+  }
 };
 
 /// "http://127.0.0.1:8080" or "https://house.example". Errors: kInvalidInput.
