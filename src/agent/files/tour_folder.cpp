@@ -115,9 +115,9 @@ std::optional<Pose2> pose_at(const std::vector<OdometrySample>& samples, TimeUs 
   const OdometrySample& a = *(after - 1);
   const OdometrySample& b = *after;
   // As doubles: the difference of two wild times would not fit an integer.
-  const auto since_us = static_cast<double>(t_us - a.t_us);
-  const auto whole_us = static_cast<double>(b.t_us - a.t_us);
-  const double share = since_us / whole_us;
+  const auto first_us = static_cast<double>(a.t_us);
+  const auto last_us = static_cast<double>(b.t_us);
+  const double share = (static_cast<double>(t_us) - first_us) / (last_us - first_us);
   return Pose2{a.pose.x_m + share * (b.pose.x_m - a.pose.x_m), a.pose.y_m + share * (b.pose.y_m - a.pose.y_m),
                wrap_angle(a.pose.theta_rad + share * wrap_angle(b.pose.theta_rad - a.pose.theta_rad))};
 }
