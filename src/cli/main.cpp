@@ -2,6 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "cli/command.hpp"
 #include "wire/error_table.hpp"
@@ -18,6 +20,13 @@ int main(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::RuntimeError& failed) {
     return failed.get_exit_code();
+  } catch (const CLI::RequiredError& missing) {
+    // Somebody who mistyped a command wants to hear which.
+    const std::vector<std::string> unknown = program.remaining(true);
+    const CLI::Error named(missing.get_name(), unknown.empty() ? std::string(missing.what())
+                                                               : "There is no command '" + unknown.front() + "'.");
+    program.exit(named);
+    return homeward::wire::exit_code(homeward::ErrorCode::kInvalidInput);
   } catch (const CLI::ParseError& wrong) {
     // Help is no error; what CLI11 numbers from 100 on is all the same to a caller: a wrong command line.
     return program.exit(wrong) == 0 ? 0 : homeward::wire::exit_code(homeward::ErrorCode::kInvalidInput);

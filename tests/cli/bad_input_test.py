@@ -192,6 +192,11 @@ class WrongUse(CliTest):
 
     def test_no_command(self):
         self.assert_refused(2, ["subcommand"])
+        self.assert_refused(2, ["subcommand"], "map")
+
+    def test_unknown_command(self):
+        self.assert_refused(2, ["biuld"], "map", "biuld", "--out", "out.map")
+        self.assert_refused(2, ["mpa"], "mpa")
 
     def test_unknown_room_world_light_and_step(self):
         tour = ("simulate", "tour", "--out", "new")
