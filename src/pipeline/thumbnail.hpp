@@ -11,6 +11,6 @@
 namespace homeward::pipeline {
 
 /// A small picture of a place for people: its panorama as a strip, JPEG. Errors: kWrongImageSize.
-Result<std::vector<std::uint8_t>> make_thumbnail(const Eye& eye, const Image& picture, int width_px = 320);
+Result<std::vector<std::uint8_t>> make_thumbnail(const Eye& eye, const Image& picture, int width_px = 560);
 
 }  // namespace homeward::pipeline
