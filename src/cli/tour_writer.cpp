@@ -127,7 +127,7 @@ Status TourWriter::finish(const std::vector<std::pair<std::string, std::string>>
       {"camera.json", wire::camera_to_json(p.camera).dump(2) + "\n"}};
   if (p.odometry.find('\n') + 1 < p.odometry.size()) files.emplace_back("odometry.csv", p.odometry);
   if (!marks.empty()) {
-    nlohmann::json tour = {{"marks", nlohmann::json::array()}};
+    nlohmann::json tour = {{"format", "homeward-tour"}, {"version", 1}, {"marks", nlohmann::json::array()}};
     for (const auto& [image, label] : marks) tour["marks"].push_back({{"image", image}, {"label", label}});
     files.emplace_back("tour.json", tour.dump(2) + "\n");
   }

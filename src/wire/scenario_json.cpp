@@ -57,9 +57,14 @@ ScenarioMission read_mission(ObjectReader& outer, const json& value, const std::
   return mission;
 }
 
-/// {"model": name} alone is the usual camera of that model; with more it is a whole camera.json.
+/// {"model": name} alone is the usual camera of that model; with more it is a whole camera.json; text is the path of
+/// one.
 void read_camera(ObjectReader& outer, ScenarioFile& scenario) {
   const json& value = outer.value("camera");
+  if (value.is_string()) {
+    scenario.camera_file = outer.text("camera", 1000);
+    return;
+  }
   if (value.is_object() && value.size() > 1) {
     scenario.camera = outer.take(camera_from_json(value, outer.path_of("camera")));
     return;

@@ -34,7 +34,8 @@ struct ScenarioFile {
   std::string world;  // "house:1", "offices:1", or a world.json relative to the scenario
   std::int64_t seed = 1;
   std::string camera_model;                    // the usual camera of this model ...
-  std::optional<camera::CameraConfig> camera;  // ... or a whole camera.json
+  std::optional<camera::CameraConfig> camera;  // ... or a whole camera ...
+  std::string camera_file;                     // ... or a camera.json relative to the scenario
   std::string robot = "disc";                  // "disc" or "chair"
   std::vector<std::string> tour_rooms;
   std::string tour_light = "day";

@@ -23,11 +23,13 @@ json tour_info_to_json(const TourView& tour) {
 json marks_to_json(const std::vector<TourMark>& marks) {
   json list = json::array();
   for (const TourMark& mark : marks) list.push_back({{"image", mark.image}, {"label", mark.label}});
-  return {{"marks", list}};
+  return {{"format", "homeward-tour"}, {"version", 1}, {"marks", list}};
 }
 
 Result<std::vector<TourMark>> marks_from_json(const json& value, const std::string& path) {
   ObjectReader reader(value, path);
+  // Early tours came without; a file that says what it is must be it.
+  if (reader.has("format") || reader.has("version")) reader.format("homeward-tour", 1);
   const std::vector<json> items = reader.array("marks", 10'000);
   std::vector<TourMark> marks;
   std::set<std::string> seen;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "agent/drivers/usual_cameras.hpp"
+#include "agent/files/read_file.hpp"
 #include "agent/files/world_folder.hpp"
 #include "imageio/decode.hpp"
 #include "pipeline/build_map.hpp"
@@ -38,8 +39,13 @@ class RenderedTour final : public pipeline::TourSource {
 
 Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string& folder) {
   TaughtWorld taught;
-  taught.camera =
-      scenario.camera ? *scenario.camera : usual_camera(scenario.camera_model).value_or(camera::CameraConfig{});
+  taught.camera = usual_camera(scenario.camera_model).value_or(camera::CameraConfig{});
+  if (scenario.camera) taught.camera = *scenario.camera;
+  if (!scenario.camera_file.empty()) {
+    const auto read = read_camera(std::filesystem::path(folder) / scenario.camera_file);
+    if (!read) return pass_on(read);
+    taught.camera = *read;
+  }
   auto camera = camera::Camera::create(taught.camera);
   if (!camera) return pass_on(camera);
   // Generated worlds have a name with a colon; files lie beside the scenario.
