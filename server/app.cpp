@@ -23,7 +23,7 @@ constexpr int kRequestWorkers = 4;
 constexpr std::size_t kRequestQueue = 256;
 constexpr std::size_t kHeavyQueue = 64;
 constexpr std::size_t kJournalQueue = 100'000;
-constexpr int kTickMs = 100;
+constexpr int kTickMs = 50;
 const char* const kBuild = "homeward-server/0.1.0";
 
 int threads_of(const AppConfig& config) {

@@ -4,7 +4,7 @@
 namespace homeward::server {
 namespace {
 
-// An agent that takes nothing for this many messages (permits come ten times a second) is given up.
+// An agent that takes nothing for this many messages (permits come twenty times a second) is given up.
 constexpr std::size_t kMostWaiting = 100;
 
 }  // namespace

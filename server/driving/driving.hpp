@@ -24,7 +24,7 @@ class Driving : public LinkListener {
 
   /// Reads the robots of the store. Errors: those of the store.
   Status load();
-  /// Every 100 ms, on the socket thread: permits, leases that end, agents that fell silent.
+  /// Every 50 ms, on the socket thread: permits, leases that end, agents that fell silent.
   void tick(SteadyTime now);
 
   // Robots. Errors: kNotFound.

@@ -87,7 +87,7 @@ void Vehicle::advance(double dt_s, const MotionCommand& command, const Obstacles
   motion_.speed_mps =
       towards(motion_.speed_mps, speed, profile_.acceleration_mps2 * dt_s, profile_.deceleration_mps2 * dt_s);
   motion_.turn_radps = towards(motion_.turn_radps, turn, profile_.turn_acceleration_radps2 * dt_s,
-                               2.0 * profile_.turn_acceleration_radps2 * dt_s);
+                               profile_.turn_deceleration_radps2 * dt_s);
   const double length_m = motion_.speed_mps * dt_s;
   const double turned_rad = motion_.turn_radps * dt_s;
   if (length_m == 0.0 && turned_rad == 0.0) {

@@ -22,6 +22,7 @@ struct RobotProfile {
   double acceleration_mps2 = 0.5;
   double deceleration_mps2 = 1.0;
   double turn_acceleration_radps2 = 2.5;
+  double turn_deceleration_radps2 = 5.0;
 };
 /// A disc of 0.35 m radius.
 RobotProfile disc_profile();

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What survives SIGKILL: the server is killed during an upload, a build and a mission.
+"""What survives SIGKILL: the server is killed during an upload, a build and a mission, and frozen during another.
 
 Nothing that was acknowledged may be lost, the killed build must end, the chair must stop by itself within 0.5 s, and
 nothing may move again until a person says so. Real programs, real pictures, a folder of its own.
@@ -21,8 +21,14 @@ from rest_client import Server  # noqa: E402
 BIN = pathlib.Path(sys.argv[1]).resolve()
 WEB = pathlib.Path(sys.argv[2]).resolve()
 PORT = 18473
-STOPPED_BELOW_MPS = 0.01
+AT_REST_MPS = 0.01
+AT_REST_RADPS = 0.01
+UNDER_WAY_MPS = 0.3
 LIMIT_S = 0.5
+
+
+def moves(truth):
+    return abs(truth["speed_mps"]) > AT_REST_MPS or abs(truth["turn_radps"]) > AT_REST_RADPS
 
 
 class Kill(unittest.TestCase):
@@ -54,10 +60,10 @@ class Kill(unittest.TestCase):
 
     @classmethod
     def start_server(cls):
-        log = open(cls.data / "server.log", "ab")
-        cls.process = subprocess.Popen([BIN / "homeward-server", "--data", cls.data / "server", "--listen",
-                                        f"127.0.0.1:{PORT}", "--web", WEB, "--print-setup-file",
-                                        cls.data / "setup-link"], stdout=log, stderr=subprocess.STDOUT)
+        with open(cls.data / "server.log", "ab") as log:
+            cls.process = subprocess.Popen([BIN / "homeward-server", "--data", cls.data / "server", "--listen",
+                                            f"127.0.0.1:{PORT}", "--web", WEB, "--print-setup-file",
+                                            cls.data / "setup-link"], stdout=log, stderr=subprocess.STDOUT)
         cls.server.wait_until_up(cls.process)
 
     @classmethod
@@ -125,43 +131,75 @@ class Kill(unittest.TestCase):
             time.sleep(0.05)
         self.fail(f"{what} did not happen within {seconds} s; agent log:\n" + (self.data / "agent.log").read_text()[-3000:])
 
+    def located(self):
+        belief = self.robot().get("belief")
+        return belief and not belief["lost"] and belief["updates"] >= 3
+
+    def robot(self):
+        return self.server.call("GET", f"/api/v1/robots/{self.robot_id}")
+
+    def set_off(self, label):
+        """Sends the chair to a place and waits until it is well under way. Gives the mission's id."""
+        graph = self.server.call("GET", f"/api/v1/maps/{self.map_id}/graph")
+        destination = next(d["id"] for d in graph["destinations"] if d["label"] == label)
+        lease = self.server.call("POST", f"/api/v1/robots/{self.robot_id}/lease", {"take_over": True})["lease"]["id"]
+        mission = self.server.call("POST", f"/api/v1/robots/{self.robot_id}/missions",
+                                   {"lease_id": lease, "destination": destination})["id"]
+        self.wait_for("driving", 60, lambda: self.truths() and abs(self.truths()[-1]["speed_mps"]) > UNDER_WAY_MPS)
+        return mission
+
+    def expect_rest(self, since_us, what):
+        """The chair came to rest by itself in time, counted to the first reading at which it stood."""
+        time.sleep(2.0)
+        after = [t for t in self.truths() if t["t_us"] > since_us]
+        moving = [i for i, t in enumerate(after) if moves(t)]
+        self.assertTrue(moving, "the chair stood before anything happened")
+        self.assertLess(moving[-1] + 1, len(after), "the chair never stopped")
+        rest_s = (after[moving[-1] + 1]["t_us"] - since_us) / 1e6
+        print(f"the chair stood {rest_s:.2f} s after {what}", file=sys.stderr)
+        self.assertLessEqual(rest_s, LIMIT_S)
+
+    def expect_no_motion(self, seconds):
+        since_us = time.time_ns() // 1000
+        time.sleep(seconds)
+        after = [t for t in self.truths() if t["t_us"] > since_us]
+        self.assertTrue(after, "the simulator tells nothing any more")
+        self.assertEqual([t for t in after if moves(t)], [], "the chair moved without a person's word")
+
     def test_3_the_chair_stops_by_itself_and_stays(self):
         robot = self.server.call("POST", "/api/v1/robots", {"name": "chair"})
+        type(self).robot_id = robot["id"]
         (self.data / "robot-token").write_text(robot["token"])
         self.server.call("PUT", f"/api/v1/robots/{robot['id']}/map", {"map": self.map_id})
-        type(self).agent = subprocess.Popen(
-            [BIN / "homeward-agent", "run", "--server", self.server.address, "--robot", robot["id"], "--token-file",
-             self.data / "robot-token", "--driver", "simulator", "--world", "house:1", "--start-room", "living_room",
-             "--truth-file", self.data / "truth.jsonl"], stdout=open(self.data / "agent.log", "ab"),
-            stderr=subprocess.STDOUT)
-
-        def located():
-            belief = self.server.call("GET", f"/api/v1/robots/{robot['id']}").get("belief")
-            return belief and not belief["lost"] and belief["updates"] >= 3
-
-        self.wait_for("knowing where it is", 120, located)
-        graph = self.server.call("GET", f"/api/v1/maps/{self.map_id}/graph")
-        kitchen = next(d["id"] for d in graph["destinations"] if d["label"] == "kitchen")
-        lease = self.server.call("POST", f"/api/v1/robots/{robot['id']}/lease", {"take_over": True})["lease"]["id"]
-        mission = self.server.call("POST", f"/api/v1/robots/{robot['id']}/missions",
-                                   {"lease_id": lease, "destination": kitchen})["id"]
-        self.wait_for("driving", 60, lambda: self.truths() and abs(self.truths()[-1]["speed_mps"]) > 0.1)
-        self.kill_server()
+        with open(self.data / "agent.log", "ab") as log:
+            type(self).agent = subprocess.Popen(
+                [BIN / "homeward-agent", "run", "--server", self.server.address, "--robot", robot["id"],
+                 "--token-file", self.data / "robot-token", "--driver", "simulator", "--world", "house:1",
+                 "--start-room", "living_room", "--truth-file", self.data / "truth.jsonl"], stdout=log,
+                stderr=subprocess.STDOUT)
+        self.wait_for("knowing where it is", 120, self.located)
+        mission = self.set_off("kitchen")
         killed_us = time.time_ns() // 1000
-        time.sleep(2.0)
-        moving_s = [(t["t_us"] - killed_us) / 1e6 for t in self.truths()
-                    if t["t_us"] > killed_us and (abs(t["speed_mps"]) > STOPPED_BELOW_MPS)]
-        latest = max(moving_s, default=0.0)
-        print(f"the chair stood {latest:.2f} s after the server was killed", file=sys.stderr)
-        self.assertLessEqual(latest, LIMIT_S)
+        self.kill_server()
+        self.expect_rest(killed_us, "the server was killed")
+        self.assertIn("The connection to the house is lost.", (self.data / "agent.log").read_text())
         self.start_server()
-        restarted_us = time.time_ns() // 1000
         after = self.server.call("GET", f"/api/v1/robots/{robot['id']}/missions/{mission}")
         self.assertIn(after["state"], ("stopped", "failed"), after)
-        self.wait_for("reconnecting", 60, lambda: self.server.call("GET", f"/api/v1/robots/{robot['id']}")["online"])
-        time.sleep(3.0)
-        moved = [t for t in self.truths() if t["t_us"] > restarted_us and abs(t["speed_mps"]) > STOPPED_BELOW_MPS]
-        self.assertEqual(moved, [], "the chair moved without a person's word")
+        self.wait_for("reconnecting", 60, lambda: self.robot()["online"])
+        self.expect_no_motion(3.0)
+
+    def test_4_a_frozen_server_stops_the_chair_too(self):
+        self.wait_for("knowing where it is", 60, self.located)
+        mission = self.set_off("hall")
+        frozen_us = time.time_ns() // 1000
+        self.process.send_signal(signal.SIGSTOP)
+        self.expect_rest(frozen_us, "the server froze")
+        self.assertIn("The house has fallen silent.", (self.data / "agent.log").read_text())
+        self.process.send_signal(signal.SIGCONT)
+        self.wait_for("the end of the mission", 30, lambda: self.server.call(
+            "GET", f"/api/v1/robots/{self.robot_id}/missions/{mission}")["state"] in ("stopped", "failed"))
+        self.expect_no_motion(3.0)
 
 
 if __name__ == "__main__":

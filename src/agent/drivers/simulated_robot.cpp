@@ -62,6 +62,7 @@ Body body_of(const sim::RobotProfile& profile) {
   body.max_speed_mps = profile.max_speed_mps;
   body.max_turn_radps = profile.max_turn_radps;
   body.deceleration_mps2 = profile.deceleration_mps2;
+  body.turn_deceleration_radps2 = profile.turn_deceleration_radps2;
   return body;
 }
 

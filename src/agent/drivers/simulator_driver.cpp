@@ -17,9 +17,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kPicturePeriod = std::chrono::milliseconds(100);
-constexpr auto kTruthPeriod = std::chrono::milliseconds(100);
+constexpr auto kTruthPeriod = std::chrono::milliseconds(30);
 constexpr double kPictureLife_s = 0.12;
-constexpr auto kCommandLife = std::chrono::milliseconds(500);
+// A motion command expires by itself: the wheels stop when the loop above them hangs.
+constexpr auto kCommandLife = std::chrono::milliseconds(100);
 
 class SimulatorDriver final : public Driver {
  public:
@@ -85,6 +86,7 @@ class SimulatorDriver final : public Driver {
                                  {"y_m", vehicle.pose().y_m},
                                  {"theta_rad", vehicle.pose().theta_rad},
                                  {"speed_mps", vehicle.motion().speed_mps},
+                                 {"turn_radps", vehicle.motion().turn_radps},
                                  {"collisions", vehicle.collisions()}};
     truth_ << line.dump() << std::endl;
   }

@@ -16,6 +16,7 @@ struct Body {
   double max_speed_mps = 0.8;
   double max_turn_radps = 1.2;
   double deceleration_mps2 = 1.0;
+  double turn_deceleration_radps2 = 5.0;
 };
 
 /// Speed forward and turn counter-clockwise.

@@ -51,6 +51,17 @@ std::optional<std::string> reason_to_stop(const DrivingState& state, const Input
   return std::nullopt;
 }
 
+/// No faster than what still comes to rest in time should the silence that has begun go on.
+Motion slowed_by_silence(const Motion& wanted, const DrivingState& state, const DrivingConfig& config,
+                         Milliseconds now_ms, Milliseconds sensors_ms) {
+  const Milliseconds silence_ms = std::max(now_ms - state.last_message_ms, sensors_ms - state.scan->taken_ms);
+  const Milliseconds braking_ms = config.stands_within_ms - config.reaction_ms - silence_ms;
+  const double braking_s = 0.001 * static_cast<double>(std::max<Milliseconds>(0, braking_ms));
+  const double speed_mps = config.body.deceleration_mps2 * braking_s;
+  const double turn_radps = config.body.turn_deceleration_radps2 * braking_s;
+  return {std::clamp(wanted.speed_mps, -speed_mps, speed_mps), std::clamp(wanted.turn_radps, -turn_radps, turn_radps)};
+}
+
 /// Turns towards a point and drives there, slower in turns.
 Motion towards(const Eigen::Vector2d& carrot_m, double speed_mps, const DrivingConfig& config) {
   const double angle_rad = std::atan2(carrot_m.y(), carrot_m.x());
@@ -146,7 +157,9 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   judge_progress(state, config, sensors_ms);
   if (state.drive != wire::DriveState::kDriving) return outputs;
   const Motion wanted = drive(state, inputs, config, points_m);
-  if (state.drive == wire::DriveState::kDriving) outputs.motion = made_safe(wanted, config.body, points_m);
+  if (state.drive != wire::DriveState::kDriving) return outputs;
+  const Motion heard = slowed_by_silence(wanted, state, config, now_ms, sensors_ms);
+  outputs.motion = made_safe(heard, config.body, points_m);
   return outputs;
 }
 

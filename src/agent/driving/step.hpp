@@ -28,6 +28,8 @@ struct DrivingConfig {
   Milliseconds frame_silence_ms = 1000;  // no picture for so long while driving: stop
   Milliseconds first_frame_ms = 4000;    // a mission waits so long, standing, for its first picture
   Milliseconds scan_silence_ms = 400;    // no sweep for so long while driving: stop
+  Milliseconds stands_within_ms = 500;   // after the last message or sweep the robot is at rest by itself
+  Milliseconds reaction_ms = 120;        // of it, from an arrival to the wheels
   Milliseconds blind_ms = 4000;          // nothing recognised for so long: the mission fails
   Milliseconds stuck_ms = 20'000;        // no way gained for so long: the mission fails
   double turn_gain = 1.8;                // turn rate for each radian towards the carrot
@@ -94,6 +96,8 @@ struct Outputs {
 };
 
 /// The heart of the agent: no clock, thread, socket or device. Same state, inputs and time, same result.
+/// The older the newest message or sweep, the slower it goes, so that braking ends `stands_within_ms` after a silence
+/// begins although only `link_silence_ms` or `scan_silence_ms` of it end the mission.
 /// It drives only under a permit that is counted from its receipt on the robot's own clock, with link, pictures and
 /// sweeps fresh; everything else is a stop, after which only a newer mission moves it again (design §3.10).
 Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds now_ms);

@@ -19,6 +19,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
 
 namespace homeward::agent {
 namespace {
@@ -43,6 +44,7 @@ struct LinkClient::Impl {
   std::function<void(const std::string&)> told;
 
   std::atomic<bool> up{false};
+  bool welcomed = false;  // the server welcomed this connection; of the connection's thread alone
   std::mutex mutex;
   std::vector<wire::ServerMessage> arrived;
   std::deque<Bytes> waiting;
@@ -62,7 +64,8 @@ struct LinkClient::Impl {
       } catch (const std::exception& broken) {
         end = broken.what();
       }
-      const bool was_up = up.exchange(false);
+      up = false;
+      const bool was_up = std::exchange(welcomed, false);
       {
         const std::lock_guard lock(mutex);
         wake = nullptr;
@@ -104,14 +107,19 @@ struct LinkClient::Impl {
     std::string end = "closed";
     beast::flat_buffer buffer;
     bool writing = false;
-    bool greeted = false;
+    bool hello_sent = false;
     Bytes sending;
+    bool closed = false;
     const auto close = [&](const std::string& why) {
+      if (std::exchange(closed, true)) return;
+      // Down at once: the robot must not trust the link while timers of the socket run out.
+      up = false;
       end = why;
       beast::get_lowest_layer(socket).close();
+      context.stop();
     };
     std::function<void()> write_next = [&] {
-      if (writing || !greeted) return;
+      if (writing || !hello_sent) return;
       {
         const std::lock_guard lock(mutex);
         if (!waiting.empty()) {
@@ -139,7 +147,7 @@ struct LinkClient::Impl {
         buffer.consume(buffer.size());
         if (!message) return close("the server sent what is no message: " + message.error().message);
         if (std::holds_alternative<wire::Welcome>(*message)) {
-          up = true;
+          up = welcomed = true;
           told("connected to " + address.host_header());
         }
         {
@@ -154,7 +162,7 @@ struct LinkClient::Impl {
       socket.read_message_max(wire::kMaxLinkMessageBytes);
       sending = wire::encode(wire::AgentMessage(hello));
       writing = true;
-      greeted = true;
+      hello_sent = true;
       socket.async_write(asio::buffer(sending), [&](beast::error_code error, std::size_t) {
         writing = false;
         if (error) return close(error.message());

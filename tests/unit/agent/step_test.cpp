@@ -55,6 +55,44 @@ TEST_F(StepTest, ASilentServerStopsWithinItsLimit) {
   expect_stays();
 }
 
+/// The fastest that the robot may still go `silence_ms` after the last word, to be at rest within the promised time.
+double fastest_mps(const DrivingConfig& config, Milliseconds silence_ms) {
+  const auto left_ms = static_cast<double>(config.stands_within_ms - config.reaction_ms - silence_ms);
+  return config.body.deceleration_mps2 * std::max(0.0, 0.001 * left_ms);
+}
+
+TEST_F(StepTest, ASilentServerSlowsItSoThatItRestsHalfASecondAfterTheLastWord) {
+  set_off();
+  server_talks_ = false;
+  for (Milliseconds silence_ms = kTick_ms; silence_ms <= 400; silence_ms += kTick_ms) {
+    EXPECT_LE(tick().motion.speed_mps, fastest_mps(config_, silence_ms) + 1e-9) << silence_ms;
+  }
+  EXPECT_TRUE(stands(tick()));
+}
+
+TEST_F(StepTest, ASilentRangeSensorSlowsItSoThatItRestsHalfASecondAfterTheLastSweep) {
+  set_off();
+  sweeps_ = false;
+  for (Milliseconds silence_ms = kTick_ms; silence_ms <= 400; silence_ms += kTick_ms) {
+    const Outputs outputs = tick({permit("m1", 1, ++seq_)});
+    EXPECT_LE(outputs.motion.speed_mps, fastest_mps(config_, silence_ms) + 1e-9) << silence_ms;
+  }
+  EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
+}
+
+TEST_F(StepTest, AShortSilenceSlowsItAndTheNextWordLetsItGoOn) {
+  set_off();
+  const double before_mps = tick({permit("m1", 1, ++seq_)}).motion.speed_mps;
+  server_talks_ = false;
+  for (int k = 0; k < 6; ++k) tick();
+  EXPECT_LT(tick().motion.speed_mps, 0.11);
+  server_talks_ = true;
+  double after_mps = 0.0;
+  for (int k = 0; k < 2; ++k) after_mps = tick({permit("m1", 1, ++seq_)}).motion.speed_mps;
+  EXPECT_EQ(state_.drive, DriveState::kDriving);
+  EXPECT_GT(after_mps, 0.5 * before_mps);
+}
+
 TEST_F(StepTest, APermitThatIsNotRenewedRunsOut) {
   set_off();  // the last permit came with the last tick
   const Milliseconds after_ms = until_stopped(false);

@@ -84,8 +84,14 @@ type RenameProps = Pick<Props, 'graph' | 'place' | 'onEdit'> & { busy: boolean }
 function Rename({ graph, place, busy, onEdit }: RenameProps) {
   const present = nameOf(graph, place.id) ?? '';
   const [name, setName] = useState(present);
-  // Another place, or a new name from elsewhere, replaces the text; a reload after a refused edit keeps it.
-  useEffect(() => setName(present), [place.id, present]);
+  // Another place, or a new name from elsewhere, replaces the text; a reload after a refused edit keeps it. Said while
+  // rendering: an effect would run after the next paint and take away what was typed until then.
+  const subject = `${place.id} ${present}`;
+  const [subjectBefore, setSubjectBefore] = useState(subject);
+  if (subject !== subjectBefore) {
+    setSubjectBefore(subject);
+    setName(present);
+  }
   const wanted = name.trim();
   return (
     <form
