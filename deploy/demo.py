@@ -91,7 +91,7 @@ def last_truth(file):
     return json.loads(lines[-1]) if lines else None
 
 
-def drive_once(server, robot, map_id, data):
+def drive(server, robot, map_id, label, data):
     """One mission across the house. Returns whether it ended well."""
     end = time.monotonic() + 120
     state = {}
@@ -104,13 +104,13 @@ def drive_once(server, robot, map_id, data):
     else:
         raise Failed(f"the chair did not find out where it is within two minutes: {json.dumps(state)[:300]}")
     graph = server.call("GET", f"/api/v1/maps/{map_id}/graph")
-    destination = next((d for d in graph["destinations"] if d["label"] == "kitchen"), None)
+    destination = next((d for d in graph["destinations"] if d["label"] == label), None)
     if destination is None:
-        raise Failed("the map has no destination named kitchen")
+        raise Failed(f"the map has no destination named {label}")
     lease = server.call("POST", f"/api/v1/robots/{robot}/lease", {"take_over": True})["lease"]
     mission = server.call("POST", f"/api/v1/robots/{robot}/missions",
                           {"lease_id": lease["id"], "destination": destination["id"]})
-    print(f"driving to the kitchen over {len(mission['path'])} places ...", flush=True)
+    print(f"driving to the {label.replace('_', ' ')} over {len(mission['path'])} places ...", flush=True)
     end = time.monotonic() + 600
     while time.monotonic() < end:
         mission = server.call("GET", f"/api/v1/robots/{robot}/missions/{mission['id']}")
@@ -139,7 +139,8 @@ def mark_pose(tour, image):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--headless", action="store_true", help="drive one mission and end")
+    parser.add_argument("--headless", action="store_true", help="drive to --to and end: 0 when the chair arrived")
+    parser.add_argument("--to", default="kitchen", metavar="ROOM,ROOM", help="where --headless drives, in turn")
     parser.add_argument("--port", type=int, default=8080)
     parser.add_argument("--data", type=pathlib.Path, default=pathlib.Path("build/demo"))
     parser.add_argument("--fresh", action="store_true", help="forget the last demo's tour, map and accounts")
@@ -174,7 +175,7 @@ def main():
              "--driver", "simulator", "--world", WORLD, "--start-room", "bedroom",
              "--truth-file", data / "truth.jsonl"], stdout=logs["agent"], stderr=subprocess.STDOUT))
         if arguments.headless:
-            return 0 if drive_once(server, robot, map_id, data) else 1
+            return 0 if all(drive(server, robot, map_id, label, data) for label in arguments.to.split(",")) else 1
         print(f"\n  open      {address}\n  name      {login['name']}\n  password  {login['password']}\n\n"
               "  Pick a room on the page and the chair drives there. Ctrl-C ends the demo.", flush=True)
         while all(process.poll() is None for process in processes):

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/jobs/work_pool.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <future>
+#include <thread>
+
+namespace homeward::server {
+namespace {
+
+/// A task that runs until it is let go, and tells when it has begun.
+class Gate {
+ public:
+  WorkPool::Task task() {
+    return [this] {
+      begun_.set_value();
+      go_.get_future().wait();
+    };
+  }
+  void wait_until_begun() { begun_.get_future().wait(); }
+  void open() { go_.set_value(); }
+
+ private:
+  std::promise<void> begun_;
+  std::promise<void> go_;
+};
+
+TEST(WorkPool, RefusesWorkWhenItsQueueIsFullAndTakesItAgainWhenThereIsRoom) {
+  WorkPool pool(1, 2);
+  Gate gate;
+  std::atomic<int> ran = 0;
+  ASSERT_TRUE(pool.try_run(gate.task()));
+  gate.wait_until_begun();
+  EXPECT_TRUE(pool.try_run([&] { ++ran; }));
+  EXPECT_TRUE(pool.try_run([&] { ++ran; }));
+  EXPECT_FALSE(pool.try_run([&] { ran += 100; }));
+  EXPECT_EQ(pool.waiting(), 2U);
+  gate.open();
+  std::promise<void> done;
+  while (!pool.try_run([&] { done.set_value(); })) std::this_thread::yield();
+  done.get_future().wait();
+  EXPECT_EQ(ran, 2);
+}
+
+TEST(WorkPool, FinishRunsWhatWaitsAndRefusesWhatComesAfter) {
+  WorkPool pool(1, 10);
+  std::atomic<int> ran = 0;
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(pool.try_run([&] { ++ran; }));
+  pool.finish();
+  EXPECT_EQ(ran, 5);
+  EXPECT_FALSE(pool.try_run([&] { ++ran; }));
+}
+
+TEST(WorkPool, StopEndsTheRunningTaskInOrderAndDropsWhatWaits) {
+  WorkPool pool(1, 10);
+  Gate gate;
+  std::atomic<int> ran = 0;
+  ASSERT_TRUE(pool.try_run(gate.task()));
+  gate.wait_until_begun();
+  ASSERT_TRUE(pool.try_run([&] { ++ran; }));
+  std::jthread opener([&] {
+    while (pool.waiting() > 0) std::this_thread::yield();  // until the stop has dropped it
+    gate.open();
+  });
+  pool.stop();
+  opener.join();
+  EXPECT_EQ(ran, 0);
+}
+
+}  // namespace
+}  // namespace homeward::server
