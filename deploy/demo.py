@@ -59,7 +59,7 @@ def teach(server, binaries, data, token_file):
         subprocess.run([binaries / "homeward", "simulate", "tour", "--world", WORLD, "--rooms", ROOMS, "--marks",
                         "--seed", "1", "--out", tour], check=True)
     subprocess.run([binaries / "homeward-agent", "upload", "--server", server.address, "--token-file", token_file,
-                    "--tour", tour, "--name", "demo tour"], check=True)
+                    "--tour", tour, "--name", "demo tour"], check=True, stdout=subprocess.DEVNULL)
     tours = [t for t in server.call("GET", "/api/v1/tours")["tours"] if t["state"] == "complete"]
     answer = server.call("POST", "/api/v1/maps", {"name": "Demo house", "tours": [tours[-1]["id"]]})
     job = answer["job"]["id"]

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rider's arrival against a running server with a connected robot: signs in, presses a destination, and waits until the
-// page says that the robot has arrived.
+// A rider's arrival against a running server with a connected robot: signs in, presses a destination, waits until the page
+// says that the robot has arrived, and looks at the map. Pictures of both pages, wide and on a phone, are left in DIR.
 // Usage: node tests/browser/arrival_test.mjs --base URL --name N --password P --destination LABEL --out DIR [--robot NAME]
 import { parseArgs } from 'node:util';
-import { launch, openPage, shoot, signIn } from './browser.mjs';
+import { kPhone, kWide, launch, openPage, shoot, signIn, sticksOut } from './browser.mjs';
 
 const kKnowsPlaceMs = 60_000;
 const kArrivalMs = 240_000;
 const kPollMs = 250;
+const kUnderWayMs = 5_000; // into the journey, when its picture is taken
 
 const { values } = parseArgs({
   options: {
@@ -51,6 +52,7 @@ async function drive(page) {
   await card.click();
 
   let active = false; // what the page says of an earlier journey does not count
+  let pictured = false;
   let told = '';
   for (const until = performance.now() + kArrivalMs; performance.now() < until;) {
     const takeOver = page.getByRole('button', { name: 'Take over' });
@@ -58,7 +60,11 @@ async function drive(page) {
     const { phase, words } = await journeyOf(page);
     if (words !== told) say((told = words));
     if (phase === 'asking' || phase === 'accepted' || phase === 'driving') {
-      if (phase === 'driving' && !active) await shoot(page, values.out, 'driving');
+      if (phase === 'driving' && !pictured) {
+        pictured = true;
+        await page.waitForTimeout(kUnderWayMs);
+        await shootBoth(page, 'go');
+      }
       active ||= phase !== 'asking';
     } else if (phase === 'refused' || (active && (phase === 'failed' || phase === 'stopped'))) {
       throw new Error(`it did not arrive: ${words}`);
@@ -68,6 +74,32 @@ async function drive(page) {
     await page.waitForTimeout(kPollMs);
   }
   throw new Error(`no arrival within ${kArrivalMs / 1000} s; the page says: ${told}`);
+}
+
+/** The map of the real house: drawn, with the destination among its places. */
+async function lookAtTheMap(page) {
+  await page.getByRole('navigation', { name: 'Pages' }).getByRole('link', { name: 'Map' }).click();
+  const place = page
+    .getByRole('button', { name: new RegExp(`^${escaped(values.destination)}`, 'i') })
+    .first();
+  await place.waitFor();
+  await place.click();
+  await page.getByRole('region', { name: /^Chosen place: / }).waitFor();
+  await page.waitForLoadState('networkidle');
+  await shootBoth(page, 'map');
+}
+
+/** The page as it is, on a desk and on a phone, where nothing may stick out sideways. */
+async function shootBoth(page, name) {
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.waitForTimeout(300);
+  await shoot(page, values.out, `${name}-desktop`);
+  await page.setViewportSize(kPhone);
+  await page.waitForTimeout(600);
+  if (await sticksOut(page)) throw new Error(`the ${name} page can be scrolled sideways on a phone`);
+  await shoot(page, values.out, `${name}-phone`);
+  await page.setViewportSize(kWide);
+  await page.waitForTimeout(300);
 }
 
 function escaped(text) {
@@ -80,6 +112,7 @@ try {
   await drive(page);
   await shoot(page, values.out, 'arrived');
   say('arrived');
+  await lookAtTheMap(page);
 } catch (thrown) {
   await shoot(page, values.out, 'failed').catch(() => undefined);
   process.stdout.write(`FAIL  ${thrown instanceof Error ? thrown.message : thrown}\n`);
