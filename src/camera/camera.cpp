@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/camera.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "camera/models.hpp"
@@ -20,6 +22,18 @@ void check_intrinsics(const Intrinsics& k, std::vector<std::string>& problems) {
   }
 }
 
+void check_distortion(std::span<const double> coefficients, std::vector<std::string>& problems) {
+  if (!std::ranges::all_of(coefficients, [](double coefficient) { return std::isfinite(coefficient); })) {
+    problems.emplace_back("The distortion coefficients must be finite.");
+  }
+}
+
+void check_ring(const ValidRing& ring, std::vector<std::string>& problems) {
+  if (!(ring.radius_min_px >= 0.0 && ring.radius_max_px > ring.radius_min_px)) {
+    problems.emplace_back("valid_radius_px must be [inner, outer] with 0 <= inner < outer.");
+  }
+}
+
 struct ModelProblems {
   std::vector<std::string>& problems;
   void operator()(const HyperbolicMirror& mirror) const {
@@ -27,17 +41,25 @@ struct ModelProblems {
     if (!(mirror.a_mm > 0.0 && mirror.b_mm > 0.0 && std::isfinite(mirror.a_mm) && std::isfinite(mirror.b_mm))) {
       problems.emplace_back("The mirror's a_mm and b_mm must be positive.");
     }
-    if (!(mirror.valid_radius_min_px >= 0.0 && mirror.valid_radius_max_px > mirror.valid_radius_min_px &&
-          std::isfinite(mirror.valid_radius_max_px))) {
-      problems.emplace_back("valid_radius_px must be [inner, outer] with 0 <= inner < outer.");
-    }
+    check_ring({mirror.valid_radius_min_px, mirror.valid_radius_max_px}, problems);
+    if (!std::isfinite(mirror.valid_radius_max_px)) problems.emplace_back("valid_radius_px must be finite.");
   }
   void operator()(const Equirectangular& /*sphere*/) const {}
   void operator()(const Pinhole& pinhole) const {
     check_intrinsics(pinhole.intrinsics, problems);
-    for (const double coefficient : pinhole.distortion) {
-      if (!std::isfinite(coefficient)) problems.emplace_back("The distortion coefficients must be finite.");
-    }
+    check_distortion(pinhole.distortion, problems);
+  }
+  void operator()(const Fisheye& fisheye) const {
+    check_intrinsics(fisheye.intrinsics, problems);
+    check_distortion(fisheye.distortion, problems);
+    check_ring(fisheye.valid, problems);
+  }
+  void operator()(const Mei& mei) const {
+    check_intrinsics(mei.intrinsics, problems);
+    constexpr double kLargestXi = 10.0;
+    if (!(mei.xi >= 0.0 && mei.xi <= kLargestXi)) problems.emplace_back("xi must be between 0 and 10.");
+    check_distortion(mei.distortion, problems);
+    check_ring(mei.valid, problems);
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <limits>
 #include <variant>
 
 namespace homeward::camera {
@@ -33,7 +34,30 @@ struct Pinhole {
   std::array<double, 5> distortion{};
 };
 
-using CameraModel = std::variant<HyperbolicMirror, Equirectangular, Pinhole>;
+/// The part of a picture that shows the world: distances from the principal point.
+struct ValidRing {
+  double radius_min_px = 0.0;
+  double radius_max_px = std::numeric_limits<double>::infinity();
+};
+
+/// Fisheye lens: radius in the picture f (t + k1 t^3 + k2 t^5 + k3 t^7 + k4 t^9) for an angle t off the axis (Kannala &
+/// Brandt 2006, as OpenCV's fisheye module has it).
+struct Fisheye {
+  Intrinsics intrinsics;
+  std::array<double, 4> distortion{};  // k1 k2 k3 k4
+  ValidRing valid;
+};
+
+/// The unified model of mirrors and wide lenses: onto the unit sphere, from there by perspective out of a point xi
+/// behind its centre, then Brown distortion (Mei & Rives 2007, as OpenCV's omnidir module has it, without skew).
+struct Mei {
+  Intrinsics intrinsics;
+  double xi = 1.0;
+  std::array<double, 4> distortion{};  // k1 k2 p1 p2
+  ValidRing valid;
+};
+
+using CameraModel = std::variant<HyperbolicMirror, Equirectangular, Pinhole, Fisheye, Mei>;
 
 /// One camera as `camera.json` describes it. Camera frame: x right in the picture, y down, z along the optical axis.
 struct CameraConfig {

@@ -19,9 +19,13 @@ Eigen::Vector2d to_pixel(const Intrinsics& k, const Eigen::Vector2d& point) {
 
 double eccentricity_mm(const HyperbolicMirror& mirror) { return std::hypot(mirror.a_mm, mirror.b_mm); }
 
+bool inside(const ValidRing& ring, const Intrinsics& k, const Eigen::Vector2d& pixel_px) {
+  const double radius_px = (pixel_px - Eigen::Vector2d(k.cx_px, k.cy_px)).norm();
+  return radius_px >= ring.radius_min_px && radius_px <= ring.radius_max_px;
+}
+
 bool inside_valid_ring(const HyperbolicMirror& mirror, const Eigen::Vector2d& pixel_px) {
-  const double radius_px = (pixel_px - Eigen::Vector2d(mirror.intrinsics.cx_px, mirror.intrinsics.cy_px)).norm();
-  return radius_px >= mirror.valid_radius_min_px && radius_px <= mirror.valid_radius_max_px;
+  return inside({mirror.valid_radius_min_px, mirror.valid_radius_max_px}, mirror.intrinsics, pixel_px);
 }
 
 struct Distorted {
@@ -29,8 +33,9 @@ struct Distorted {
   Eigen::Matrix2d jacobian;
 };
 
-Distorted distort(const Pinhole& pinhole, const Eigen::Vector2d& point) {
-  const auto [k1, k2, p1, p2, k3] = pinhole.distortion;
+/// Brown's distortion: k1 k2 p1 p2 k3.
+Distorted distort(const std::array<double, 5>& coefficients, const Eigen::Vector2d& point) {
+  const auto [k1, k2, p1, p2, k3] = coefficients;
   const double x = point.x();
   const double y = point.y();
   const double r2 = point.squaredNorm();
@@ -44,6 +49,48 @@ Distorted distort(const Pinhole& pinhole, const Eigen::Vector2d& point) {
       2.0 * x * y * radial_slope + 2.0 * p1 * x + 2.0 * p2 * y,
       radial + 2.0 * y * y * radial_slope + 6.0 * p1 * y + 2.0 * p2 * x;
   return result;
+}
+
+constexpr int kMaxSteps = 50;
+constexpr double kConverged = 1e-12;
+
+/// Newton's method; nothing where the distortion is not one-to-one.
+std::optional<Eigen::Vector2d> undistort(const std::array<double, 5>& coefficients, const Eigen::Vector2d& distorted) {
+  Eigen::Vector2d point = distorted;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const Distorted now = distort(coefficients, point);
+    if (now.jacobian.determinant() <= 0.0) return std::nullopt;  // folded over: no unique direction
+    const Eigen::Vector2d error = now.point - distorted;
+    if (error.norm() < kConverged) return point;
+    point -= now.jacobian.inverse() * error;
+  }
+  return std::nullopt;
+}
+
+std::array<double, 5> brown(const Mei& mei) {
+  const auto [k1, k2, p1, p2] = mei.distortion;
+  return {k1, k2, p1, p2, 0.0};
+}
+
+struct FisheyeRadius {
+  double radius = 0.0;
+  double slope = 0.0;
+};
+
+FisheyeRadius fisheye_radius(const Fisheye& fisheye, double angle_rad) {
+  const auto [k1, k2, k3, k4] = fisheye.distortion;
+  const double t2 = angle_rad * angle_rad;
+  return {angle_rad * (1.0 + t2 * (k1 + t2 * (k2 + t2 * (k3 + t2 * k4)))),
+          1.0 + t2 * (3.0 * k1 + t2 * (5.0 * k2 + t2 * (7.0 * k3 + t2 * 9.0 * k4)))};
+}
+
+/// The radius grows with the angle from the axis to here: beyond, two angles would share a pixel.
+bool grows_up_to(const Fisheye& fisheye, double angle_rad) {
+  constexpr int kSamples = 32;
+  for (int i = 0; i <= kSamples; ++i) {
+    if (fisheye_radius(fisheye, angle_rad * i / kSamples).slope <= 0.0) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -91,25 +138,71 @@ std::optional<Eigen::Vector2d> pixel_from_direction(const Equirectangular& /*sph
 }
 
 std::optional<Eigen::Vector3d> direction_from_pixel(const Pinhole& pinhole, const Eigen::Vector2d& pixel_px) {
-  const Eigen::Vector2d distorted = normalised(pinhole.intrinsics, pixel_px);
-  Eigen::Vector2d point = distorted;
-  constexpr int kMaxSteps = 50;
-  constexpr double kConverged = 1e-12;
-  for (int step = 0; step < kMaxSteps; ++step) {
-    const Distorted now = distort(pinhole, point);
-    if (now.jacobian.determinant() <= 0.0) return std::nullopt;  // folded over: no unique direction
-    const Eigen::Vector2d error = now.point - distorted;
-    if (error.norm() < kConverged) return point.homogeneous().normalized();
-    point -= now.jacobian.inverse() * error;
-  }
-  return std::nullopt;
+  const auto point = undistort(pinhole.distortion, normalised(pinhole.intrinsics, pixel_px));
+  if (!point) return std::nullopt;
+  return point->homogeneous().normalized();
 }
 
 std::optional<Eigen::Vector2d> pixel_from_direction(const Pinhole& pinhole, const Eigen::Vector3d& direction) {
   if (direction.z() <= 0.0) return std::nullopt;
-  const Distorted distorted = distort(pinhole, direction.hnormalized());
+  const Distorted distorted = distort(pinhole.distortion, direction.hnormalized());
   if (distorted.jacobian.determinant() <= 0.0) return std::nullopt;
   return to_pixel(pinhole.intrinsics, distorted.point);
+}
+
+std::optional<Eigen::Vector3d> direction_from_pixel(const Fisheye& fisheye, const Eigen::Vector2d& pixel_px) {
+  if (!inside(fisheye.valid, fisheye.intrinsics, pixel_px)) return std::nullopt;
+  const Eigen::Vector2d point = normalised(fisheye.intrinsics, pixel_px);
+  const double radius = point.norm();
+  if (radius < kConverged) return Eigen::Vector3d::UnitZ();
+  double angle_rad = std::min(radius, kPi);
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const FisheyeRadius now = fisheye_radius(fisheye, angle_rad);
+    if (std::abs(now.radius - radius) < kConverged) break;
+    if (now.slope <= 0.0) return std::nullopt;
+    angle_rad -= (now.radius - radius) / now.slope;
+  }
+  if (!(angle_rad >= 0.0 && angle_rad <= kPi) ||
+      std::abs(fisheye_radius(fisheye, angle_rad).radius - radius) > 10.0 * kConverged ||
+      !grows_up_to(fisheye, angle_rad)) {
+    return std::nullopt;
+  }
+  const Eigen::Vector2d across = std::sin(angle_rad) / radius * point;
+  return Eigen::Vector3d(across.x(), across.y(), std::cos(angle_rad));
+}
+
+std::optional<Eigen::Vector2d> pixel_from_direction(const Fisheye& fisheye, const Eigen::Vector3d& direction) {
+  const double across = std::hypot(direction.x(), direction.y());
+  const double angle_rad = std::atan2(across, direction.z());
+  if (!grows_up_to(fisheye, angle_rad)) return std::nullopt;
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();
+  if (across > 0.0) point = fisheye_radius(fisheye, angle_rad).radius / across * direction.head<2>();
+  const Eigen::Vector2d pixel_px = to_pixel(fisheye.intrinsics, point);
+  if (!inside(fisheye.valid, fisheye.intrinsics, pixel_px)) return std::nullopt;
+  return pixel_px;
+}
+
+std::optional<Eigen::Vector3d> direction_from_pixel(const Mei& mei, const Eigen::Vector2d& pixel_px) {
+  if (!inside(mei.valid, mei.intrinsics, pixel_px)) return std::nullopt;
+  const auto point = undistort(brown(mei), normalised(mei.intrinsics, pixel_px));
+  if (!point) return std::nullopt;
+  const double r2 = point->squaredNorm();
+  const double discriminant = 1.0 + (1.0 - mei.xi * mei.xi) * r2;
+  if (discriminant < 0.0) return std::nullopt;  // passes the sphere by
+  const double along = (mei.xi + std::sqrt(discriminant)) / (r2 + 1.0);
+  return Eigen::Vector3d(along * point->x(), along * point->y(), along - mei.xi).normalized();
+}
+
+std::optional<Eigen::Vector2d> pixel_from_direction(const Mei& mei, const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d on_sphere = direction.normalized();
+  // In front of the contour the picture is one-to-one: z > -1/xi for xi > 1, else z > -xi.
+  const double contour = mei.xi > 1.0 ? -1.0 / mei.xi : -mei.xi;
+  if (on_sphere.z() <= contour) return std::nullopt;
+  const Distorted distorted = distort(brown(mei), on_sphere.head<2>() / (on_sphere.z() + mei.xi));
+  if (distorted.jacobian.determinant() <= 0.0) return std::nullopt;
+  const Eigen::Vector2d pixel_px = to_pixel(mei.intrinsics, distorted.point);
+  if (!inside(mei.valid, mei.intrinsics, pixel_px)) return std::nullopt;
+  return pixel_px;
 }
 
 }  // namespace homeward::camera

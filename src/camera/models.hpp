@@ -26,4 +26,13 @@ std::optional<Eigen::Vector2d> pixel_from_direction(const Equirectangular& spher
 std::optional<Eigen::Vector3d> direction_from_pixel(const Pinhole& pinhole, const Eigen::Vector2d& pixel_px);
 std::optional<Eigen::Vector2d> pixel_from_direction(const Pinhole& pinhole, const Eigen::Vector3d& direction);
 
+/// Kannala & Brandt (2006), eq. 6. The angle is Newton's to 1e-12; beyond the range where the radius grows with the
+/// angle, and beyond the valid ring, nothing is seen.
+std::optional<Eigen::Vector3d> direction_from_pixel(const Fisheye& fisheye, const Eigen::Vector2d& pixel_px);
+std::optional<Eigen::Vector2d> pixel_from_direction(const Fisheye& fisheye, const Eigen::Vector3d& direction);
+
+/// Mei & Rives (2007), eq. 1-4. With xi > 1 only directions in front of the sphere's contour are seen.
+std::optional<Eigen::Vector3d> direction_from_pixel(const Mei& mei, const Eigen::Vector2d& pixel_px);
+std::optional<Eigen::Vector2d> pixel_from_direction(const Mei& mei, const Eigen::Vector3d& direction);
+
 }  // namespace homeward::camera

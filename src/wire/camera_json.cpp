@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/camera_json.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "camera/camera.hpp"
 #include "wire/json_reader.hpp"
 
@@ -34,14 +37,35 @@ camera::HyperbolicMirror read_mirror(ObjectReader& reader) {
   return mirror;
 }
 
-camera::Pinhole read_pinhole(ObjectReader& reader) {
-  camera::Pinhole pinhole;
-  pinhole.intrinsics = read_intrinsics(reader);
+/// Numbers that may be left out: zeros.
+template <std::size_t Count>
+std::array<double, Count> read_distortion(ObjectReader& reader) {
+  std::array<double, Count> distortion{};
   if (reader.has("distortion")) {
-    const std::vector<double> values = reader.numbers("distortion", pinhole.distortion.size());
-    std::copy(values.begin(), values.end(), pinhole.distortion.begin());
+    const std::vector<double> values = reader.numbers("distortion", Count);
+    std::copy(values.begin(), values.end(), distortion.begin());
   }
-  return pinhole;
+  return distortion;
+}
+
+camera::ValidRing read_ring(ObjectReader& reader) {
+  if (!reader.has("valid_radius_px")) return {};
+  const std::vector<double> radii_px = reader.numbers("valid_radius_px", 2);
+  return {radii_px[0], radii_px[1]};
+}
+
+camera::Pinhole read_pinhole(ObjectReader& reader) { return {read_intrinsics(reader), read_distortion<5>(reader)}; }
+
+camera::Fisheye read_fisheye(ObjectReader& reader) {
+  return {read_intrinsics(reader), read_distortion<4>(reader), read_ring(reader)};
+}
+
+camera::Mei read_mei(ObjectReader& reader) {
+  return {read_intrinsics(reader), reader.number("xi"), read_distortion<4>(reader), read_ring(reader)};
+}
+
+void write_ring(json& value, const camera::ValidRing& ring) {
+  if (std::isfinite(ring.radius_max_px)) value["valid_radius_px"] = {ring.radius_min_px, ring.radius_max_px};
 }
 
 }  // namespace
@@ -66,6 +90,17 @@ json camera_to_json(const camera::CameraConfig& config) {
     value["model"] = "pinhole";
     value["intrinsics"] = intrinsics_to_json(pinhole->intrinsics);
     value["distortion"] = pinhole->distortion;
+  } else if (const auto* fisheye = std::get_if<camera::Fisheye>(&config.model)) {
+    value["model"] = "fisheye";
+    value["intrinsics"] = intrinsics_to_json(fisheye->intrinsics);
+    value["distortion"] = fisheye->distortion;
+    write_ring(value, fisheye->valid);
+  } else if (const auto* mei = std::get_if<camera::Mei>(&config.model)) {
+    value["model"] = "mei";
+    value["intrinsics"] = intrinsics_to_json(mei->intrinsics);
+    value["xi"] = mei->xi;
+    value["distortion"] = mei->distortion;
+    write_ring(value, mei->valid);
   } else {
     value["model"] = "equirectangular";
   }
@@ -79,10 +114,13 @@ Result<camera::CameraConfig> camera_from_json(const json& value, const std::stri
   constexpr int kMaxSidePx = 16384;
   config.width_px = static_cast<int>(reader.integer("width_px", 1, kMaxSidePx));
   config.height_px = static_cast<int>(reader.integer("height_px", 1, kMaxSidePx));
-  const std::string model = reader.choice("model", {"hyperbolic_mirror", "equirectangular", "pinhole"});
+  const std::string model =
+      reader.choice("model", {"hyperbolic_mirror", "equirectangular", "pinhole", "fisheye", "mei"});
   if (model == "hyperbolic_mirror") config.model = read_mirror(reader);
   if (model == "equirectangular") config.model = camera::Equirectangular{};
   if (model == "pinhole") config.model = read_pinhole(reader);
+  if (model == "fisheye") config.model = read_fisheye(reader);
+  if (model == "mei") config.model = read_mei(reader);
   ObjectReader mount(reader.value("robot_from_camera"), reader.path_of("robot_from_camera"));
   const std::vector<double> t = mount.numbers("translation_m", 3);
   const std::vector<double> q = mount.numbers("rotation_wxyz", 4);

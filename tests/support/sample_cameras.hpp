@@ -40,4 +40,24 @@ inline camera::CameraConfig pinhole_camera() {
   return config;
 }
 
+/// A lens of 185 degrees that looks up, its picture a circle.
+inline camera::CameraConfig fisheye_camera() {
+  camera::CameraConfig config;
+  config.width_px = 640;
+  config.height_px = 480;
+  config.model = camera::Fisheye{{148.0, 147.5, 321.0, 238.0}, {0.02, -0.004, 0.001, -0.0002}, {0.0, 236.0}};
+  config.robot_from_camera_rotation = Eigen::Quaterniond(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5));
+  return config;
+}
+
+/// A mirror camera by the unified model; with `xi` 1 its mirror is a parabola.
+inline camera::CameraConfig mei_camera(double xi = 0.96) {
+  camera::CameraConfig config;
+  config.width_px = 640;
+  config.height_px = 480;
+  config.model = camera::Mei{{345.0, 344.0, 320.5, 241.0}, xi, {-0.08, 0.01, 0.0006, -0.0004}, {40.0, 236.0}};
+  config.robot_from_camera_rotation = Eigen::Quaterniond(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5));
+  return config;
+}
+
 }  // namespace homeward::testing

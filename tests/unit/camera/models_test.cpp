@@ -10,6 +10,8 @@
 namespace homeward::camera {
 namespace {
 
+using homeward::testing::fisheye_camera;
+using homeward::testing::mei_camera;
 using homeward::testing::mirror_camera;
 using homeward::testing::pinhole_camera;
 using homeward::testing::sphere_camera;
@@ -55,6 +57,8 @@ TEST(CameraModels, PixelsGoThereAndBackInEveryModel) {
   EXPECT_GT(round_trip(mirror_camera()), 3000);
   EXPECT_GT(round_trip(sphere_camera()), 2500);
   EXPECT_GT(round_trip(pinhole_camera()), 6000);
+  EXPECT_GT(round_trip(fisheye_camera()), 3400);
+  for (const double xi : {0.0, 0.5, 0.96, 1.0, 1.4}) EXPECT_GT(round_trip(mei_camera(xi)), 3000) << xi;
 }
 
 TEST(CameraModels, BearingsGoThereAndBack) {
@@ -127,6 +131,50 @@ TEST(PinholeCamera, SeesWhatIsAheadOnly) {
   EXPECT_FALSE(camera->bearing({20.0, 480.0}));
 }
 
+TEST(FisheyeCamera, IsEquidistantWithoutDistortionAndSeesBehindItsPlane) {
+  CameraConfig config = fisheye_camera();
+  std::get<Fisheye>(config.model) = {{150.0, 150.0, 320.0, 240.0}, {}, {}};
+  const auto camera = make(config);
+  // It looks up: the horizon is a quarter turn off its axis. Forward is at the top, left at the right.
+  EXPECT_LT((*camera->pixel(towards(0.0, 0.0)) - Eigen::Vector2d(320.0, 240.0 - 150.0 * kPi / 2)).norm(), 1e-9);
+  EXPECT_LT((*camera->pixel(towards(90.0, 30.0)) - Eigen::Vector2d(320.0 + 50.0 * kPi, 240.0)).norm(), 1e-9);
+  EXPECT_LT((*camera->pixel(towards(90.0, -10.0)) - Eigen::Vector2d(320.0 + 150.0 * radians(100.0), 240.0)).norm(),
+            1e-9);
+  EXPECT_LT((*camera->bearing({320.0, 240.0}) - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+}
+
+TEST(FisheyeCamera, SeesNothingWhereItsDistortionFoldsOver) {
+  CameraConfig config = fisheye_camera();
+  std::get<Fisheye>(config.model) = {{300.0, 300.0, 319.5, 239.5}, {-0.3, 0.0, 0.0, 0.0}, {}};
+  const auto camera = make(config);  // the radius turns back at 1 / sqrt(0.9) radians
+  EXPECT_TRUE(camera->pixel(towards(90.0, 90.0 - degrees(1.0))));
+  EXPECT_FALSE(camera->pixel(towards(90.0, 90.0 - degrees(1.1))));
+  EXPECT_FALSE(camera->bearing({319.5 + 300.0 * 0.75, 239.5}));
+}
+
+TEST(MeiCamera, IsAPinholeAtXiZeroAndTheParabolicMirrorAtXiOne) {
+  CameraConfig config = mei_camera();
+  std::get<Mei>(config.model) = {{200.0, 200.0, 319.5, 239.5}, 0.0, {}, {}};
+  const auto pinhole = make(config);
+  EXPECT_NEAR((*pinhole->pixel(towards(0.0, 50.0)) - Eigen::Vector2d(319.5, 239.5)).norm(),
+              200.0 * std::tan(radians(40.0)), 1e-9);
+  EXPECT_FALSE(pinhole->pixel(towards(0.0, -1.0)));
+  std::get<Mei>(config.model).xi = 1.0;  // r = f tan(t / 2)
+  const auto parabola = make(config);
+  EXPECT_NEAR((*parabola->pixel(towards(0.0, 0.0)) - Eigen::Vector2d(319.5, 239.5)).norm(), 200.0, 1e-9);
+  EXPECT_NEAR((*parabola->pixel(towards(0.0, -5.0)) - Eigen::Vector2d(319.5, 239.5)).norm(),
+              200.0 * std::tan(radians(95.0 / 2)), 1e-9);
+}
+
+TEST(MeiCamera, BeyondTheContourNothingIsSeen) {
+  CameraConfig config = mei_camera();
+  std::get<Mei>(config.model) = {{300.0, 300.0, 319.5, 239.5}, 2.0, {}, {}};
+  const auto camera = make(config);  // contour at z = -1/2: 120 degrees off the axis
+  EXPECT_TRUE(camera->pixel(towards(0.0, -29.9)));
+  EXPECT_FALSE(camera->pixel(towards(0.0, -30.1)));
+  EXPECT_FALSE(camera->bearing({319.5 + 300.0 / std::sqrt(3.0) + 1.0, 239.5}));
+}
+
 TEST(BearingTable, HoldsTheBearingOfEachPixel) {
   const auto camera = make(mirror_camera());
   const BearingTable table = bearing_table(*camera);
@@ -156,6 +204,8 @@ TEST(CameraProblems, EachIsNamed) {
   EXPECT_TRUE(problems(mirror_camera()).empty());
   EXPECT_TRUE(problems(sphere_camera()).empty());
   EXPECT_TRUE(problems(pinhole_camera()).empty());
+  EXPECT_TRUE(problems(fisheye_camera()).empty());
+  EXPECT_TRUE(problems(mei_camera()).empty());
 
   CameraConfig config = mirror_camera();
   config.width_px = -640;
@@ -185,6 +235,14 @@ TEST(CameraProblems, EachIsNamed) {
   config = pinhole_camera();
   std::get<Pinhole>(config.model).distortion[2] = nan;
   refused(config, "distortion");
+  config = fisheye_camera();
+  std::get<Fisheye>(config.model).distortion[3] = nan;
+  refused(config, "distortion");
+  config = fisheye_camera();
+  std::get<Fisheye>(config.model).valid = {90.0, 80.0};
+  refused(config, "valid_radius_px");
+  refused(mei_camera(-0.1), "xi");
+  refused(mei_camera(nan), "xi");
 }
 
 TEST(CameraProblems, AllAreToldAtOnce) {

@@ -17,7 +17,8 @@ json pinhole_json() { return camera_to_json(homeward::testing::pinhole_camera())
 
 TEST(CameraJson, EveryModelComesBackAsItWas) {
   for (camera::CameraConfig config :
-       {homeward::testing::mirror_camera(), homeward::testing::sphere_camera(), homeward::testing::pinhole_camera()}) {
+       {homeward::testing::mirror_camera(), homeward::testing::sphere_camera(), homeward::testing::pinhole_camera(),
+        homeward::testing::fisheye_camera(), homeward::testing::mei_camera()}) {
     for (const bool nominal : {false, true}) {
       config.nominal = nominal;
       const json value = camera_to_json(config);
