@@ -78,7 +78,7 @@ function(_homeward_finish target)
   target_link_libraries(${target} PRIVATE homeward_options Eigen3::Eigen Threads::Threads)
   target_precompile_headers(${target} REUSE_FROM homeward_pch)
   if(HOMEWARD_TIDY)
-    set_target_properties(${target} PROPERTIES CXX_CLANG_TIDY "clang-tidy;--quiet")
+    set_target_properties(${target} PROPERTIES CXX_CLANG_TIDY ${PROJECT_SOURCE_DIR}/cmake/tidy.sh)
   endif()
 endfunction()
 

@@ -24,7 +24,7 @@ std::string lower(std::string_view text) {
 
 }  // namespace
 
-AccessPolicy::AccessPolicy(std::set<std::string> extra_hosts) {
+AccessPolicy::AccessPolicy(const std::set<std::string>& extra_hosts) {
   hosts_ = {"localhost", "127.0.0.1", "[::1]"};
   for (const std::string& host : extra_hosts) hosts_.insert(lower(host));
 }

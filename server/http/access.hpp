@@ -14,7 +14,7 @@ namespace homeward::server {
 class AccessPolicy {
  public:
   /// `extra_hosts`: names besides the loopback ones, without port.
-  explicit AccessPolicy(std::set<std::string> extra_hosts);
+  explicit AccessPolicy(const std::set<std::string>& extra_hosts);
 
   /// Whether the Host header ("name", "name:port", "[::1]:port") names this server.
   [[nodiscard]] bool host_allowed(std::string_view host_header) const;
