@@ -48,7 +48,8 @@ double colour_moment_distance(const std::array<float, 9>& a, const std::array<fl
 std::array<std::int8_t, 3> colour_invariants(const Image& rgb, double centre_u_px, double centre_v_px,
                                              double radius_px) {
   constexpr int kSamplesPerSide = 9;
-  std::array<std::array<double, kSamplesPerSide * kSamplesPerSide>, 3> bands{};
+  constexpr std::size_t kSamples = std::size_t{kSamplesPerSide} * kSamplesPerSide;
+  std::array<std::array<double, kSamples>, 3> bands{};
   std::array<double, 3> mean{};
   std::size_t sample = 0;
   for (int row = 0; row < kSamplesPerSide; ++row) {
@@ -65,8 +66,7 @@ std::array<std::int8_t, 3> colour_invariants(const Image& rgb, double centre_u_p
       }
     }
   }
-  constexpr double kSamples = kSamplesPerSide * kSamplesPerSide;
-  for (double& value : mean) value /= kSamples;
+  for (double& value : mean) value /= static_cast<double>(kSamples);
   const auto product = [&](std::size_t p, std::size_t q) {
     double sum = 0.0;
     for (std::size_t i = 0; i < bands[p].size(); ++i) sum += (bands[p][i] - mean[p]) * (bands[q][i] - mean[q]);

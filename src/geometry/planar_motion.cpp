@@ -254,7 +254,7 @@ Result<PlanarEstimate> estimate_planar_motion(std::span<const Correspondence> co
     const double error_rad = epipolar_error_rad(best, correspondences[static_cast<std::size_t>(index)]);
     squares += error_rad * error_rad;
   }
-  const double variance = squares / std::max<std::size_t>(1, estimate.inliers.size() - 2);
+  const double variance = squares / std::max(1.0, static_cast<double>(estimate.inliers.size()) - 2.0);
   const double determinant = curvature.determinant();
   estimate.direction_spread_rad =
       determinant > 1e-18 ? std::min(kPi, std::sqrt(variance * curvature(1, 1) / determinant)) : kPi;

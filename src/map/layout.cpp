@@ -97,7 +97,8 @@ Drawing place_along_tree(int places, const std::vector<Constraint>& constraints)
           const auto to = static_cast<std::size_t>(constraint.to);
           if (placed[to] || constraint.from_to.has_value() != known) continue;
           // Edges of unknown direction fan out: ahead first, then alternately to both sides.
-          const double fan_rad = (children % 2 == 0 ? 0.5 : -0.5) * static_cast<double>((children + 1) / 2);
+          const auto step_aside = (children + 1) / 2;
+          const double fan_rad = (children % 2 == 0 ? 0.5 : -0.5) * static_cast<double>(step_aside);
           const Pose2 step = constraint.from_to.value_or(
               Pose2{constraint.length_m * std::cos(fan_rad), constraint.length_m * std::sin(fan_rad), fan_rad});
           ++children;

@@ -30,6 +30,7 @@ std::vector<Overlap> overlaps(const map::TopologicalMap& map, const map::Topolog
     }
   }
   std::vector<Overlap> result;
+  result.reserve(shared.size());
   for (const auto& [pair, images] : shared) result.push_back({images, pair.first, pair.second});
   std::ranges::stable_sort(result, [](const Overlap& a, const Overlap& b) { return a.images > b.images; });
   return result;

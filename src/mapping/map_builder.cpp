@@ -208,6 +208,7 @@ std::vector<map::Edge> form_edges(const MappingInput& input, const TourPath& pat
     }
   }
   std::vector<map::Edge> result;
+  result.reserve(edges.size());
   for (auto& [ends, edge] : edges) result.push_back(std::move(edge));
   return result;
 }

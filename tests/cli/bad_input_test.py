@@ -166,6 +166,17 @@ class BadPictures(CliTest):
         self.assertIsNone(answer["bearing_rad"])
         self.assertIsNone(answer["turn_rad"])
 
+    def test_comparing_what_cannot_be_compared(self):
+        write_png(self.tour() / "black.png", 1024, 512, 0)
+        compare = ("compare", "--camera", "tour/camera.json")
+        self.assert_refused(4, ["Two pictures"], *compare, "tour/00001.jpg")
+        self.assert_refused(2, ["--measure", "magic"], *compare, "--measure", "magic", "tour/00001.jpg", "tour/00002.jpg")
+        self.assert_refused(4, ["black.png", "one brightness"], *compare, "--measure", "jeffrey", "tour/00001.jpg",
+                            "tour/black.png")
+        self.assert_refused(2, ["--draw"], *compare, "--measure", "sad", "--draw", "x.png", "tour/00001.jpg", "tour/00002.jpg")
+        (line,) = self.lines_of(*compare, "tour/00001.jpg", "tour/black.png")
+        self.assertIsNone(line["dissimilarity"])
+
     def test_one_picture_alone(self):
         self.tour()
         self.assert_refused(2, ["--target"], "home", "--camera", "tour/camera.json", "--current", "tour/00001.jpg")

@@ -144,6 +144,25 @@ class HappyPath(CliTest):
         self.assertAlmostEqual(one[0]["bearing_rad"], answers[0]["bearing_rad"])
         self.assertIsNone(one[0]["nearness"])
 
+    def test_compares_pictures_by_every_measure(self):
+        self.tour()
+        near, far = sorted((self.folder / "tour").glob("*.jpg"))[1], sorted((self.folder / "tour").glob("*.jpg"))[-1]
+        first = sorted((self.folder / "tour").glob("*.jpg"))[0]
+        for measure in ("moments", "jeffrey", "chi2", "sad", "fourier", "features"):
+            lines = self.lines_of("compare", "--camera", "tour/camera.json", "--measure", measure, first, first, near, far)
+            self.assertEqual([line["measure"] for line in lines], [measure] * 3)
+            same, step, other = (line["dissimilarity"] for line in lines)
+            self.assertAlmostEqual(same, 0.0, places=3)
+            self.assertGreater(step, same)
+            self.assertTrue(other is None or other > step, measure)
+
+    def test_draws_what_two_pictures_have_in_common(self):
+        self.tour()
+        first, near = sorted((self.folder / "tour").glob("*.jpg"))[:2]
+        line, = self.lines_of("compare", "--camera", "tour/camera.json", first, near, "--draw", "both.png")
+        self.assertGreater(line["verified"], 12)
+        self.assertEqual((self.folder / "both.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
     def test_helps(self):
         for command in ((), ("map",), ("map", "build"), ("map", "export"), ("localise",), ("home",), ("route",), ("simulate", "tour")):
             self.assertIn("Usage:", self.result_of(*command, "--help"))

@@ -32,9 +32,9 @@ bool active(const std::vector<wire::ScenarioFault>& faults, const char* kind, do
 
 /// Covers a share of the picture, from the left.
 void occlude(Image& picture, double share) {
-  const int columns = static_cast<int>(std::lround(share * picture.width_px));
+  const auto columns = static_cast<std::size_t>(std::lround(share * picture.width_px));
   for (int v = 0; v < picture.height_px; ++v) {
-    std::fill_n(picture.at(0, v), static_cast<std::size_t>(columns * picture.channels), std::uint8_t{12});
+    std::fill_n(picture.at(0, v), columns * static_cast<std::size_t>(picture.channels), std::uint8_t{12});
   }
 }
 

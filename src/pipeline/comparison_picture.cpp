@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/comparison_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "core/angles.hpp"
+
+namespace homeward::pipeline {
+namespace {
+
+constexpr int kHeader_px = 24;   // strip at the top for a sentence
+constexpr int kAxis_px = 30;     // strip above each panorama for its marks
+constexpr int kBetween_px = 10;  // between the two views
+const cv::Scalar kPaper(250, 249, 245);
+const cv::Scalar kInk(40, 40, 40);
+const cv::Scalar kAgrees(20, 200, 60);
+const cv::Scalar kDisagrees(215, 60, 45);
+const cv::Scalar kFeature(255, 190, 40);
+const cv::Scalar kHome(30, 90, 220);
+
+/// One view as it is drawn: its first row, and the turn that its panorama is shifted by.
+struct Drawn {
+  const ComparedView& view;
+  int top_px = 0;
+  double turn_rad = 0.0;
+
+  [[nodiscard]] cv::Point point(const Eigen::Vector3d& bearing) const {
+    const Eigen::Vector2d pixel_px =
+        view.panorama.geometry.pixel(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ()) * bearing);
+    return {static_cast<int>(std::lround(pixel_px.x())), top_px + static_cast<int>(std::lround(pixel_px.y()))};
+  }
+  [[nodiscard]] cv::Point feature(int index) const {
+    return point(view.appearance.sift.bearings.row(index).transpose().cast<double>());
+  }
+};
+
+cv::Mat as_mat(const Image& image) {
+  return {image.height_px, image.width_px, CV_8UC3, const_cast<std::uint8_t*>(image.data.data())};
+}
+
+/// The panorama with its columns shifted by the turn.
+void paste(cv::Mat& rgb, const Drawn& drawn) {
+  const cv::Mat view = as_mat(drawn.view.panorama.rgb);
+  const int left_px = static_cast<int>(std::lround(drawn.turn_rad / (2.0 * kPi) * view.cols));
+  const int split_px = ((left_px % view.cols) + view.cols) % view.cols;
+  view.colRange(split_px, view.cols).copyTo(rgb(cv::Rect(0, drawn.top_px, view.cols - split_px, view.rows)));
+  if (split_px > 0) {
+    view.colRange(0, split_px).copyTo(rgb(cv::Rect(view.cols - split_px, drawn.top_px, split_px, view.rows)));
+  }
+}
+
+void write(cv::Mat& rgb, const std::string& words, const cv::Point& at) {
+  cv::putText(rgb, words, at, cv::FONT_HERSHEY_SIMPLEX, 0.45, kInk, 1, cv::LINE_AA);
+}
+
+/// A triangle on the axis above a panorama, pointing at an azimuth, and a thin line down through the picture.
+void mark(cv::Mat& rgb, const Drawn& drawn, double azimuth_rad, const std::string& words) {
+  const int u = drawn.point({std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0}).x;
+  const int top_px = drawn.top_px;
+  const std::vector<cv::Point> triangle = {{u, top_px}, {u - 8, top_px - 13}, {u + 8, top_px - 13}};
+  cv::fillConvexPoly(rgb, triangle, kHome, cv::LINE_AA);
+  cv::line(rgb, {u, top_px}, {u, top_px + drawn.view.panorama.rgb.height_px - 1}, kHome, 1, cv::LINE_AA);
+  int baseline = 0;
+  const int width = cv::getTextSize(words, cv::FONT_HERSHEY_SIMPLEX, 0.45, 1, &baseline).width;
+  write(rgb, words, {u + 12 + width < rgb.cols ? u + 12 : u - 12 - width, top_px - 5});
+}
+
+/// A line the short way round: one that crosses the seam leaves on one side and comes in on the other.
+void connect(cv::Mat& rgb, const cv::Point& above, const cv::Point& below, const cv::Scalar& colour) {
+  const int width = rgb.cols;
+  const int shift = below.x - above.x > width / 2 ? -width : (above.x - below.x > width / 2 ? width : 0);
+  cv::line(rgb, above, {below.x + shift, below.y}, colour, 1, cv::LINE_AA);
+  if (shift != 0) cv::line(rgb, {above.x - shift, above.y}, below, colour, 1, cv::LINE_AA);
+}
+
+void draw_matches(cv::Mat& rgb, const Drawn& upper, const Drawn& lower, const matching::VerifiedMatch& verified) {
+  std::vector<bool> agrees(verified.matches.size(), false);
+  for (const int inlier : verified.pose.inliers) agrees[static_cast<std::size_t>(inlier)] = true;
+  for (const bool wanted : {false, true}) {  // what agrees is drawn over what does not
+    const cv::Scalar& colour = wanted ? kAgrees : kDisagrees;
+    for (std::size_t i = 0; i < verified.matches.size(); ++i) {
+      if (agrees[i] != wanted) continue;
+      const cv::Point above = upper.feature(verified.matches[i].current);
+      const cv::Point below = lower.feature(verified.matches[i].target);
+      connect(rgb, above, below, colour);
+      cv::circle(rgb, above, 3, colour, 1, cv::LINE_AA);
+      cv::circle(rgb, below, 3, colour, 1, cv::LINE_AA);
+    }
+  }
+}
+
+std::string summary(const std::optional<matching::VerifiedMatch>& verified) {
+  if (!verified) return "no motion explains enough matches";
+  char text[160];
+  std::snprintf(text, sizeof text, "%zu of %zu matches agree; turn %.0f deg; sure %.0f %%",
+                verified->pose.inliers.size(), verified->matches.size(), degrees(verified->pose.motion.turn_rad),
+                100.0 * verified->pose.confidence);
+  return text;
+}
+
+}  // namespace
+
+Image draw_comparison(const ComparedView& current, const ComparedView& target,
+                      const std::optional<matching::VerifiedMatch>& verified) {
+  const double turn_rad = verified ? verified->pose.motion.turn_rad : 0.0;
+  const Drawn upper{current, kHeader_px + kAxis_px, 0.0};
+  const Drawn lower{target, upper.top_px + current.panorama.rgb.height_px + kBetween_px + kAxis_px, turn_rad};
+  cv::Mat rgb(lower.top_px + target.panorama.rgb.height_px, current.panorama.rgb.width_px, CV_8UC3, kPaper);
+  for (const Drawn& drawn : {upper, lower}) {
+    paste(rgb, drawn);
+    for (int i = 0; i < drawn.view.appearance.sift.size(); ++i) {
+      cv::circle(rgb, drawn.feature(i), 1, kFeature, cv::FILLED);
+    }
+  }
+  if (verified) {
+    draw_matches(rgb, upper, lower, *verified);
+    const double home_rad = verified->pose.motion.direction_rad;
+    mark(rgb, upper, home_rad, "way home");
+    mark(rgb, lower, wrap_angle(home_rad + kPi - turn_rad), "way back");
+  }
+  write(rgb, summary(verified), {6, 16});
+  write(rgb, "here", {6, upper.top_px - 8});
+  write(rgb, "there", {6, lower.top_px - 8});
+
+  Image picture(rgb.cols, rgb.rows, 3);
+  std::copy_n(rgb.ptr<std::uint8_t>(0), picture.data.size(), picture.data.begin());
+  return picture;
+}
+
+}  // namespace homeward::pipeline

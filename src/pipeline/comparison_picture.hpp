@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "camera/panorama.hpp"
+#include "core/image.hpp"
+#include "features/appearance.hpp"
+#include "matching/verify.hpp"
+
+namespace homeward::pipeline {
+
+/// One side of a comparison: the panorama and what was found in it.
+struct ComparedView {
+  const camera::Panorama& panorama;
+  const features::Appearance& appearance;
+};
+
+/// For people: the present view above, the target's below, turned so that the same direction of the world stands under
+/// itself. Features are dots; matches that one motion explains are green lines, those that it does not are red; marks
+/// point the way home and, from the target, the way back. `verified` is nothing where no motion is common. The
+/// panoramas need one geometry.
+Image draw_comparison(const ComparedView& current, const ComparedView& target,
+                      const std::optional<matching::VerifiedMatch>& verified);
+
+}  // namespace homeward::pipeline

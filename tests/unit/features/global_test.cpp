@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "features/global.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/angles.hpp"
+#include "support/painted_room.hpp"
+
+namespace homeward::features {
+namespace {
+
+using homeward::testing::painted_panorama;
+using homeward::testing::PaintedRoom;
+
+camera::PanoramaGeometry geometry() {
+  camera::PanoramaGeometry geometry;
+  geometry.width_px = 256;
+  return geometry;
+}
+
+camera::Panorama view(std::uint64_t seed, double heading_rad) {
+  PaintedRoom room;
+  room.seed = seed;
+  return painted_panorama(room, {0.4, 0.3, heading_rad}, geometry());
+}
+
+// The example of the thesis's table 3.1 (Ferdaus 2008).
+constexpr std::array kReference = {6.0F, 26.0F, 37.0F, 26.0F, 3.0F, 2.0F};
+constexpr std::array kLike = {3.0F, 25.0F, 38.0F, 25.0F, 8.0F, 1.0F};
+constexpr std::array kUnlike = {34.0F, 36.0F, 4.0F, 14.0F, 10.0F, 2.0F};
+
+TEST(GlobalMeasures, OfHistogramsAreTheThesis) {
+  EXPECT_NEAR(jeffrey_divergence(kReference, kLike), 0.8187, 1e-4);
+  EXPECT_NEAR(jeffrey_divergence(kReference, kUnlike), 13.3570, 1e-4);
+  EXPECT_NEAR(chi_square(kReference, kLike), 1.8293, 1e-4);
+  EXPECT_NEAR(chi_square(kReference, kUnlike), 27.5716, 1e-4);
+  EXPECT_NEAR(sum_of_absolute_differences(kReference, kLike), 12.0, 1e-9);
+  EXPECT_NEAR(sum_of_absolute_differences(kReference, kUnlike), 90.0, 1e-9);
+}
+
+TEST(GlobalMeasures, TakeEmptyBins) {
+  constexpr std::array<float, 3> a = {0.0F, 1.0F, 0.0F};
+  constexpr std::array<float, 3> b = {0.0F, 0.0F, 1.0F};
+  EXPECT_NEAR(jeffrey_divergence(a, b), 2.0 * std::log10(2.0), 1e-9);
+  EXPECT_NEAR(chi_square(a, b), 1.0, 1e-9);
+}
+
+class EveryMeasure : public ::testing::TestWithParam<GlobalMeasure> {};
+
+TEST_P(EveryMeasure, IsZeroForTheSameAndSymmetric) {
+  const auto a = describe(view(1, 0.0));
+  const auto b = describe(view(2, 0.0));
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(dissimilarity(GetParam(), *a, *a), 0.0);
+  EXPECT_GT(dissimilarity(GetParam(), *a, *b), 0.0);
+  EXPECT_DOUBLE_EQ(dissimilarity(GetParam(), *a, *b), dissimilarity(GetParam(), *b, *a));
+}
+
+/// The same view after a turn by whole columns of the panorama.
+camera::Panorama turned(const camera::Panorama& panorama, int columns) {
+  camera::Panorama result = panorama;
+  const int width_px = panorama.rgb.width_px;
+  for (int v = 0; v < panorama.rgb.height_px; ++v) {
+    for (int u = 0; u < width_px; ++u) {
+      const int from = (u + columns) % width_px;
+      for (int band = 0; band < 3; ++band)
+        result.rgb.at(u, v)[band] = panorama.rgb.data[static_cast<std::size_t>(3 * (v * width_px + from) + band)];
+      result.valid[static_cast<std::size_t>(v * width_px + u)] =
+          panorama.valid[static_cast<std::size_t>(v * width_px + from)];
+    }
+  }
+  return result;
+}
+
+TEST_P(EveryMeasure, ATurnChangesNothing) {
+  const auto here = describe(view(1, 0.0));
+  const auto elsewhere = describe(view(2, 0.0));
+  ASSERT_TRUE(here && elsewhere);
+  const double apart = dissimilarity(GetParam(), *here, *elsewhere);
+  for (const int columns : {1, 64, 131}) {
+    const auto after = describe(turned(view(1, 0.0), columns));
+    ASSERT_TRUE(after);
+    EXPECT_LT(dissimilarity(GetParam(), *here, *after), 1e-4 * apart) << columns;
+  }
+}
+
+std::string name_of(const ::testing::TestParamInfo<GlobalMeasure>& measure) {
+  return std::string(global_measure_name(measure.param));
+}
+INSTANTIATE_TEST_SUITE_P(Measures, EveryMeasure, ::testing::ValuesIn(kGlobalMeasures), name_of);
+
+TEST(GlobalDescriptor, WhatTheCameraDoesNotSeeDoesNotCount) {
+  camera::Panorama whole = view(1, 0.0);
+  camera::Panorama masked = whole;
+  const auto pixels = static_cast<std::size_t>(whole.rgb.width_px) * static_cast<std::size_t>(whole.rgb.height_px);
+  for (std::size_t i = 0; i < pixels; i += 2) {  // every second pixel is hidden behind white
+    masked.valid[i] = 0;
+    for (std::size_t band = 0; band < 3; ++band) masked.rgb.data[3 * i + band] = 255;
+  }
+  const auto a = describe(whole);
+  const auto b = describe(masked);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(b->grey_histogram[255], 0.0F);
+  EXPECT_LT(dissimilarity(GlobalMeasure::kAbsoluteDifference, *a, *b), 0.3);
+  double sum = 0.0;
+  for (const float share : b->grey_histogram) sum += static_cast<double>(share);
+  EXPECT_NEAR(sum, 1.0, 1e-5);
+}
+
+TEST(GlobalDescriptor, PicturesThatShowNothingAreRefused) {
+  for (const int brightness : {0, 128, 255}) {
+    camera::Panorama panorama = view(1, 0.0);
+    std::ranges::fill(panorama.rgb.data, static_cast<std::uint8_t>(brightness));
+    const auto described = describe(panorama);
+    ASSERT_FALSE(described) << brightness;
+    EXPECT_EQ(described.error().code, ErrorCode::kTooFewFeatures);
+    EXPECT_NE(described.error().message.find("one brightness"), std::string::npos);
+  }
+  camera::Panorama unseen = view(1, 0.0);
+  std::ranges::fill(unseen.valid, std::uint8_t{0});
+  EXPECT_FALSE(describe(unseen));
+}
+
+}  // namespace
+}  // namespace homeward::features

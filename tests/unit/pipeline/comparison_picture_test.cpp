@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/comparison_picture.hpp"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/eye.hpp"
+#include "support/painted_tour.hpp"
+
+namespace homeward::pipeline {
+namespace {
+
+/// Pixels of about this colour.
+int count_of(const Image& picture, const std::array<int, 3>& colour) {
+  int count = 0;
+  for (std::size_t i = 0; i + 2 < picture.data.size(); i += 3) {
+    bool alike = true;
+    for (std::size_t band = 0; band < 3; ++band) {
+      alike = alike && std::abs(static_cast<int>(picture.data[i + band]) - colour[band]) < 12;
+    }
+    count += alike ? 1 : 0;
+  }
+  return count;
+}
+
+class ComparisonPicture : public ::testing::Test {
+ protected:
+  static constexpr std::array kGreen = {20, 200, 60};
+  static constexpr std::array kBlue = {30, 90, 220};
+
+  ComparisonPicture() : camera_(camera::Camera::create(homeward::testing::sphere_camera(512)).value()) {}
+
+  struct Seen {
+    camera::Panorama panorama;
+    features::Appearance appearance;
+  };
+  Seen from(const Pose2& pose) const {
+    const Image picture = homeward::testing::painted_picture(homeward::testing::painted_corridor(), pose, *camera_);
+    return {eye_->unwrap(picture).value(), eye_->look(picture).value()};
+  }
+
+  std::shared_ptr<const camera::Camera> camera_;
+  Result<Eye> eye_ = Eye::create(camera_->config(), suited_feature_config(*camera_));
+};
+
+TEST_F(ComparisonPicture, ShowsWhatAgreesAndTheWays) {
+  const Seen here = from({0.0, 0.0, 0.0});
+  const Seen there = from({0.5, 0.1, 0.8});
+  const auto verified = matching::verify(here.appearance, there.appearance, {}, 1);
+  ASSERT_TRUE(verified);
+  const Image drawn = draw_comparison({here.panorama, here.appearance}, {there.panorama, there.appearance}, *verified);
+  EXPECT_EQ(drawn.width_px, here.panorama.rgb.width_px);
+  EXPECT_GT(drawn.height_px, 2 * here.panorama.rgb.height_px);
+  EXPECT_GT(count_of(drawn, kGreen), 1000);
+  EXPECT_GT(count_of(drawn, kBlue), 200);
+}
+
+TEST_F(ComparisonPicture, WithoutACommonMotionShowsTheViewsAlone) {
+  const Seen here = from({0.0, 0.0, 0.0});
+  const Image drawn = draw_comparison({here.panorama, here.appearance}, {here.panorama, here.appearance}, std::nullopt);
+  EXPECT_EQ(count_of(drawn, kGreen), 0);
+  EXPECT_EQ(count_of(drawn, kBlue), 0);
+}
+
+}  // namespace
+}  // namespace homeward::pipeline
