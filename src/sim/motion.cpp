@@ -44,17 +44,29 @@ RobotProfile chair_profile() {
 
 Obstacles::Obstacles(const World& world) : grid_(world.occupied), distance_m_(clearance(world.occupied)) {}
 
+std::optional<double> Obstacles::distance_at(const Eigen::Vector2d& point_m) const {
+  const Eigen::Vector2d first_m = centre_of(grid_, {0, 0});
+  const Eigen::Vector2d step_m = centre_of(grid_, {1, 1}) - first_m;  // rows may run down
+  const Eigen::Array2d cells = (point_m - first_m).array() / step_m.array();
+  const Eigen::Array2i low = cells.floor().cast<int>();
+  if ((low < 0).any() || low.x() + 1 >= grid_.width || low.y() + 1 >= grid_.height) return std::nullopt;
+  const Eigen::Array2d share = cells - low.cast<double>();
+  const auto at = [&](int right, int up) {
+    const auto row = static_cast<std::size_t>(low.y() + up) * static_cast<std::size_t>(grid_.width);
+    return static_cast<double>(distance_m_[row + static_cast<std::size_t>(low.x() + right)]);
+  };
+  return (1.0 - share.y()) * ((1.0 - share.x()) * at(0, 0) + share.x() * at(1, 0)) +
+         share.y() * ((1.0 - share.x()) * at(0, 1) + share.x() * at(1, 1));
+}
+
 double Obstacles::clearance_m(const RobotProfile& robot, const Pose2& pose, const std::vector<Person>& people) const {
   double nearest_m = 1e9;
   for (const double x_m : robot.disc_x_m) {
     const Pose2 disc = pose * Pose2{x_m, 0.0, 0.0};
-    const Eigen::Vector2i cell = cell_of(grid_, {disc.x_m, disc.y_m});
-    if (cell.x() < 0 || cell.y() < 0 || cell.x() >= grid_.width || cell.y() >= grid_.height) return -1.0;
-    const auto index =
-        static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(grid_.width) + static_cast<std::size_t>(cell.x());
+    const auto distance_m = distance_at({disc.x_m, disc.y_m});
+    if (!distance_m) return -1.0;
     // Things are known to half a cell.
-    nearest_m =
-        std::min(nearest_m, static_cast<double>(distance_m_[index]) - 0.5 * grid_.resolution_m - robot.radius_m);
+    nearest_m = std::min(nearest_m, *distance_m - 0.5 * grid_.resolution_m - robot.radius_m);
     for (const Person& person : people) {
       const double apart_m = std::hypot(person.x_m - disc.x_m, person.y_m - disc.y_m);
       nearest_m = std::min(nearest_m, apart_m - kPersonRadius_m - robot.radius_m);

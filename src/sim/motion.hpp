@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -43,6 +44,9 @@ class Obstacles {
                                    const std::vector<Person>& people) const;
 
  private:
+  /// To the nearest occupied cell's centre, between the cells' centres interpolated; nothing outside the grid.
+  [[nodiscard]] std::optional<double> distance_at(const Eigen::Vector2d& point_m) const;
+
   FloorGrid grid_;
   std::vector<float> distance_m_;
 };

@@ -7,7 +7,8 @@
 namespace homeward::agent {
 namespace {
 
-constexpr double kMargin_m = 0.03;    // kept between body and things
+// Kept between body and things; more than the noise of a sweep, or many sweeps would let it creep into contact.
+constexpr double kMargin_m = 0.05;
 constexpr double kReaction_s = 0.25;  // from the sweep to the wheels
 constexpr double kStep_s = 0.1;
 
