@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/angles.hpp"
+#include "geometry/tilted_motion.hpp"
 
 namespace homeward::geometry {
 namespace {
@@ -48,35 +49,6 @@ PlanarMotion motion_from(const Eigen::Vector4d& v) {
   return {wrap_angle(phi_rad), wrap_angle(phi_rad + psi_rad)};
 }
 
-/// One Gauss-Newton step on (direction, turn) with Cauchy weights; numeric derivatives of two angles are exact enough.
-/// Returns the curvature matrix J^T W J.
-Eigen::Matrix2d refine_once(std::span<const Correspondence> correspondences, const std::vector<int>& inliers,
-                            double scale_rad, PlanarMotion& motion) {
-  constexpr double kStepRad = 1e-6;
-  const PlanarEpipolar here(motion);
-  const PlanarEpipolar direction_moved({motion.direction_rad + kStepRad, motion.turn_rad});
-  const PlanarEpipolar turn_moved({motion.direction_rad, motion.turn_rad + kStepRad});
-  Eigen::Matrix2d curvature = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-  for (const int index : inliers) {
-    const Correspondence& c = correspondences[static_cast<std::size_t>(index)];
-    const double error_rad = here.error(c);
-    const Eigen::Vector2d slope((direction_moved.error(c) - error_rad) / kStepRad,
-                                (turn_moved.error(c) - error_rad) / kStepRad);
-    const double ratio = error_rad / scale_rad;
-    const double weight = 1.0 / (1.0 + ratio * ratio);
-    curvature += weight * slope * slope.transpose();
-    gradient += weight * slope * error_rad;
-  }
-  // A little damping keeps the direction where it is when the views coincide and it means nothing.
-  const double damping = 1e-9 * (curvature.trace() + 1.0);
-  const Eigen::Vector2d step = (curvature + damping * Eigen::Matrix2d::Identity()).ldlt().solve(gradient);
-  constexpr double kMaxStepRad = 0.2;
-  motion.direction_rad = wrap_angle(motion.direction_rad - std::clamp(step[0], -kMaxStepRad, kMaxStepRad));
-  motion.turn_rad = wrap_angle(motion.turn_rad - std::clamp(step[1], -kMaxStepRad, kMaxStepRad));
-  return curvature;
-}
-
 struct Score {
   double cost = 0.0;  // truncated squared error summed, in units of the bound (MSAC, Torr & Zisserman 2000)
   int inliers = 0;
@@ -95,22 +67,48 @@ Score score(const PlanarMotion& motion, std::span<const Correspondence> correspo
   return result;
 }
 
-std::vector<int> inliers_of(const PlanarMotion& motion, std::span<const Correspondence> correspondences,
+/// The same for a motion that may be tilted.
+Score score(const TiltedMotion& motion, std::span<const Correspondence> correspondences, double max_error_rad) {
+  const EpipolarError error_of(motion);
+  const double bound2 = max_error_rad * max_error_rad;
+  Score result;
+  for (const Correspondence& c : correspondences) {
+    const double error = error_of(c);
+    const double ratio = error * error / bound2;
+    if (ratio < 1.0) ++result.inliers;
+    result.cost += std::min(ratio, 1.0);
+  }
+  return result;
+}
+
+std::vector<int> inliers_of(const TiltedMotion& motion, std::span<const Correspondence> correspondences,
                             double max_error_rad) {
-  const PlanarEpipolar epipolar(motion);
+  const EpipolarError error_of(motion);
   std::vector<int> inliers;
   for (std::size_t i = 0; i < correspondences.size(); ++i) {
-    if (std::abs(epipolar.error(correspondences[i])) < max_error_rad) inliers.push_back(static_cast<int>(i));
+    if (std::abs(error_of(correspondences[i])) < max_error_rad) inliers.push_back(static_cast<int>(i));
   }
   return inliers;
 }
 
+/// From a planar motion that holds loosely to one, slightly tilted, that holds tightly.
+TiltedMotion tightened(const PlanarMotion& planar, std::span<const Correspondence> correspondences,
+                       const PlanarRansacConfig& config) {
+  TiltedMotion motion{planar};
+  for (int step = 0; step < config.refinements; ++step) {
+    const double share = static_cast<double>(step) / std::max(1, config.refinements - 1);
+    const double bound_rad = config.search_error_rad * std::pow(config.max_error_rad / config.search_error_rad, share);
+    refine_tilted(correspondences, inliers_of(motion, correspondences, bound_rad), 0.5 * bound_rad, config.tilt,
+                  motion);
+  }
+  return motion;
+}
+
 /// Which inliers lie in front of both viewpoints: >0 forward, <0 with the direction reversed, 0 too little parallax to
 /// say.
-int cheirality(const PlanarMotion& motion, const Correspondence& c, double min_parallax_rad) {
-  const Eigen::Vector3d target_in_current =
-      Eigen::AngleAxisd(motion.turn_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix() * c.target;
-  const Eigen::Vector3d t(std::cos(motion.direction_rad), std::sin(motion.direction_rad), 0.0);
+int cheirality(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& t, const Correspondence& c,
+               double min_parallax_rad) {
+  const Eigen::Vector3d target_in_current = rotation * c.target;
   const double cosine = c.current.dot(target_in_current);
   const double sine2 = 1.0 - cosine * cosine;
   if (sine2 < min_parallax_rad * min_parallax_rad) return 0;
@@ -122,9 +120,9 @@ int cheirality(const PlanarMotion& motion, const Correspondence& c, double min_p
   return 0;
 }
 
-double median_parallax_rad(const PlanarMotion& motion, std::span<const Correspondence> correspondences,
+double median_parallax_rad(const TiltedMotion& motion, std::span<const Correspondence> correspondences,
                            const std::vector<int>& inliers) {
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(motion.turn_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d turn = motion.rotation();
   std::vector<double> parallaxes_rad;
   parallaxes_rad.reserve(inliers.size());
   for (const int index : inliers) {
@@ -137,17 +135,21 @@ double median_parallax_rad(const PlanarMotion& motion, std::span<const Correspon
 }
 
 /// Turns the direction round when most inliers say so; gives the share of those that agree in the end.
-double settle_direction(PlanarMotion& motion, std::span<const Correspondence> correspondences,
+double settle_direction(TiltedMotion& motion, std::span<const Correspondence> correspondences,
                         const std::vector<int>& inliers, double min_parallax_rad) {
+  const Eigen::Matrix3d rotation = motion.rotation();
+  const Eigen::Vector3d direction = motion.direction();
   int forward = 0;
   int backward = 0;
   for (const int index : inliers) {
-    const int side = cheirality(motion, correspondences[static_cast<std::size_t>(index)], min_parallax_rad);
+    const int side =
+        cheirality(rotation, direction, correspondences[static_cast<std::size_t>(index)], min_parallax_rad);
     forward += side > 0 ? 1 : 0;
     backward += side < 0 ? 1 : 0;
   }
   if (backward > forward) {
-    motion.direction_rad = wrap_angle(motion.direction_rad + kPi);
+    motion.planar.direction_rad = wrap_angle(motion.planar.direction_rad + kPi);
+    motion.elevation_rad = -motion.elevation_rad;
     std::swap(forward, backward);
   }
   return forward + backward == 0 ? 0.0 : static_cast<double>(forward) / (forward + backward);
@@ -205,8 +207,9 @@ Result<PlanarEstimate> estimate_planar_motion(std::span<const Correspondence> co
 
   std::mt19937_64 random(seed);
   const auto pick = [&](int limit) { return static_cast<int>(random() % static_cast<std::uint64_t>(limit)); };
-  PlanarMotion best;
+  TiltedMotion best;
   Score best_score{static_cast<double>(count), 0};
+  Score best_found{static_cast<double>(count), 0};
   int needed = config.max_iterations;
   for (int iteration = 0; iteration < needed; ++iteration) {
     const int first = pick(count);
@@ -214,44 +217,40 @@ Result<PlanarEstimate> estimate_planar_motion(std::span<const Correspondence> co
     if (second >= first) ++second;
     const std::array<Correspondence, 2> sample = {correspondences[static_cast<std::size_t>(first)],
                                                   correspondences[static_cast<std::size_t>(second)]};
-    for (PlanarMotion motion : solve_planar_motion(sample)) {
-      Score found = score(motion, correspondences, config.max_error_rad);
-      if (found.cost >= best_score.cost) continue;
-      // Local optimisation (Chum, Matas & Kittler 2003): the refined model is kept when it is better still.
-      for (int step = 0; step < config.refinements; ++step) {
-        PlanarMotion refined = motion;
-        refine_once(correspondences, inliers_of(motion, correspondences, config.max_error_rad), config.max_error_rad,
-                    refined);
-        const Score refined_score = score(refined, correspondences, config.max_error_rad);
-        if (refined_score.cost >= found.cost) break;
-        motion = refined;
-        found = refined_score;
-      }
-      best = motion;
-      best_score = found;
+    for (const PlanarMotion& motion : solve_planar_motion(sample)) {
+      const Score found = score(motion, correspondences, config.search_error_rad);
+      if (found.cost >= best_found.cost) continue;
+      best_found = found;
       needed = std::min(needed, iterations_needed(static_cast<double>(found.inliers) / count, config.sure_enough,
                                                   config.max_iterations));
+      // Local optimisation (Chum, Matas & Kittler 2003) of the motion with its tilt.
+      const TiltedMotion tight = tightened(motion, correspondences, config);
+      const Score tight_score = score(tight, correspondences, config.max_error_rad);
+      if (tight_score.cost >= best_score.cost) continue;
+      best = tight;
+      best_score = tight_score;
     }
   }
   if (best_score.inliers < kFewest) return fail(ErrorCode::kTooLittleSupport, "No motion explains three matches.");
 
   PlanarEstimate estimate;
   Eigen::Matrix2d curvature = Eigen::Matrix2d::Zero();
-  constexpr int kFinalSteps = 5;
+  constexpr int kFinalSteps = 3;
   for (int step = 0; step < kFinalSteps; ++step) {
-    curvature = refine_once(correspondences, inliers_of(best, correspondences, config.max_error_rad),
-                            config.max_error_rad * 0.5, best);
+    curvature = refine_tilted(correspondences, inliers_of(best, correspondences, config.max_error_rad),
+                              config.max_error_rad * 0.5, config.tilt, best);
   }
   estimate.inliers = inliers_of(best, correspondences, config.max_error_rad);
   if (static_cast<int>(estimate.inliers.size()) < kFewest) {
     return fail(ErrorCode::kTooLittleSupport, "No motion explains three matches.");
   }
   estimate.forward_share = settle_direction(best, correspondences, estimate.inliers, 2.0 * config.max_error_rad);
-  estimate.motion = best;
+  estimate.motion = best.planar;
   estimate.median_parallax_rad = median_parallax_rad(best, correspondences, estimate.inliers);
+  const EpipolarError error_of(best);
   double squares = 0.0;
   for (const int index : estimate.inliers) {
-    const double error_rad = epipolar_error_rad(best, correspondences[static_cast<std::size_t>(index)]);
+    const double error_rad = error_of(correspondences[static_cast<std::size_t>(index)]);
     squares += error_rad * error_rad;
   }
   const double variance = squares / std::max(1.0, static_cast<double>(estimate.inliers.size()) - 2.0);

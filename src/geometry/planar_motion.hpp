@@ -27,11 +27,19 @@ std::vector<PlanarMotion> solve_planar_motion(const std::array<Correspondence, 2
 /// First-order angular distance of a correspondence to the epipolar constraint (Sampson), radians.
 double epipolar_error_rad(const PlanarMotion& motion, const Correspondence& correspondence);
 
+/// How far tilts are expected to go: standard deviations that hold the estimate where few matches say anything.
+struct TiltPrior {
+  double elevation_rad = 0.02;
+  double tilt_rad = 0.02;
+};
+
 struct PlanarRansacConfig {
-  double max_error_rad = 0.006;  // inlier bound of the epipolar error
+  double max_error_rad = 0.006;     // inlier bound of the epipolar error
+  double search_error_rad = 0.015;  // the same while tilts are not known yet
   int max_iterations = 600;
   double sure_enough = 0.9999;  // stop when a better model would have been met with this probability
-  int refinements = 4;          // Gauss-Newton steps of a local optimisation
+  int refinements = 5;          // Gauss-Newton steps of a local optimisation
+  TiltPrior tilt;
 };
 
 /// What robust estimation found.

@@ -8,7 +8,7 @@
 namespace homeward::matching {
 
 struct MatchConfig {
-  double ratio = 0.85;              // to the second best, of descriptor distances
+  double ratio = 0.9;               // to the second best, of descriptor distances
   int max_colour_difference = 100;  // largest difference of one colour invariant, of 254
 };
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "geometry/planar_motion.hpp"
+
+namespace homeward::geometry {
+
+/// A planar motion between two views of which one may be tilted: a camera held by hand, a threshold, a soft tyre.
+struct TiltedMotion {
+  PlanarMotion planar;
+  double elevation_rad = 0.0;  // of the direction to the target
+  double roll_rad = 0.0;       // R = Rz(turn) Ry(pitch) Rx(roll)
+  double pitch_rad = 0.0;
+
+  [[nodiscard]] Eigen::Matrix3d rotation() const;   // takes target bearings into the current frame
+  [[nodiscard]] Eigen::Vector3d direction() const;  // unit, towards the target
+};
+
+/// First-order angular distances of a correspondence to the epipolar constraint of one motion.
+class EpipolarError {
+ public:
+  explicit EpipolarError(const TiltedMotion& motion);
+  /// Signed, radians (Sampson).
+  [[nodiscard]] double operator()(const Correspondence& correspondence) const;
+
+ private:
+  Eigen::Matrix3d essential_;
+};
+
+/// One Gauss-Newton step with Cauchy weights of `scale_rad` on the correspondences named by `inliers`, all five angles
+/// free within the prior. Returns the curvature of (direction, turn) after the other angles are taken out (Schur).
+Eigen::Matrix2d refine_tilted(std::span<const Correspondence> correspondences, const std::vector<int>& inliers,
+                              double scale_rad, const TiltPrior& prior, TiltedMotion& motion);
+
+}  // namespace homeward::geometry
