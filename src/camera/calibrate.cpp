@@ -29,11 +29,20 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+/// Turns the picture over: (x, y, z) becomes (x, -y, z), and so do the distortion's terms.
+void turn_over(Mei& mei) {
+  mei.intrinsics.fy_px = -mei.intrinsics.fy_px;
+  mei.distortion[2] = -mei.distortion[2];
+}
+
 Status check(const CalibrationInput& input, const std::vector<BoardView>& views) {
   const std::vector<std::string> wrong = problems(input.board);
   if (!wrong.empty()) return fail(ErrorCode::kInvalidInput, wrong.front());
   if (input.camera.width_px < 1 || input.camera.height_px < 1) {
     return fail(ErrorCode::kInvalidInput, "The pictures must have a size.");
+  }
+  if (input.mirror && input.model != CalibratedModel::kMei) {
+    return fail(ErrorCode::kInvalidInput, "Of the models, only mei is one of a mirror.");
   }
   const auto corners = static_cast<std::size_t>(input.board.cols) * static_cast<std::size_t>(input.board.rows);
   for (const BoardView& view : views) {
@@ -100,8 +109,7 @@ double coverage(const std::vector<BoardView>& views, const CameraConfig& camera)
 std::vector<std::string> warnings_of(const CameraFit& fit, const CalibrationInput& input,
                                      const std::vector<BoardView>& views) {
   std::vector<std::string> warnings;
-  const Eigen::VectorXd p = parameters_of(fit.model);
-  const double deviation = std::max(fit.deviations[0] / p[0], fit.deviations[1] / p[1]);
+  const double deviation = fit.focal_deviation;
   if (!(deviation <= kFocalDeviationMax)) {
     warnings.push_back(std::isfinite(deviation)
                            ? "The focal length is known to " + shown(100.0 * deviation, 1) +
@@ -161,11 +169,12 @@ Result<CalibrationResult> calibrate(const CalibrationInput& input, const std::ve
   }
   result.config = input.camera;
   result.config.model = fit->model;
+  if (input.mirror) turn_over(std::get<Mei>(result.config.model));
   result.rms_px = fit->rms_px;
   for (std::size_t i = 0; i < used.size(); ++i) {
     result.used.push_back({used[i], fit->view_rms_px[i], std::move(fit->predicted_px[i])});
   }
-  const Eigen::VectorXd p = parameters_of(fit->model);
+  const Eigen::VectorXd p = parameters_of(result.config.model);
   const std::vector<std::string> names = parameter_names(input.model);
   for (Eigen::Index k = 0; k < p.size(); ++k) {
     result.parameters.push_back({names[static_cast<std::size_t>(k)], p[k], fit->deviations[k]});

@@ -50,6 +50,7 @@ struct CalibrationResult {
 /// What is known of the camera beforehand.
 struct CalibrationInput {
   CalibratedModel model = CalibratedModel::kMei;
+  bool mirror = false;  // the unified model of a mirror: fy_px comes out negative (see `Mei`); flat boards cannot tell
   BoardGeometry board;
   CameraConfig camera;  // picture size and mounting; its model is not looked at
 };

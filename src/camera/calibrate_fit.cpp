@@ -139,11 +139,22 @@ class Fitter {
     fit.rms_px = std::sqrt(2.0 * sum / static_cast<double>(numbers));
     const Eigen::Index freedom = numbers - free - kPoseSize * static_cast<Eigen::Index>(poses_.size());
     fit.deviations = Eigen::VectorXd::Constant(free, kInfinity);
+    fit.focal_deviation = kInfinity;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> split(scaled_information());
     if (freedom > 0 && split.eigenvalues()[0] > 1e-14 * split.eigenvalues()[free - 1]) {
       const Eigen::MatrixXd covariance =
           split.eigenvectors() * split.eigenvalues().cwiseInverse().asDiagonal() * split.eigenvectors().transpose();
       const double variance = sum / static_cast<double>(freedom);
+      fit.focal_deviation = 0.0;
+      for (Eigen::Index k = 0; k < 2; ++k) {
+        // Relative change of f, or of f / (1 + xi): by itself f can grow with xi and hardly change a pixel.
+        Eigen::VectorXd by = Eigen::VectorXd::Zero(free);
+        const Eigen::VectorXd p = parameters_of(model_);
+        by[k] = 1.0 / p[k];
+        if (std::holds_alternative<Mei>(model_)) by[kIntrinsicsSize] = -1.0 / (1.0 + p[kIntrinsicsSize]);
+        by = by.cwiseQuotient(scale_);
+        fit.focal_deviation = std::max(fit.focal_deviation, std::sqrt(variance * by.dot(covariance * by)));
+      }
       fit.deviations = (variance * covariance.diagonal()).cwiseSqrt().cwiseQuotient(scale_);
     }
     return fit;

@@ -24,7 +24,8 @@ struct CameraFit {
   std::vector<std::vector<Eigen::Vector2d>> predicted_px;
   std::vector<double> view_rms_px;
   double rms_px = 0.0;
-  Eigen::VectorXd deviations;  // of the parameters in the order of `parameters_of`; infinite where nothing holds them
+  double focal_deviation = 0.0;  // relative, of the focal length at the middle: fx, fy, for the unified model by 1 + xi
+  Eigen::VectorXd deviations;    // of the parameters in the order of `parameters_of`; infinite where nothing holds them
 };
 
 /// fx fy cx cy, for the unified model xi, then the distortion.
