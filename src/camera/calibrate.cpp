@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kViewsMin = 3;
 constexpr double kFarLarger = 3.0;        // a view this many times worse than the middle one is left out
 constexpr double kNeverLeftOut_px = 0.6;  // below this, residuals say nothing against a view
+constexpr double kCornersApartMin_px = 0.5;
 constexpr double kFocalDeviationMax = 0.02;
 constexpr double kNormalsApartMin_rad = 0.2;
 constexpr double kCoverageMin = 0.10;
@@ -50,6 +51,11 @@ Status check(const CalibrationInput& input, const std::vector<BoardView>& views)
     if (view.corners_px.size() != corners || !finite) {
       return fail(ErrorCode::kInvalidInput, "A view must have one finite pixel for each corner of the board.",
                   view.name);
+    }
+    for (std::size_t i = 1; i < view.corners_px.size(); ++i) {
+      if ((view.corners_px[i] - view.corners_px[i - 1]).norm() < kCornersApartMin_px) {
+        return fail(ErrorCode::kInvalidInput, "The corners of a view must lie apart.", view.name);
+      }
     }
   }
   return {};

@@ -79,6 +79,14 @@ Eigen::VectorXd stacked(const std::vector<Eigen::Vector2d>& pixels) {
   return all;
 }
 
+/// Central difference; from one side at the border of what the camera sees, nothing where neither side is seen.
+Eigen::VectorXd slope(const Eigen::VectorXd& here, const std::optional<Eigen::VectorXd>& plus,
+                      const std::optional<Eigen::VectorXd>& minus, double h) {
+  const int sides = (plus ? 1 : 0) + (minus ? 1 : 0);
+  if (sides == 0) return Eigen::VectorXd::Zero(here.size());
+  return ((plus ? *plus : here) - (minus ? *minus : here)) / (sides * h);
+}
+
 /// State and normal equations of one fit.
 class Fitter {
  public:
@@ -198,18 +206,14 @@ class Fitter {
         down[k] -= h;
         const auto high = with_parameters(model_, up);
         const auto low = with_parameters(model_, down);
-        const auto plus = predict(high ? *high : model_, poses_[i], board_m_);
-        const auto minus = predict(low ? *low : model_, poses_[i], board_m_);
-        if (!plus || !minus) return false;
-        by_camera.col(k) = (*plus - *minus) / ((high ? h : 0.0) + (low ? h : 0.0));
+        by_camera.col(k) = slope(*predicted, high ? predict(*high, poses_[i], board_m_) : std::nullopt,
+                                 low ? predict(*low, poses_[i], board_m_) : std::nullopt, h);
       }
       Eigen::MatrixXd by_pose(residual.size(), kPoseSize);
       for (Eigen::Index k = 0; k < kPoseSize; ++k) {
         const double h = 1e-6;
-        const auto plus = predict(model_, moved(poses_[i], h * PoseVector::Unit(k)), board_m_);
-        const auto minus = predict(model_, moved(poses_[i], -h * PoseVector::Unit(k)), board_m_);
-        if (!plus || !minus) return false;
-        by_pose.col(k) = (*plus - *minus) / (2.0 * h);
+        by_pose.col(k) = slope(*predicted, predict(model_, moved(poses_[i], h * PoseVector::Unit(k)), board_m_),
+                               predict(model_, moved(poses_[i], -h * PoseVector::Unit(k)), board_m_), h);
       }
       camera_ += by_camera.transpose() * by_camera;
       gradient_ += by_camera.transpose() * residual;
