@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kCornersMin = 3;
 constexpr int kCornersMax = 60;
+constexpr int kSideMin_px = 48;  // the detectors need room for their windows
 constexpr double kContrastLimit = 4.0;
 constexpr int kContrastTiles = 8;
 constexpr int kWindowMin_px = 2;
@@ -100,6 +101,11 @@ Result<std::vector<Eigen::Vector2d>> find_board(const Image& picture, int cols, 
   const std::vector<std::string> wrong = problems(BoardGeometry{cols, rows, 1.0});
   if (!wrong.empty()) return fail(ErrorCode::kInvalidInput, wrong.front());
   if (picture.empty()) return fail(ErrorCode::kEmptyInput, "The picture is empty.");
+  const auto no_board = [&] {
+    return fail(ErrorCode::kTooLittleSupport, "No whole board of " + std::to_string(cols) + " x " +
+                                                  std::to_string(rows) + " inner corners is in the picture.");
+  };
+  if (std::min(picture.width_px, picture.height_px) < kSideMin_px) return no_board();
   const cv::Size board(cols, rows);
   const cv::Mat grey = grey_of(picture);
   std::vector<double> scales{1.0};
@@ -123,8 +129,7 @@ Result<std::vector<Eigen::Vector2d>> find_board(const Image& picture, int cols, 
       return found_px;
     }
   }
-  return fail(ErrorCode::kTooLittleSupport, "No whole board of " + std::to_string(cols) + " x " + std::to_string(rows) +
-                                                " inner corners is in the picture.");
+  return no_board();
 }
 
 }  // namespace homeward::camera

@@ -20,6 +20,7 @@ constexpr double kEdgeShare = 0.1;  // of the pixels, the steepest, may vote
 constexpr float kEdgeMin = 6.0F;    // grey levels over 3 pixels: what counts as an edge
 constexpr float kEdgeFull = 30.0F;  // a steeper edge says no more
 constexpr double kShareMin = 0.4;
+constexpr double kSpreadMax_px = 1.5;  // edges that lie anywhere in the window by chance spread over 2 px and more
 constexpr int kCentresTried = 5;
 
 /// +1: bright inside, as at the rim; -1: dark inside, as at the middle.
@@ -240,7 +241,7 @@ std::optional<Circle> fit(const cv::Mat& grey, Circle circle, Bright bright) {
   }
   constexpr int kNear_px = 3;
   const Rim rim = rim_near(grey, circle.centre_px, circle.radius_px, kNear_px, bright);
-  if (2 * rim.visible < kDirections) return std::nullopt;
+  if (2 * rim.visible < kDirections || circle.spread_px > kSpreadMax_px) return std::nullopt;
   circle.share = static_cast<double>(rim.points.size()) / rim.visible;
   return circle;
 }
