@@ -127,18 +127,21 @@ void print(const camera::CalibrationResult& result, const std::vector<camera::Bo
   std::fflush(stdout);
 }
 
-Result<std::vector<camera::BoardView>> find_boards(const Pictures& pictures, const camera::BoardGeometry& board) {
+std::vector<camera::BoardView> find_boards(const Pictures& pictures, const camera::BoardGeometry& board) {
   std::vector<camera::BoardView> views;
-  ProgressBar progress;
+  std::vector<Error> skipped;
+  auto progress = std::make_unique<ProgressBar>();
   for (std::size_t i = 0; i < pictures.images.size(); ++i) {
-    progress.show("boards", static_cast<double>(i) / static_cast<double>(pictures.images.size()));
+    progress->show("boards", static_cast<double>(i) / static_cast<double>(pictures.images.size()));
     auto corners = camera::find_board(pictures.images[i], board.cols, board.rows);
     if (!corners) {
-      tell({corners.error().code, "Skipped: " + corners.error().message, pictures.names[i]});
+      skipped.push_back({corners.error().code, "Skipped: " + corners.error().message, pictures.names[i]});
       continue;
     }
     views.push_back({pictures.names[i], std::move(*corners)});
   }
+  progress.reset();  // told below the bar, not in it
+  for (const Error& error : skipped) tell(error);
   return views;
 }
 
@@ -159,8 +162,7 @@ Status calibrate(const Options& options) {
   }
   const auto pictures = read_all(options.images);
   if (!pictures) return pass_on(pictures);
-  const auto views = find_boards(*pictures, *board);
-  if (!views) return pass_on(views);
+  const std::vector<camera::BoardView> views = find_boards(*pictures, *board);
   camera::CalibrationInput input;
   input.model = *model;
   input.mirror = options.mirror;
@@ -168,7 +170,7 @@ Status calibrate(const Options& options) {
   input.camera.width_px = pictures->images.front().width_px;
   input.camera.height_px = pictures->images.front().height_px;
   input.camera.robot_from_camera_rotation = options.mirror ? kMirrorAbove : kLooksForward;
-  auto result = camera::calibrate(input, *views);
+  auto result = camera::calibrate(input, views);
   if (!result) {
     const std::string where = result.error().where.empty() ? options.images : result.error().where;
     return fail(result.error().code, result.error().message, where);
@@ -183,23 +185,23 @@ Status calibrate(const Options& options) {
     }
   }
   for (const camera::LeftOutView& view : result->left_out) {
-    tell({ErrorCode::kInvalidInput, "Left out: " + view.reason, (*views)[view.view].name});
+    tell({ErrorCode::kInvalidInput, "Left out: " + view.reason, views[view.view].name});
   }
   for (const std::string& warning : result->warnings) {
     tell({ErrorCode::kInvalidInput, "Warning: " + warning, options.images});
   }
-  const Status written = agent::write_file(options.out, wire::camera_to_json(result->config).dump(2) + "\n");
-  if (!written) return written;
   if (!options.residuals.empty()) {
     const std::vector<std::uint8_t> png =
-        imageio::encode_png(residual_picture(pictures->images.front(), *views, *result));
+        imageio::encode_png(residual_picture(pictures->images.front(), views, *result));
     const std::string bytes(png.begin(), png.end());
     if (const Status drawn = agent::write_file(options.residuals, bytes); !drawn) return drawn;
   }
+  const Status written = agent::write_file(options.out, wire::camera_to_json(result->config).dump(2) + "\n");
+  if (!written) return written;
   if (options.json) {
-    std::cout << to_json(*result, *views).dump() << "\n";
+    std::cout << to_json(*result, views).dump() << "\n";
   } else {
-    print(*result, *views);
+    print(*result, views);
   }
   return {};
 }
