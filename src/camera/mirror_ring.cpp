@@ -246,6 +246,21 @@ std::optional<Circle> fit(const cv::Mat& grey, Circle circle, Bright bright) {
   return circle;
 }
 
+/// How far the centres found in single pictures lie from the common one (RMS): light and surroundings pull them, which
+/// the rim's own scatter does not show. 0 with fewer than three such pictures.
+double scatter_px(const std::vector<Image>& pictures, const Circle& common) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Image& picture : pictures) {
+    const auto own = fit(brightest({picture}), common, Bright::kInside);
+    if (!own || own->share < kShareMin) continue;
+    sum += (own->centre_px - common.centre_px).squaredNorm();
+    ++count;
+  }
+  constexpr int kCountMin = 3;
+  return count < kCountMin ? 0.0 : std::sqrt(sum / count);
+}
+
 }  // namespace
 
 Result<MirrorRing> find_mirror_ring(const std::vector<Image>& pictures) {
@@ -274,7 +289,7 @@ Result<MirrorRing> find_mirror_ring(const std::vector<Image>& pictures) {
   ring.centre_px = rim->centre_px;
   ring.radius_max_px = rim->radius_px;
   ring.spread_px = rim->spread_px;
-  ring.centre_deviation_px = rim->centre_deviation_px;
+  ring.centre_deviation_px = std::max(rim->centre_deviation_px, scatter_px(pictures, *rim));
   ring.rim_share = rim->share;
   const double middle_px =
       best_radius_px(grey, rim->centre_px, kMiddleMin * rim->radius_px, kMiddleMax * rim->radius_px, Bright::kOutside);

@@ -15,7 +15,7 @@ struct MirrorRing {
   double radius_min_px = 0.0;                           // of the dark middle, 0 where none is found
   double radius_max_px = 0.0;                           // of the rim
   double spread_px = 0.0;                               // standard deviation of the rim's edge from the circle (robust)
-  double centre_deviation_px = 0.0;  // one standard deviation of the centre, from the spread and the part of rim seen
+  double centre_deviation_px = 0.0;  // one standard deviation of the centre: by the spread, or by single pictures
   double rim_share = 0.0;            // of the directions in which the rim lies in the picture: where its edge was found
   double middle_share = 0.0;         // the same of the dark middle
 };
