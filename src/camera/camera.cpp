@@ -13,9 +13,11 @@ namespace {
 
 constexpr int kMaxSidePx = 16384;
 
-void check_intrinsics(const Intrinsics& k, std::vector<std::string>& problems) {
-  if (!(k.fx_px > 0.0 && k.fy_px > 0.0 && std::isfinite(k.fx_px) && std::isfinite(k.fy_px))) {
-    problems.emplace_back("The focal lengths fx_px and fy_px must be positive.");
+void check_intrinsics(const Intrinsics& k, std::vector<std::string>& problems, bool may_be_flipped = false) {
+  const bool positive = k.fx_px > 0.0 && (k.fy_px > 0.0 || (may_be_flipped && k.fy_px < 0.0));
+  if (!(positive && std::isfinite(k.fx_px) && std::isfinite(k.fy_px))) {
+    problems.emplace_back(may_be_flipped ? "The focal length fx_px must be positive, and fy_px must not be 0."
+                                         : "The focal lengths fx_px and fy_px must be positive.");
   }
   if (!std::isfinite(k.cx_px) || !std::isfinite(k.cy_px)) {
     problems.emplace_back("The principal point cx_px, cy_px must be finite.");
@@ -55,7 +57,7 @@ struct ModelProblems {
     check_ring(fisheye.valid, problems);
   }
   void operator()(const Mei& mei) const {
-    check_intrinsics(mei.intrinsics, problems);
+    check_intrinsics(mei.intrinsics, problems, true);
     constexpr double kLargestXi = 10.0;
     if (!(mei.xi >= 0.0 && mei.xi <= kLargestXi)) problems.emplace_back("xi must be between 0 and 10.");
     check_distortion(mei.distortion, problems);

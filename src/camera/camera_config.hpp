@@ -50,6 +50,8 @@ struct Fisheye {
 
 /// The unified model of mirrors and wide lenses: onto the unit sphere, from there by perspective out of a point xi
 /// behind its centre, then Brown distortion (Mei & Rives 2007, as OpenCV's omnidir module has it, without skew).
+/// A mirror shows what lies towards the camera in the middle of the picture, so z points out of the mirror at the
+/// camera and the picture is turned over: fy_px is negative, x right in the picture, y up.
 struct Mei {
   Intrinsics intrinsics;
   double xi = 1.0;

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   homeward::cli::register_localise(program);
   homeward::cli::register_route(program);
   homeward::cli::register_simulate(program);
+  homeward::cli::register_calibrate(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::RuntimeError& failed) {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "camera/camera.hpp"
+#include "camera/models.hpp"
 #include "core/angles.hpp"
 #include "support/sample_cameras.hpp"
 
@@ -51,6 +52,30 @@ int round_trip(const CameraConfig& config) {
     }
   }
   return seen;
+}
+
+/// The same picture, turned over as a mirror's is.
+CameraConfig turned_over_mei() {
+  CameraConfig config = mei_camera();
+  auto& mei = std::get<Mei>(config.model);
+  mei.intrinsics.fy_px = -mei.intrinsics.fy_px;
+  mei.distortion[2] = -mei.distortion[2];
+  return config;
+}
+
+TEST(CameraModels, ANegativeFocalLengthTurnsTheMirrorsPictureOver) {
+  EXPECT_EQ(round_trip(turned_over_mei()), round_trip(mei_camera()));
+  const Eigen::Vector2d pixel_px(400.0, 320.0);
+  const auto lens = std::get<Mei>(mei_camera().model);
+  const auto mirror = std::get<Mei>(turned_over_mei().model);
+  const auto through_lens = direction_from_pixel(lens, pixel_px);
+  const auto in_mirror = direction_from_pixel(mirror, pixel_px);
+  ASSERT_TRUE(through_lens && in_mirror);
+  const Eigen::Vector3d flipped(through_lens->x(), -through_lens->y(), through_lens->z());
+  EXPECT_LT((*in_mirror - flipped).norm(), 1e-9);
+  CameraConfig none = mei_camera();
+  std::get<Mei>(none.model).intrinsics.fy_px = 0.0;
+  EXPECT_FALSE(problems(none).empty());
 }
 
 TEST(CameraModels, PixelsGoThereAndBackInEveryModel) {
