@@ -2,21 +2,21 @@
 #include "features/extract.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <opencv2/core.hpp>
-#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/angles.hpp"
 #include "features/colour.hpp"
+#include "features/upright_sift.hpp"
 
 namespace homeward::features {
 namespace {
 
 constexpr int kSeamPadding_px = 48;  // columns repeated beyond both ends, so that the seam looks like any other place
-constexpr int kDescriptorBytes = 128;
-constexpr double kPatchRadiusPerSize = 1.5;  // of a keypoint's diameter, for colour and for the distance to the border
+constexpr float kPatchRadiusPerSigma = 1.5F;  // of a blob, for colour and for the distance to the border
 
 /// Grey with its dark half stretched: shadows by night keep corners above the detector's threshold.
 cv::Mat padded_grey(const Image& rgb) {
@@ -45,34 +45,29 @@ cv::Mat distance_to_border(const camera::Panorama& panorama) {
   return distance.rowRange(1, distance.rows - 1);
 }
 
-/// One keypoint per place and size, whatever orientations the detector found; inside the panorama and off its border.
-std::vector<cv::KeyPoint> upright(std::vector<cv::KeyPoint> found, const cv::Mat& border_distance_px, int width_px) {
-  const auto key = [](const cv::KeyPoint& point) { return std::tuple(point.pt.x, point.pt.y, point.size); };
-  std::sort(found.begin(), found.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-  found.erase(std::unique(found.begin(), found.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }),
-              found.end());
-  std::erase_if(found, [&](const cv::KeyPoint& point) {
-    const float u_px = point.pt.x - kSeamPadding_px;
+/// Inside the panorama and off its border.
+std::vector<SiftPoint> clear_of_border(std::vector<SiftPoint> found, const cv::Mat& border_distance_px, int width_px) {
+  std::erase_if(found, [&](const SiftPoint& point) {
+    const float u_px = point.u_px - kSeamPadding_px;
     if (u_px < -0.5F || u_px >= static_cast<float>(width_px) - 0.5F) return true;
-    const float clear_px = border_distance_px.at<float>(static_cast<int>(std::lround(point.pt.y)),
-                                                        static_cast<int>(std::lround(point.pt.x)));
-    return clear_px < static_cast<float>(kPatchRadiusPerSize) * point.size * 0.5F + 1.0F;
+    const float clear_px = border_distance_px.at<float>(static_cast<int>(std::lround(point.v_px)),
+                                                        static_cast<int>(std::lround(point.u_px)));
+    return clear_px < kPatchRadiusPerSigma * point.sigma_px + 1.0F;
   });
-  for (cv::KeyPoint& point : found) point.angle = 0.0F;
   return found;
 }
 
 /// The strongest of each sector of azimuth in turn, so that no single poster takes the whole budget.
-std::vector<cv::KeyPoint> spread_over_azimuth(std::vector<cv::KeyPoint> points, int width_px, int budget) {
+std::vector<SiftPoint> spread_over_azimuth(std::vector<SiftPoint> points, int width_px, int budget) {
   constexpr int kSectors = 24;
   std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.response > b.response; });
-  std::vector<std::vector<cv::KeyPoint>> sectors(kSectors);
-  for (const cv::KeyPoint& point : points) {
+  std::vector<std::vector<SiftPoint>> sectors(kSectors);
+  for (const SiftPoint& point : points) {
     const int sector =
-        static_cast<int>((point.pt.x - kSeamPadding_px + 0.5F) * kSectors / static_cast<float>(width_px));
+        static_cast<int>((point.u_px - kSeamPadding_px + 0.5F) * kSectors / static_cast<float>(width_px));
     sectors[static_cast<std::size_t>(std::clamp(sector, 0, kSectors - 1))].push_back(point);
   }
-  std::vector<cv::KeyPoint> kept;
+  std::vector<SiftPoint> kept;
   for (std::size_t rank = 0; static_cast<int>(kept.size()) < budget; ++rank) {
     const std::size_t before = kept.size();
     for (const auto& sector : sectors) {
@@ -83,44 +78,30 @@ std::vector<cv::KeyPoint> spread_over_azimuth(std::vector<cv::KeyPoint> points, 
   return kept;
 }
 
-/// Square root of the descriptor of sum 1, in 8 bits; its length is then 512 up to rounding.
-void root_to_bytes(const float* descriptor, std::uint8_t* bytes) {
-  float sum = 1e-6F;
-  for (int d = 0; d < kDescriptorBytes; ++d) sum += descriptor[d];
-  for (int d = 0; d < kDescriptorBytes; ++d) {
-    bytes[d] = cv::saturate_cast<std::uint8_t>(512.0F * std::sqrt(descriptor[d] / sum));
-  }
-}
-
 FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& config) {
   const int width_px = panorama.rgb.width_px;
-  const cv::Mat grey = padded_grey(panorama.rgb);
-  constexpr int kOctaveLayers = 3;
-  constexpr double kEdgeThreshold = 10.0;
-  constexpr double kSigma = 1.6;
-  const auto sift = cv::SIFT::create(0, kOctaveLayers, config.sift_contrast_threshold, kEdgeThreshold, kSigma);
-  std::vector<cv::KeyPoint> points;
-  sift->detect(grey, points);
-  points = spread_over_azimuth(upright(std::move(points), distance_to_border(panorama), width_px), width_px,
-                               config.max_sift);
-  cv::Mat descriptors;
-  sift->compute(grey, points, descriptors);
-
+  const UprightSift sift(padded_grey(panorama.rgb));
+  const auto points = spread_over_azimuth(
+      clear_of_border(sift.detect(config.sift_contrast_threshold), distance_to_border(panorama), width_px), width_px,
+      config.max_sift);
   FeatureSet set;
   const auto count = static_cast<Eigen::Index>(points.size());
   set.bearings.resize(count, 3);
   set.scales_rad.resize(count);
-  set.descriptors.resize(count, kDescriptorBytes);
+  set.descriptors.resize(count, UprightSift::kDescriptorLength);
   set.colours.resize(count, 3);
   const double px_to_rad = 2.0 * kPi / width_px;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const cv::KeyPoint& point = points[static_cast<std::size_t>(i)];
-    const Eigen::Vector2d pixel_px(static_cast<double>(point.pt.x) - kSeamPadding_px, static_cast<double>(point.pt.y));
+    const SiftPoint& point = points[static_cast<std::size_t>(i)];
+    const Eigen::Vector2d pixel_px(static_cast<double>(point.u_px) - kSeamPadding_px, static_cast<double>(point.v_px));
     set.bearings.row(i) = panorama.geometry.bearing(pixel_px).cast<float>();
-    set.scales_rad[i] = static_cast<float>(static_cast<double>(point.size) * px_to_rad);
-    root_to_bytes(descriptors.ptr<float>(static_cast<int>(i)), set.descriptors.row(i).data());
+    set.scales_rad[i] = static_cast<float>(2.0 * static_cast<double>(point.sigma_px) * px_to_rad);
+    std::array<float, UprightSift::kDescriptorLength> descriptor;
+    sift.describe(point, descriptor.data());
+    std::transform(descriptor.begin(), descriptor.end(), set.descriptors.row(i).data(),
+                   [](float share) { return cv::saturate_cast<std::uint8_t>(512.0F * share); });
     const auto colour = colour_invariants(panorama.rgb, pixel_px.x(), pixel_px.y(),
-                                          std::max(2.0, kPatchRadiusPerSize * static_cast<double>(point.size) * 0.5));
+                                          std::max(2.0, static_cast<double>(kPatchRadiusPerSigma * point.sigma_px)));
     set.colours.row(i) << colour[0], colour[1], colour[2];
   }
   return set;

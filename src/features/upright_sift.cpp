@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "features/upright_sift.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core/hal/hal.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+namespace homeward::features {
+namespace {
+
+constexpr int kLayers = 3;               // searched per octave
+constexpr double kFirstSigma_px = 1.6;   // of each octave's first picture
+constexpr double kCameraSigma_px = 0.5;  // blur that a picture comes with
+constexpr int kBorder_px = 5;
+constexpr int kSmallestSide_px = 2 * kBorder_px + 6;
+
+/// Differences of an octave's neighbouring blurs about one pixel, made as they are asked for.
+class Differences {
+ public:
+  Differences(const std::vector<cv::Mat>& blurred, int layer, int row, int column)
+      : blurred_(blurred), layer_(layer), row_(row), column_(column) {}
+
+  /// `layer`, `row` and `column` as offsets from the pixel.
+  [[nodiscard]] float operator()(int layer, int row, int column) const {
+    const auto l = static_cast<std::size_t>(layer_ + layer);
+    return blurred_[l + 1].ptr<float>(row_ + row)[column_ + column] -
+           blurred_[l].ptr<float>(row_ + row)[column_ + column];
+  }
+
+ private:
+  const std::vector<cv::Mat>& blurred_;
+  int layer_;
+  int row_;
+  int column_;
+};
+
+/// Three rows of one difference of Gaussians, the middle one being searched.
+struct RowBand {
+  const float* above;
+  const float* here;
+  const float* below;
+};
+
+/// Marks where the middle row's values stand out from the four next to them by more than `floor` in size: few do, and
+/// this loop is made of vector instructions.
+void mark_candidates(const RowBand& band, int columns, float floor, std::int32_t* marks) {
+  const float* up = band.above;
+  const float* here = band.here;
+  const float* down = band.below;
+  for (int c = kBorder_px; c < columns - kBorder_px; ++c) {
+    const float v = here[c];
+    const int peak = static_cast<int>(v > floor) & static_cast<int>(v >= here[c - 1]) &
+                     static_cast<int>(v >= here[c + 1]) & static_cast<int>(v >= up[c]) & static_cast<int>(v >= down[c]);
+    const int pit = static_cast<int>(v < -floor) & static_cast<int>(v <= here[c - 1]) &
+                    static_cast<int>(v <= here[c + 1]) & static_cast<int>(v <= up[c]) & static_cast<int>(v <= down[c]);
+    marks[c] = peak | pit;
+  }
+}
+
+/// Whether no neighbour in three scales beats the middle band's value at `column`.
+bool is_extremum(const std::array<RowBand, 3>& bands, int column) {
+  const float value = bands[1].here[column];
+  const float sign = value > 0.0F ? 1.0F : -1.0F;
+  for (const RowBand& band : bands) {
+    for (const float* row : {band.above, band.here, band.below}) {
+      for (int c = column - 1; c <= column + 1; ++c) {
+        if (sign * row[c] > sign * value) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// The pixels with even row and column. (Resizing to half an odd size would drift by up to a pixel.)
+cv::Mat every_other_pixel(const cv::Mat& picture) {
+  cv::Mat half((picture.rows + 1) / 2, (picture.cols + 1) / 2, CV_32F);
+  for (int row = 0; row < half.rows; ++row) {
+    const float* from = picture.ptr<float>(2 * row);
+    float* to = half.ptr<float>(row);
+    for (int column = 0; column < half.cols; ++column) to[column] = from[2 * column];
+  }
+  return half;
+}
+
+struct Fit {
+  Eigen::Vector3f offset;  // column, row, layer
+  float contrast;
+  bool edge;
+};
+
+/// Where the parabola through the neighbourhood has its top (Lowe 2004, §4), and whether it is a ridge (§4.1).
+std::optional<Fit> fit(const Differences& d) {
+  const float here = d(0, 0, 0);
+  const Eigen::Vector3f gradient(0.5F * (d(0, 0, 1) - d(0, 0, -1)), 0.5F * (d(0, 1, 0) - d(0, -1, 0)),
+                                 0.5F * (d(1, 0, 0) - d(-1, 0, 0)));
+  const float xx = d(0, 0, 1) + d(0, 0, -1) - 2.0F * here;
+  const float yy = d(0, 1, 0) + d(0, -1, 0) - 2.0F * here;
+  const float ss = d(1, 0, 0) + d(-1, 0, 0) - 2.0F * here;
+  const float xy = 0.25F * (d(0, 1, 1) - d(0, 1, -1) - d(0, -1, 1) + d(0, -1, -1));
+  const float xs = 0.25F * (d(1, 0, 1) - d(1, 0, -1) - d(-1, 0, 1) + d(-1, 0, -1));
+  const float ys = 0.25F * (d(1, 1, 0) - d(1, -1, 0) - d(-1, 1, 0) + d(-1, -1, 0));
+  Eigen::Matrix3f hessian;
+  hessian << xx, xy, xs, xy, yy, ys, xs, ys, ss;
+  Eigen::Matrix3f inverse;
+  bool invertible = false;
+  hessian.computeInverseWithCheck(inverse, invertible, 1e-20F);
+  if (!invertible) return std::nullopt;
+  Fit result;
+  result.offset = -inverse * gradient;
+  result.contrast = here + 0.5F * gradient.dot(result.offset);
+  constexpr float kEdgeRatio = 10.0F;
+  const float trace = xx + yy;
+  const float determinant = xx * yy - xy * xy;
+  result.edge = determinant <= 0.0F || trace * trace * kEdgeRatio >= (kEdgeRatio + 1) * (kEdgeRatio + 1) * determinant;
+  return result;
+}
+
+}  // namespace
+
+UprightSift::UprightSift(const cv::Mat& grey) {
+  cv::Mat base;
+  grey.convertTo(base, CV_32F, 1.0 / 255.0);
+  cv::resize(base, base, {}, 2.0, 2.0, cv::INTER_LINEAR);
+  const double missing = std::sqrt(kFirstSigma_px * kFirstSigma_px - 4.0 * kCameraSigma_px * kCameraSigma_px);
+  cv::GaussianBlur(base, base, {}, missing, missing);
+  while (std::min(base.rows, base.cols) >= kSmallestSide_px) {
+    std::vector<cv::Mat> blurred(kLayers + 3);
+    blurred[0] = base;
+    for (std::size_t layer = 1; layer < blurred.size(); ++layer) {
+      const double step = std::pow(2.0, 1.0 / kLayers);
+      const double before = kFirstSigma_px * std::pow(step, static_cast<double>(layer) - 1.0);
+      const double sigma = before * std::sqrt(step * step - 1.0);
+      cv::GaussianBlur(blurred[layer - 1], blurred[layer], {}, sigma, sigma);
+    }
+    base = every_other_pixel(blurred[kLayers]);
+    octaves_.push_back(std::move(blurred));
+  }
+}
+
+std::vector<SiftPoint> UprightSift::detect(double contrast) const {
+  std::vector<SiftPoint> points;
+  for (std::size_t octave = 0; octave < octaves_.size(); ++octave) search(static_cast<int>(octave), contrast, points);
+  return points;
+}
+
+std::optional<SiftPoint> UprightSift::refined(int octave, int layer, int row, int column, double contrast) const {
+  const std::vector<cv::Mat>& blurred = octaves_[static_cast<std::size_t>(octave)];
+  constexpr int kSteps = 5;
+  for (int step = 0; step < kSteps; ++step) {
+    const auto found = fit(Differences(blurred, layer, row, column));
+    if (!found) return std::nullopt;
+    const Eigen::Vector3f& offset = found->offset;
+    if (offset.cwiseAbs().maxCoeff() < 0.5F) {
+      if (found->edge || std::abs(found->contrast) * kLayers < static_cast<float>(contrast)) return std::nullopt;
+      const float to_picture = std::ldexp(0.5F, octave);
+      SiftPoint point;
+      // Octave 0 has two pixels for one of the picture, a quarter of a pixel before and behind its centre.
+      point.u_px = (static_cast<float>(column) + offset.x()) * to_picture - 0.25F;
+      point.v_px = (static_cast<float>(row) + offset.y()) * to_picture - 0.25F;
+      point.sigma_px = static_cast<float>(kFirstSigma_px) *
+                       std::exp2((static_cast<float>(layer) + offset.z()) / kLayers) * to_picture;
+      point.response = std::abs(found->contrast);
+      point.octave = octave;
+      point.layer = layer;
+      return point;
+    }
+    constexpr float kFarthest_px = 1e4F;
+    if (!offset.allFinite() || offset.cwiseAbs().maxCoeff() > kFarthest_px) return std::nullopt;
+    column += static_cast<int>(std::lround(offset.x()));
+    row += static_cast<int>(std::lround(offset.y()));
+    layer += static_cast<int>(std::lround(offset.z()));
+    const bool inside = layer >= 1 && layer <= kLayers && row >= kBorder_px && row < blurred[0].rows - kBorder_px &&
+                        column >= kBorder_px && column < blurred[0].cols - kBorder_px;
+    if (!inside) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+void UprightSift::search(int octave, double contrast, std::vector<SiftPoint>& points) const {
+  const std::vector<cv::Mat>& blurred = octaves_[static_cast<std::size_t>(octave)];
+  const int rows = blurred[0].rows;
+  const int columns = blurred[0].cols;
+  const auto floor = static_cast<float>(0.5 * contrast / kLayers);
+  // The last three rows of each difference; they stay in the processor's cache.
+  constexpr std::size_t kDifferences = kLayers + 2;
+  const auto width = static_cast<std::size_t>(columns);
+  std::vector<float> ring(kDifferences * 3 * width);
+  const auto row_of = [&](std::size_t difference, int row) {
+    return ring.data() + (difference * 3 + static_cast<std::size_t>(row % 3)) * width;
+  };
+  std::vector<std::int32_t> marks(width, 0);
+  for (int filled = kBorder_px - 1; filled <= rows - kBorder_px; ++filled) {
+    for (std::size_t d = 0; d < kDifferences; ++d) {
+      const float* sharp = blurred[d].ptr<float>(filled);
+      const float* soft = blurred[d + 1].ptr<float>(filled);
+      float* out = row_of(d, filled);
+      for (std::size_t c = 0; c < width; ++c) out[c] = soft[c] - sharp[c];
+    }
+    const int row = filled - 1;
+    if (row < kBorder_px) continue;
+    for (std::size_t layer = 1; layer <= kLayers; ++layer) {
+      const auto band = [&](std::size_t d) { return RowBand{row_of(d, row - 1), row_of(d, row), row_of(d, row + 1)}; };
+      const std::array<RowBand, 3> bands = {band(layer - 1), band(layer), band(layer + 1)};
+      mark_candidates(bands[1], columns, floor, marks.data());
+      for (int column = kBorder_px; column < columns - kBorder_px; ++column) {
+        if (marks[static_cast<std::size_t>(column)] == 0 || !is_extremum(bands, column)) continue;
+        const auto point = refined(octave, static_cast<int>(layer), row, column, contrast);
+        if (point) points.push_back(*point);
+      }
+    }
+  }
+}
+
+void UprightSift::describe(const SiftPoint& point, float* descriptor) const {
+  constexpr int kCells = 4;
+  constexpr int kDirections = 8;
+  constexpr float kCellPerSigma = 3.0F;
+  std::fill_n(descriptor, kDescriptorLength, 0.0F);
+  const cv::Mat& picture = octaves_[static_cast<std::size_t>(point.octave)][static_cast<std::size_t>(point.layer)];
+  const float from_picture = std::ldexp(2.0F, -point.octave);
+  const float u = (point.u_px + 0.25F) * from_picture;
+  const float v = (point.v_px + 0.25F) * from_picture;
+  const float cell_px = kCellPerSigma * point.sigma_px * from_picture;
+  constexpr float kWithin = 0.999F;  // of the outermost cells' reach, so that rounding cannot leave them
+  const float reach_px = kWithin * cell_px * (kCells + 1) * 0.5F;
+  const int first_column = std::max(1, static_cast<int>(std::ceil(u - reach_px)));
+  const int last_column = std::min(picture.cols - 2, static_cast<int>(std::floor(u + reach_px)));
+  const int first_row = std::max(1, static_cast<int>(std::ceil(v - reach_px)));
+  const int last_row = std::min(picture.rows - 2, static_cast<int>(std::floor(v + reach_px)));
+  const int count = last_column - first_column + 1;
+  if (count <= 0 || last_row < first_row) return;
+
+  // What depends on the column alone: its cell, its share of it, its weight (a Gaussian of half the window).
+  const auto weight = [&](float cells) { return std::exp(-cells * cells / (0.5F * kCells * kCells)); };
+  thread_local std::vector<float> buffer;
+  buffer.resize(static_cast<std::size_t>(count) * 6);
+  float* column_share = buffer.data();
+  float* column_weight = column_share + count;
+  float* across = column_weight + count;
+  float* down = across + count;
+  float* angle_deg = down + count;
+  float* magnitude = angle_deg + count;
+  thread_local std::vector<int> column_cell;
+  column_cell.resize(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const float cells = (static_cast<float>(first_column + i) - u) / cell_px;
+    const float place = cells + kCells * 0.5F - 0.5F;
+    const float lower = std::floor(place);
+    column_cell[static_cast<std::size_t>(i)] = static_cast<int>(lower);
+    column_share[i] = place - lower;
+    column_weight[i] = weight(cells);
+  }
+  // A margin of one cell and one direction takes what falls outside; directions wrap at the end.
+  std::array<std::array<std::array<float, kDirections + 2>, kCells + 2>, kCells + 2> cells{};
+  for (int row = first_row; row <= last_row; ++row) {
+    const float* above = picture.ptr<float>(row - 1) + first_column;
+    const float* here = picture.ptr<float>(row) + first_column;
+    const float* below = picture.ptr<float>(row + 1) + first_column;
+    for (int i = 0; i < count; ++i) {
+      across[i] = here[i + 1] - here[i - 1];
+      down[i] = below[i] - above[i];
+    }
+    cv::hal::fastAtan32f(down, across, angle_deg, count, true);
+    cv::hal::magnitude32f(across, down, magnitude, count);
+    const float from_centre = (static_cast<float>(row) - v) / cell_px;
+    const float place = from_centre + kCells * 0.5F - 0.5F;
+    const float lower = std::floor(place);
+    const auto row_cell = static_cast<std::size_t>(static_cast<int>(lower) + 1);
+    const float row_share = place - lower;
+    const float row_weight = weight(from_centre);
+    std::array<std::array<float, kDirections + 2>, kCells + 2> of_row{};
+    for (int i = 0; i < count; ++i) {
+      const float direction = angle_deg[i] * (kDirections / 360.0F);
+      const int lower_direction = static_cast<int>(direction);
+      const float direction_share = direction - static_cast<float>(lower_direction);
+      const float amount = magnitude[i] * column_weight[i];
+      const float right = amount * column_share[i];
+      const float left = amount - right;
+      const auto cell = static_cast<std::size_t>(column_cell[static_cast<std::size_t>(i)] + 1);
+      const auto d = static_cast<std::size_t>(lower_direction);
+      of_row[cell][d] += left * (1.0F - direction_share);
+      of_row[cell][d + 1] += left * direction_share;
+      of_row[cell + 1][d] += right * (1.0F - direction_share);
+      of_row[cell + 1][d + 1] += right * direction_share;
+    }
+    for (std::size_t c = 0; c < of_row.size(); ++c) {
+      for (std::size_t d = 0; d < of_row[c].size(); ++d) {
+        const float amount = row_weight * of_row[c][d];
+        cells[row_cell][c][d] += (1.0F - row_share) * amount;
+        cells[row_cell + 1][c][d] += row_share * amount;
+      }
+    }
+  }
+  float squares = 0.0F;
+  float* out = descriptor;
+  for (std::size_t r = 1; r <= kCells; ++r) {
+    for (std::size_t c = 1; c <= kCells; ++c) {
+      auto& directions = cells[r][c];
+      directions[0] += directions[kDirections];
+      directions[1] += directions[kDirections + 1];
+      for (std::size_t d = 0; d < kDirections; ++d, ++out) {
+        *out = directions[d];
+        squares += directions[d] * directions[d];
+      }
+    }
+  }
+  // No single gradient may dominate (Lowe 2004, §6.1): glare and lamps.
+  const float highest = 0.2F * std::sqrt(squares);
+  float sum = 0.0F;
+  for (int d = 0; d < kDescriptorLength; ++d) {
+    descriptor[d] = std::min(descriptor[d], highest);
+    sum += descriptor[d];
+  }
+  if (sum <= 1e-12F) return;
+  for (int d = 0; d < kDescriptorLength; ++d) descriptor[d] = std::sqrt(descriptor[d] / sum);
+}
+
+}  // namespace homeward::features
