@@ -16,7 +16,8 @@ struct FeatureConfig {
   double elevation_min_rad = -0.95;  // bottom row
   int max_sift = 300;                // strongest kept, spread over azimuth
   double sift_contrast_threshold = 0.02;
-  int max_columns = 0;  // invariant column segments: none in version 1
+  int sift_code_length = 48;  // bytes of a SIFT descriptor, 1 to 64
+  int max_columns = 0;        // invariant column segments: none in version 1
 };
 
 /// Short text that is equal exactly when features are comparable, for example "hw1-w1024-e0.34_-0.95-s300-c0".

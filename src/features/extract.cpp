@@ -10,6 +10,7 @@
 
 #include "core/angles.hpp"
 #include "features/colour.hpp"
+#include "features/descriptor_code.hpp"
 #include "features/upright_sift.hpp"
 
 namespace homeward::features {
@@ -88,7 +89,7 @@ FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& 
   const auto count = static_cast<Eigen::Index>(points.size());
   set.bearings.resize(count, 3);
   set.scales_rad.resize(count);
-  set.descriptors.resize(count, UprightSift::kDescriptorLength);
+  set.descriptors.resize(count, config.sift_code_length);
   set.colours.resize(count, 3);
   const double px_to_rad = 2.0 * kPi / width_px;
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -98,8 +99,7 @@ FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& 
     set.scales_rad[i] = static_cast<float>(2.0 * static_cast<double>(point.sigma_px) * px_to_rad);
     std::array<float, UprightSift::kDescriptorLength> descriptor;
     sift.describe(point, descriptor.data());
-    std::transform(descriptor.begin(), descriptor.end(), set.descriptors.row(i).data(),
-                   [](float share) { return cv::saturate_cast<std::uint8_t>(512.0F * share); });
+    encode_sift(descriptor, {set.descriptors.row(i).data(), static_cast<std::size_t>(config.sift_code_length)});
     const auto colour = colour_invariants(panorama.rgb, pixel_px.x(), pixel_px.y(),
                                           std::max(2.0, static_cast<double>(kPatchRadiusPerSigma * point.sigma_px)));
     set.colours.row(i) << colour[0], colour[1], colour[2];
