@@ -46,6 +46,7 @@ void get_meta(SQLite::Database& database, map::TopologicalMap& map) {
   map.feature_config.elevation_min_rad = features.at("elevation_min_rad").get<double>();
   map.feature_config.max_sift = features.at("max_sift").get<int>();
   map.feature_config.sift_contrast_threshold = features.at("sift_contrast_threshold").get<double>();
+  map.feature_config.sift_code_length = features.at("sift_code_length").get<int>();
   map.feature_config.max_columns = features.at("max_columns").get<int>();
   map.feature_config_id = meta(database, "feature_config_id").get<std::string>();
   const json motion = meta(database, "motion");
@@ -222,7 +223,7 @@ void check_kind_and_version(SQLite::Database& database) {
   if (version != kMapFileVersion) {
     throw LoadFailure({ErrorCode::kUnsupportedFormat,
                        "The map file has version " + std::to_string(version) + "; this program reads version " +
-                           std::to_string(kMapFileVersion) + ".",
+                           std::to_string(kMapFileVersion) + ". Rebuild the map from the kept images.",
                        ""});
   }
 }

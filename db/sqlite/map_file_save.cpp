@@ -34,6 +34,7 @@ void put_meta(SQLite::Database& database, const map::TopologicalMap& map) {
                          {"elevation_min_rad", features.elevation_min_rad},
                          {"max_sift", features.max_sift},
                          {"sift_contrast_threshold", features.sift_contrast_threshold},
+                         {"sift_code_length", features.sift_code_length},
                          {"max_columns", features.max_columns}});
   put("feature_config_id", map.feature_config_id);
   put("motion", {{"hop_spread", map.motion.hop_spread},

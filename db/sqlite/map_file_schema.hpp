@@ -6,7 +6,7 @@ namespace homeward::db {
 /// "HWMP" in SQLite's application_id field: what makes an SQLite file a Homeward map.
 inline constexpr int kMapApplicationId = 0x48574D50;
 /// user_version of the map file. A released schema is never edited; a newer file is refused.
-inline constexpr int kMapFileVersion = 1;
+inline constexpr int kMapFileVersion = 2;
 
 inline constexpr const char* kMapFileSchema = R"sql(
 CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT;

@@ -14,20 +14,21 @@ struct FeatureConfig {
   int panorama_width_px = 1024;
   double elevation_max_rad = 0.34;   // top row of the panorama
   double elevation_min_rad = -0.95;  // bottom row
-  int max_sift = 300;                // strongest kept, spread over azimuth
-  double sift_contrast_threshold = 0.02;
-  int sift_code_length = 48;  // bytes of a SIFT descriptor, 1 to 64
+  int max_sift = 700;                // strongest kept, spread over azimuth
+  double sift_contrast_threshold = 0.015;
+  int sift_code_length = 32;  // bytes of a SIFT descriptor, 1 to 64
   int max_columns = 0;        // invariant column segments: none in version 1
 };
 
-/// Short text that is equal exactly when features are comparable, for example "hw1-w1024-e0.34_-0.95-s300-c0".
+/// Short text that is equal exactly when features are comparable, for example
+/// "hw2-w1024-e0.3400_-0.9500-s700-t0.0150-l32-c0".
 std::string feature_config_id(const FeatureConfig& config);
 
 /// One kind of local features of one picture. Row i of all members belongs to feature i.
 struct FeatureSet {
   Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> bearings;  // N x 3 unit vectors, robot frame
   Eigen::VectorXf scales_rad;                                         // N, size of the feature seen from the camera
-  Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> descriptors;  // N x D (SIFT: 128)
+  Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> descriptors;  // N x D
   Eigen::Matrix<std::int8_t, Eigen::Dynamic, 3, Eigen::RowMajor> colours;  // N x 3, C_RG C_RB C_GB times 127
 
   [[nodiscard]] int size() const { return static_cast<int>(bearings.rows()); }

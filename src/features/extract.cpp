@@ -111,9 +111,9 @@ FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& 
 
 std::string feature_config_id(const FeatureConfig& config) {
   char text[128];
-  std::snprintf(text, sizeof text, "hw1-w%d-e%.4f_%.4f-s%d-t%.4f-c%d", config.panorama_width_px,
+  std::snprintf(text, sizeof text, "hw2-w%d-e%.4f_%.4f-s%d-t%.4f-l%d-c%d", config.panorama_width_px,
                 config.elevation_max_rad, config.elevation_min_rad, config.max_sift, config.sift_contrast_threshold,
-                config.max_columns);
+                config.sift_code_length, config.max_columns);
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/angles.hpp"
+#include "features/descriptor_code.hpp"
 #include "features/extract.hpp"
 
 namespace homeward::pipeline {
@@ -31,6 +32,15 @@ Result<Eye> Eye::create(const camera::CameraConfig& camera, const features::Feat
   if (geometry.width_px < kLeastHeight_px || geometry.width_px > kMaxWidth_px ||
       geometry.height_px() < kLeastHeight_px || geometry.height_px() > geometry.width_px) {
     return fail(ErrorCode::kInvalidInput, "The feature configuration gives a panorama of no useful size.",
+                "feature_config");
+  }
+  constexpr int kMostFeatures = 20'000;
+  const bool sensible = features.max_sift >= 0 && features.max_sift <= kMostFeatures && features.max_columns >= 0 &&
+                        features.max_columns <= kMostFeatures && features.sift_code_length >= 1 &&
+                        features.sift_code_length <= features::kMaxSiftCodeLength;
+  if (!sensible) {
+    return fail(ErrorCode::kInvalidInput,
+                "The feature configuration asks for a number of features or a length of descriptors that cannot be.",
                 "feature_config");
   }
   Eye eye;

@@ -6,15 +6,18 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/angles.hpp"
+
 namespace homeward::wire {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "blobs are copied as they lie in memory");
 
 constexpr char kMagic[4] = {'H', 'W', 'A', 'P'};
-constexpr std::uint16_t kVersion = 1;
+constexpr std::uint16_t kVersion = 2;
 constexpr std::uint16_t kMaxDescriptorBytes = 1024;
-constexpr float kBearingUnits = 32767.0F;
+constexpr double kAzimuthUnitsPerRad = 32768.0 / kPi;  // wraps as the number does
+constexpr double kElevationUnitsPerRad = 32767.0 / (0.5 * kPi);
 constexpr float kScaleUnitsPerRad = 32768.0F;
 
 class Writer {
@@ -57,9 +60,13 @@ void put_set(Writer& writer, const features::FeatureSet& set) {
   writer.put(static_cast<std::uint32_t>(count));
   writer.put(static_cast<std::uint16_t>(set.descriptors.cols()));
   writer.put(std::uint16_t{0});
-  for (Eigen::Index i = 0; i < set.bearings.size(); ++i) {
-    const float value = std::clamp(set.bearings.data()[i], -1.0F, 1.0F);
-    writer.put(static_cast<std::int16_t>(std::lround(value * kBearingUnits)));
+  for (Eigen::Index i = 0; i < set.bearings.rows(); ++i) {
+    const Eigen::RowVector3d bearing = set.bearings.row(i).cast<double>();
+    const double azimuth_rad = std::atan2(bearing.y(), bearing.x());
+    const double elevation_rad = std::atan2(bearing.z(), std::hypot(bearing.x(), bearing.y()));
+    const long azimuth = std::lround(azimuth_rad * kAzimuthUnitsPerRad);
+    writer.put(static_cast<std::int16_t>(azimuth == 32768 ? -32768 : azimuth));
+    writer.put(static_cast<std::int16_t>(std::lround(elevation_rad * kElevationUnitsPerRad)));
   }
   for (std::size_t i = 0; i < count; ++i) {
     const float scale = set.scales_rad[static_cast<Eigen::Index>(i)] * kScaleUnitsPerRad;
@@ -78,22 +85,28 @@ Status get_set(Reader& reader, features::FeatureSet& set, const std::string& whe
   if (count > kMaxBlobFeatures || dimension > kMaxDescriptorBytes) {
     return fail(ErrorCode::kCorruptFile, "The appearance claims more features than the limit.", where);
   }
-  const std::size_t feature_bytes = 3 * sizeof(std::int16_t) + sizeof(std::uint16_t) + dimension + 3;
+  const std::size_t feature_bytes = 2 * sizeof(std::int16_t) + sizeof(std::uint16_t) + dimension + 3;
   if (reader.left() < count * feature_bytes) return too_short();
 
   const auto rows = static_cast<Eigen::Index>(count);
-  std::vector<std::int16_t> bearings(std::size_t{3} * count);
+  std::vector<std::int16_t> angles(std::size_t{2} * count);
   std::vector<std::uint16_t> scales(count);
   set.bearings.resize(rows, 3);
   set.scales_rad.resize(rows);
   set.descriptors.resize(rows, dimension);
   set.colours.resize(rows, 3);
-  const bool complete = reader.get(bearings.data(), bearings.size()) && reader.get(scales.data(), scales.size()) &&
+  const bool complete = reader.get(angles.data(), angles.size()) && reader.get(scales.data(), scales.size()) &&
                         reader.get(set.descriptors.data(), static_cast<std::size_t>(set.descriptors.size())) &&
                         reader.get(set.colours.data(), static_cast<std::size_t>(set.colours.size()));
   if (!complete) return too_short();
-  std::transform(bearings.begin(), bearings.end(), set.bearings.data(),
-                 [](std::int16_t value) { return static_cast<float>(value) / kBearingUnits; });
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const auto at = static_cast<std::size_t>(2 * i);
+    const double azimuth_rad = angles[at] / kAzimuthUnitsPerRad;
+    const double elevation_rad = angles[at + 1] / kElevationUnitsPerRad;
+    set.bearings.row(i) = Eigen::RowVector3d(std::cos(elevation_rad) * std::cos(azimuth_rad),
+                                             std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad))
+                              .cast<float>();
+  }
   std::transform(scales.begin(), scales.end(), set.scales_rad.data(),
                  [](std::uint16_t value) { return static_cast<float>(value) / kScaleUnitsPerRad; });
   return {};
@@ -125,7 +138,9 @@ Result<features::Appearance> decode_appearance(std::span<const std::uint8_t> byt
   }
   if (version != kVersion) {
     return fail(ErrorCode::kUnsupportedFormat,
-                "The appearance has version " + std::to_string(version) + "; this program reads version 1.", where);
+                "The appearance has version " + std::to_string(version) + "; this program reads version " +
+                    std::to_string(kVersion) + ". Rebuild the map from the kept images.",
+                where);
   }
   features::Appearance appearance;
   if (!reader.get(appearance.colour_moments.data(), appearance.colour_moments.size())) {

@@ -97,9 +97,9 @@ TEST_F(MapFile, NamesWhatIsWrongWithAFile) {
 TEST_F(MapFile, RefusesOtherDatabasesNewerVersionsAndDanglingReferences) {
   ASSERT_TRUE(save_map(file(), sample_map(), {}));
   const auto change = [&](const char* sql) { SQLite::Database(file().string(), SQLite::OPEN_READWRITE).exec(sql); };
-  change("PRAGMA user_version = 2");
+  change("PRAGMA user_version = 1");
   EXPECT_EQ(load_map(file()).error().code, ErrorCode::kUnsupportedFormat);
-  change("PRAGMA user_version = 1; PRAGMA application_id = 1");
+  change("PRAGMA user_version = 2; PRAGMA application_id = 1");
   EXPECT_EQ(load_map(file()).error().code, ErrorCode::kCorruptFile);
   change("PRAGMA application_id = 1213680976; DELETE FROM place_members WHERE place = 'p1'");
   EXPECT_THAT(load_map(file()).error().where, ::testing::HasSubstr("places/p1"));
