@@ -10,6 +10,11 @@
 namespace homeward::geometry {
 namespace {
 
+// Right matches' residuals have Student's distribution: features are located the worse the larger they are, so that
+// their errors have heavier tails than a normal distribution's.
+constexpr double kFreedom = 4.0;
+constexpr double kWindowOfSpread = 4.0 / 3.0;  // 1 over twice the distribution's density at 0
+
 /// The share of azimuths at which a bearing of this height lies within `window` (a sine) of the plane of `line`.
 double share_of_azimuths(const Eigen::Vector3d& line, double height, double window) {
   const double per_length = 1.0 / std::sqrt(std::max(line.squaredNorm(), 1e-12));
@@ -36,8 +41,8 @@ double prior_cost(const TiltedMotion& motion, const TiltPrior& prior) {
 /// Beliefs, likelihood, share and spread of a motion as it stands; the normal equations of its next step if wanted.
 void look(std::span<const Correspondence> correspondences, const FitConfig& config, MotionFit& fit, Normal* normal) {
   const EpipolarError error_of(fit.motion);
-  // A window as wide as makes a uniform residual in it as dense as the normal at its middle.
-  const double window_rad = fit.spread_rad * std::sqrt(kPi / 2.0);
+  // A window as wide as makes a uniform residual in it as dense as a right one at its middle.
+  const double window_rad = fit.spread_rad * kWindowOfSpread;
   const double per_variance = 1.0 / (fit.spread_rad * fit.spread_rad);
   fit.belief.resize(correspondences.size());
   fit.log_likelihood = -prior_cost(fit.motion, config.tilt);
@@ -51,17 +56,19 @@ void look(std::span<const Correspondence> correspondences, const FitConfig& conf
     const double error2 = error_rad * error_rad * per_variance;
     const double chance =
         std::max(config.least_chance, chance_share(error_of.essential(), correspondences[i], window_rad));
-    const double as_right = fit.share * std::exp(-0.5 * error2) / chance;
+    const double tail = 1.0 / (1.0 + error2 / kFreedom);
+    const double as_right = fit.share * std::pow(tail, 0.5 * (kFreedom + 1.0)) / chance;
     const double belief = as_right / (as_right + 1.0 - fit.share);
     const double gain = std::log(as_right + 1.0 - fit.share);
     fit.belief[i] = belief;
     fit.log_likelihood += gain;
     fit.greatest_gain = std::max(fit.greatest_gain, gain);
+    const double pull = tail * (kFreedom + 1.0) / kFreedom;
     telling += 1.0 - chance;
     right += (1.0 - chance) * belief;
-    squares += (1.0 - chance) * belief * error_rad * error_rad;
+    squares += (1.0 - chance) * belief * pull * error_rad * error_rad;
     if (normal == nullptr || belief < 1e-4) continue;
-    const double weight = belief * per_variance;
+    const double weight = belief * pull * per_variance;
     normal->curvature += weight * slope * slope.transpose();
     normal->gradient += weight * error_rad * slope;
   }

@@ -16,13 +16,19 @@ namespace homeward::geometry {
 namespace {
 
 constexpr int kFewest = 3;
-constexpr int kBins = 12;  // of directions, up to their sign
-constexpr double kBinRad = kPi / kBins;
+constexpr int kLines = 12;  // bins of directions, up to their sign
+constexpr int kTurns = 8;   // bins of turns
+constexpr double kApartRad = kPi / 12.0;  // motions whose directions or turns differ by more are rivals
 
 /// The angle between two lines of travel, whichever way along them, [0, pi/2].
 double between_lines_rad(double a_rad, double b_rad) {
   const double apart_rad = std::abs(wrap_angle(a_rad - b_rad));
   return std::min(apart_rad, kPi - apart_rad);
+}
+
+bool are_rivals(const PlanarMotion& a, const PlanarMotion& b) {
+  return between_lines_rad(a.direction_rad, b.direction_rad) > kApartRad ||
+         std::abs(wrap_angle(a.turn_rad - b.turn_rad)) > kApartRad;
 }
 
 /// How much a match says: minus the logarithm of the share of planar motions that would explain it, 1 at most. A match
@@ -68,10 +74,17 @@ struct Candidate {
   float cost = std::numeric_limits<float>::max();
 };
 
-/// The best planar motion of each bin of directions, best first.
+std::size_t bin_of(const PlanarMotion& motion) {
+  const double line_rad = motion.direction_rad < 0.0 ? motion.direction_rad + kPi : motion.direction_rad;
+  const int line = std::clamp(static_cast<int>(line_rad * kLines / kPi), 0, kLines - 1);
+  const int turn = std::clamp(static_cast<int>((motion.turn_rad + kPi) * kTurns / (2.0 * kPi)), 0, kTurns - 1);
+  return static_cast<std::size_t>(line * kTurns + turn);
+}
+
+/// The best planar motion of each bin of directions and turns, best first.
 std::vector<Candidate> search(std::span<const Correspondence> correspondences, const std::vector<int>& pool,
                               const PackedMatches& packed, const PlanarRansacConfig& config, std::uint64_t seed) {
-  std::array<Candidate, kBins> best;
+  std::array<Candidate, static_cast<std::size_t>(kLines) * kTurns> best;
   float best_cost = packed.total_weight();
   const int count = static_cast<int>(pool.size());
   std::mt19937_64 random(seed);
@@ -85,8 +98,7 @@ std::vector<Candidate> search(std::span<const Correspondence> correspondences, c
     int second = pick(count - 1);
     if (second >= first) ++second;
     for (const PlanarMotion& motion : solve_planar_motion({match(first), match(second)})) {
-      const double line_rad = motion.direction_rad < 0.0 ? motion.direction_rad + kPi : motion.direction_rad;
-      Candidate& here = best[static_cast<std::size_t>(std::clamp(static_cast<int>(line_rad / kBinRad), 0, kBins - 1))];
+      Candidate& here = best[bin_of(motion)];
       const float enough = std::min(here.cost, packed.total_weight());
       const float cost = packed.cost(motion, static_cast<float>(config.search_error_rad), enough);
       if (!(cost < enough)) continue;
@@ -155,7 +167,7 @@ Judged judge(std::span<const Correspondence> correspondences, const std::vector<
   const auto best = std::ranges::max_element(fits, {}, &MotionFit::log_likelihood);
   double rival = 0.0;  // chance
   for (const MotionFit& fit : fits) {
-    if (between_lines_rad(fit.motion.planar.direction_rad, best->motion.planar.direction_rad) > kBinRad) {
+    if (are_rivals(fit.motion.planar, best->motion.planar)) {
       rival = std::max(rival, fit.log_likelihood);
     }
   }

@@ -54,7 +54,7 @@ struct PlanarRansacConfig {
   int max_iterations = 1000;
   double sure_enough = 0.9999;  // stop when a better model would have been met with this probability
   int refinements = 5;          // Gauss-Newton steps of a local optimisation
-  int candidates = 4;           // directions that are optimised and judged in the end
+  int candidates = 6;           // directions that are optimised and judged in the end
   TiltPrior tilt;
 };
 
@@ -69,7 +69,7 @@ struct PlanarEstimate {
   double tilt_rad = 0.0;              // between the views; 0 where the matches do not ask for any
   // Natural logarithms of how much likelier the matches are with this motion than
   double evidence = 0.0;       // at random, less what the search tried: matches that any motion explains add nothing
-  double lead = 0.0;           // with the best motion found whose direction is another
+  double lead = 0.0;           // with the best motion found whose direction or turn is another
   double sign_log_odds = 0.0;  // with the direction reversed
 };
 
