@@ -26,6 +26,29 @@ double share_of_azimuths(const Eigen::Vector3d& line, double height, double wind
   return (std::acos(low) - std::acos(high)) / kPi;
 }
 
+/// The sine by which a match lies further from the direction in the target view than in the current one.
+double parallax(const Correspondence& match, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& direction) {
+  const double here = match.current.dot(direction);
+  const double there = (rotation * match.target).dot(direction);
+  const double sine = std::sqrt(std::max(0.0, 1.0 - there * there)) * here - std::sqrt(std::max(0.0, 1.0 - here * here)) * there;
+  return sine;
+}
+
+/// Turns the motion round when that puts more matches in front of both viewpoints.
+void orient(std::span<const Correspondence> correspondences, double bound_rad, TiltedMotion& motion) {
+  const EpipolarError error_of(motion);
+  const Eigen::Matrix3d rotation = motion.rotation();
+  const Eigen::Vector3d direction = motion.direction();
+  double votes = 0.0;
+  for (const Correspondence& match : correspondences) {
+    if (std::abs(error_of(match)) > 2.0 * bound_rad) continue;
+    votes += std::clamp(parallax(match, rotation, direction) / bound_rad, -1.0, 1.0);
+  }
+  if (votes >= 0.0) return;
+  motion.planar.direction_rad = wrap_angle(motion.planar.direction_rad + kPi);
+  motion.elevation_rad = -motion.elevation_rad;
+}
+
 struct Normal {
   Eigen::Matrix<double, 5, 5> curvature = Eigen::Matrix<double, 5, 5>::Zero();
   MotionAngles gradient = MotionAngles::Zero();
@@ -43,6 +66,9 @@ void look(std::span<const Correspondence> correspondences, const FitConfig& conf
   const EpipolarError error_of(fit.motion);
   // A window as wide as makes a uniform residual in it as dense as a right one at its middle.
   const double window_rad = fit.spread_rad * kWindowOfSpread;
+  const Eigen::Matrix3d rotation = fit.motion.rotation();
+  const Eigen::Vector3d direction = fit.motion.direction();
+  const double parallax_spread_rad = std::sqrt(2.0) * std::max(fit.spread_rad, 0.001);
   const double per_variance = 1.0 / (fit.spread_rad * fit.spread_rad);
   fit.belief.resize(correspondences.size());
   fit.log_likelihood = -prior_cost(fit.motion, config.tilt);
@@ -57,7 +83,9 @@ void look(std::span<const Correspondence> correspondences, const FitConfig& conf
     const double chance =
         std::max(config.least_chance, chance_share(error_of.essential(), correspondences[i], window_rad));
     const double tail = 1.0 / (1.0 + error2 / kFreedom);
-    const double as_right = fit.share * std::pow(tail, 0.5 * (kFreedom + 1.0)) / chance;
+    // A right match spreads apart towards the direction; a wrong one does so or the opposite.
+    const double before = 2.0 / (1.0 + std::exp(-1.7 * parallax(correspondences[i], rotation, direction) / parallax_spread_rad));
+    const double as_right = fit.share * before * std::pow(tail, 0.5 * (kFreedom + 1.0)) / chance;
     const double belief = as_right / (as_right + 1.0 - fit.share);
     const double gain = std::log(as_right + 1.0 - fit.share);
     fit.belief[i] = belief;
@@ -114,6 +142,7 @@ MotionFit fit_motion(std::span<const Correspondence> correspondences, const Tilt
   MotionFit fit;
   fit.motion = start;
   if (config.level) fit.motion = {start.planar};
+  orient(correspondences, config.start_spread_rad, fit.motion);
   fit.spread_rad = config.start_spread_rad;
   fit.share = 0.5;
   for (int i = 0; i < config.steps; ++i) {
