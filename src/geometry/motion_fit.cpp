@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/angles.hpp"
 
@@ -26,23 +27,68 @@ double share_of_azimuths(const Eigen::Vector3d& line, double height, double wind
   return (std::acos(low) - std::acos(high)) / kPi;
 }
 
-/// The sine by which a match lies further from the direction in the target view than in the current one.
-double parallax(const Correspondence& match, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& direction) {
-  const double here = match.current.dot(direction);
-  const double there = (rotation * match.target).dot(direction);
-  const double sine = std::sqrt(std::max(0.0, 1.0 - there * there)) * here - std::sqrt(std::max(0.0, 1.0 - here * here)) * there;
-  return sine;
-}
+/// Where matches lie along a motion's direction, and what that makes of them.
+class AlongDirection {
+ public:
+  explicit AlongDirection(const TiltedMotion& motion)
+      : in_current_(motion.direction()), in_target_(motion.rotation().transpose() * in_current_) {}
+
+  void look_at(const Correspondence& match) {
+    cosine_here_ = match.current.dot(in_current_);
+    cosine_there_ = match.target.dot(in_target_);
+    sine2_here_ = std::max(kLeastSine2, 1.0 - cosine_here_ * cosine_here_);
+    sine2_there_ = std::max(kLeastSine2, 1.0 - cosine_there_ * cosine_there_);
+    log_scale_ratio_ = match.log_scale_ratio;
+  }
+
+  /// The sine by which the match lies further from the direction in the target view: positive in front of both views.
+  [[nodiscard]] double parallax() const {
+    return std::sqrt(sine2_there_) * cosine_here_ - std::sqrt(sine2_here_) * cosine_there_;
+  }
+
+  /// How much likelier this side is for a right match, which lies in front, than for a wrong one, which lies anywhere.
+  [[nodiscard]] double likelihood_of_side(double spread_rad) const {
+    constexpr double kLeastSpreadRad = 0.001;
+    constexpr double kLogisticOfNormal = 1.7;  // the logistic function that is nearest to the normal distribution's
+    const double parallax_spread_rad = std::numbers::sqrt2 * std::max(spread_rad, kLeastSpreadRad);
+    return 2.0 / (1.0 + std::exp(-kLogisticOfNormal * parallax() / parallax_spread_rad));
+  }
+
+  /// How much likelier the change of size is for a right match than for a wrong one. The sines of the angles to the
+  /// direction are as the distances' inverses, and so as the sizes.
+  [[nodiscard]] double likelihood_of_size(double spread_rad) const {
+    if (log_scale_ratio_ == 0.0) return 1.0;
+    constexpr double kRight = 0.35;  // spread of right matches about what they should be, in pairs of known direction
+    constexpr double kWrong = 0.5;   // and of wrong ones about no change
+    constexpr double kTail = 3.0;    // degrees of freedom of Student's distribution
+    const double expected = 0.5 * std::log(sine2_there_ / sine2_here_);
+    const double variance = kRight * kRight + spread_rad * spread_rad * (1.0 / sine2_here_ + 1.0 / sine2_there_);
+    const double off = log_scale_ratio_ - expected;
+    const double as_wrong = 1.0 + log_scale_ratio_ * log_scale_ratio_ / (kTail * kWrong * kWrong);
+    const double as_right = 1.0 + off * off / (kTail * variance);
+    return kWrong / std::sqrt(variance) * (as_wrong * as_wrong) / (as_right * as_right);
+  }
+
+ private:
+  static constexpr double kLeastSine2 = 1e-4;
+  Eigen::Vector3d in_current_;
+  Eigen::Vector3d in_target_;
+  double cosine_here_ = 0.0;
+  double cosine_there_ = 0.0;
+  double sine2_here_ = 1.0;
+  double sine2_there_ = 1.0;
+  double log_scale_ratio_ = 0.0;
+};
 
 /// Turns the motion round when that puts more matches in front of both viewpoints.
 void orient(std::span<const Correspondence> correspondences, double bound_rad, TiltedMotion& motion) {
   const EpipolarError error_of(motion);
-  const Eigen::Matrix3d rotation = motion.rotation();
-  const Eigen::Vector3d direction = motion.direction();
+  AlongDirection along(motion);
   double votes = 0.0;
   for (const Correspondence& match : correspondences) {
     if (std::abs(error_of(match)) > 2.0 * bound_rad) continue;
-    votes += std::clamp(parallax(match, rotation, direction) / bound_rad, -1.0, 1.0);
+    along.look_at(match);
+    votes += std::clamp(along.parallax() / bound_rad, -1.0, 1.0);
   }
   if (votes >= 0.0) return;
   motion.planar.direction_rad = wrap_angle(motion.planar.direction_rad + kPi);
@@ -66,9 +112,7 @@ void look(std::span<const Correspondence> correspondences, const FitConfig& conf
   const EpipolarError error_of(fit.motion);
   // A window as wide as makes a uniform residual in it as dense as a right one at its middle.
   const double window_rad = fit.spread_rad * kWindowOfSpread;
-  const Eigen::Matrix3d rotation = fit.motion.rotation();
-  const Eigen::Vector3d direction = fit.motion.direction();
-  const double parallax_spread_rad = std::sqrt(2.0) * std::max(fit.spread_rad, 0.001);
+  AlongDirection along(fit.motion);
   const double per_variance = 1.0 / (fit.spread_rad * fit.spread_rad);
   fit.belief.resize(correspondences.size());
   fit.log_likelihood = -prior_cost(fit.motion, config.tilt);
@@ -82,10 +126,10 @@ void look(std::span<const Correspondence> correspondences, const FitConfig& conf
     const double error2 = error_rad * error_rad * per_variance;
     const double chance =
         std::max(config.least_chance, chance_share(error_of.essential(), correspondences[i], window_rad));
+    along.look_at(correspondences[i]);
     const double tail = 1.0 / (1.0 + error2 / kFreedom);
-    // A right match spreads apart towards the direction; a wrong one does so or the opposite.
-    const double before = 2.0 / (1.0 + std::exp(-1.7 * parallax(correspondences[i], rotation, direction) / parallax_spread_rad));
-    const double as_right = fit.share * before * std::pow(tail, 0.5 * (kFreedom + 1.0)) / chance;
+    const double as_right = fit.share * along.likelihood_of_side(fit.spread_rad) *
+                            along.likelihood_of_size(fit.spread_rad) * std::pow(tail, 0.5 * (kFreedom + 1.0)) / chance;
     const double belief = as_right / (as_right + 1.0 - fit.share);
     const double gain = std::log(as_right + 1.0 - fit.share);
     fit.belief[i] = belief;

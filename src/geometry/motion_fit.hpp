@@ -35,9 +35,10 @@ struct MotionFit {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  // of direction and turn, tilts taken out
 };
 
-/// Expectation maximisation from `start`: right matches have normal residuals of one spread, wrong ones are as likely
-/// anywhere among their turns about the vertical (Torr & Zisserman, MLESAC, 2000, with an outlier density for each
-/// match).
+/// Expectation maximisation from `start`. Right matches have residuals of one spread, lie in front of both viewpoints
+/// and change their size as they come nearer; wrong ones are as likely at any turn about the vertical, on either side,
+/// and of any size (Torr & Zisserman, MLESAC, 2000, with an outlier density for each match). The direction may come out
+/// reversed: that with more matches in front is taken.
 MotionFit fit_motion(std::span<const Correspondence> correspondences, const TiltedMotion& start,
                      const FitConfig& config);
 

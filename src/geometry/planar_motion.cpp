@@ -16,8 +16,8 @@ namespace homeward::geometry {
 namespace {
 
 constexpr int kFewest = 3;
-constexpr int kLines = 12;  // bins of directions, up to their sign
-constexpr int kTurns = 8;   // bins of turns
+constexpr int kLines = 12;                // bins of directions, up to their sign
+constexpr int kTurns = 8;                 // bins of turns
 constexpr double kApartRad = kPi / 12.0;  // motions whose directions or turns differ by more are rivals
 
 /// The angle between two lines of travel, whichever way along them, [0, pi/2].
