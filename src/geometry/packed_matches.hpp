@@ -20,6 +20,9 @@ class PackedMatches {
   /// soon as the sum is above `enough`: what it gives then is only known to be above.
   [[nodiscard]] float cost(const PlanarMotion& motion, float bound_rad, float enough) const;
 
+  /// The same for any essential matrix of unit direction.
+  [[nodiscard]] float cost(const Eigen::Matrix3d& essential, float bound_rad, float enough) const;
+
   /// The sum of all weights: the cost of a motion that explains nothing.
   [[nodiscard]] float total_weight() const { return total_weight_; }
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/angles.hpp"
-#include "geometry/direction_sign.hpp"
+#include "geometry/estimate_summary.hpp"
 #include "geometry/motion_fit.hpp"
 #include "geometry/packed_matches.hpp"
 
@@ -118,16 +118,6 @@ std::vector<Candidate> search(std::span<const Correspondence> correspondences, c
   return found;
 }
 
-std::vector<int> inliers_of(const TiltedMotion& motion, std::span<const Correspondence> correspondences,
-                            double max_error_rad) {
-  const EpipolarError error_of(motion);
-  std::vector<int> inliers;
-  for (std::size_t i = 0; i < correspondences.size(); ++i) {
-    if (std::abs(error_of(correspondences[i])) < max_error_rad) inliers.push_back(static_cast<int>(i));
-  }
-  return inliers;
-}
-
 /// From a planar motion that holds loosely to one, slightly tilted, that holds tightly.
 TiltedMotion tightened(const PlanarMotion& planar, std::span<const Correspondence> correspondences,
                        const PlanarRansacConfig& config) {
@@ -135,7 +125,7 @@ TiltedMotion tightened(const PlanarMotion& planar, std::span<const Correspondenc
   for (int step = 0; step < config.refinements; ++step) {
     const double share = static_cast<double>(step) / std::max(1, config.refinements - 1);
     const double bound_rad = config.search_error_rad * std::pow(config.max_error_rad / config.search_error_rad, share);
-    refine_tilted(correspondences, inliers_of(motion, correspondences, bound_rad), 0.5 * bound_rad, config.tilt,
+    refine_tilted(correspondences, matches_within(bound_rad, motion, correspondences), 0.5 * bound_rad, config.tilt,
                   motion);
   }
   return motion;
@@ -182,33 +172,15 @@ Judged judge(std::span<const Correspondence> correspondences, const std::vector<
   return {tilts_pay ? std::move(tilted) : std::move(level), lead};
 }
 
-double median_parallax_rad(const TiltedMotion& motion, std::span<const Correspondence> correspondences,
-                           const std::vector<int>& inliers) {
-  const Eigen::Matrix3d turn = motion.rotation();
-  std::vector<double> parallaxes_rad;
-  parallaxes_rad.reserve(inliers.size());
-  for (const int index : inliers) {
-    const Correspondence& c = correspondences[static_cast<std::size_t>(index)];
-    const Eigen::Vector3d target_in_current = turn * c.target;
-    parallaxes_rad.push_back(std::atan2(c.current.cross(target_in_current).norm(), c.current.dot(target_in_current)));
-  }
-  const auto middle = parallaxes_rad.begin() + static_cast<std::ptrdiff_t>(parallaxes_rad.size() / 2);
-  std::nth_element(parallaxes_rad.begin(), middle, parallaxes_rad.end());
-  return *middle;
-}
-
-}  // namespace
-
-Result<PlanarEstimate> estimate_planar_motion(std::span<const Correspondence> correspondences,
-                                              const PlanarRansacConfig& config, std::uint64_t seed) {
+Result<PlanarEstimate> estimate_of_finite(std::span<const Correspondence> correspondences,
+                                          const PlanarRansacConfig& config, std::uint64_t seed) {
   // Matches that can tell one motion from another; the others are only counted in the end.
   constexpr double kTelling = 0.1;
   std::vector<int> pool;
   std::vector<double> pool_weights;
   const std::vector<double> weights = weights_of(correspondences, config.search_error_rad);
   for (std::size_t i = 0; i < correspondences.size(); ++i) {
-    const Correspondence& c = correspondences[i];
-    if (!c.current.allFinite() || !c.target.allFinite() || weights[i] < kTelling) continue;
+    if (weights[i] < kTelling) continue;
     pool.push_back(static_cast<int>(i));
     pool_weights.push_back(weights[i]);
   }
@@ -220,27 +192,24 @@ Result<PlanarEstimate> estimate_planar_motion(std::span<const Correspondence> co
   if (candidates.empty()) return fail(ErrorCode::kTooLittleSupport, "No motion explains three matches.");
 
   Judged judged = judge(correspondences, candidates, config);
-  const SignVotes sign = settle_sign(correspondences, judged.best);
-  const MotionFit& fit = judged.best;
-  PlanarEstimate estimate;
-  estimate.inliers = inliers_of(fit.motion, correspondences, config.max_error_rad);
-  if (static_cast<int>(estimate.inliers.size()) < kFewest) {
-    return fail(ErrorCode::kTooLittleSupport, "No motion explains three matches.");
-  }
-  estimate.motion = fit.motion.planar;
-  estimate.median_parallax_rad = median_parallax_rad(fit.motion, correspondences, estimate.inliers);
-  estimate.forward_share = sign.forward_share;
-  estimate.error_spread_rad = fit.spread_rad;
-  estimate.tilt_rad = std::hypot(fit.motion.roll_rad, fit.motion.pitch_rad);
-  estimate.sign_log_odds = sign.log_odds();
-  estimate.lead = judged.lead;
+  const double log_likelihood = judged.best.log_likelihood;
+  const double greatest_gain = judged.best.greatest_gain;
+  auto estimate = summarise(correspondences, std::move(judged.best), config.max_error_rad);
+  if (!estimate) return estimate;
+  estimate->lead = judged.lead;
   // Two matches fit by construction; every other pair could have been tried, each with two motions.
   const auto size = static_cast<double>(pool.size());
-  estimate.evidence = fit.log_likelihood - 2.0 * fit.greatest_gain - std::log(size * (size - 1.0));
-  const double determinant = fit.information.determinant();
-  estimate.direction_spread_rad =
-      determinant > 1e-6 ? std::min(kPi, std::sqrt(fit.information(1, 1) / determinant)) : kPi;
+  estimate->evidence = log_likelihood - 2.0 * greatest_gain - std::log(size * (size - 1.0));
   return estimate;
+}
+
+}  // namespace
+
+Result<PlanarEstimate> estimate_planar_motion(std::span<const Correspondence> correspondences,
+                                              const PlanarRansacConfig& config, std::uint64_t seed) {
+  return with_finite_only(correspondences, [&](std::span<const Correspondence> finite) {
+    return estimate_of_finite(finite, config, seed);
+  });
 }
 
 }  // namespace homeward::geometry

@@ -67,6 +67,7 @@ struct PlanarEstimate {
   double forward_share = 0.0;         // of inliers with visible parallax that lie in front of both viewpoints
   double error_spread_rad = 0.0;      // standard deviation of the right matches' epipolar errors
   double tilt_rad = 0.0;              // between the views; 0 where the matches do not ask for any
+  bool general = false;               // not planar: see general_motion.hpp
   // Natural logarithms of how much likelier the matches are with this motion than
   double evidence = 0.0;       // at random, less what the search tried: matches that any motion explains add nothing
   double lead = 0.0;           // with the best motion found whose direction or turn is another

@@ -83,6 +83,16 @@ double EpipolarError::operator()(const Correspondence& correspondence, MotionAng
   return residual * per_gradient;
 }
 
+std::vector<int> matches_within(double bound_rad, const TiltedMotion& motion,
+                                std::span<const Correspondence> correspondences) {
+  const EpipolarError error_of(motion);
+  std::vector<int> within;
+  for (std::size_t i = 0; i < correspondences.size(); ++i) {
+    if (std::abs(error_of(correspondences[i])) < bound_rad) within.push_back(static_cast<int>(i));
+  }
+  return within;
+}
+
 Eigen::Matrix2d refine_tilted(std::span<const Correspondence> correspondences, const std::vector<int>& inliers,
                               double scale_rad, const TiltPrior& prior, TiltedMotion& motion) {
   const EpipolarError error_of(motion);

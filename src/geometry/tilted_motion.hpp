@@ -41,6 +41,10 @@ class EpipolarError {
   Eigen::Matrix<double, 5, 9> slopes_;  // of the essential matrix, column by column
 };
 
+/// The matches whose epipolar error is below the bound, ascending.
+std::vector<int> matches_within(double bound_rad, const TiltedMotion& motion,
+                                std::span<const Correspondence> correspondences);
+
 /// One Gauss-Newton step with Cauchy weights of `scale_rad` on the correspondences named by `inliers`, all five angles
 /// free within the prior. Returns the curvature of (direction, turn) after the other angles are taken out (Schur).
 Eigen::Matrix2d refine_tilted(std::span<const Correspondence> correspondences, const std::vector<int>& inliers,
