@@ -3,7 +3,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/angles.hpp"
@@ -11,16 +10,26 @@
 namespace homeward::geometry {
 namespace {
 
-using Angles = Eigen::Matrix<double, 5, 1>;  // direction, turn, elevation, roll, pitch
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
 
-TiltedMotion moved(const TiltedMotion& motion, const Angles& by) {
+double angular(double residual, const Eigen::Vector3d& line_in_current, const Eigen::Vector3d& line_in_target) {
+  // Tangential gradients with respect to both unit vectors: |E f2|^2 - r^2 and |E^T f1|^2 - r^2.
+  const double gradient2 = line_in_current.squaredNorm() + line_in_target.squaredNorm() - 2.0 * residual * residual;
+  return 1.0 / std::sqrt(std::max(gradient2, 1e-12));
+}
+
+}  // namespace
+
+TiltedMotion moved(const TiltedMotion& motion, const MotionAngles& by) {
   return {{wrap_angle(motion.planar.direction_rad + by[0]), wrap_angle(motion.planar.turn_rad + by[1])},
           motion.elevation_rad + by[2],
           motion.roll_rad + by[3],
           motion.pitch_rad + by[4]};
 }
-
-}  // namespace
 
 Eigen::Matrix3d TiltedMotion::rotation() const {
   return (Eigen::AngleAxisd(planar.turn_rad, Eigen::Vector3d::UnitZ()) *
@@ -36,37 +45,62 @@ Eigen::Vector3d TiltedMotion::direction() const {
 
 EpipolarError::EpipolarError(const TiltedMotion& motion) {
   const Eigen::Vector3d t = motion.direction();
-  Eigen::Matrix3d cross;
-  cross << 0.0, -t.z(), t.y(), t.z(), 0.0, -t.x(), -t.y(), t.x(), 0.0;
-  essential_ = cross * motion.rotation();
+  const Eigen::Matrix3d rotation = motion.rotation();
+  essential_ = cross_matrix(t) * rotation;
+  const double cos_e = std::cos(motion.elevation_rad);
+  const double sin_e = std::sin(motion.elevation_rad);
+  const double cos_d = std::cos(motion.planar.direction_rad);
+  const double sin_d = std::sin(motion.planar.direction_rad);
+  // A turn of R about an axis k given in the current frame adds [k]x R: z for the turn, the turned y for the pitch,
+  // and the turned and pitched x, which is R's first column, for the roll.
+  const Eigen::Vector3d pitch_axis(-std::sin(motion.planar.turn_rad), std::cos(motion.planar.turn_rad), 0.0);
+  const auto set = [&](Eigen::Index angle, const Eigen::Matrix3d& m) {
+    slopes_.row(angle) = Eigen::Map<const Eigen::Matrix<double, 1, 9>>(m.data());
+  };
+  set(0, cross_matrix({-cos_e * sin_d, cos_e * cos_d, 0.0}) * rotation);
+  set(1, cross_matrix(t) * cross_matrix(Eigen::Vector3d::UnitZ()) * rotation);
+  set(2, cross_matrix({-sin_e * cos_d, -sin_e * sin_d, cos_e}) * rotation);
+  set(3, cross_matrix(t) * cross_matrix(rotation.col(0)) * rotation);
+  set(4, cross_matrix(t) * cross_matrix(pitch_axis) * rotation);
 }
 
 double EpipolarError::operator()(const Correspondence& correspondence) const {
   const Eigen::Vector3d line_in_current = essential_ * correspondence.target;
   const Eigen::Vector3d line_in_target = essential_.transpose() * correspondence.current;
   const double residual = correspondence.current.dot(line_in_current);
-  // Tangential gradients with respect to both unit vectors: |E f2|^2 - r^2 and |E^T f1|^2 - r^2.
-  const double gradient2 = line_in_current.squaredNorm() + line_in_target.squaredNorm() - 2.0 * residual * residual;
-  return residual / std::sqrt(std::max(gradient2, 1e-12));
+  return residual * angular(residual, line_in_current, line_in_target);
+}
+
+double EpipolarError::operator()(const Correspondence& correspondence, MotionAngles& slope) const {
+  const Eigen::Vector3d line_in_current = essential_ * correspondence.target;
+  const Eigen::Vector3d line_in_target = essential_.transpose() * correspondence.current;
+  const double residual = correspondence.current.dot(line_in_current);
+  const double per_gradient = angular(residual, line_in_current, line_in_target);
+  Eigen::Matrix<double, 9, 1> product;  // current times target transposed, column by column
+  product << correspondence.current * correspondence.target.x(), correspondence.current * correspondence.target.y(),
+      correspondence.current * correspondence.target.z();
+  slope = per_gradient * (slopes_ * product);
+  return residual * per_gradient;
+}
+
+std::vector<int> matches_within(double bound_rad, const TiltedMotion& motion,
+                                std::span<const Correspondence> correspondences) {
+  const EpipolarError error_of(motion);
+  std::vector<int> within;
+  for (std::size_t i = 0; i < correspondences.size(); ++i) {
+    if (std::abs(error_of(correspondences[i])) < bound_rad) within.push_back(static_cast<int>(i));
+  }
+  return within;
 }
 
 Eigen::Matrix2d refine_tilted(std::span<const Correspondence> correspondences, const std::vector<int>& inliers,
                               double scale_rad, const TiltPrior& prior, TiltedMotion& motion) {
-  constexpr double kStepRad = 1e-6;
-  const EpipolarError here(motion);
-  std::array<EpipolarError, 5> beside = {here, here, here, here, here};
-  for (Eigen::Index i = 0; i < 5; ++i) {
-    beside[static_cast<std::size_t>(i)] = EpipolarError(moved(motion, kStepRad * Angles::Unit(i)));
-  }
+  const EpipolarError error_of(motion);
   Eigen::Matrix<double, 5, 5> curvature = Eigen::Matrix<double, 5, 5>::Zero();
-  Angles gradient = Angles::Zero();
+  MotionAngles gradient = MotionAngles::Zero();
   for (const int index : inliers) {
-    const Correspondence& c = correspondences[static_cast<std::size_t>(index)];
-    const double error_rad = here(c);
-    Angles slope;
-    for (Eigen::Index i = 0; i < 5; ++i) {
-      slope[i] = (beside[static_cast<std::size_t>(i)](c) - error_rad) / kStepRad;
-    }
+    MotionAngles slope;
+    const double error_rad = error_of(correspondences[static_cast<std::size_t>(index)], slope);
     const double ratio = error_rad / scale_rad;
     const double weight = 1.0 / (1.0 + ratio * ratio);
     curvature += weight * slope * slope.transpose();
@@ -83,7 +117,7 @@ Eigen::Matrix2d refine_tilted(std::span<const Correspondence> correspondences, c
   hold(4, motion.pitch_rad, prior.tilt_rad);
   // A little damping keeps the direction where it is when the views coincide and it means nothing.
   const double damping = 1e-9 * (curvature.trace() + 1.0);
-  const Angles step = (curvature + damping * Eigen::Matrix<double, 5, 5>::Identity()).ldlt().solve(gradient);
+  const MotionAngles step = (curvature + damping * Eigen::Matrix<double, 5, 5>::Identity()).ldlt().solve(gradient);
   constexpr double kMaxStepRad = 0.2;
   motion = moved(motion, -step.cwiseMax(-kMaxStepRad).cwiseMin(kMaxStepRad));
   const Eigen::Matrix3d tilts = curvature.bottomRightCorner<3, 3>();

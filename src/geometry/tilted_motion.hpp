@@ -20,16 +20,30 @@ struct TiltedMotion {
   [[nodiscard]] Eigen::Vector3d direction() const;  // unit, towards the target
 };
 
+/// The angles of a tilted motion as a vector: direction, turn, elevation, roll, pitch.
+using MotionAngles = Eigen::Matrix<double, 5, 1>;
+
+/// The motion with its angles changed.
+TiltedMotion moved(const TiltedMotion& motion, const MotionAngles& by);
+
 /// First-order angular distances of a correspondence to the epipolar constraint of one motion.
 class EpipolarError {
  public:
   explicit EpipolarError(const TiltedMotion& motion);
   /// Signed, radians (Sampson).
   [[nodiscard]] double operator()(const Correspondence& correspondence) const;
+  /// The same with its slope along each angle, the gradient that it is divided by held.
+  [[nodiscard]] double operator()(const Correspondence& correspondence, MotionAngles& slope) const;
+  [[nodiscard]] const Eigen::Matrix3d& essential() const { return essential_; }
 
  private:
   Eigen::Matrix3d essential_;
+  Eigen::Matrix<double, 5, 9> slopes_;  // of the essential matrix, column by column
 };
+
+/// The matches whose epipolar error is below the bound, ascending.
+std::vector<int> matches_within(double bound_rad, const TiltedMotion& motion,
+                                std::span<const Correspondence> correspondences);
 
 /// One Gauss-Newton step with Cauchy weights of `scale_rad` on the correspondences named by `inliers`, all five angles
 /// free within the prior. Returns the curvature of (direction, turn) after the other angles are taken out (Schur).

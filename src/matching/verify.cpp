@@ -7,8 +7,27 @@
 namespace homeward::matching {
 namespace {
 
-/// The probability that the direction is right within 15 degrees, from what the estimate knows about itself.
-/// Logistic regression on pairs of rendered and real pictures with known directions; docs/benchmarks.md has the fit.
+/// Of two sizes; 0, which says nothing, where one of them is not known.
+double log_ratio(float over, float under) {
+  return over > 0.0F && under > 0.0F ? std::log(static_cast<double>(over) / static_cast<double>(under)) : 0.0;
+}
+
+}  // namespace
+
+std::vector<geometry::Correspondence> correspondences(const features::Appearance& current,
+                                                      const features::Appearance& target,
+                                                      std::span<const Match> matches) {
+  std::vector<geometry::Correspondence> pairs;
+  pairs.reserve(matches.size());
+  for (const Match& match : matches) {
+    pairs.push_back({current.sift.bearings.row(match.current).transpose().cast<double>().normalized(),
+                     target.sift.bearings.row(match.target).transpose().cast<double>().normalized(),
+                     log_ratio(target.sift.scales_rad[match.target], current.sift.scales_rad[match.current])});
+  }
+  return pairs;
+}
+
+// Logistic regression on pairs of rendered and real pictures with known directions; docs/benchmarks.md has the fit.
 double confidence(const geometry::PlanarEstimate& estimate, std::size_t matches) {
   const auto inliers = static_cast<double>(estimate.inliers.size());
   const double share = inliers / static_cast<double>(std::max<std::size_t>(1, matches));
@@ -16,8 +35,6 @@ double confidence(const geometry::PlanarEstimate& estimate, std::size_t matches)
                           8.0 * std::min(estimate.direction_spread_rad, 0.6);
   return 1.0 / (1.0 + std::exp(-log_odds));
 }
-
-}  // namespace
 
 Result<VerifiedMatch> verify(const features::Appearance& current, const features::Appearance& target,
                              const VerifyConfig& config, std::uint64_t seed) {
@@ -28,13 +45,8 @@ Result<VerifiedMatch> verify(const features::Appearance& current, const features
   }
   VerifiedMatch verified;
   verified.matches = match(current.sift, target.sift, config.match);
-  std::vector<geometry::Correspondence> correspondences;
-  correspondences.reserve(verified.matches.size());
-  for (const Match& pair : verified.matches) {
-    correspondences.push_back({current.sift.bearings.row(pair.current).transpose().cast<double>().normalized(),
-                               target.sift.bearings.row(pair.target).transpose().cast<double>().normalized()});
-  }
-  const auto estimate = geometry::estimate_planar_motion(correspondences, config.ransac, seed);
+  const std::vector<geometry::Correspondence> pairs = correspondences(current, target, verified.matches);
+  const auto estimate = geometry::estimate_planar_motion(pairs, config.ransac, seed);
   if (!estimate) return pass_on(estimate);
   if (static_cast<int>(estimate->inliers.size()) < config.min_inliers) {
     return fail(ErrorCode::kTooLittleSupport,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/result.hpp"
@@ -23,6 +24,15 @@ struct VerifiedMatch {
   std::vector<Match> matches;   // all that looked alike, of both kinds of features
   geometry::RelativePose pose;  // of the target seen from the current view; inliers index `matches`
 };
+
+/// The bearings of matches and how their sizes change.
+std::vector<geometry::Correspondence> correspondences(const features::Appearance& current,
+                                                      const features::Appearance& target,
+                                                      std::span<const Match> matches);
+
+/// The probability that the direction is right within 15 degrees, from what an estimate knows about itself; `matches`
+/// is how many it was made from.
+double confidence(const geometry::PlanarEstimate& estimate, std::size_t matches);
 
 /// Matches two appearances and verifies them by planar epipolar geometry. Deterministic by `seed`.
 /// Errors: kTooFewFeatures, kTooLittleSupport.

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <random>
+
+#include "core/angles.hpp"
+#include <Eigen/Geometry>
+
+#include "geometry/planar_motion.hpp"
+
+namespace homeward::geometry {
+namespace {
+
+constexpr double kPixelRad = 2.0 * kPi / 1024.0;  // of a panorama 1024 px wide
+
+struct Scene {
+  PlanarMotion truth;
+  std::vector<Correspondence> correspondences;
+};
+
+/// Points of a building all around, 1 to 8 m away and from the floor to the ceiling, seen from two viewpoints 1 m
+/// apart; bearings off by `noise_px`, the target view tilted by `tilt_rad`, a share of the matches wrong.
+Scene building(int count, double outlier_share, double noise_px, double tilt_rad, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> angle_rad(-kPi, kPi);
+  std::uniform_real_distribution<double> depth_m(1.0, 8.0);
+  std::uniform_real_distribution<double> height_m(-1.0, 1.5);
+  std::normal_distribution<double> noise_rad(0.0, noise_px * kPixelRad);
+  const auto point = [&] {
+    const double azimuth_rad = angle_rad(random);
+    const double away_m = depth_m(random);
+    return Eigen::Vector3d(away_m * std::cos(azimuth_rad), away_m * std::sin(azimuth_rad), height_m(random));
+  };
+  const auto seen = [&](const Eigen::Vector3d& at) {
+    const Eigen::Vector3d bearing = at.normalized();
+    return Eigen::Vector3d(bearing + Eigen::Vector3d(noise_rad(random), noise_rad(random), noise_rad(random)))
+        .normalized();
+  };
+  Scene scene;
+  scene.truth = {angle_rad(random), angle_rad(random)};
+  const Eigen::Vector3d t(std::cos(scene.truth.direction_rad), std::sin(scene.truth.direction_rad), 0.0);
+  const Eigen::Matrix3d target_from_current =
+      (Eigen::AngleAxisd(tilt_rad, Eigen::Vector3d(std::cos(1.0), std::sin(1.0), 0.0)) *
+       Eigen::AngleAxisd(-scene.truth.turn_rad, Eigen::Vector3d::UnitZ()))
+          .toRotationMatrix();
+  const int wrong = static_cast<int>(outlier_share * count);
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d at = point();
+    const Eigen::Vector3d there = i < wrong ? point() : at;
+    scene.correspondences.push_back({seen(at), seen(target_from_current * (there - t))});
+  }
+  return scene;
+}
+
+std::vector<Scene> buildings(double outlier_share, double tilt_rad) {
+  constexpr int kScenes = 400;
+  constexpr int kMatches = 200;
+  constexpr double kNoisePx = 0.7;
+  std::vector<Scene> scenes;
+  for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
+    scenes.push_back(building(kMatches, outlier_share, kNoisePx, tilt_rad, 1000 + seed));
+  }
+  return scenes;
+}
+
+/// Median and 95th percentile of the direction's error, and how often there is no answer, over all scenes.
+void count_errors(benchmark::State& state, const std::vector<Scene>& scenes) {
+  std::vector<double> errors_deg;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const auto estimate = estimate_planar_motion(scenes[i].correspondences, {}, i);
+    errors_deg.push_back(
+        estimate ? std::abs(degrees(wrap_angle(estimate->motion.direction_rad - scenes[i].truth.direction_rad)))
+                 : 180.0);
+  }
+  std::ranges::sort(errors_deg);
+  state.counters["median_deg"] = errors_deg[errors_deg.size() / 2];
+  state.counters["p95_deg"] = errors_deg[errors_deg.size() * 95 / 100];
+  state.counters["max_deg"] = errors_deg.back();
+}
+
+/// Arguments: outliers in percent, tilt in tenths of a degree.
+void planar_motion(benchmark::State& state) {
+  const std::vector<Scene> scenes =
+      buildings(static_cast<double>(state.range(0)) / 100.0, radians(static_cast<double>(state.range(1)) / 10.0));
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(estimate_planar_motion(scenes[i % scenes.size()].correspondences, {}, i));
+    ++i;
+  }
+  count_errors(state, scenes);
+}
+BENCHMARK(planar_motion)
+    ->Unit(benchmark::kMillisecond)
+    ->ArgsProduct({{0, 50, 80}, {0}})
+    ->Args({50, 10})
+    ->Args({50, 30});
+
+}  // namespace
+}  // namespace homeward::geometry
