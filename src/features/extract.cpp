@@ -20,8 +20,58 @@ namespace {
 constexpr int kSeamPadding_px = 48;  // columns repeated beyond both ends, so that the seam looks like any other place
 constexpr float kPatchRadiusPerSigma = 1.5F;  // of a blob, for colour and for the distance to the border
 
+/// Consecutive columns of the panorama, wrapping: what is searched for features.
+struct Strip {
+  int first_px = 0;
+  int width_px = 0;
+
+  [[nodiscard]] double to_panorama_px(double u_px, int panorama_width_px) const {
+    const double u = std::fmod(u_px + first_px + 0.5, panorama_width_px);
+    return (u < 0.0 ? u + panorama_width_px : u) - 0.5;
+  }
+};
+
+/// The whole circle with its seam overlapping, or, for a camera that sees a part of the horizon, the columns around it:
+/// all but the longest run of columns in which nothing is seen.
+Strip seen_strip(const camera::Panorama& panorama) {
+  const int width_px = panorama.rgb.width_px;
+  const int height_px = panorama.rgb.height_px;
+  std::vector<bool> seen(static_cast<std::size_t>(width_px), false);
+  for (int v = 0; v < height_px; ++v) {
+    const std::uint8_t* row = panorama.valid.data() + static_cast<std::ptrdiff_t>(v) * width_px;
+    for (int u = 0; u < width_px; ++u) {
+      if (row[u] != 0) seen[static_cast<std::size_t>(u)] = true;
+    }
+  }
+  int longest_px = 0;
+  int ends_px = 0;
+  int run_px = 0;
+  for (int u = 0; u < 2 * width_px; ++u) {
+    run_px = seen[static_cast<std::size_t>(u % width_px)] ? 0 : std::min(run_px + 1, width_px);
+    if (run_px > longest_px) {
+      longest_px = run_px;
+      ends_px = (u + 1) % width_px;
+    }
+  }
+  constexpr int kMargin_px = 8;
+  if (longest_px <= 2 * (kSeamPadding_px + kMargin_px)) return {-kSeamPadding_px, width_px + 2 * kSeamPadding_px};
+  return {ends_px - kMargin_px, width_px - longest_px + 2 * kMargin_px};
+}
+
+/// The strip's columns of a picture as wide as the panorama.
+cv::Mat cut(const cv::Mat& picture, const Strip& strip) {
+  cv::Mat out(picture.rows, strip.width_px, picture.type());
+  for (int u = 0; u < strip.width_px;) {
+    const int from_px = ((strip.first_px + u) % picture.cols + picture.cols) % picture.cols;
+    const int count_px = std::min(strip.width_px - u, picture.cols - from_px);
+    picture.colRange(from_px, from_px + count_px).copyTo(out.colRange(u, u + count_px));
+    u += count_px;
+  }
+  return out;
+}
+
 /// Grey with its dark half stretched: shadows by night keep corners above the detector's threshold.
-cv::Mat padded_grey(const Image& rgb) {
+cv::Mat stretched_grey(const Image& rgb) {
   const cv::Mat colour(rgb.height_px, rgb.width_px, CV_8UC3, const_cast<std::uint8_t*>(rgb.data.data()));
   cv::Mat grey;
   cv::cvtColor(colour, grey, cv::COLOR_RGB2GRAY);
@@ -30,28 +80,27 @@ cv::Mat padded_grey(const Image& rgb) {
     curve.at<std::uint8_t>(level) = cv::saturate_cast<std::uint8_t>(255.0 * std::sqrt(level / 255.0));
   }
   cv::LUT(grey, curve, grey);
-  cv::Mat padded;
-  cv::copyMakeBorder(grey, padded, 0, 0, kSeamPadding_px, kSeamPadding_px, cv::BORDER_WRAP);
-  return padded;
+  return grey;
 }
 
-/// Distance of each pixel of the padded panorama to the nearest one that the camera does not see, pixels.
-cv::Mat distance_to_border(const camera::Panorama& panorama) {
+/// Distance of each pixel of the strip to the nearest one that the camera does not see, pixels.
+cv::Mat distance_to_border(const camera::Panorama& panorama, const Strip& strip) {
   const cv::Mat valid(panorama.rgb.height_px, panorama.rgb.width_px, CV_8UC1,
                       const_cast<std::uint8_t*>(panorama.valid.data()));
-  cv::Mat padded;
-  cv::copyMakeBorder(valid, padded, 0, 0, kSeamPadding_px, kSeamPadding_px, cv::BORDER_WRAP);
-  cv::copyMakeBorder(padded, padded, 1, 1, 0, 0, cv::BORDER_CONSTANT, cv::Scalar(0));  // above and below: not seen
+  cv::Mat framed;
+  cv::copyMakeBorder(cut(valid, strip), framed, 1, 1, 0, 0, cv::BORDER_CONSTANT, cv::Scalar(0));  // not seen
   cv::Mat distance;
-  cv::distanceTransform(padded, distance, cv::DIST_L2, 3);
+  cv::distanceTransform(framed, distance, cv::DIST_L2, 3);
   return distance.rowRange(1, distance.rows - 1);
 }
 
-/// Inside the panorama and off its border.
-std::vector<SiftPoint> clear_of_border(std::vector<SiftPoint> found, const cv::Mat& border_distance_px, int width_px) {
+/// Off the border, and once each: not on the overlap of the seam.
+std::vector<SiftPoint> clear_of_border(std::vector<SiftPoint> found, const cv::Mat& border_distance_px,
+                                       const Strip& strip, int panorama_width_px) {
+  const bool whole_circle = strip.width_px > panorama_width_px;
   std::erase_if(found, [&](const SiftPoint& point) {
     const float u_px = point.u_px - kSeamPadding_px;
-    if (u_px < -0.5F || u_px >= static_cast<float>(width_px) - 0.5F) return true;
+    if (whole_circle && (u_px < -0.5F || u_px >= static_cast<float>(panorama_width_px) - 0.5F)) return true;
     const float clear_px = border_distance_px.at<float>(static_cast<int>(std::lround(point.v_px)),
                                                         static_cast<int>(std::lround(point.u_px)));
     return clear_px < kPatchRadiusPerSigma * point.sigma_px + 1.0F;
@@ -61,14 +110,13 @@ std::vector<SiftPoint> clear_of_border(std::vector<SiftPoint> found, const cv::M
 
 /// The strongest of each sector of azimuth in turn, so that no single poster takes the whole budget. Larger blobs are
 /// seen again from farther away: the root of the size counts too (docs/benchmarks.md has the comparison).
-std::vector<SiftPoint> spread_over_azimuth(std::vector<SiftPoint> points, int width_px, int budget) {
+std::vector<SiftPoint> spread_over_azimuth(std::vector<SiftPoint> points, const Strip& strip, int budget) {
   constexpr int kSectors = 24;
   const auto rank = [](const SiftPoint& point) { return point.response * std::sqrt(point.sigma_px); };
   std::ranges::stable_sort(points, std::greater<>(), rank);
   std::vector<std::vector<SiftPoint>> sectors(kSectors);
   for (const SiftPoint& point : points) {
-    const int sector =
-        static_cast<int>((point.u_px - kSeamPadding_px + 0.5F) * kSectors / static_cast<float>(width_px));
+    const int sector = static_cast<int>((point.u_px + 0.5F) * kSectors / static_cast<float>(strip.width_px));
     sectors[static_cast<std::size_t>(std::clamp(sector, 0, kSectors - 1))].push_back(point);
   }
   std::vector<SiftPoint> kept;
@@ -84,10 +132,11 @@ std::vector<SiftPoint> spread_over_azimuth(std::vector<SiftPoint> points, int wi
 
 FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& config) {
   const int width_px = panorama.rgb.width_px;
-  const UprightSift sift(padded_grey(panorama.rgb));
-  const auto points = spread_over_azimuth(
-      clear_of_border(sift.detect(config.sift_contrast_threshold), distance_to_border(panorama), width_px), width_px,
-      config.max_sift);
+  const Strip strip = seen_strip(panorama);
+  const UprightSift sift(cut(stretched_grey(panorama.rgb), strip));
+  const auto points = spread_over_azimuth(clear_of_border(sift.detect(config.sift_contrast_threshold),
+                                                          distance_to_border(panorama, strip), strip, width_px),
+                                          strip, config.max_sift);
   FeatureSet set;
   const auto count = static_cast<Eigen::Index>(points.size());
   set.bearings.resize(count, 3);
@@ -97,7 +146,8 @@ FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& 
   const double px_to_rad = 2.0 * kPi / width_px;
   for (Eigen::Index i = 0; i < count; ++i) {
     const SiftPoint& point = points[static_cast<std::size_t>(i)];
-    const Eigen::Vector2d pixel_px(static_cast<double>(point.u_px) - kSeamPadding_px, static_cast<double>(point.v_px));
+    const Eigen::Vector2d pixel_px(strip.to_panorama_px(static_cast<double>(point.u_px), width_px),
+                                   static_cast<double>(point.v_px));
     set.bearings.row(i) = panorama.geometry.bearing(pixel_px).cast<float>();
     set.scales_rad[i] = static_cast<float>(2.0 * static_cast<double>(point.sigma_px) * px_to_rad);
     std::array<float, UprightSift::kDescriptorLength> descriptor;

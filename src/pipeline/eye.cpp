@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/angles.hpp"
 #include "features/descriptor_code.hpp"
@@ -60,6 +62,31 @@ const camera::Camera& Eye::camera() const { return *parts_->camera; }
 
 const features::FeatureConfig& Eye::feature_config() const { return parts_->feature_config; }
 
+namespace {
+
+/// A camera that sees less than half of the horizon keeps its own resolution, for little of the panorama has to be
+/// searched; one that sees more has the usual width.
+int suited_width_px(const camera::Camera& camera, int usual_px) {
+  constexpr int kAzimuths = 1440;
+  constexpr double kStep_rad = 2.0 * kPi / kAzimuths;
+  std::vector<double> per_rad;
+  std::optional<Eigen::Vector2d> before;
+  for (int i = 0; i < kAzimuths; ++i) {
+    const auto here = camera.pixel({std::cos(i * kStep_rad), std::sin(i * kStep_rad), 0.0});
+    if (here && before) per_rad.push_back((*here - *before).norm() / kStep_rad);
+    before = here;
+  }
+  if (per_rad.empty() || per_rad.size() > kAzimuths / 2) return usual_px;
+  std::ranges::nth_element(per_rad, per_rad.begin() + static_cast<std::ptrdiff_t>(per_rad.size() / 2));
+  constexpr double kNarrowest_px = 512.0;
+  constexpr double kWidest_px = 4096.0;
+  const double width_px = 2.0 * kPi * per_rad[per_rad.size() / 2];
+  constexpr double kMultiple = 64.0;
+  return static_cast<int>(std::round(std::clamp(width_px, kNarrowest_px, kWidest_px) / kMultiple) * kMultiple);
+}
+
+}  // namespace
+
 features::FeatureConfig suited_feature_config(const camera::Camera& camera) {
   // The rows that the camera sees at some azimuth, between the sky straight above and the robot's own feet.
   constexpr double kHighest_deg = 60.0;
@@ -83,6 +110,7 @@ features::FeatureConfig suited_feature_config(const camera::Camera& camera) {
     lowest_deg = std::min(lowest_deg, elevation_deg);
   }
   features::FeatureConfig config;
+  config.panorama_width_px = suited_width_px(camera, config.panorama_width_px);
   if (highest_deg > lowest_deg) {
     config.elevation_max_rad = radians(highest_deg);
     config.elevation_min_rad = radians(lowest_deg);
