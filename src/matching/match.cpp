@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
+
+#include "features/colour.hpp"
 
 namespace homeward::matching {
 namespace {
@@ -36,13 +37,6 @@ struct Nearest {
   }
 };
 
-bool colours_agree(const features::FeatureSet& a, int i, const features::FeatureSet& b, int j, int bound) {
-  for (Eigen::Index band = 0; band < 3; ++band) {
-    if (std::abs(static_cast<int>(a.colours(i, band)) - static_cast<int>(b.colours(j, band))) > bound) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::vector<Match> match(const features::FeatureSet& current, const features::FeatureSet& target,
@@ -72,7 +66,10 @@ std::vector<Match> match(const features::FeatureSet& current, const features::Fe
     if (of_target[static_cast<std::size_t>(nearest.index)].index != i) continue;
     // Two equally good ones are no match either, be they perfect.
     if (static_cast<double>(nearest.best) >= ratio2 * static_cast<double>(nearest.second)) continue;
-    if (!colours_agree(current, i, target, nearest.index, config.max_colour_difference)) continue;
+    if (!features::colours_agree(current.colours.row(i).data(), target.colours.row(nearest.index).data(),
+                                 config.max_colour_difference)) {
+      continue;
+    }
     matches.push_back({i, nearest.index});
   }
   return matches;
