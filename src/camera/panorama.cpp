@@ -74,19 +74,25 @@ PanoramaUnwrapper::PanoramaUnwrapper(PanoramaUnwrapper&&) noexcept = default;
 PanoramaUnwrapper& PanoramaUnwrapper::operator=(PanoramaUnwrapper&&) noexcept = default;
 
 Result<Panorama> PanoramaUnwrapper::unwrap(const Image& picture) const {
-  if (picture.width_px != tables_->camera_width_px || picture.height_px != tables_->camera_height_px ||
-      picture.channels != 3) {
+  if (picture.empty()) return fail(ErrorCode::kEmptyInput, "The picture has no pixels.");
+  if (picture.width_px != tables_->camera_width_px || picture.height_px != tables_->camera_height_px) {
     return fail(ErrorCode::kWrongImageSize, "The picture has " + std::to_string(picture.width_px) + " x " +
                                                 std::to_string(picture.height_px) + " pixels; its camera gives " +
                                                 std::to_string(tables_->camera_width_px) + " x " +
                                                 std::to_string(tables_->camera_height_px) + ".");
   }
+  const auto pixels = static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(picture.height_px);
+  if ((picture.channels != 1 && picture.channels != 3) ||
+      picture.data.size() != pixels * static_cast<std::size_t>(picture.channels)) {
+    return fail(ErrorCode::kInvalidInput, "The picture's pixels do not fit its size.");
+  }
   Panorama panorama;
   panorama.geometry = tables_->geometry;
   panorama.rgb = Image(tables_->geometry.width_px, tables_->geometry.height_px(), 3);
   panorama.valid = tables_->valid;
-  const cv::Mat source(picture.height_px, picture.width_px, CV_8UC3,
-                       const_cast<std::uint8_t*>(picture.data.data()));  // cv::Mat has no read-only view
+  cv::Mat source(picture.height_px, picture.width_px, CV_8UC(picture.channels),
+                 const_cast<std::uint8_t*>(picture.data.data()));  // cv::Mat has no read-only view
+  if (picture.channels == 1) cv::cvtColor(source, source, cv::COLOR_GRAY2RGB);
   cv::Mat target(panorama.rgb.height_px, panorama.rgb.width_px, CV_8UC3, panorama.rgb.data.data());
   cv::Mat padded;
   if (tables_->wraps) cv::copyMakeBorder(source, padded, 0, 0, 1, 1, cv::BORDER_WRAP);

@@ -38,7 +38,8 @@ class PanoramaUnwrapper {
   PanoramaUnwrapper(PanoramaUnwrapper&&) noexcept;
   PanoramaUnwrapper& operator=(PanoramaUnwrapper&&) noexcept;
 
-  /// Errors: kWrongImageSize when `picture` does not have the camera's size.
+  /// A grey picture (one channel) gives three equal bands. Errors: kEmptyInput (no pixels), kWrongImageSize when
+  /// `picture` does not have the camera's size, kInvalidInput when its pixels do not fit its own size.
   [[nodiscard]] Result<Panorama> unwrap(const Image& picture) const;
 
  private:

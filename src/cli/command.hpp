@@ -11,6 +11,7 @@ namespace homeward::cli {
 
 // Each of these adds its commands to the program. A command parses its options, runs, and ends with `finish`.
 void register_map(CLI::App& program);
+void register_bench(CLI::App& program);
 void register_calibrate(CLI::App& program);
 void register_compare(CLI::App& program);
 void register_home(CLI::App& program);

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   homeward::cli::register_route(program);
   homeward::cli::register_simulate(program);
   homeward::cli::register_calibrate(program);
+  homeward::cli::register_bench(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::RuntimeError& failed) {

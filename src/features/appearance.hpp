@@ -29,7 +29,7 @@ struct FeatureSet {
   Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> bearings;  // N x 3 unit vectors, robot frame
   Eigen::VectorXf scales_rad;                                         // N, size of the feature seen from the camera
   Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> descriptors;  // N x D
-  Eigen::Matrix<std::int8_t, Eigen::Dynamic, 3, Eigen::RowMajor> colours;  // N x 3, C_RG C_RB C_GB times 127
+  Eigen::Matrix<std::int8_t, Eigen::Dynamic, 3, Eigen::RowMajor> colours;  // N x 3, C_RG C_RB C_GB times 127; kNoColour
 
   [[nodiscard]] int size() const { return static_cast<int>(bearings.rows()); }
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace homeward::features {
 
@@ -45,8 +46,23 @@ double colour_moment_distance(const std::array<float, 9>& a, const std::array<fl
   return std::sqrt(sum);
 }
 
-std::array<std::int8_t, 3> colour_invariants(const Image& rgb, double centre_u_px, double centre_v_px,
-                                             double radius_px) {
+bool is_monochrome(const camera::Panorama& panorama) {
+  const std::uint8_t* pixel = panorama.rgb.data.data();
+  for (std::size_t i = 0; i < panorama.valid.size(); ++i, pixel += 3) {
+    if (panorama.valid[i] != 0 && (pixel[0] != pixel[1] || pixel[1] != pixel[2])) return false;
+  }
+  return true;
+}
+
+bool colours_agree(const std::int8_t* a, const std::int8_t* b, int bound) {
+  for (int band = 0; band < 3; ++band) {
+    if (a[band] == kNoColour || b[band] == kNoColour) continue;
+    if (std::abs(static_cast<int>(a[band]) - static_cast<int>(b[band])) > bound) return false;
+  }
+  return true;
+}
+
+std::array<double, 3> colour_correlations(const Image& rgb, double centre_u_px, double centre_v_px, double radius_px) {
   constexpr int kSamplesPerSide = 9;
   constexpr std::size_t kSamples = std::size_t{kSamplesPerSide} * kSamplesPerSide;
   std::array<std::array<double, kSamples>, 3> bands{};
@@ -76,10 +92,19 @@ std::array<std::int8_t, 3> colour_invariants(const Image& rgb, double centre_u_p
   const auto invariant = [&](std::size_t p, std::size_t q) {
     const double pp = product(p, p);
     const double qq = product(q, q);
-    if (pp < kSamples || qq < kSamples) return std::int8_t{0};
-    return static_cast<std::int8_t>(std::lround(127.0 * std::clamp(product(p, q) / std::sqrt(pp * qq), -1.0, 1.0)));
+    if (pp < kSamples || qq < kSamples) return 0.0;
+    return std::clamp(product(p, q) / std::sqrt(pp * qq), -1.0, 1.0);
   };
   return {invariant(0, 1), invariant(0, 2), invariant(1, 2)};
+}
+
+std::array<std::int8_t, 3> colour_invariants(const Image& rgb, double centre_u_px, double centre_v_px,
+                                             double radius_px) {
+  const auto correlations = colour_correlations(rgb, centre_u_px, centre_v_px, radius_px);
+  std::array<std::int8_t, 3> bytes{};
+  std::ranges::transform(correlations, bytes.begin(),
+                         [](double value) { return static_cast<std::int8_t>(std::lround(127.0 * value)); });
+  return bytes;
 }
 
 }  // namespace homeward::features

@@ -15,8 +15,21 @@ std::array<float, 9> colour_moments(const camera::Panorama& panorama);
 /// Euclidean distance of two sets of moments.
 double colour_moment_distance(const std::array<float, 9>& a, const std::array<float, 9>& b);
 
+/// Whether the visible pixels have no colour at all, as those of a monochrome camera.
+bool is_monochrome(const camera::Panorama& panorama);
+
+/// Stands for a colour invariant of a picture without colour.
+inline constexpr std::int8_t kNoColour = -128;
+
+/// Whether no invariant of two features differs by more than `bound`. Without colour there is nothing to object to.
+bool colours_agree(const std::int8_t* a, const std::int8_t* b, int bound);
+
 /// C_PQ = integral of PQ / sqrt(integral of P^2 times integral of Q^2) of the bands centred on their means, for RG, RB,
-/// GB, over a square patch whose columns wrap, times 127 (Goedemé 2007 §3.1). A band without variation gives 0.
+/// GB, over a square patch whose columns wrap (Goedemé 2007 §3.1): each in -1..1, unchanged by gain and offset of any
+/// band. A band without variation gives 0.
+std::array<double, 3> colour_correlations(const Image& rgb, double centre_u_px, double centre_v_px, double radius_px);
+
+/// The same in 8 bits: times 127, rounded.
 std::array<std::int8_t, 3> colour_invariants(const Image& rgb, double centre_u_px, double centre_v_px,
                                              double radius_px);
 

@@ -176,6 +176,10 @@ Appearance extract(const camera::Panorama& panorama, const FeatureConfig& config
   appearance.columns.bearings.resize(0, 3);
   appearance.columns.colours.resize(0, 3);
   appearance.colour_moments = colour_moments(panorama);
+  if (is_monochrome(panorama)) {
+    appearance.sift.colours.setConstant(kNoColour);
+    appearance.columns.colours.setConstant(kNoColour);
+  }
   return appearance;
 }
 

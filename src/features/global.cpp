@@ -69,6 +69,33 @@ std::vector<float> fourier_of(const cv::Mat& grey, const std::vector<std::uint8_
   return magnitudes;
 }
 
+/// What is wrong with a picture whose grey levels say nothing, or null.
+const char* why_nothing_is_shown(const std::array<float, 256>& shares) {
+  constexpr int kDark = 5;
+  constexpr int kBright = 250;
+  constexpr double kNearlyAll = 0.95;
+  constexpr double kEnds = 0.005;     // left out at either end: a few hot pixels are no picture
+  constexpr int kLevelsOfNoise = 16;  // what a sensor's noise spreads one brightness over
+  double below = 0.0;
+  double dark = 0.0;
+  double bright = 0.0;
+  int first = -1;
+  int last = -1;
+  for (int level = 0; level < 256; ++level) {
+    const double share = static_cast<double>(shares[static_cast<std::size_t>(level)]);
+    if (level <= kDark) dark += share;
+    if (level >= kBright) bright += share;
+    below += share;
+    if (first < 0 && below > kEnds) first = level;
+    if (last < 0 && below >= 1.0 - kEnds) last = level;
+  }
+  if (first < 0) return "The camera sees no part of this panorama.";
+  if (bright > kNearlyAll) return "The picture is over-exposed; there is nothing to compare.";
+  if (dark > kNearlyAll) return "The picture is black; there is nothing to compare.";
+  if (last - first < kLevelsOfNoise) return "The picture is all of one brightness; there is nothing to compare.";
+  return nullptr;
+}
+
 }  // namespace
 
 std::string_view global_measure_name(GlobalMeasure measure) {
@@ -88,15 +115,21 @@ std::string_view global_measure_name(GlobalMeasure measure) {
 }
 
 Result<GlobalDescriptor> describe(const camera::Panorama& panorama) {
+  const Image& rgb = panorama.rgb;
+  if (rgb.empty()) return fail(ErrorCode::kEmptyInput, "The panorama has no pixels.", "picture");
+  const auto pixels = static_cast<std::size_t>(rgb.width_px) * static_cast<std::size_t>(rgb.height_px);
+  if (rgb.channels != 3 || rgb.data.size() != 3 * pixels || panorama.valid.size() != pixels) {
+    return fail(ErrorCode::kInvalidInput, "The panorama's pixels do not fit its size.", "picture");
+  }
+  constexpr int kLeast_px = 16;
+  if (rgb.width_px < kLeast_px || rgb.height_px < kLeast_px) {
+    return fail(ErrorCode::kTooFewFeatures, "The panorama is too small to be compared.", "picture");
+  }
   const cv::Mat grey = grey_of(panorama);
   GlobalDescriptor descriptor;
   descriptor.grey_histogram = histogram_of(grey, panorama.valid);
-  constexpr float kNearlyAll = 0.999F;
-  const float most = *std::ranges::max_element(descriptor.grey_histogram);
-  if (most == 0.0F) return fail(ErrorCode::kTooFewFeatures, "The camera sees no part of this panorama.", "picture");
-  if (most > kNearlyAll) {
-    return fail(ErrorCode::kTooFewFeatures, "The picture is all of one brightness; there is nothing to compare.",
-                "picture");
+  if (const char* reason = why_nothing_is_shown(descriptor.grey_histogram)) {
+    return fail(ErrorCode::kTooFewFeatures, reason, "picture");
   }
   descriptor.moments = colour_moments(panorama);
   descriptor.fourier = fourier_of(grey, panorama.valid);

@@ -34,8 +34,9 @@ struct GlobalDescriptor {
   std::vector<float> fourier;               // 32 bands of rows x 30 frequencies, of grey over 0..1
 };
 
-/// Errors: kTooFewFeatures when the picture shows nothing that could be compared: no pixel that the camera sees, or all
-/// of one brightness (a black frame, an over-exposed one).
+/// Errors: kEmptyInput (no pixels), kInvalidInput (sizes that do not fit together), kTooFewFeatures when the picture
+/// shows nothing that could be compared: too small, no pixel that the camera sees, black, over-exposed, or all of one
+/// brightness but for noise.
 Result<GlobalDescriptor> describe(const camera::Panorama& panorama);
 
 /// How different two pictures are by one measure; 0 for the same. Symmetric; each measure has a scale of its own.

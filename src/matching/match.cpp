@@ -2,22 +2,11 @@
 #include "matching/match.hpp"
 
 #include <cstdint>
-#include <cstdlib>
 
+#include "features/colour.hpp"
 #include "matching/nearest.hpp"
 
 namespace homeward::matching {
-namespace {
-
-bool colours_agree(const features::FeatureSet& a, int i, const features::FeatureSet& b, int j, int bound) {
-  for (Eigen::Index band = 0; band < 3; ++band) {
-    if (std::abs(static_cast<int>(a.colours(i, band)) - static_cast<int>(b.colours(j, band))) > bound) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
 std::vector<Match> match(const features::FeatureSet& current, const features::FeatureSet& target,
                          const MatchConfig& config) {
   const Eigen::Index dimension = current.descriptors.cols();
@@ -31,7 +20,10 @@ std::vector<Match> match(const features::FeatureSet& current, const features::Fe
     if (nearest.of_target[static_cast<std::size_t>(j)] != i) continue;
     // Two equally good ones are no match either, be they perfect.
     if (nearest.distance[at] >= ratio2 * nearest.second_distance[at]) continue;
-    if (!colours_agree(current, i, target, j, config.max_colour_difference)) continue;
+    if (!features::colours_agree(current.colours.row(i).data(), target.colours.row(j).data(),
+                                 config.max_colour_difference)) {
+      continue;
+    }
     matches.push_back({i, j});
   }
   return matches;

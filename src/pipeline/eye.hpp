@@ -19,7 +19,7 @@ class Eye {
   Eye(Eye&&) noexcept;
   Eye& operator=(Eye&&) noexcept;
 
-  /// Errors: kWrongImageSize. A picture without texture gives an appearance with few or no features.
+  /// Errors: those of PanoramaUnwrapper::unwrap. A picture without texture gives an appearance with few or no features.
   [[nodiscard]] Result<features::Appearance> look(const Image& picture) const;
   [[nodiscard]] Result<camera::Panorama> unwrap(const Image& picture) const;
   [[nodiscard]] const camera::Camera& camera() const;

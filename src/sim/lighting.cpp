@@ -13,7 +13,6 @@ namespace {
 
 constexpr float kLift_m = 0.004F;  // rays start so far off their surface
 constexpr float kFar_m = 60.0F;
-constexpr int kGatherRays = 40;
 constexpr float kSmallTriangle_m = 0.08F;  // lit by one sample
 
 float maximum_edge_m(const Scene& scene, Eigen::Index t) {
@@ -25,15 +24,14 @@ float maximum_edge_m(const Scene& scene, Eigen::Index t) {
 }
 
 /// Cosine-weighted directions about +z, the same for all points: bias without speckles.
-std::array<Eigen::Vector3f, kGatherRays> gather_directions() {
-  std::array<Eigen::Vector3f, kGatherRays> directions;
+std::vector<Eigen::Vector3f> gather_directions(int count) {
+  std::vector<Eigen::Vector3f> directions;
   constexpr float kGoldenAngle_rad = 2.39996323F;
-  for (int i = 0; i < kGatherRays; ++i) {
-    const float r2 = (static_cast<float>(i) + 0.5F) / kGatherRays;
+  for (int i = 0; i < count; ++i) {
+    const float r2 = (static_cast<float>(i) + 0.5F) / static_cast<float>(count);
     const float radius = std::sqrt(r2);
     const float angle_rad = kGoldenAngle_rad * static_cast<float>(i);
-    directions[static_cast<std::size_t>(i)] = {radius * std::cos(angle_rad), radius * std::sin(angle_rad),
-                                               std::sqrt(1.0F - r2)};
+    directions.emplace_back(radius * std::cos(angle_rad), radius * std::sin(angle_rad), std::sqrt(1.0F - r2));
   }
   return directions;
 }
@@ -46,7 +44,7 @@ class Gatherer {
         lamps_(lamps),
         settings_(settings),
         albedos_(mean_albedos(scene)),
-        directions_(gather_directions()) {}
+        directions_(gather_directions(settings.gather_rays)) {}
 
   [[nodiscard]] Eigen::Array3f direct(const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal) const {
     Eigen::Array3f light = Eigen::Array3f::Zero();
@@ -85,7 +83,7 @@ class Gatherer {
                                       hit->v * known.corners.row(row + 2).array();
       light += arriving * albedos_[static_cast<std::size_t>(scene_.triangle_materials[hit->triangle])];
     }
-    return light / static_cast<float>(kGatherRays);
+    return light / static_cast<float>(directions_.size());
   }
 
   /// Calls `gather(point, normal)` for each corner, the point lifted off its surface and drawn in from the edges.
@@ -129,7 +127,7 @@ class Gatherer {
   const std::vector<Lamp>& lamps_;
   const LightSettings& settings_;
   std::vector<Eigen::Array3f> albedos_;
-  std::array<Eigen::Vector3f, kGatherRays> directions_;
+  std::vector<Eigen::Vector3f> directions_;
 };
 
 }  // namespace

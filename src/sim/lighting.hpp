@@ -19,6 +19,7 @@ struct LightSettings {
   float window_shown = 0.05F;    // brightness of a window pane itself
   float noise_levels = 1.5F;     // standard deviation of the sensor's noise, grey levels of 255
   float exposure = 1.0F;
+  int gather_rays = 40;  // directions from which diffuse light is gathered; more, less blotchy
 };
 LightSettings light_settings(LightPreset preset);
 

@@ -120,7 +120,7 @@ std::string LitWorld::light_key(LightPreset preset) const {
 struct Renderer::Parts {
   const Scene* scene;
   const RayScene* rays;
-  const Irradiance* light;
+  std::shared_ptr<const Irradiance> light;
   LightSettings settings;
   Eigen::Vector3f viewpoint_in_robot_m;
   int width_px;
@@ -134,7 +134,14 @@ struct Renderer::Parts {
   [[nodiscard]] Eigen::Array3f shade(const Hit& hit, const Eigen::Vector3f& direction) const;
 };
 
-Renderer::Renderer(LitWorld& world, LightPreset preset, std::shared_ptr<const camera::Camera> camera) {
+// The world keeps the light of a preset, and has to outlive the renderer anyway.
+Renderer::Renderer(LitWorld& world, LightPreset preset, std::shared_ptr<const camera::Camera> camera)
+    : Renderer(world, light_settings(preset),
+               std::shared_ptr<const Irradiance>(std::shared_ptr<void>(), &world.irradiance(preset)),
+               std::move(camera)) {}
+
+Renderer::Renderer(const LitWorld& world, const LightSettings& settings, std::shared_ptr<const Irradiance> light,
+                   std::shared_ptr<const camera::Camera> camera) {
   const camera::CameraConfig& config = camera->config();
   std::vector<MipTexture> textures;
   textures.reserve(world.fine_scene().textures.size());
@@ -142,8 +149,8 @@ Renderer::Renderer(LitWorld& world, LightPreset preset, std::shared_ptr<const ca
   std::vector<float> density = texels_per_metre(world.fine_scene(), textures);
   parts_ = std::make_unique<Parts>(Parts{&world.fine_scene(),
                                          &world.rays(),
-                                         &world.irradiance(preset),
-                                         light_settings(preset),
+                                         std::move(light),
+                                         settings,
                                          config.robot_from_camera_translation_m.cast<float>(),
                                          config.width_px,
                                          config.height_px,

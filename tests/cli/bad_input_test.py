@@ -10,6 +10,9 @@ from pathlib import Path
 
 from program import CliTest, Program, write_png
 
+# Pictures of one grey level, named by what is said about them.
+FLAT = {"black.png": 0, "all_of_one_brightness.png": 128, "over-exposed.png": 255}
+
 BUILD = ("map", "build", "--tour", "tour", "--camera", "tour/camera.json", "--out", "out.map")
 
 
@@ -160,18 +163,42 @@ class BadPictures(CliTest):
         self.tour()
         self.assert_refused(3, ["none.jpg"], *self.home("tour/00001.jpg", "tour/none.jpg"))
 
-    def test_a_black_picture_gives_no_direction(self):
-        write_png(self.tour() / "black.png", 1024, 512, 0)
-        (answer,) = self.lines_of(*self.home("tour/00001.jpg", "tour/black.png"))
-        self.assertIsNone(answer["bearing_rad"])
-        self.assertIsNone(answer["turn_rad"])
+    def test_pictures_that_show_nothing_give_no_direction(self):
+        self.tour()
+        for name, grey in FLAT.items():
+            write_png(self.folder / "tour" / name, 1024, 512, grey)
+            for pair in (("tour/00001.jpg", f"tour/{name}"), (f"tour/{name}", "tour/00001.jpg")):
+                (answer,) = self.lines_of(*self.home(*pair))
+                for key in ("bearing_rad", "turn_rad", "nearness"):
+                    self.assertIsNone(answer[key], name)
+                self.assertEqual(answer["confidence"], 0.0)
+                self.assertIn("features", answer["reason"])
+
+    def test_pictures_that_show_nothing_are_no_measure_s_business(self):
+        self.tour()
+        compare = ("compare", "--camera", "tour/camera.json")
+        for name, grey in FLAT.items():
+            write_png(self.folder / "tour" / name, 1024, 512, grey)
+            for measure in ("moments", "jeffrey", "chi2", "sad", "fourier"):
+                why = name.removesuffix(".png").replace("_", " ")
+                self.assert_refused(4, [name, why], *compare, "--measure", measure, "tour/00001.jpg", f"tour/{name}")
+            (line,) = self.lines_of(*compare, "tour/00001.jpg", f"tour/{name}")
+            self.assertIsNone(line["dissimilarity"])
+            self.assertIsNone(line["turn_rad"])
+
+    def test_pictures_that_are_too_small(self):
+        write_png(self.tour() / "tiny.png", 8, 4, 90)
+        self.assert_refused(2, ["tiny.png", "8 x 4"], *self.home("tour/00001.jpg", "tour/tiny.png"))
+        for measure in ("features", "jeffrey"):
+            self.assert_refused(2, ["tiny.png", "8 x 4"], "compare", "--camera", "tour/camera.json", "--measure", measure,
+                                "tour/00001.jpg", "tour/tiny.png")
 
     def test_comparing_what_cannot_be_compared(self):
         write_png(self.tour() / "black.png", 1024, 512, 0)
         compare = ("compare", "--camera", "tour/camera.json")
         self.assert_refused(4, ["Two pictures"], *compare, "tour/00001.jpg")
         self.assert_refused(2, ["--measure", "magic"], *compare, "--measure", "magic", "tour/00001.jpg", "tour/00002.jpg")
-        self.assert_refused(4, ["black.png", "one brightness"], *compare, "--measure", "jeffrey", "tour/00001.jpg",
+        self.assert_refused(4, ["black.png", "is black"], *compare, "--measure", "jeffrey", "tour/00001.jpg",
                             "tour/black.png")
         self.assert_refused(2, ["--draw"], *compare, "--measure", "sad", "--draw", "x.png", "tour/00001.jpg", "tour/00002.jpg")
         (line,) = self.lines_of(*compare, "tour/00001.jpg", "tour/black.png")

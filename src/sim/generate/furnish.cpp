@@ -68,20 +68,20 @@ void Furnisher::place_at(Piece piece, Side side, double along_m, Random& random)
   build_piece(scene_, piece, frame, random);
 }
 
-bool Furnisher::place(Piece piece, Random& random) {
+bool Furnisher::place(Piece piece, Random& where, Random& looks) {
   const PieceSize size = size_of(piece);
   for (int attempt = 0; attempt < kTries; ++attempt) {
-    const Side side = kSides[static_cast<std::size_t>(pick(random, 4))];
+    const Side side = kSides[static_cast<std::size_t>(pick(where, 4))];
     const WallFrame wall = wall_frame(space_, side);
     const double slack_m = wall.length_m - size.width_m - 0.04;
     if (slack_m <= 0.0) continue;
     // Corners first: that is where people put things.
-    double along_m = 0.5 * size.width_m + 0.02 + uniform(random, 0.0, slack_m);
-    if (attempt % 3 == 0) along_m = 0.5 * size.width_m + 0.02 + (pick(random, 2) == 0 ? 0.0 : slack_m);
+    double along_m = 0.5 * size.width_m + 0.02 + uniform(where, 0.0, slack_m);
+    if (attempt % 3 == 0) along_m = 0.5 * size.width_m + 0.02 + (pick(where, 2) == 0 ? 0.0 : slack_m);
     const Pose2 frame = wall.frame * Pose2{along_m, 0.0, 0.0};
     if (!is_free(footprint(frame, size))) continue;
     if (!wall_is_free(side, along_m - 0.5 * size.width_m, along_m + 0.5 * size.width_m, 0.0, size.height_m)) continue;
-    place_at(piece, side, along_m, random);
+    place_at(piece, side, along_m, looks);
     return true;
   }
   return false;

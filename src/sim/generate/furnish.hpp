@@ -14,7 +14,9 @@ class Furnisher {
   Furnisher(SceneBuilder& scene, const Space& space, const std::vector<Doorway>& doorways);
 
   /// Puts a piece against a wall where it blocks no door and no window; false when there is no room for it.
-  bool place(Piece piece, Random& random);
+  bool place(Piece piece, Random& random) { return place(piece, random, random); }
+  /// The same with the place drawn from `where` and the piece's wood, cloth and contents from `looks`.
+  bool place(Piece piece, Random& where, Random& looks);
   /// At a wall and a distance of its middle from the wall's left end; no questions asked.
   void place_at(Piece piece, Side side, double along_m, Random& random);
   /// In the middle of the space, a little at random.

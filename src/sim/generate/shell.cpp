@@ -76,8 +76,14 @@ void build_window(SceneBuilder& scene, const Space& space, const WindowOpening& 
       scene.add_material("curtain", paint_fabric(random, rich_colour(random), static_cast<Weave>(1 + pick(random, 3)))),
       0.6};
   constexpr double kCurtain_m = 0.32;
-  scene.box(wall.frame, {x0 - kCurtain_m, 0.03, 0.75}, {x0, 0.08, 2.35}, {curtain, curtain});
-  scene.box(wall.frame, {x1, 0.03, 0.75}, {x1 + kCurtain_m, 0.08, 2.35}, {curtain, curtain});
+  constexpr double kBeforeSill_m = 0.16;
+  if (window.curtains_drawn) {
+    scene.box(wall.frame, {x0 - kCurtain_m, kBeforeSill_m, 0.72}, {x1 + kCurtain_m, kBeforeSill_m + 0.05, 2.35},
+              {curtain, curtain});
+  } else {
+    scene.box(wall.frame, {x0 - kCurtain_m, 0.03, 0.75}, {x0, 0.08, 2.35}, {curtain, curtain});
+    scene.box(wall.frame, {x1, 0.03, 0.75}, {x1 + kCurtain_m, 0.08, 2.35}, {curtain, curtain});
+  }
   const Surface radiator{scene.add_material("radiator", paint_cabinet(random, {215, 215, 212}, 8, 1)), 0.0};
   scene.box(wall.frame, {x0 + 0.2, 0.02, 0.15}, {x1 - 0.2, 0.1, 0.7}, {radiator, radiator});
 }

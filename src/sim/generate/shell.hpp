@@ -27,6 +27,7 @@ struct WindowOpening {
   Side side = Side::kSouth;
   double centre_m = 0.0;  // along the wall from its left end, seen from inside
   double width_m = 1.6;
+  bool curtains_drawn = false;
 };
 
 /// A room or corridor: a rectangle between wall centre lines.

@@ -122,12 +122,28 @@ TEST(PanoramaUnwrapper, MarksWhatTheCameraDoesNotSee) {
 TEST(PanoramaUnwrapper, RefusesPicturesOfAnotherSize) {
   const auto camera = make(sphere_camera(512));
   const PanoramaUnwrapper unwrapper(*camera, geometry_of(256));
-  for (const Image& picture : {Image(511, 256, 3), Image(256, 512, 3), Image(512, 256, 1), Image()}) {
+  for (const Image& picture : {Image(511, 256, 3), Image(256, 512, 3)}) {
     const auto panorama = unwrapper.unwrap(picture);
     ASSERT_FALSE(panorama);
     EXPECT_EQ(panorama.error().code, ErrorCode::kWrongImageSize);
   }
+  const auto empty = unwrapper.unwrap(Image());
+  ASSERT_FALSE(empty);
+  EXPECT_EQ(empty.error().code, ErrorCode::kEmptyInput);
+  const auto four_bands = unwrapper.unwrap(Image(512, 256, 4));
+  ASSERT_FALSE(four_bands);
+  EXPECT_EQ(four_bands.error().code, ErrorCode::kInvalidInput);
   EXPECT_NE(unwrapper.unwrap(Image(511, 256, 3)).error().message.find("511 x 256"), std::string::npos);
+}
+
+TEST(PanoramaUnwrapper, AGreyPictureGivesThreeEqualBands) {
+  const auto camera = make(sphere_camera(512));
+  const PanoramaUnwrapper unwrapper(*camera, geometry_of(256));
+  Image grey(512, 256, 1);
+  for (std::size_t i = 0; i < grey.data.size(); ++i) grey.data[i] = static_cast<std::uint8_t>(i / 512);
+  Image colour(512, 256, 3);
+  for (std::size_t i = 0; i < colour.data.size(); ++i) colour.data[i] = grey.data[i / 3];
+  EXPECT_EQ(unwrapper.unwrap(grey).value().rgb.data, unwrapper.unwrap(colour).value().rgb.data);
 }
 
 }  // namespace

@@ -89,5 +89,85 @@ TEST(ColourInvariants, PatchesWrapAtTheSeamAndStayInsideAboveAndBelow) {
   EXPECT_EQ(colour_invariants(image, 32.0, 0.0, 40.0), colour_invariants(image, 32.0, 31.0, 40.0));
 }
 
+/// The room's panorama with even values up to 126, so that half and three-halves of them are whole numbers.
+Image even_values() {
+  camera::PanoramaGeometry geometry;
+  geometry.width_px = 256;
+  Image image = homeward::testing::painted_panorama({}, {0.4, 0.3, 0.0}, geometry).rgb;
+  for (std::uint8_t& value : image.data) value = static_cast<std::uint8_t>(2 * (value / 4));
+  return image;
+}
+
+Image with_gain_and_offset(Image image, const std::array<double, 3>& gain, const std::array<double, 3>& offset) {
+  for (std::size_t i = 0; i < image.data.size(); ++i) {
+    image.data[i] = static_cast<std::uint8_t>(std::lround(gain[i % 3] * image.data[i] + offset[i % 3]));
+  }
+  return image;
+}
+
+TEST(ColourCorrelations, GainAndOffsetOfTheBandsChangeNothing) {
+  const Image before = even_values();
+  const std::array<Image, 3> after = {with_gain_and_offset(before, {1.5, 1.5, 1.5}, {40.0, 40.0, 40.0}),
+                                      with_gain_and_offset(before, {1.0, 1.0, 1.0}, {100.0, 100.0, 100.0}),
+                                      with_gain_and_offset(before, {1.5, 1.0, 2.0}, {0.0, 90.0, 3.0})};
+  for (const double u_px : {0.0, 37.0, 128.0, 250.5}) {
+    for (const double radius_px : {4.0, 9.0, 20.0}) {
+      const auto expected = colour_correlations(before, u_px, 24.0, radius_px);
+      for (const Image& changed : after) {
+        const auto measured = colour_correlations(changed, u_px, 24.0, radius_px);
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(measured[k], expected[k], 1e-3) << u_px << " " << radius_px;
+      }
+      for (const double value : expected) EXPECT_NE(value, 0.0);
+    }
+  }
+}
+
+TEST(ColourCorrelations, RoundingToGreyLevelsCostsLittle) {
+  const Image before = even_values();
+  const Image after = with_gain_and_offset(before, {1.37, 1.37, 1.37}, {11.3, 11.3, 11.3});
+  double worst = 0.0;
+  for (double u_px = 0.0; u_px < 256.0; u_px += 16.0) {
+    const auto a = colour_correlations(before, u_px, 24.0, 9.0);
+    const auto b = colour_correlations(after, u_px, 24.0, 9.0);
+    for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(a[k] - b[k]));
+  }
+  EXPECT_LT(worst, 0.01);
+}
+
+TEST(ColourCorrelations, TheEightBitFormIsTheirRounding) {
+  const Image image = even_values();
+  for (double u_px = 0.0; u_px < 256.0; u_px += 31.0) {
+    const auto exact = colour_correlations(image, u_px, 30.0, 7.0);
+    const auto bytes = colour_invariants(image, u_px, 30.0, 7.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_LE(std::abs(exact[k]), 1.0);
+      EXPECT_NEAR(bytes[k], 127.0 * exact[k], 0.5);
+    }
+  }
+}
+
+TEST(Monochrome, IsAPictureWithoutAnyColourWhereTheCameraSees) {
+  camera::Panorama panorama;
+  panorama.rgb = Image(2, 1, 3);
+  panorama.valid = {1, 1};
+  panorama.rgb.data = {9, 9, 9, 200, 200, 200};
+  EXPECT_TRUE(is_monochrome(panorama));
+  panorama.rgb.data[5] = 201;
+  EXPECT_FALSE(is_monochrome(panorama));
+  panorama.valid[1] = 0;
+  EXPECT_TRUE(is_monochrome(panorama));
+}
+
+TEST(ColoursAgree, UnlessABandDiffersTooMuchAndAlwaysWithoutColour) {
+  const std::array<std::int8_t, 3> a = {100, 0, -100};
+  const std::array<std::int8_t, 3> near = {60, 30, -127};
+  const std::array<std::int8_t, 3> far = {100, 0, 10};
+  const std::array<std::int8_t, 3> none = {kNoColour, kNoColour, kNoColour};
+  EXPECT_TRUE(colours_agree(a.data(), near.data(), 50));
+  EXPECT_FALSE(colours_agree(a.data(), far.data(), 50));
+  EXPECT_TRUE(colours_agree(a.data(), none.data(), 0));
+  EXPECT_TRUE(colours_agree(none.data(), far.data(), 0));
+}
+
 }  // namespace
 }  // namespace homeward::features

@@ -107,18 +107,59 @@ TEST(GlobalDescriptor, WhatTheCameraDoesNotSeeDoesNotCount) {
   EXPECT_NEAR(sum, 1.0, 1e-5);
 }
 
-TEST(GlobalDescriptor, PicturesThatShowNothingAreRefused) {
-  for (const int brightness : {0, 128, 255}) {
-    camera::Panorama panorama = view(1, 0.0);
-    std::ranges::fill(panorama.rgb.data, static_cast<std::uint8_t>(brightness));
-    const auto described = describe(panorama);
-    ASSERT_FALSE(described) << brightness;
-    EXPECT_EQ(described.error().code, ErrorCode::kTooFewFeatures);
-    EXPECT_NE(described.error().message.find("one brightness"), std::string::npos);
+/// A panorama whose pixels are drawn from a range of grey levels.
+camera::Panorama noise(int least, int most) {
+  camera::Panorama panorama = view(1, 0.0);
+  std::uint32_t state = 1;
+  for (std::uint8_t& value : panorama.rgb.data) {
+    state = state * 1664525U + 1013904223U;
+    value =
+        static_cast<std::uint8_t>(least + static_cast<int>((state >> 16U) % static_cast<unsigned>(most - least + 1)));
   }
+  return panorama;
+}
+
+void expect_refused(const camera::Panorama& panorama, ErrorCode code, const std::string& word) {
+  const auto described = describe(panorama);
+  ASSERT_FALSE(described) << word;
+  EXPECT_EQ(described.error().code, code) << word;
+  EXPECT_NE(described.error().message.find(word), std::string::npos) << described.error().message;
+}
+
+TEST(GlobalDescriptor, PicturesThatShowNothingAreRefused) {
+  expect_refused(noise(0, 0), ErrorCode::kTooFewFeatures, "black");
+  expect_refused(noise(0, 5), ErrorCode::kTooFewFeatures, "black");  // a covered lens and its noise
+  expect_refused(noise(128, 128), ErrorCode::kTooFewFeatures, "one brightness");
+  expect_refused(noise(124, 132), ErrorCode::kTooFewFeatures, "one brightness");
+  expect_refused(noise(255, 255), ErrorCode::kTooFewFeatures, "over-exposed");
+  expect_refused(noise(250, 255), ErrorCode::kTooFewFeatures, "over-exposed");
+  camera::Panorama blown = view(1, 0.0);  // a few dark corners are left
+  for (std::size_t i = blown.rgb.data.size() / 30; i < blown.rgb.data.size(); ++i) blown.rgb.data[i] = 255;
+  expect_refused(blown, ErrorCode::kTooFewFeatures, "over-exposed");
   camera::Panorama unseen = view(1, 0.0);
   std::ranges::fill(unseen.valid, std::uint8_t{0});
-  EXPECT_FALSE(describe(unseen));
+  expect_refused(unseen, ErrorCode::kTooFewFeatures, "sees no part");
+}
+
+TEST(GlobalDescriptor, EmptyTinyAndBrokenPicturesAreRefused) {
+  expect_refused({}, ErrorCode::kEmptyInput, "no pixels");
+  camera::Panorama tiny;
+  tiny.rgb = Image(8, 4, 3);
+  tiny.valid.assign(32, 1);
+  for (std::size_t i = 0; i < tiny.rgb.data.size(); ++i) tiny.rgb.data[i] = static_cast<std::uint8_t>(7 * i);
+  expect_refused(tiny, ErrorCode::kTooFewFeatures, "too small");
+  camera::Panorama broken = view(1, 0.0);
+  broken.rgb.data.resize(broken.rgb.data.size() - 3);
+  expect_refused(broken, ErrorCode::kInvalidInput, "fit");
+  camera::Panorama unmasked = view(1, 0.0);
+  unmasked.valid.clear();
+  expect_refused(unmasked, ErrorCode::kInvalidInput, "fit");
+}
+
+TEST(GlobalDescriptor, ADarkPictureThatShowsSomethingIsDescribed) {
+  camera::Panorama dark = view(1, 0.0);
+  for (std::uint8_t& value : dark.rgb.data) value = static_cast<std::uint8_t>(value / 6);
+  EXPECT_TRUE(describe(dark));
 }
 
 }  // namespace
