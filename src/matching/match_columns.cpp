@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "matching/match_columns.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+
+#include "features/columns.hpp"
+
+namespace homeward::matching {
+namespace {
+
+constexpr float kFar = std::numeric_limits<float>::max();
+
+/// One row for each invariant and one column for each segment, in units of the Mahalanobis distance: a loop over
+/// segments is then a loop over neighbours in memory.
+using Scaled = Eigen::Matrix<float, features::kColumnInvariants, Eigen::Dynamic, Eigen::RowMajor>;
+
+Scaled scaled(const features::FeatureSet& columns) {
+  Scaled all(features::kColumnInvariants, columns.size());
+  for (Eigen::Index k = 0; k < features::kColumnInvariants; ++k) {
+    const float unit = 127.0F * features::kColumnSpread[static_cast<std::size_t>(k)];
+    if (k < features::kColumnColours) {
+      all.row(k) = columns.colours.col(k).cast<float>().transpose() / unit;
+    } else {
+      all.row(k) = columns.descriptors.col(k - features::kColumnColours).cast<float>().transpose() / unit;
+    }
+  }
+  return all;
+}
+
+/// Best and second best of one segment, squared distances.
+struct Nearest {
+  int index = -1;
+  float best = kFar;
+  float second = kFar;
+};
+
+bool colours_agree(const features::FeatureSet& a, int i, const features::FeatureSet& b, int j, int bound) {
+  for (Eigen::Index band = 0; band < features::kColumnColours; ++band) {
+    if (std::abs(static_cast<int>(a.colours(i, band)) - static_cast<int>(b.colours(j, band))) > bound) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Match> match_columns(const features::FeatureSet& current, const features::FeatureSet& target,
+                                 const ColumnMatchConfig& config) {
+  if (current.size() == 0 || target.size() == 0 || current.descriptors.cols() != features::kColumnCoefficients ||
+      target.descriptors.cols() != features::kColumnCoefficients) {
+    return {};
+  }
+  const Scaled of_current = scaled(current);
+  const Scaled of_target = scaled(target);
+  std::vector<Nearest> nearest(static_cast<std::size_t>(current.size()));
+  Eigen::ArrayXf best = Eigen::ArrayXf::Constant(target.size(), kFar);  // of each target segment, over all current ones
+  Eigen::ArrayXf second = best;
+  Eigen::ArrayXi index = Eigen::ArrayXi::Constant(target.size(), -1);
+  Eigen::ArrayXf distance(target.size());
+  for (int i = 0; i < current.size(); ++i) {
+    distance.setZero();
+    for (Eigen::Index k = 0; k < features::kColumnInvariants; ++k) {
+      distance += (of_target.row(k).transpose().array() - of_current(k, i)).square();
+    }
+    index = (distance < best).select(i, index);
+    second = second.min(best.max(distance));
+    best = best.min(distance);
+    Nearest& mine = nearest[static_cast<std::size_t>(i)];
+    mine.best = distance.minCoeff(&mine.index);
+    distance[mine.index] = kFar;
+    mine.second = distance.minCoeff();
+  }
+  const auto ratio2 = static_cast<float>(config.ratio * config.ratio);
+  const auto bound2 = static_cast<float>(config.max_distance * config.max_distance);
+  std::vector<Match> matches;
+  for (int i = 0; i < current.size(); ++i) {
+    const Nearest& mine = nearest[static_cast<std::size_t>(i)];
+    const int j = mine.index;
+    if (index[j] != i || mine.best > bound2) continue;
+    if (mine.best >= ratio2 * std::min(mine.second, second[j])) continue;
+    if (!colours_agree(current, i, target, j, config.max_colour_difference)) continue;
+    matches.push_back({i, j});
+  }
+  return matches;
+}
+
+}  // namespace homeward::matching

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "features/appearance.hpp"
+#include "matching/match.hpp"
+
+namespace homeward::matching {
+
+struct ColumnMatchConfig {
+  double ratio = 0.8;               // to the second best, of Mahalanobis distances
+  double max_distance = 5.0;        // Mahalanobis distance above which nothing is alike
+  int max_colour_difference = 100;  // largest difference of one colour invariant, of 254
+};
+
+/// Column segments that look alike: mutual nearest neighbours by diagonal Mahalanobis distance of their ten invariants
+/// that pass the ratio test in both directions and the colour check. Ascending in `current`; exchanging the pictures
+/// exchanges the sides of each match and changes nothing else. (Goedemé 2007 §3.4, equation 2.)
+std::vector<Match> match_columns(const features::FeatureSet& current, const features::FeatureSet& target,
+                                 const ColumnMatchConfig& config);
+
+}  // namespace homeward::matching
