@@ -19,8 +19,8 @@ constexpr int kColourColumns = 5;
 constexpr double kWidening = 0.2;        // of the length, to either side
 constexpr double kMinLength_rad = 0.03;  // 5 pixels of a panorama 1024 wide: fewer make no profile
 constexpr double kMinContrast = 1.5;     // grey levels of spread: rounding alone makes 0.3
-constexpr double kGradientSigma_px = 1.2;
-constexpr int kGradientRadius_px = 4;
+constexpr double kGradientSigma_px = 1.8;
+constexpr int kGradientRadius_px = 5;
 // A maximum counts above four standard deviations of the noise: a column of 211 rows then holds 0.01 of chance.
 constexpr double kNoiseFactor = 4.0;
 constexpr double kMinGradient = 0.7;  // grey levels for each row: what rounding to whole levels and JPEG leave

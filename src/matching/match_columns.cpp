@@ -2,6 +2,7 @@
 #include "matching/match_columns.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 
@@ -29,6 +30,26 @@ Scaled scaled(const features::FeatureSet& columns) {
   return all;
 }
 
+/// Heights of both ends above the camera, for each unit of their distance on the floor.
+struct Heights {
+  Eigen::ArrayXf top;
+  Eigen::ArrayXf bottom;
+  Eigen::ArrayXf norm2;
+
+  explicit Heights(const features::FeatureSet& columns)
+      : top(columns.size()), bottom(columns.size()), norm2(columns.size()) {
+    for (int i = 0; i < columns.size(); ++i) {
+      const features::ColumnEnds ends = features::column_ends(columns, i);
+      const auto height = [](const Eigen::Vector3d& bearing) {
+        return static_cast<float>(bearing.z() / std::max(1e-3, std::hypot(bearing.x(), bearing.y())));
+      };
+      top[i] = height(ends.top);
+      bottom[i] = height(ends.bottom);
+    }
+    norm2 = top.square() + bottom.square();
+  }
+};
+
 /// Best and second best of one segment, squared distances.
 struct Nearest {
   int index = -1;
@@ -53,6 +74,9 @@ std::vector<Match> match_columns(const features::FeatureSet& current, const feat
   }
   const Scaled of_current = scaled(current);
   const Scaled of_target = scaled(target);
+  const Heights heights(current);
+  const Heights target_heights(target);
+  const auto slack2 = static_cast<float>(config.max_height_error_rad * config.max_height_error_rad);
   std::vector<Nearest> nearest(static_cast<std::size_t>(current.size()));
   Eigen::ArrayXf best = Eigen::ArrayXf::Constant(target.size(), kFar);  // of each target segment, over all current ones
   Eigen::ArrayXf second = best;
@@ -63,6 +87,11 @@ std::vector<Match> match_columns(const features::FeatureSet& current, const feat
     for (Eigen::Index k = 0; k < features::kColumnInvariants; ++k) {
       distance += (of_target.row(k).transpose().array() - of_current(k, i)).square();
     }
+    // One vertical piece seen from nearer or farther has the heights of its two ends in one proportion.
+    distance = ((heights.top[i] * target_heights.bottom - heights.bottom[i] * target_heights.top).square() <=
+                    slack2 * (heights.norm2[i] + target_heights.norm2) &&
+                heights.top[i] * target_heights.top + heights.bottom[i] * target_heights.bottom >= 0.0F)
+                   .select(distance, kFar);
     index = (distance < best).select(i, index);
     second = second.min(best.max(distance));
     best = best.min(distance);
@@ -83,6 +112,16 @@ std::vector<Match> match_columns(const features::FeatureSet& current, const feat
     matches.push_back({i, j});
   }
   return matches;
+}
+
+ColumnBearings bearings_of(const features::FeatureSet& current, const features::FeatureSet& target,
+                           const Match& match) {
+  const features::ColumnEnds here = features::column_ends(current, match.current);
+  const features::ColumnEnds there = features::column_ends(target, match.target);
+  const double top = std::abs(here.top.z()) + std::abs(there.top.z());
+  const double bottom = std::abs(here.bottom.z()) + std::abs(there.bottom.z());
+  if (top > bottom) return {here.top, there.top};
+  return {here.bottom, there.bottom};
 }
 
 }  // namespace homeward::matching

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench_columns CAMERA PAIRS MODE [MAX_COLUMNS]: what invariant column segments give on pairs of pictures whose motion
-// is known. PAIRS has no header; each line is group,current,target,bearing_rad,turn_rad (nan: turn not known).
-// MODE: time, spread, right or home.
+// bench_columns CAMERA PAIRS MODE [MAX_COLUMNS [MAX_SIFT]]: what invariant column segments give on pairs of pictures
+// whose motion is known. PAIRS has no header; each line is group,current,target,bearing_rad,turn_rad (nan: turn not
+// known). MODE: time, spread, right or home.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -57,11 +57,12 @@ std::vector<Pair> read_pairs(const char* file) {
 
 class Pictures {
  public:
-  Pictures(const char* camera_file, int max_columns) {
+  Pictures(const char* camera_file, int max_columns, int max_sift) {
     const auto config = homeward::agent::read_camera(camera_file);
     const auto camera = homeward::camera::Camera::create(config.value());
     features = homeward::pipeline::suited_feature_config(*camera.value());
     features.max_columns = max_columns;
+    features.max_sift = max_sift;
     eye_ = std::make_unique<homeward::pipeline::Eye>(
         std::move(homeward::pipeline::Eye::create(config.value(), features).value()));
   }
@@ -243,7 +244,7 @@ void measure_right(Pictures& pictures, const std::vector<Pair>& pairs) {
   }
 }
 
-enum class Use { kNot, kMiddle, kEnds };
+enum class Use { kNot, kMiddle, kEnds, kFarEnd };
 
 void measure_home(Pictures& pictures, const std::vector<Pair>& pairs) {
   struct Result {
@@ -256,7 +257,7 @@ void measure_home(Pictures& pictures, const std::vector<Pair>& pairs) {
   for (const Pair& pair : pairs) {
     const auto& a = pictures.look(pair.current);
     const auto& b = pictures.look(pair.target);
-    for (const Use use : {Use::kNot, Use::kMiddle, Use::kEnds}) {
+    for (const Use use : {Use::kNot, Use::kMiddle, Use::kEnds, Use::kFarEnd}) {
       for (const double ratio : {0.7, 0.8, 0.9}) {
         if (use == Use::kNot && ratio != 0.8) continue;
         std::vector<Correspondence> all;
@@ -268,6 +269,10 @@ void measure_home(Pictures& pictures, const std::vector<Pair>& pairs) {
           config.ratio = ratio;
           for (const Match& m : homeward::matching::match_columns(a.columns, b.columns, config)) {
             if (use == Use::kMiddle) all.push_back({bearing(a.columns, m.current), bearing(b.columns, m.target)});
+            if (use == Use::kFarEnd) {
+              const auto far = homeward::matching::bearings_of(a.columns, b.columns, m);
+              all.push_back({far.current, far.target});
+            }
             if (use == Use::kEnds) {
               const auto from = homeward::features::column_ends(a.columns, m.current);
               const auto to = homeward::features::column_ends(b.columns, m.target);
@@ -277,7 +282,7 @@ void measure_home(Pictures& pictures, const std::vector<Pair>& pairs) {
           }
         }
         char name[96];
-        constexpr std::array<const char*, 3> kNames = {"sift alone", "middles", "ends"};
+        constexpr std::array<const char*, 4> kNames = {"sift alone", "middles", "ends", "far ends"};
         std::snprintf(name, sizeof name, "%s: %s %.2f", pair.group.c_str(), kNames[static_cast<std::size_t>(use)],
                       ratio);
         Result& result = results[name];
@@ -305,10 +310,10 @@ void measure_home(Pictures& pictures, const std::vector<Pair>& pairs) {
 
 int main(int argc, char** argv) {
   if (argc < 4) {
-    std::fprintf(stderr, "bench_columns CAMERA PAIRS time|spread|right|home [MAX_COLUMNS]\n");
+    std::fprintf(stderr, "bench_columns CAMERA PAIRS time|spread|right|home [MAX_COLUMNS [MAX_SIFT]]\n");
     return 2;
   }
-  Pictures pictures(argv[1], argc > 4 ? std::stoi(argv[4]) : 300);
+  Pictures pictures(argv[1], argc > 4 ? std::stoi(argv[4]) : 300, argc > 5 ? std::stoi(argv[5]) : 300);
   const std::vector<Pair> pairs = read_pairs(argv[2]);
   const std::string mode = argv[3];
   if (mode == "time") time_extraction(pictures, pairs);
