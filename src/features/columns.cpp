@@ -14,6 +14,7 @@ namespace homeward::features {
 namespace {
 
 constexpr int kProfileSamples = 16;
+constexpr double kLevel = 256.0;  // what one grey level is in the prepared picture
 constexpr int kColourRows = 9;
 constexpr int kColourColumns = 5;
 constexpr double kWidening = 0.2;        // of the length, to either side
@@ -23,6 +24,7 @@ constexpr double kGradientSigma_px = 1.8;
 constexpr int kGradientRadius_px = 5;
 // A maximum counts above four standard deviations of the noise: a column of 211 rows then holds 0.01 of chance.
 constexpr double kNoiseFactor = 4.0;
+constexpr double kEdgeShare = 0.1;
 constexpr double kMinGradient = 0.7;  // grey levels for each row: what rounding to whole levels and JPEG leave
 
 using Basis = std::array<std::array<float, kProfileSamples>, kColumnCoefficients>;
@@ -49,34 +51,47 @@ class ColumnReader {
   explicit ColumnReader(const camera::Panorama& panorama) : width_px_(panorama.rgb.width_px) {
     const cv::Mat rgb(panorama.rgb.height_px, width_px_, CV_8UC3, const_cast<std::uint8_t*>(panorama.rgb.data.data()));
     cv::transpose(rgb, rgb_);
-    cv::cvtColor(rgb_, grey_, cv::COLOR_RGB2GRAY);
-    sums_.create(width_px_, grey_.cols + 1, CV_32S);
+    const cv::Mat valid(rgb.rows, rgb.cols, CV_8UC1, const_cast<std::uint8_t*>(panorama.valid.data()));
+    cv::transpose(valid, seen_);
+    grey_.create(width_px_, rgb_.cols, CV_16U);
+    sums_.create(width_px_, rgb_.cols + 1, CV_32S);
     for (int u = 0; u < width_px_; ++u) {
-      const auto* grey = grey_.ptr<std::uint8_t>(u);
+      const auto* pixel = rgb_.ptr<std::uint8_t>(u);
+      auto* grey = grey_.ptr<std::uint16_t>(u);
       auto* sum = sums_.ptr<int>(u);
       sum[0] = 0;
-      for (int v = 0; v < grey_.cols; ++v) sum[v + 1] = sum[v] + grey[v];
+      for (int v = 0; v < rgb_.cols; ++v, pixel += 3) {
+        // Luma of ITU-R BT.601 without rounding, so that brightness times two is exactly twice as much.
+        grey[v] = static_cast<std::uint16_t>(77 * pixel[0] + 150 * pixel[1] + 29 * pixel[2]);
+        sum[v + 1] = sum[v] + grey[v];
+      }
     }
   }
 
-  /// Row u holds column u of the panorama.
+  /// Row u holds column u of the panorama, in parts of kLevel.
   [[nodiscard]] const cv::Mat& grey() const { return grey_; }
 
   /// Coefficients into `into`; returns the spread of the profile, grey levels.
   double profile(const ColumnSegment& segment, float* into) const {
     std::array<float, kProfileSamples> samples{};
     const auto* sum = sums_.ptr<int>(segment.u_px);
+    const auto [first_row, last_row] = seen_rows(segment);
+    const double margin_px = kWidening * (segment.bottom_px - segment.top_px);
+    const double from_px = segment.top_px - margin_px;
+    const double step_px = (segment.bottom_px + margin_px - from_px) / kProfileSamples;
     // Pixel v covers v - 0.5 to v + 0.5; each sample is the mean over its share of the segment, so nothing aliases.
-    const auto integral = [&](double row_px) {
-      const double at = std::clamp(row_px + 0.5, 0.0, static_cast<double>(grey_.cols));
-      const int whole = std::min(static_cast<int>(at), grey_.cols - 1);
+    // What is not seen looks like the nearest that is.
+    const double low = first_row;
+    const double high = last_row + 1;
+    const auto integral = [sum, low, high](double row_px) {
+      const double at = row_px + 0.5;
+      const int whole = static_cast<int>(std::clamp(at, low, high - 1.0));
       return sum[whole] + (at - whole) * (sum[whole + 1] - sum[whole]);
     };
-    const double step_px = (segment.bottom_px - segment.top_px) / kProfileSamples;
-    double before = integral(segment.top_px);
+    double before = integral(from_px);
     float mean = 0.0F;
     for (int n = 0; n < kProfileSamples; ++n) {
-      const double after = integral(segment.top_px + (n + 1) * step_px);
+      const double after = integral(from_px + (n + 1) * step_px);
       samples[static_cast<std::size_t>(n)] = static_cast<float>((after - before) / step_px);
       mean += samples[static_cast<std::size_t>(n)] / kProfileSamples;
       before = after;
@@ -93,15 +108,17 @@ class ColumnReader {
       for (std::size_t n = 0; n < kProfileSamples; ++n) product += basis[k][n] * samples[n];
       into[k] = product * norm;
     }
-    return std::sqrt(static_cast<double>(energy) / kProfileSamples);
+    return std::sqrt(static_cast<double>(energy) / kProfileSamples) / kLevel;
   }
 
   void colours(const ColumnSegment& segment, float* into) const {
     const double length_px = segment.bottom_px - segment.top_px;
+    const auto [first_row, last_row] = seen_rows(segment);
     std::array<int, kColourRows> rows{};
     for (int r = 0; r < kColourRows; ++r) {
-      const long row_px = std::lround(segment.top_px + length_px * r / (kColourRows - 1));
-      rows[static_cast<std::size_t>(r)] = std::clamp(static_cast<int>(row_px), 0, grey_.cols - 1);
+      const double along = (1.0 + 2.0 * kWidening) * r / (kColourRows - 1) - kWidening;
+      const long row_px = std::lround(segment.top_px + length_px * along);
+      rows[static_cast<std::size_t>(r)] = std::clamp(static_cast<int>(row_px), first_row, last_row);
     }
     constexpr int kSamples = kColourRows * kColourColumns;
     std::array<int, 3> sum{};
@@ -143,9 +160,22 @@ class ColumnReader {
   }
 
  private:
+  /// First and last row of the widened segment that the camera sees.
+  [[nodiscard]] std::array<int, 2> seen_rows(const ColumnSegment& segment) const {
+    const auto* seen = seen_.ptr<std::uint8_t>(segment.u_px);
+    const int margin_px = static_cast<int>(std::ceil(kWidening * (segment.bottom_px - segment.top_px))) + 1;
+    const int last = grey_.cols - 1;
+    int top = std::clamp(static_cast<int>(segment.top_px), 0, last);
+    int bottom = std::clamp(static_cast<int>(segment.bottom_px), top, last);
+    for (int left = margin_px; left > 0 && top > 0 && seen[top - 1] != 0; --left) --top;
+    for (int left = margin_px; left > 0 && bottom < last && seen[bottom + 1] != 0; --left) ++bottom;
+    return {top, bottom};
+  }
+
   int width_px_;
+  cv::Mat seen_;  // width x height, 1 where the camera sees
   cv::Mat rgb_;   // width x height, three bands
-  cv::Mat grey_;  // width x height
+  cv::Mat grey_;  // width x height, 256 for each grey level
   cv::Mat sums_;  // width x (height + 1), of the grey levels above
 };
 
@@ -165,7 +195,7 @@ std::array<cv::Mat, 2> gaussian_and_derivative() {
     moment += x * x * weight;
   }
   gaussian /= sum;
-  derivative /= moment;  // a ramp of one grey level for each row gives 1
+  derivative /= moment * kLevel;  // a ramp of one grey level for each row gives 1
   return {gaussian, derivative};
 }
 
@@ -196,19 +226,24 @@ cv::Mat trusted_pixels(const camera::Panorama& panorama) {
 /// The level above which a gradient is no noise. Most of a picture is plain, so the median of its gradients is the
 /// noise's own; it grows with the brightness as the edges do.
 double gradient_threshold(const cv::Mat& magnitude, const cv::Mat& trusted) {
-  constexpr int kEvery = 7;  // a sample of thirty thousand says enough
+  constexpr int kEvery = 5;  // rows; of every column, so that turning the robot changes nothing
   std::vector<float> sample;
   sample.reserve(magnitude.total() / kEvery + 1);
   for (int u = 0; u < magnitude.rows; ++u) {
-    for (int v = u % kEvery; v < magnitude.cols; v += kEvery) {
+    for (int v = kEvery / 2; v < magnitude.cols; v += kEvery) {
       if (trusted.at<std::uint8_t>(u, v) != 0) sample.push_back(magnitude.at<float>(u, v));
     }
   }
   if (sample.empty()) return kMinGradient;
-  const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
-  std::nth_element(sample.begin(), middle, sample.end());
+  const auto quantile = [&](double share) {
+    const auto at = sample.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sample.size() - 1));
+    std::nth_element(sample.begin(), at, sample.end());
+    return static_cast<double>(*at);
+  };
   constexpr double kMedianOfAbsoluteNormal = 0.6745;
-  return std::max(kMinGradient, kNoiseFactor * static_cast<double>(*middle) / kMedianOfAbsoluteNormal);
+  const double noise = quantile(0.5) / kMedianOfAbsoluteNormal;
+  // Where texture is everywhere the median is texture, too; a tenth of any picture may hold edges.
+  return std::max(kMinGradient, std::min(kNoiseFactor * noise, quantile(1.0 - kEdgeShare)));
 }
 
 /// Row of a maximum to a fraction of a pixel: the vertex of the parabola through it and its neighbours.

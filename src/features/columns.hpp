@@ -26,10 +26,11 @@ struct ColumnSegment {
   double bottom_px = 0.0;  // row of the lower end, > top
 };
 
-/// The three colour invariants of the segment widened sideways by 0.2 of its length, and the first seven coefficients
-/// after the constant one of the cosine transform of its intensity profile, as shares of the profile's spread. A band
-/// that varies by less than a grey level gives 0; a camera without colour gives 1 for all three, always, so that they
-/// then tell nothing apart. Brightness times a factor plus an offset changes none of the ten.
+/// The three colour invariants of the segment and the first seven coefficients after the constant one of the cosine
+/// transform of its intensity profile, as shares of the profile's spread. Both look at the segment widened by 0.2 of
+/// its length: sideways, as in the paper, and beyond its ends, because what lies between two edges is often plain. A
+/// band that varies by less than a grey level gives 0; a camera without colour gives 1 for all three, always, so that
+/// they then tell nothing apart. Brightness times a factor plus an offset changes none of the ten.
 ColumnInvariants column_invariants(const camera::Panorama& panorama, const ColumnSegment& segment);
 
 /// The invariant column segments of a panorama (Goedemé 2007 §3.3): one prototype for each run of alike segments in

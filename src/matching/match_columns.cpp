@@ -30,6 +30,19 @@ Scaled scaled(const features::FeatureSet& columns) {
   return all;
 }
 
+void squared_distances(const Scaled& all, const Eigen::Vector<float, features::kColumnInvariants>& one, float* into) {
+  const Eigen::Index count = all.cols();
+  const float* values = all.data();
+  for (Eigen::Index j = 0; j < count; ++j) {
+    float sum = 0.0F;
+    for (Eigen::Index k = 0; k < features::kColumnInvariants; ++k) {
+      const float difference = values[k * count + j] - one[k];
+      sum += difference * difference;
+    }
+    into[j] = sum;
+  }
+}
+
 /// Heights of both ends above the camera, for each unit of their distance on the floor.
 struct Heights {
   Eigen::ArrayXf top;
@@ -76,6 +89,7 @@ std::vector<Match> match_columns(const features::FeatureSet& current, const feat
   const Scaled of_target = scaled(target);
   const Heights heights(current);
   const Heights target_heights(target);
+  const auto bound2 = static_cast<float>(config.max_distance * config.max_distance);
   const auto slack2 = static_cast<float>(config.max_height_error_rad * config.max_height_error_rad);
   std::vector<Nearest> nearest(static_cast<std::size_t>(current.size()));
   Eigen::ArrayXf best = Eigen::ArrayXf::Constant(target.size(), kFar);  // of each target segment, over all current ones
@@ -83,10 +97,7 @@ std::vector<Match> match_columns(const features::FeatureSet& current, const feat
   Eigen::ArrayXi index = Eigen::ArrayXi::Constant(target.size(), -1);
   Eigen::ArrayXf distance(target.size());
   for (int i = 0; i < current.size(); ++i) {
-    distance.setZero();
-    for (Eigen::Index k = 0; k < features::kColumnInvariants; ++k) {
-      distance += (of_target.row(k).transpose().array() - of_current(k, i)).square();
-    }
+    squared_distances(of_target, of_current.col(i), distance.data());
     // One vertical piece seen from nearer or farther has the heights of its two ends in one proportion.
     distance = ((heights.top[i] * target_heights.bottom - heights.bottom[i] * target_heights.top).square() <=
                     slack2 * (heights.norm2[i] + target_heights.norm2) &&
@@ -96,17 +107,18 @@ std::vector<Match> match_columns(const features::FeatureSet& current, const feat
     second = second.min(best.max(distance));
     best = best.min(distance);
     Nearest& mine = nearest[static_cast<std::size_t>(i)];
-    mine.best = distance.minCoeff(&mine.index);
+    mine.best = distance.minCoeff();
+    if (mine.best > bound2) continue;
+    while (distance[++mine.index] != mine.best) continue;
     distance[mine.index] = kFar;
     mine.second = distance.minCoeff();
   }
   const auto ratio2 = static_cast<float>(config.ratio * config.ratio);
-  const auto bound2 = static_cast<float>(config.max_distance * config.max_distance);
   std::vector<Match> matches;
   for (int i = 0; i < current.size(); ++i) {
     const Nearest& mine = nearest[static_cast<std::size_t>(i)];
     const int j = mine.index;
-    if (index[j] != i || mine.best > bound2) continue;
+    if (mine.best > bound2 || index[j] != i) continue;
     if (mine.best >= ratio2 * std::min(mine.second, second[j])) continue;
     if (!colours_agree(current, i, target, j, config.max_colour_difference)) continue;
     matches.push_back({i, j});
