@@ -9,11 +9,12 @@
 namespace homeward::features {
 namespace {
 
-constexpr double kSameEnd_px = 2.0;       // for each column that two neighbours are apart
-constexpr float kSameInvariants2 = 4.0F;  // squared Mahalanobis distance: neighbours differ less than two pictures do
-constexpr int kMaxGap_px = 2;             // columns from one segment of a run to the next
-constexpr int kMinMembers = 2;            // a segment of one column alone does not come again in the next picture
-constexpr double kWidest_rad = 0.5;       // a run wider than this says nothing about an azimuth
+constexpr double kSameEnd_px = 2.0;  // for each column that two neighbours are apart
+// Nine of ten pairs of one segment in two pictures are nearer (chi squared of ten); of one picture, the more so.
+constexpr float kSameInvariants2 = 16.0F;
+constexpr int kMaxGap_px = 2;        // columns from one segment of a run to the next
+constexpr int kMinMembers = 3;       // what one or two columns alone show does not come again in the next picture
+constexpr double kWidest_rad = 0.5;  // a run wider than this says nothing about an azimuth
 
 /// Where the candidates of each column begin.
 std::vector<std::size_t> first_of_column(const std::vector<ColumnCandidate>& candidates, int width_px) {

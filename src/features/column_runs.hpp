@@ -11,7 +11,7 @@ namespace homeward::features {
 struct ColumnCandidate {
   ColumnSegment segment;
   ColumnInvariants invariants{};
-  double strength = 0.0;  // contrast times length
+  double strength = 0.0;  // what decides who is kept: the contrast, grey levels
 };
 
 /// Squared diagonal Mahalanobis distance of two sets of invariants.

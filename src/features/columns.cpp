@@ -353,7 +353,7 @@ FeatureSet extract_columns(const camera::Panorama& panorama, const FeatureConfig
     const double contrast = reader.profile(segment, candidate.invariants.data() + kColumnColours);
     if (contrast < kMinContrast) continue;
     reader.colours(segment, candidate.invariants.data());
-    candidate.strength = contrast * (segment.bottom_px - segment.top_px);
+    candidate.strength = contrast;
     candidates.push_back(candidate);
   }
   const std::vector<ColumnCandidate> prototypes = one_of_each_run(candidates, width_px);

@@ -34,9 +34,9 @@ struct ColumnSegment {
 ColumnInvariants column_invariants(const camera::Panorama& panorama, const ColumnSegment& segment);
 
 /// The invariant column segments of a panorama (Goedemé 2007 §3.3): one prototype for each run of alike segments in
-/// neighbouring columns, at most `config.max_columns`, the strongest of each azimuth first. `bearings` point to their
-/// middles, `scales_rad` are their lengths in elevation, `colours` the colour invariants times 127 and `descriptors`
-/// 128 plus 127 times the profile's coefficients. Turning the robot changes azimuths and nothing else.
+/// neighbouring columns, at most `config.max_columns`, those of most contrast at each azimuth first. `bearings` point
+/// to their middles, `scales_rad` are their lengths in elevation, `colours` the colour invariants times 127 and
+/// `descriptors` 128 plus 127 times the profile's coefficients. Turning the robot changes azimuths and nothing else.
 FeatureSet extract_columns(const camera::Panorama& panorama, const FeatureConfig& config);
 
 /// The upper and lower end of segment `index` as unit vectors in the robot frame.

@@ -196,6 +196,8 @@ struct Row {
   double matches = 0.0;
   std::array<double, 4> middle{};  // within 0.006, 0.01, 0.015, 0.03
   std::array<double, 4> ends{};
+  std::array<double, 4> far{};
+  std::array<double, 4> chance{};  // far ends that agree with motions that are not the true one
   double front = 0.0;
 };
 
@@ -214,7 +216,7 @@ void measure_right(Pictures& pictures, const std::vector<Pair>& pairs) {
       sift.matches += 1.0;
       for (std::size_t k = 0; k < 4; ++k) sift.middle[k] += error < kBounds[k];
     }
-    for (const double ratio : {0.6, 0.7, 0.8, 0.9, 1.01}) {
+    for (const double ratio : {0.7, 0.8, 0.9}) {
       char name[64];
       std::snprintf(name, sizeof name, "%s columns %.2f", pair.group.c_str(), ratio);
       Row& row = rows[name];
@@ -226,6 +228,18 @@ void measure_right(Pictures& pictures, const std::vector<Pair>& pairs) {
         row.matches += 1.0;
         const bool front = in_front(pair.truth, bearing(a.columns, m.current), bearing(b.columns, m.target));
         row.front += front;
+        const auto far = homeward::matching::bearings_of(a.columns, b.columns, m);
+        for (const double turn : {0.0, 1.7, -1.7}) {
+          const PlanarMotion motion{pair.truth.direction_rad, homeward::wrap_angle(pair.truth.turn_rad + turn)};
+          const double error = std::abs(homeward::geometry::epipolar_error_rad(motion, {far.current, far.target}));
+          for (std::size_t k = 0; k < 4; ++k) {
+            if (turn == 0.0) {
+              row.far[k] += error < kBounds[k];
+            } else {
+              row.chance[k] += 0.5 * (error < kBounds[k]);
+            }
+          }
+        }
         for (std::size_t k = 0; k < 4; ++k) {
           row.middle[k] += errors.middle < kBounds[k];
           row.ends[k] += front && errors.worse() < kBounds[k];
@@ -236,6 +250,10 @@ void measure_right(Pictures& pictures, const std::vector<Pair>& pairs) {
   for (const auto& [name, row] : rows) {
     std::printf("%-32s matches/pair %6.1f  middle", name.c_str(), row.matches / row.pairs);
     for (const double n : row.middle) std::printf(" %.2f", n / std::max(1.0, row.matches));
+    std::printf("  far");
+    for (const double n : row.far) std::printf(" %.2f", n / std::max(1.0, row.matches));
+    std::printf("  by chance");
+    for (const double n : row.chance) std::printf(" %.2f", n / std::max(1.0, row.matches));
     std::printf("  both ends");
     for (const double n : row.ends) std::printf(" %.2f", n / std::max(1.0, row.matches));
     std::printf("  front %.2f; right/pair %.1f\n", row.front / std::max(1.0, row.matches), row.ends[2] / row.pairs);
