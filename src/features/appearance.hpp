@@ -16,7 +16,7 @@ struct FeatureConfig {
   double elevation_min_rad = -0.95;  // bottom row
   int max_sift = 300;                // strongest kept, spread over azimuth
   double sift_contrast_threshold = 0.02;
-  int max_columns = 0;  // invariant column segments: none in version 1
+  int max_columns = 0;  // invariant column segments kept, spread over azimuth; none unless asked for
 };
 
 /// Short text that is equal exactly when features are comparable, for example "hw1-w1024-e0.34_-0.95-s300-c0".
@@ -35,7 +35,7 @@ struct FeatureSet {
 /// What is kept of one picture: enough to recognise it and to home to it; its pixels are never needed again.
 struct Appearance {
   FeatureSet sift;
-  FeatureSet columns;                     // empty in version 1
+  FeatureSet columns;                     // empty unless asked for
   std::array<float, 9> colour_moments{};  // mean, spread, skewness of R, G, B over the panorama's valid pixels
 
   [[nodiscard]] int size() const { return sift.size() + columns.size(); }

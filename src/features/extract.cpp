@@ -140,7 +140,9 @@ std::string feature_config_id(const FeatureConfig& config) {
 Appearance extract(const camera::Panorama& panorama, const FeatureConfig& config) {
   Appearance appearance;
   appearance.sift = sift_features(panorama, config);
-  appearance.columns = extract_columns(panorama, config);
+  appearance.columns.bearings.resize(0, 3);
+  appearance.columns.colours.resize(0, 3);
+  if (config.max_columns > 0) appearance.columns = extract_columns(panorama, config);
   appearance.colour_moments = colour_moments(panorama);
   return appearance;
 }
