@@ -17,7 +17,7 @@ struct FeatureConfig {
   int max_sift = 700;                // strongest kept, spread over azimuth
   double sift_contrast_threshold = 0.015;
   int sift_code_length = 32;  // bytes of a SIFT descriptor, 1 to 64
-  int max_columns = 0;        // invariant column segments: none in version 1
+  int max_columns = 0;        // invariant column segments kept, spread over azimuth
 };
 
 /// Short text that is equal exactly when features are comparable, for example
@@ -37,7 +37,7 @@ struct FeatureSet {
 /// What is kept of one picture: enough to recognise it and to home to it; its pixels are never needed again.
 struct Appearance {
   FeatureSet sift;
-  FeatureSet columns;                     // empty in version 1
+  FeatureSet columns;                     // empty unless asked for
   std::array<float, 9> colour_moments{};  // mean, spread, skewness of R, G, B over the panorama's valid pixels
 
   [[nodiscard]] int size() const { return sift.size() + columns.size(); }

@@ -11,6 +11,7 @@
 
 #include "core/angles.hpp"
 #include "features/colour.hpp"
+#include "features/columns.hpp"
 #include "features/descriptor_code.hpp"
 #include "features/upright_sift.hpp"
 
@@ -175,6 +176,7 @@ Appearance extract(const camera::Panorama& panorama, const FeatureConfig& config
   appearance.sift = sift_features(panorama, config);
   appearance.columns.bearings.resize(0, 3);
   appearance.columns.colours.resize(0, 3);
+  if (config.max_columns > 0) appearance.columns = extract_columns(panorama, config);
   appearance.colour_moments = colour_moments(panorama);
   if (is_monochrome(panorama)) {
     appearance.sift.colours.setConstant(kNoColour);

@@ -9,6 +9,9 @@
 #include <string>
 
 #include "core/angles.hpp"
+#include "features/columns.hpp"
+#include "geometry/planar_motion.hpp"
+#include "matching/match_columns.hpp"
 
 namespace homeward::pipeline {
 namespace {
@@ -21,6 +24,10 @@ const cv::Scalar kInk(40, 40, 40);
 const cv::Scalar kAgrees(20, 200, 60);
 const cv::Scalar kDisagrees(215, 60, 45);
 const cv::Scalar kFeature(255, 190, 40);
+const cv::Scalar kColumn(60, 190, 205);
+const cv::Scalar kColumnAgrees(160, 60, 220);
+const cv::Scalar kColumnDisagrees(225, 150, 175);
+constexpr double kColumnError_rad = 0.015;  // a run of columns has no exact azimuth
 const cv::Scalar kHome(30, 90, 220);
 
 /// One view as it is drawn: its first row, and the turn that its panorama is shifted by.
@@ -94,6 +101,51 @@ void draw_matches(cv::Mat& rgb, const Drawn& upper, const Drawn& lower, const ma
   }
 }
 
+/// The stroke of one column segment. Its ends stand above each other.
+void stroke(cv::Mat& rgb, const Drawn& drawn, int index, const cv::Scalar& colour, int thickness_px) {
+  const features::ColumnEnds ends = features::column_ends(drawn.view.appearance.columns, index);
+  cv::line(rgb, drawn.point(ends.top), drawn.point(ends.bottom), colour, thickness_px, cv::LINE_8);
+}
+
+void draw_column_matches(cv::Mat& rgb, const Drawn& upper, const Drawn& lower, const geometry::PlanarMotion& motion,
+                         const std::vector<matching::Match>& columns) {
+  const features::FeatureSet& here = upper.view.appearance.columns;
+  const features::FeatureSet& there = lower.view.appearance.columns;
+  for (const bool wanted : {false, true}) {
+    const cv::Scalar& colour = wanted ? kColumnAgrees : kColumnDisagrees;
+    for (const matching::Match& match : columns) {
+      const matching::ColumnBearings seen = matching::bearings_of(here, there, match);
+      const double error_rad = geometry::epipolar_error_rad(motion, {seen.current, seen.target});
+      if ((std::abs(error_rad) < kColumnError_rad) != wanted) continue;
+      stroke(rgb, upper, match.current, colour, 2);
+      stroke(rgb, lower, match.target, colour, 2);
+      const auto middle = [](const Drawn& drawn, const features::FeatureSet& set, int i) {
+        return drawn.point(set.bearings.row(i).transpose().cast<double>());
+      };
+      connect(rgb, middle(upper, here, match.current), middle(lower, there, match.target), colour);
+    }
+  }
+}
+
+/// What the colours mean, at the right of the strip at the top.
+void legend(cv::Mat& rgb) {
+  struct Entry {
+    cv::Scalar colour;
+    const char* words;
+  };
+  const std::array<Entry, 4> entries = {{{kAgrees, "features agree"},
+                                         {kDisagrees, "do not"},
+                                         {kColumnAgrees, "columns agree"},
+                                         {kColumnDisagrees, "do not"}}};
+  int left_px = rgb.cols - 510;
+  for (const Entry& entry : entries) {
+    cv::line(rgb, {left_px, 12}, {left_px + 18, 12}, entry.colour, 3);
+    write(rgb, entry.words, {left_px + 23, 16});
+    int baseline = 0;
+    left_px += 45 + cv::getTextSize(entry.words, cv::FONT_HERSHEY_SIMPLEX, 0.45, 1, &baseline).width;
+  }
+}
+
 std::string summary(const std::optional<matching::VerifiedMatch>& verified) {
   if (!verified) return "no motion explains enough matches";
   char text[160];
@@ -106,7 +158,8 @@ std::string summary(const std::optional<matching::VerifiedMatch>& verified) {
 }  // namespace
 
 Image draw_comparison(const ComparedView& current, const ComparedView& target,
-                      const std::optional<matching::VerifiedMatch>& verified) {
+                      const std::optional<matching::VerifiedMatch>& verified,
+                      const std::vector<matching::Match>& columns) {
   const double turn_rad = verified ? verified->pose.motion.turn_rad : 0.0;
   const Drawn upper{current, kHeader_px + kAxis_px, 0.0};
   const Drawn lower{target, upper.top_px + current.panorama.rgb.height_px + kBetween_px + kAxis_px, turn_rad};
@@ -116,14 +169,17 @@ Image draw_comparison(const ComparedView& current, const ComparedView& target,
     for (int i = 0; i < drawn.view.appearance.sift.size(); ++i) {
       cv::circle(rgb, drawn.feature(i), 1, kFeature, cv::FILLED);
     }
+    for (int i = 0; i < drawn.view.appearance.columns.size(); ++i) stroke(rgb, drawn, i, kColumn, 1);
   }
   if (verified) {
     draw_matches(rgb, upper, lower, *verified);
+    draw_column_matches(rgb, upper, lower, verified->pose.motion, columns);
     const double home_rad = verified->pose.motion.direction_rad;
     mark(rgb, upper, home_rad, "way home");
     mark(rgb, lower, wrap_angle(home_rad + kPi - turn_rad), "way back");
   }
   write(rgb, summary(verified), {6, 16});
+  if (!columns.empty()) legend(rgb);
   write(rgb, "here", {6, upper.top_px - 8});
   write(rgb, "there", {6, lower.top_px - 8});
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "features/columns.hpp"
+#include "matching/match_columns.hpp"
 #include "pipeline/eye.hpp"
 #include "support/painted_tour.hpp"
 
@@ -59,6 +61,25 @@ TEST_F(ComparisonPicture, WithoutACommonMotionShowsTheViewsAlone) {
   const Image drawn = draw_comparison({here.panorama, here.appearance}, {here.panorama, here.appearance}, std::nullopt);
   EXPECT_EQ(count_of(drawn, kGreen), 0);
   EXPECT_EQ(count_of(drawn, kBlue), 0);
+}
+
+TEST_F(ComparisonPicture, ColumnsHaveTheirOwnColour) {
+  Seen here = from({0.0, 0.0, 0.0});
+  Seen there = from({0.5, 0.1, 0.8});
+  const auto verified = matching::verify(here.appearance, there.appearance, {}, 1);
+  ASSERT_TRUE(verified);
+  features::FeatureConfig config;
+  config.max_columns = 150;
+  here.appearance.columns = features::extract_columns(here.panorama, config);
+  there.appearance.columns = features::extract_columns(there.panorama, config);
+  const auto columns = matching::match_columns(here.appearance.columns, there.appearance.columns, {});
+  ASSERT_FALSE(columns.empty());
+  constexpr std::array kViolet = {160, 60, 220};
+  const auto drawn = [&](const std::vector<matching::Match>& matches) {
+    return draw_comparison({here.panorama, here.appearance}, {there.panorama, there.appearance}, *verified, matches);
+  };
+  EXPECT_LT(count_of(drawn({}), kViolet), 20);
+  EXPECT_GT(count_of(drawn(columns), kViolet), 500);
 }
 
 }  // namespace

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "features/columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "core/angles.hpp"
+#include "features/column_runs.hpp"
+
+namespace homeward::features {
+namespace {
+
+constexpr int kProfileSamples = 16;
+constexpr double kLevel = 256.0;  // what one grey level is in the prepared picture
+constexpr int kColourRows = 9;
+constexpr int kColourColumns = 5;
+constexpr double kWidening = 0.2;        // of the length, to either side
+constexpr double kMinLength_rad = 0.03;  // 5 pixels of a panorama 1024 wide: fewer make no profile
+constexpr double kMinContrast = 1.5;     // grey levels of spread: rounding alone makes 0.3
+constexpr double kGradientSigma_px = 1.8;
+constexpr int kGradientRadius_px = 5;
+// A maximum counts above four standard deviations of the noise: a column of 211 rows then holds 0.01 of chance.
+constexpr double kNoiseFactor = 4.0;
+constexpr double kEdgeShare = 0.1;
+constexpr double kMinGradient = 0.7;  // grey levels for each row: what rounding to whole levels and JPEG leave
+
+using Basis = std::array<std::array<float, kProfileSamples>, kColumnCoefficients>;
+
+/// Orthonormal cosine transform, without the constant coefficient (Ahmed, Natarajan & Rao 1974, type II).
+const Basis& cosine_basis() {
+  static const Basis basis = [] {
+    Basis made{};
+    for (std::size_t k = 0; k < made.size(); ++k) {
+      for (std::size_t n = 0; n < kProfileSamples; ++n) {
+        made[k][n] = static_cast<float>(
+            std::sqrt(2.0 / kProfileSamples) *
+            std::cos(kPi * static_cast<double>(k + 1) * (static_cast<double>(n) + 0.5) / kProfileSamples));
+      }
+    }
+    return made;
+  }();
+  return basis;
+}
+
+/// A panorama prepared for looking at many segments: columns are contiguous, so that one segment is one stretch.
+class ColumnReader {
+ public:
+  explicit ColumnReader(const camera::Panorama& panorama) : width_px_(panorama.rgb.width_px) {
+    const cv::Mat rgb(panorama.rgb.height_px, width_px_, CV_8UC3, const_cast<std::uint8_t*>(panorama.rgb.data.data()));
+    cv::transpose(rgb, rgb_);
+    const cv::Mat valid(rgb.rows, rgb.cols, CV_8UC1, const_cast<std::uint8_t*>(panorama.valid.data()));
+    cv::transpose(valid, seen_);
+    grey_.create(width_px_, rgb_.cols, CV_16U);
+    sums_.create(width_px_, rgb_.cols + 1, CV_32S);
+    for (int u = 0; u < width_px_; ++u) {
+      const auto* pixel = rgb_.ptr<std::uint8_t>(u);
+      auto* grey = grey_.ptr<std::uint16_t>(u);
+      auto* sum = sums_.ptr<int>(u);
+      sum[0] = 0;
+      for (int v = 0; v < rgb_.cols; ++v, pixel += 3) {
+        // Luma of ITU-R BT.601 without rounding, so that brightness times two is exactly twice as much.
+        grey[v] = static_cast<std::uint16_t>(77 * pixel[0] + 150 * pixel[1] + 29 * pixel[2]);
+        sum[v + 1] = sum[v] + grey[v];
+      }
+    }
+  }
+
+  /// Row u holds column u of the panorama, in parts of kLevel.
+  [[nodiscard]] const cv::Mat& grey() const { return grey_; }
+
+  /// Coefficients into `into`; returns the spread of the profile, grey levels.
+  double profile(const ColumnSegment& segment, float* into) const {
+    std::array<float, kProfileSamples> samples{};
+    const auto* sum = sums_.ptr<int>(segment.u_px);
+    const auto [first_row, last_row] = seen_rows(segment);
+    const double margin_px = kWidening * (segment.bottom_px - segment.top_px);
+    const double from_px = segment.top_px - margin_px;
+    const double step_px = (segment.bottom_px + margin_px - from_px) / kProfileSamples;
+    // Pixel v covers v - 0.5 to v + 0.5; each sample is the mean over its share of the segment, so nothing aliases.
+    // What is not seen looks like the nearest that is.
+    const double low = first_row;
+    const double high = last_row + 1;
+    const auto integral = [sum, low, high](double row_px) {
+      const double at = row_px + 0.5;
+      const int whole = static_cast<int>(std::clamp(at, low, high - 1.0));
+      return sum[whole] + (at - whole) * (sum[whole + 1] - sum[whole]);
+    };
+    double before = integral(from_px);
+    float mean = 0.0F;
+    for (int n = 0; n < kProfileSamples; ++n) {
+      const double after = integral(from_px + (n + 1) * step_px);
+      samples[static_cast<std::size_t>(n)] = static_cast<float>((after - before) / step_px);
+      mean += samples[static_cast<std::size_t>(n)] / kProfileSamples;
+      before = after;
+    }
+    float energy = 0.0F;
+    for (float& sample : samples) {
+      sample -= mean;
+      energy += sample * sample;
+    }
+    const float norm = energy > 0.0F ? 1.0F / std::sqrt(energy) : 0.0F;
+    const Basis& basis = cosine_basis();
+    for (std::size_t k = 0; k < basis.size(); ++k) {
+      float product = 0.0F;
+      for (std::size_t n = 0; n < kProfileSamples; ++n) product += basis[k][n] * samples[n];
+      into[k] = product * norm;
+    }
+    return std::sqrt(static_cast<double>(energy) / kProfileSamples) / kLevel;
+  }
+
+  void colours(const ColumnSegment& segment, float* into) const {
+    const double length_px = segment.bottom_px - segment.top_px;
+    const auto [first_row, last_row] = seen_rows(segment);
+    std::array<int, kColourRows> rows{};
+    for (int r = 0; r < kColourRows; ++r) {
+      const double along = (1.0 + 2.0 * kWidening) * r / (kColourRows - 1) - kWidening;
+      const long row_px = std::lround(segment.top_px + length_px * along);
+      rows[static_cast<std::size_t>(r)] = std::clamp(static_cast<int>(row_px), first_row, last_row);
+    }
+    constexpr int kSamples = kColourRows * kColourColumns;
+    std::array<int, 3> sum{};
+    std::array<int, 3> squares{};
+    std::array<int, 3> products{};  // RG, RB, GB
+    for (int c = 0; c < kColourColumns; ++c) {
+      const double right_px = kWidening * length_px * (2.0 * c / (kColourColumns - 1) - 1.0);
+      int u = (segment.u_px + static_cast<int>(std::lround(right_px))) % width_px_;
+      if (u < 0) u += width_px_;
+      const auto* column = rgb_.ptr<std::uint8_t>(u);
+      for (const int row : rows) {
+        const std::uint8_t* pixel = column + 3 * row;
+        const int red = pixel[0];
+        const int green = pixel[1];
+        const int blue = pixel[2];
+        sum[0] += red;
+        sum[1] += green;
+        sum[2] += blue;
+        squares[0] += red * red;
+        squares[1] += green * green;
+        squares[2] += blue * blue;
+        products[0] += red * green;
+        products[1] += red * blue;
+        products[2] += green * blue;
+      }
+    }
+    constexpr std::array<std::array<std::size_t, 2>, 3> kBands = {{{0, 1}, {0, 2}, {1, 2}}};
+    for (std::size_t k = 0; k < kBands.size(); ++k) {
+      const auto [p, q] = kBands[k];
+      const int pp = kSamples * squares[p] - sum[p] * sum[p];
+      const int qq = kSamples * squares[q] - sum[q] * sum[q];
+      const int pq = kSamples * products[k] - sum[p] * sum[q];
+      // Less than one grey level of spread is noise, not colour.
+      const bool plain = pp < kSamples * kSamples || qq < kSamples * kSamples;
+      into[k] = plain ? 0.0F
+                      : static_cast<float>(
+                            std::clamp(pq / std::sqrt(static_cast<double>(pp) * static_cast<double>(qq)), -1.0, 1.0));
+    }
+  }
+
+ private:
+  /// First and last row of the widened segment that the camera sees.
+  [[nodiscard]] std::array<int, 2> seen_rows(const ColumnSegment& segment) const {
+    const auto* seen = seen_.ptr<std::uint8_t>(segment.u_px);
+    const int margin_px = static_cast<int>(std::ceil(kWidening * (segment.bottom_px - segment.top_px))) + 1;
+    const int last = grey_.cols - 1;
+    int top = std::clamp(static_cast<int>(segment.top_px), 0, last);
+    int bottom = std::clamp(static_cast<int>(segment.bottom_px), top, last);
+    for (int left = margin_px; left > 0 && top > 0 && seen[top - 1] != 0; --left) --top;
+    for (int left = margin_px; left > 0 && bottom < last && seen[bottom + 1] != 0; --left) ++bottom;
+    return {top, bottom};
+  }
+
+  int width_px_;
+  cv::Mat seen_;  // width x height, 1 where the camera sees
+  cv::Mat rgb_;   // width x height, three bands
+  cv::Mat grey_;  // width x height, 256 for each grey level
+  cv::Mat sums_;  // width x (height + 1), of the grey levels above
+};
+
+/// Rows of kernel weights of a Gaussian and of its derivative.
+std::array<cv::Mat, 2> gaussian_and_derivative() {
+  constexpr int kSize = 2 * kGradientRadius_px + 1;
+  cv::Mat gaussian(1, kSize, CV_32F);
+  cv::Mat derivative(1, kSize, CV_32F);
+  double sum = 0.0;
+  double moment = 0.0;
+  for (int i = 0; i < kSize; ++i) {
+    const double x = i - kGradientRadius_px;
+    const double weight = std::exp(-0.5 * x * x / (kGradientSigma_px * kGradientSigma_px));
+    gaussian.at<float>(i) = static_cast<float>(weight);
+    derivative.at<float>(i) = static_cast<float>(x * weight);
+    sum += weight;
+    moment += x * x * weight;
+  }
+  gaussian /= sum;
+  derivative /= moment * kLevel;  // a ramp of one grey level for each row gives 1
+  return {gaussian, derivative};
+}
+
+/// Magnitude of the vertical gradient, grey levels for each row; columns of the panorama are rows here.
+cv::Mat gradient_magnitude(const cv::Mat& grey) {
+  static const std::array<cv::Mat, 2> kernels = gaussian_and_derivative();
+  cv::Mat padded;
+  cv::copyMakeBorder(grey, padded, kGradientRadius_px, kGradientRadius_px, 0, 0, cv::BORDER_WRAP);
+  cv::Mat gradient;
+  cv::sepFilter2D(padded, gradient, CV_32F, kernels[1], kernels[0], {-1, -1}, 0.0, cv::BORDER_REPLICATE);
+  return cv::abs(gradient.rowRange(kGradientRadius_px, padded.rows - kGradientRadius_px));
+}
+
+/// Pixels all of whose neighbours that the gradient looked at are seen by the camera.
+cv::Mat trusted_pixels(const camera::Panorama& panorama) {
+  const cv::Mat valid(panorama.rgb.height_px, panorama.rgb.width_px, CV_8UC1,
+                      const_cast<std::uint8_t*>(panorama.valid.data()));
+  constexpr int kReach = kGradientRadius_px;
+  cv::Mat padded;
+  cv::copyMakeBorder(valid, padded, 0, 0, kReach, kReach, cv::BORDER_WRAP);
+  cv::copyMakeBorder(padded, padded, kReach, kReach, 0, 0, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::erode(padded, padded, cv::Mat::ones(2 * kReach + 1, 2 * kReach + 1, CV_8U));
+  cv::Mat trusted;
+  cv::transpose(padded(cv::Rect(kReach, kReach, valid.cols, valid.rows)), trusted);
+  return trusted;
+}
+
+/// The level above which a gradient is no noise. Most of a picture is plain, so the median of its gradients is the
+/// noise's own; it grows with the brightness as the edges do.
+double gradient_threshold(const cv::Mat& magnitude, const cv::Mat& trusted) {
+  constexpr int kEvery = 5;  // rows; of every column, so that turning the robot changes nothing
+  std::vector<float> sample;
+  sample.reserve(magnitude.total() / kEvery + 1);
+  for (int u = 0; u < magnitude.rows; ++u) {
+    for (int v = kEvery / 2; v < magnitude.cols; v += kEvery) {
+      if (trusted.at<std::uint8_t>(u, v) != 0) sample.push_back(magnitude.at<float>(u, v));
+    }
+  }
+  if (sample.empty()) return kMinGradient;
+  const auto quantile = [&](double share) {
+    const auto at = sample.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sample.size() - 1));
+    std::nth_element(sample.begin(), at, sample.end());
+    return static_cast<double>(*at);
+  };
+  constexpr double kMedianOfAbsoluteNormal = 0.6745;
+  const double noise = quantile(0.5) / kMedianOfAbsoluteNormal;
+  // Where texture is everywhere the median is texture, too; a tenth of any picture may hold edges.
+  return std::max(kMinGradient, std::min(kNoiseFactor * noise, quantile(1.0 - kEdgeShare)));
+}
+
+/// Row of a maximum to a fraction of a pixel: the vertex of the parabola through it and its neighbours.
+double refined_row(const cv::Mat& magnitude, int u, int v) {
+  const auto* m = magnitude.ptr<float>(u);
+  const double bend = static_cast<double>(m[v - 1]) - 2.0 * static_cast<double>(m[v]) + static_cast<double>(m[v + 1]);
+  if (bend >= 0.0) return v;
+  return v + std::clamp(0.5 * static_cast<double>(m[v - 1] - m[v + 1]) / bend, -0.5, 0.5);
+}
+
+/// Neighbouring maxima of each column, with no unseen pixel between them, columns ascending and then rows.
+std::vector<ColumnSegment> raw_segments(const cv::Mat& grey, const cv::Mat& trusted, double min_length_px) {
+  const cv::Mat magnitude = gradient_magnitude(grey);
+  const auto threshold = static_cast<float>(gradient_threshold(magnitude, trusted));
+  const int height_px = magnitude.cols;
+  const cv::Mat middle = magnitude.colRange(1, height_px - 1);
+  cv::Mat maxima = middle > magnitude.colRange(0, height_px - 2);
+  maxima &= middle >= magnitude.colRange(2, height_px);
+  maxima &= middle > threshold;
+  maxima &= trusted.colRange(1, height_px - 1) != 0;
+  std::vector<cv::Point> found;
+  cv::findNonZero(maxima, found);
+  std::vector<ColumnSegment> segments;
+  for (std::size_t i = 0; i + 1 < found.size(); ++i) {
+    if (found[i].y != found[i + 1].y) continue;
+    const int u = found[i].y;
+    const int top = found[i].x + 1;
+    const int bottom = found[i + 1].x + 1;
+    const auto* seen = trusted.ptr<std::uint8_t>(u);
+    if (std::find(seen + top, seen + bottom, std::uint8_t{0}) != seen + bottom) continue;
+    const ColumnSegment segment{u, refined_row(magnitude, u, top), refined_row(magnitude, u, bottom)};
+    if (segment.bottom_px - segment.top_px >= min_length_px) segments.push_back(segment);
+  }
+  return segments;
+}
+
+/// The strongest of each sector of azimuth in turn.
+std::vector<int> spread_over_azimuth(const std::vector<ColumnCandidate>& candidates, int width_px, int budget) {
+  constexpr int kSectors = 24;
+  std::vector<int> order(candidates.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  const auto strength = [&](int i) { return candidates[static_cast<std::size_t>(i)].strength; };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return strength(a) > strength(b); });
+  std::vector<std::vector<int>> sectors(kSectors);
+  for (const int i : order) {
+    const int sector = candidates[static_cast<std::size_t>(i)].segment.u_px * kSectors / width_px;
+    sectors[static_cast<std::size_t>(sector)].push_back(i);
+  }
+  std::vector<int> kept;
+  for (std::size_t rank = 0; static_cast<int>(kept.size()) < budget; ++rank) {
+    const std::size_t before = kept.size();
+    for (const auto& sector : sectors) {
+      if (rank < sector.size() && static_cast<int>(kept.size()) < budget) kept.push_back(sector[rank]);
+    }
+    if (kept.size() == before) break;
+  }
+  return kept;
+}
+
+FeatureSet as_features(const std::vector<ColumnCandidate>& candidates, const std::vector<int>& kept,
+                       const camera::PanoramaGeometry& geometry) {
+  FeatureSet set;
+  const auto count = static_cast<Eigen::Index>(kept.size());
+  set.bearings.resize(count, 3);
+  set.scales_rad.resize(count);
+  set.descriptors.resize(count, kColumnCoefficients);
+  set.colours.resize(count, kColumnColours);
+  const double row_to_rad = (geometry.elevation_max_rad - geometry.elevation_min_rad) / geometry.height_px();
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const ColumnCandidate& one = candidates[static_cast<std::size_t>(kept[static_cast<std::size_t>(i)])];
+    const Eigen::Vector2d middle_px(one.segment.u_px, 0.5 * (one.segment.top_px + one.segment.bottom_px));
+    set.bearings.row(i) = geometry.bearing(middle_px).cast<float>();
+    set.scales_rad[i] = static_cast<float>((one.segment.bottom_px - one.segment.top_px) * row_to_rad);
+    for (int k = 0; k < kColumnColours; ++k) {
+      set.colours(i, k) = cv::saturate_cast<std::int8_t>(127.0F * one.invariants[static_cast<std::size_t>(k)]);
+    }
+    for (int k = 0; k < kColumnCoefficients; ++k) {
+      const float value = one.invariants[static_cast<std::size_t>(kColumnColours + k)];
+      set.descriptors(i, k) = cv::saturate_cast<std::uint8_t>(128.0F + 127.0F * value);
+    }
+  }
+  return set;
+}
+
+}  // namespace
+
+ColumnInvariants column_invariants(const camera::Panorama& panorama, const ColumnSegment& segment) {
+  const ColumnReader reader(panorama);
+  ColumnInvariants invariants{};
+  reader.colours(segment, invariants.data());
+  reader.profile(segment, invariants.data() + kColumnColours);
+  return invariants;
+}
+
+FeatureSet extract_columns(const camera::Panorama& panorama, const FeatureConfig& config) {
+  const int width_px = panorama.rgb.width_px;
+  const double px_per_rad = width_px / (2.0 * kPi);
+  constexpr int kLeastSide_px = 2 * kGradientRadius_px + 3;  // the gradient needs its neighbours
+  if (config.max_columns <= 0 || width_px < kLeastSide_px || panorama.rgb.height_px < kLeastSide_px) {
+    return as_features({}, {}, panorama.geometry);
+  }
+  const ColumnReader reader(panorama);
+  std::vector<ColumnCandidate> candidates;
+  for (const ColumnSegment& segment :
+       raw_segments(reader.grey(), trusted_pixels(panorama), std::max(4.0, kMinLength_rad * px_per_rad))) {
+    ColumnCandidate candidate{segment, {}, 0.0};
+    const double contrast = reader.profile(segment, candidate.invariants.data() + kColumnColours);
+    if (contrast < kMinContrast) continue;
+    reader.colours(segment, candidate.invariants.data());
+    candidate.strength = contrast;
+    candidates.push_back(candidate);
+  }
+  const std::vector<ColumnCandidate> prototypes = one_of_each_run(candidates, width_px);
+  return as_features(prototypes, spread_over_azimuth(prototypes, width_px, config.max_columns), panorama.geometry);
+}
+
+ColumnEnds column_ends(const FeatureSet& columns, int index) {
+  const Eigen::Vector3d middle = columns.bearings.row(index).transpose().cast<double>().normalized();
+  const double elevation_rad = std::asin(std::clamp(middle.z(), -1.0, 1.0));
+  const double azimuth_rad = std::atan2(middle.y(), middle.x());
+  const double half_rad = 0.5 * static_cast<double>(columns.scales_rad[index]);
+  const auto at = [&](double elevation) {
+    return Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth_rad), std::cos(elevation) * std::sin(azimuth_rad),
+                           std::sin(elevation));
+  };
+  return {at(elevation_rad + half_rad), at(elevation_rad - half_rad)};
+}
+
+}  // namespace homeward::features

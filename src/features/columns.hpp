@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "camera/panorama.hpp"
+#include "features/appearance.hpp"
+
+namespace homeward::features {
+
+constexpr int kColumnColours = 3;       // C_RG, C_RB, C_GB
+constexpr int kColumnCoefficients = 7;  // of the cosine transform of the profile
+constexpr int kColumnInvariants = kColumnColours + kColumnCoefficients;
+
+/// Colour invariants, then profile coefficients; every one lies within -1 and 1.
+using ColumnInvariants = std::array<float, kColumnInvariants>;
+
+/// What one unit of the diagonal Mahalanobis distance is for each of them: the standard deviation of the difference
+/// between the same segment in two pictures taken 0.4 to 1 m apart. Measured; docs/benchmarks.md says how.
+constexpr ColumnInvariants kColumnSpread = {0.08F, 0.10F, 0.03F, 0.15F, 0.21F, 0.14F, 0.13F, 0.09F, 0.08F, 0.07F};
+
+/// A piece of one column of a panorama between two neighbouring maxima of the vertical gradient.
+struct ColumnSegment {
+  int u_px = 0;
+  double top_px = 0.0;     // row of the upper end
+  double bottom_px = 0.0;  // row of the lower end, > top
+};
+
+/// The three colour invariants of the segment and the first seven coefficients after the constant one of the cosine
+/// transform of its intensity profile, as shares of the profile's spread. Both look at the segment widened by 0.2 of
+/// its length: sideways, as in the paper, and beyond its ends, because what lies between two edges is often plain. A
+/// band that varies by less than a grey level gives 0; a camera without colour gives 1 for all three, always, so that
+/// they then tell nothing apart. Brightness times a factor plus an offset changes none of the ten.
+ColumnInvariants column_invariants(const camera::Panorama& panorama, const ColumnSegment& segment);
+
+/// The invariant column segments of a panorama (Goedemé 2007 §3.3): one prototype for each run of alike segments in
+/// neighbouring columns, at most `config.max_columns`, those of most contrast at each azimuth first. `bearings` point
+/// to their middles, `scales_rad` are their lengths in elevation, `colours` the colour invariants times 127 and
+/// `descriptors` 128 plus 127 times the profile's coefficients. Turning the robot changes azimuths and nothing else.
+FeatureSet extract_columns(const camera::Panorama& panorama, const FeatureConfig& config);
+
+/// The upper and lower end of segment `index` as unit vectors in the robot frame.
+struct ColumnEnds {
+  Eigen::Vector3d top;
+  Eigen::Vector3d bottom;
+};
+ColumnEnds column_ends(const FeatureSet& columns, int index);
+
+}  // namespace homeward::features
