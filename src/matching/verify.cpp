@@ -46,12 +46,16 @@ Result<VerifiedMatch> verify(const features::Appearance& current, const features
   VerifiedMatch verified;
   verified.matches = match(current.sift, target.sift, config.match);
   const std::vector<geometry::Correspondence> pairs = correspondences(current, target, verified.matches);
-  const auto estimate = geometry::estimate_planar_motion(pairs, config.ransac, seed);
+  const auto estimate = config.general_motion ? geometry::estimate_motion(pairs, {.planar = config.ransac}, seed)
+                                              : geometry::estimate_planar_motion(pairs, config.ransac, seed);
   if (!estimate) return pass_on(estimate);
   if (static_cast<int>(estimate->inliers.size()) < config.min_inliers) {
     return fail(ErrorCode::kTooLittleSupport,
                 std::to_string(estimate->inliers.size()) + " of " + std::to_string(verified.matches.size()) +
                     " matches agree on a motion; at least " + std::to_string(config.min_inliers) + " are needed.");
+  }
+  if (estimate->evidence < config.min_evidence) {
+    return fail(ErrorCode::kTooLittleSupport, "The motion that most matches agree on may be one by chance.");
   }
   verified.pose.motion = estimate->motion;
   verified.pose.inliers = estimate->inliers;
