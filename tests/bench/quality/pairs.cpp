@@ -135,15 +135,18 @@ void report(const std::vector<Pair>& pairs, const std::string& name, std::uint64
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     std::cout << name << ',' << pair.current << ',' << pair.target << ',' << pair.same << ',' << pair.distance_m << ','
               << pair.correspondences.size() << ',' << ms;
+    const matching::VerifyConfig config;
     if (estimate) {
+      const bool answered =
+          static_cast<int>(estimate->inliers.size()) >= config.min_inliers && estimate->evidence >= config.min_evidence;
       const double error_deg = degrees(wrap_angle(estimate->motion.direction_rad - pair.bearing_rad));
       std::cout << ',' << std::abs(error_deg) << ',' << estimate->inliers.size() << ',' << estimate->forward_share
                 << ',' << degrees(estimate->direction_spread_rad) << ',' << estimate->error_spread_rad << ','
                 << degrees(estimate->tilt_rad) << ',' << estimate->evidence << ',' << estimate->lead << ','
                 << estimate->sign_log_odds << ',' << degrees(estimate->median_parallax_rad) << ','
-                << matching::confidence(*estimate, pair.correspondences.size());
+                << matching::confidence(*estimate, pair.correspondences.size()) << ',' << answered;
     } else {
-      std::cout << ",,0,,,,,,,,,0";
+      std::cout << ",,0,,,,,,,,,0,0";
     }
     std::cout << '\n';
   }
@@ -175,7 +178,7 @@ int main(int argc, char** argv) {
     const auto pairs = loaded.empty() ? homeward::read_pairs(camera, list, poses, same_m) : homeward::load(loaded);
     if (!saved.empty()) homeward::save(pairs, saved);
     std::cout << "set,current,target,same,distance_m,matches,ms,error_deg,inliers,forward_share,spread_deg,"
-                 "error_spread_rad,tilt_deg,evidence,lead,sign,parallax_deg,confidence\n";
+                 "error_spread_rad,tilt_deg,evidence,lead,sign,parallax_deg,confidence,answered\n";
     homeward::report(pairs, name, seed);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
