@@ -128,10 +128,11 @@ std::vector<Pair> load(const fs::path& file) {
   return pairs;
 }
 
-void report(const std::vector<Pair>& pairs, const std::string& name, std::uint64_t seed) {
+void report(const std::vector<Pair>& pairs, const std::string& name, bool general, std::uint64_t seed) {
   for (const Pair& pair : pairs) {
     const auto begin = std::chrono::steady_clock::now();
-    const auto estimate = geometry::estimate_planar_motion(pair.correspondences, {}, seed);
+    const auto estimate = general ? geometry::estimate_motion(pair.correspondences, {}, seed)
+                                  : geometry::estimate_planar_motion(pair.correspondences, {}, seed);
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     std::cout << name << ',' << pair.current << ',' << pair.target << ',' << pair.same << ',' << pair.distance_m << ','
               << pair.correspondences.size() << ',' << ms;
@@ -164,6 +165,7 @@ int main(int argc, char** argv) {
   std::string saved;
   std::string loaded;
   double same_m = 12.0;
+  bool general = false;
   std::uint64_t seed = 1;
   program.add_option("--camera", camera, "camera.json");
   program.add_option("--pairs", list, "Table with columns current, target and, without poses, bearing_rad and same");
@@ -173,13 +175,14 @@ int main(int argc, char** argv) {
   program.add_option("--save", saved, "Keep the matches of all pairs in this file");
   program.add_option("--load", loaded, "Take the matches from such a file instead of pictures");
   program.add_option("--seed", seed, "Seed of the estimate");
+  program.add_flag("--general", general, "Look for a general motion where the planar one is weak");
   CLI11_PARSE(program, argc, argv);
   try {
     const auto pairs = loaded.empty() ? homeward::read_pairs(camera, list, poses, same_m) : homeward::load(loaded);
     if (!saved.empty()) homeward::save(pairs, saved);
     std::cout << "set,current,target,same,distance_m,matches,ms,error_deg,inliers,forward_share,spread_deg,"
                  "error_spread_rad,tilt_deg,evidence,lead,sign,parallax_deg,confidence,answered\n";
-    homeward::report(pairs, name, seed);
+    homeward::report(pairs, name, general, seed);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return 1;
