@@ -37,8 +37,8 @@ double confidence(const geometry::PlanarEstimate& estimate, std::size_t matches)
   const auto count = static_cast<double>(std::max<std::size_t>(1, matches));
   const double unexplained = 1.0 - static_cast<double>(estimate.inliers.size()) / count;
   const double parallax = std::log(std::clamp(degrees(estimate.median_parallax_rad), 0.5, 10.0) / 10.0);
-  const double log_odds = -1.595 + 0.954 * std::log(std::max(1.0, estimate.lead)) + 2.188 * unexplained * parallax -
-                          0.390 * std::min(3.0, degrees(estimate.tilt_rad)) + 0.427 * estimate.evidence / count;
+  const double log_odds = -1.534 + 0.957 * std::log(std::max(1.0, estimate.lead)) + 2.246 * unexplained * parallax -
+                          0.432 * std::min(3.0, degrees(estimate.tilt_rad)) + 0.397 * estimate.evidence / count;
   return 1.0 / (1.0 + std::exp(-log_odds));
 }
 
