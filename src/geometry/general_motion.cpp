@@ -7,6 +7,7 @@
 #include <numeric>
 #include <opengv/relative_pose/CentralRelativeAdapter.hpp>
 #include <opengv/relative_pose/methods.hpp>
+#include <optional>
 #include <random>
 
 #include "geometry/estimate_summary.hpp"

@@ -21,7 +21,8 @@ struct GeneralConfig {
 /// `seed`. A general motion has three angles more and fits more by chance; it is kept only when its evidence, which
 /// counts what the search could have tried, exceeds the planar one's by `least_gain`. Its direction is projected to the
 /// current view's horizontal plane and its turn is that about the vertical; the estimate is flagged as general. It
-/// takes some 20 to 100 times as long as the planar search. Errors: kTooLittleSupport.
+/// takes some ten times as long as the planar search.
+/// Errors: kTooLittleSupport.
 Result<PlanarEstimate> estimate_motion(std::span<const Correspondence> correspondences, const GeneralConfig& config,
                                        std::uint64_t seed);
 

@@ -13,7 +13,7 @@ namespace {
 
 // Right matches' residuals have Student's distribution: features are located the worse the larger they are, so that
 // their errors have heavier tails than a normal distribution's.
-constexpr double kFreedom = 4.0;
+constexpr double kFreedom = 4.0;               // the density falls as the power (4 + 1) / 2 of its tail
 constexpr double kWindowOfSpread = 4.0 / 3.0;  // 1 over twice the distribution's density at 0
 
 /// The share of azimuths at which a bearing of this height lies within `window` (a sine) of the plane of `line`.
@@ -117,19 +117,27 @@ void look(std::span<const Correspondence> correspondences, const FitConfig& conf
   fit.belief.resize(correspondences.size());
   fit.log_likelihood = -prior_cost(fit.motion, config.tilt);
   fit.greatest_gain = 0.0;
+  // Beyond so many spreads a match cannot be right enough to matter.
+  constexpr double kHopeless2 = 30.0 * 30.0;
+  const double gain_of_wrong = std::log(1.0 - fit.share);
   double telling = 0.0;
   double right = 0.0;
   double squares = 0.0;
   for (std::size_t i = 0; i < correspondences.size(); ++i) {
-    MotionAngles slope;
-    const double error_rad = error_of(correspondences[i], slope);
+    const double error_rad = error_of(correspondences[i]);
     const double error2 = error_rad * error_rad * per_variance;
+    if (error2 > kHopeless2) {
+      fit.belief[i] = 0.0;
+      fit.log_likelihood += gain_of_wrong;
+      telling += 1.0;
+      continue;
+    }
     const double chance =
         std::max(config.least_chance, chance_share(error_of.essential(), correspondences[i], window_rad));
     along.look_at(correspondences[i]);
     const double tail = 1.0 / (1.0 + error2 / kFreedom);
     const double as_right = fit.share * along.likelihood_of_side(fit.spread_rad) *
-                            along.likelihood_of_size(fit.spread_rad) * std::pow(tail, 0.5 * (kFreedom + 1.0)) / chance;
+                            along.likelihood_of_size(fit.spread_rad) * tail * tail * std::sqrt(tail) / chance;
     const double belief = as_right / (as_right + 1.0 - fit.share);
     const double gain = std::log(as_right + 1.0 - fit.share);
     fit.belief[i] = belief;
@@ -140,6 +148,8 @@ void look(std::span<const Correspondence> correspondences, const FitConfig& conf
     right += (1.0 - chance) * belief;
     squares += (1.0 - chance) * belief * pull * error_rad * error_rad;
     if (normal == nullptr || belief < 1e-4) continue;
+    MotionAngles slope;
+    static_cast<void>(error_of(correspondences[i], slope));
     const double weight = belief * pull * per_variance;
     normal->curvature += weight * slope * slope.transpose();
     normal->gradient += weight * error_rad * slope;

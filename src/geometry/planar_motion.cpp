@@ -44,8 +44,8 @@ std::vector<double> weights_of(std::span<const Correspondence> correspondences, 
     const double level_current = std::sqrt(std::max(0.0, 1.0 - c.current.z() * c.current.z()));
     const double level_target = std::sqrt(std::max(0.0, 1.0 - c.target.z() * c.target.z()));
     double explained = 0.5;
-    for (const double a : cosines) {
-      const double across_current = level_current * a;
+    for (int i = 0; i < kPhases / 2; ++i) {  // the other half are the same motions reversed
+      const double across_current = level_current * cosines[static_cast<std::size_t>(i)];
       for (const double b : cosines) {
         const double across_target = level_target * b;
         const double residual = c.target.z() * across_current + c.current.z() * across_target;
@@ -53,7 +53,7 @@ std::vector<double> weights_of(std::span<const Correspondence> correspondences, 
         explained += residual * residual < bound_rad * bound_rad * gradient2 ? 1.0 : 0.0;
       }
     }
-    constexpr double kAll = kPhases * kPhases + 0.5;
+    constexpr double kAll = kPhases / 2 * kPhases + 0.5;
     weights.push_back(std::log(kAll / explained) / std::log(kAll / 0.5));
   }
   return weights;

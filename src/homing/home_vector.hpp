@@ -10,7 +10,7 @@
 namespace homeward::homing {
 
 struct HomingConfig {
-  int min_inliers = 12;                // fewer: no answer
+  int min_inliers = 8;                 // fewer: no answer
   double arrived_parallax_rad = 0.03;  // median parallax below which the target is reached
 };
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "features/colour.hpp"
 #include "features/columns.hpp"
 
 namespace homeward::matching {
@@ -17,12 +18,13 @@ constexpr float kFar = std::numeric_limits<float>::max();
 /// segments is then a loop over neighbours in memory.
 using Scaled = Eigen::Matrix<float, features::kColumnInvariants, Eigen::Dynamic, Eigen::RowMajor>;
 
-Scaled scaled(const features::FeatureSet& columns) {
+/// Without colour those of its rows are 0 and say nothing.
+Scaled scaled(const features::FeatureSet& columns, bool with_colour) {
   Scaled all(features::kColumnInvariants, columns.size());
   for (Eigen::Index k = 0; k < features::kColumnInvariants; ++k) {
     const float unit = 127.0F * features::kColumnSpread[static_cast<std::size_t>(k)];
     if (k < features::kColumnColours) {
-      all.row(k) = columns.colours.col(k).cast<float>().transpose() / unit;
+      all.row(k) = columns.colours.col(k).cast<float>().transpose() * (with_colour ? 1.0F / unit : 0.0F);
     } else {
       all.row(k) = columns.descriptors.col(k - features::kColumnColours).cast<float>().transpose() / unit;
     }
@@ -70,13 +72,6 @@ struct Nearest {
   float second = kFar;
 };
 
-bool colours_agree(const features::FeatureSet& a, int i, const features::FeatureSet& b, int j, int bound) {
-  for (Eigen::Index band = 0; band < features::kColumnColours; ++band) {
-    if (std::abs(static_cast<int>(a.colours(i, band)) - static_cast<int>(b.colours(j, band))) > bound) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::vector<Match> match_columns(const features::FeatureSet& current, const features::FeatureSet& target,
@@ -85,8 +80,9 @@ std::vector<Match> match_columns(const features::FeatureSet& current, const feat
       target.descriptors.cols() != features::kColumnCoefficients) {
     return {};
   }
-  const Scaled of_current = scaled(current);
-  const Scaled of_target = scaled(target);
+  const bool with_colour = current.colours(0, 0) != features::kNoColour && target.colours(0, 0) != features::kNoColour;
+  const Scaled of_current = scaled(current, with_colour);
+  const Scaled of_target = scaled(target, with_colour);
   const Heights heights(current);
   const Heights target_heights(target);
   const auto bound2 = static_cast<float>(config.max_distance * config.max_distance);
@@ -120,7 +116,10 @@ std::vector<Match> match_columns(const features::FeatureSet& current, const feat
     const int j = mine.index;
     if (mine.best > bound2 || index[j] != i) continue;
     if (mine.best >= ratio2 * std::min(mine.second, second[j])) continue;
-    if (!colours_agree(current, i, target, j, config.max_colour_difference)) continue;
+    if (!features::colours_agree(current.colours.row(i).data(), target.colours.row(j).data(),
+                                 config.max_colour_difference)) {
+      continue;
+    }
     matches.push_back({i, j});
   }
   return matches;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angles.hpp"
+
 namespace homeward::matching {
 namespace {
 
@@ -27,12 +29,16 @@ std::vector<geometry::Correspondence> correspondences(const features::Appearance
   return pairs;
 }
 
-// Logistic regression on pairs of rendered and real pictures with known directions; docs/benchmarks.md has the fit.
+// Logistic regression on pairs of rendered and real pictures with known directions, by
+// tests/bench/quality/confidence.py; docs/benchmarks.md has its reliability. What tells right motions from wrong ones
+// is how far the best rival is behind. Matches that do not agree weigh the more the less the views differ: two views of
+// one spot should agree altogether, two look-alikes agree on what they share.
 double confidence(const geometry::PlanarEstimate& estimate, std::size_t matches) {
-  const auto inliers = static_cast<double>(estimate.inliers.size());
-  const double share = inliers / static_cast<double>(std::max<std::size_t>(1, matches));
-  const double log_odds = -6.0 + 1.6 * std::log(inliers) + 3.0 * share + 3.0 * (estimate.forward_share - 0.75) -
-                          8.0 * std::min(estimate.direction_spread_rad, 0.6);
+  const auto count = static_cast<double>(std::max<std::size_t>(1, matches));
+  const double unexplained = 1.0 - static_cast<double>(estimate.inliers.size()) / count;
+  const double parallax = std::log(std::clamp(degrees(estimate.median_parallax_rad), 0.5, 10.0) / 10.0);
+  const double log_odds = -1.534 + 0.957 * std::log(std::max(1.0, estimate.lead)) + 2.246 * unexplained * parallax -
+                          0.432 * std::min(3.0, degrees(estimate.tilt_rad)) + 0.397 * estimate.evidence / count;
   return 1.0 / (1.0 + std::exp(-log_odds));
 }
 
@@ -46,12 +52,16 @@ Result<VerifiedMatch> verify(const features::Appearance& current, const features
   VerifiedMatch verified;
   verified.matches = match(current.sift, target.sift, config.match);
   const std::vector<geometry::Correspondence> pairs = correspondences(current, target, verified.matches);
-  const auto estimate = geometry::estimate_planar_motion(pairs, config.ransac, seed);
+  const auto estimate = config.general_motion ? geometry::estimate_motion(pairs, {.planar = config.ransac}, seed)
+                                              : geometry::estimate_planar_motion(pairs, config.ransac, seed);
   if (!estimate) return pass_on(estimate);
   if (static_cast<int>(estimate->inliers.size()) < config.min_inliers) {
     return fail(ErrorCode::kTooLittleSupport,
                 std::to_string(estimate->inliers.size()) + " of " + std::to_string(verified.matches.size()) +
                     " matches agree on a motion; at least " + std::to_string(config.min_inliers) + " are needed.");
+  }
+  if (estimate->evidence < config.min_evidence) {
+    return fail(ErrorCode::kTooLittleSupport, "The motion that most matches agree on may be one by chance.");
   }
   verified.pose.motion = estimate->motion;
   verified.pose.inliers = estimate->inliers;

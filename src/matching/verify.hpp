@@ -7,6 +7,7 @@
 
 #include "core/result.hpp"
 #include "features/appearance.hpp"
+#include "geometry/general_motion.hpp"
 #include "geometry/planar_motion.hpp"
 #include "geometry/relative_pose.hpp"
 #include "matching/match.hpp"
@@ -17,6 +18,8 @@ struct VerifyConfig {
   MatchConfig match;
   geometry::PlanarRansacConfig ransac;
   int min_inliers = 8;
+  double min_evidence = 3.0;    // natural logarithm over chance: one motion in twenty of pairs at random would pass
+  bool general_motion = false;  // look for a general motion where the planar one is weak; some ten times as slow
 };
 
 /// Matches that one planar motion explains, and that motion.

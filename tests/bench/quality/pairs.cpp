@@ -128,22 +128,26 @@ std::vector<Pair> load(const fs::path& file) {
   return pairs;
 }
 
-void report(const std::vector<Pair>& pairs, const std::string& name, std::uint64_t seed) {
+void report(const std::vector<Pair>& pairs, const std::string& name, bool general, std::uint64_t seed) {
   for (const Pair& pair : pairs) {
     const auto begin = std::chrono::steady_clock::now();
-    const auto estimate = geometry::estimate_planar_motion(pair.correspondences, {}, seed);
+    const auto estimate = general ? geometry::estimate_motion(pair.correspondences, {}, seed)
+                                  : geometry::estimate_planar_motion(pair.correspondences, {}, seed);
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     std::cout << name << ',' << pair.current << ',' << pair.target << ',' << pair.same << ',' << pair.distance_m << ','
               << pair.correspondences.size() << ',' << ms;
+    const matching::VerifyConfig config;
     if (estimate) {
+      const bool answered =
+          static_cast<int>(estimate->inliers.size()) >= config.min_inliers && estimate->evidence >= config.min_evidence;
       const double error_deg = degrees(wrap_angle(estimate->motion.direction_rad - pair.bearing_rad));
       std::cout << ',' << std::abs(error_deg) << ',' << estimate->inliers.size() << ',' << estimate->forward_share
                 << ',' << degrees(estimate->direction_spread_rad) << ',' << estimate->error_spread_rad << ','
                 << degrees(estimate->tilt_rad) << ',' << estimate->evidence << ',' << estimate->lead << ','
                 << estimate->sign_log_odds << ',' << degrees(estimate->median_parallax_rad) << ','
-                << matching::confidence(*estimate, pair.correspondences.size());
+                << matching::confidence(*estimate, pair.correspondences.size()) << ',' << answered;
     } else {
-      std::cout << ",,0,,,,,,,,,0";
+      std::cout << ",,0,,,,,,,,,0,0";
     }
     std::cout << '\n';
   }
@@ -161,6 +165,7 @@ int main(int argc, char** argv) {
   std::string saved;
   std::string loaded;
   double same_m = 12.0;
+  bool general = false;
   std::uint64_t seed = 1;
   program.add_option("--camera", camera, "camera.json");
   program.add_option("--pairs", list, "Table with columns current, target and, without poses, bearing_rad and same");
@@ -170,13 +175,14 @@ int main(int argc, char** argv) {
   program.add_option("--save", saved, "Keep the matches of all pairs in this file");
   program.add_option("--load", loaded, "Take the matches from such a file instead of pictures");
   program.add_option("--seed", seed, "Seed of the estimate");
+  program.add_flag("--general", general, "Look for a general motion where the planar one is weak");
   CLI11_PARSE(program, argc, argv);
   try {
     const auto pairs = loaded.empty() ? homeward::read_pairs(camera, list, poses, same_m) : homeward::load(loaded);
     if (!saved.empty()) homeward::save(pairs, saved);
     std::cout << "set,current,target,same,distance_m,matches,ms,error_deg,inliers,forward_share,spread_deg,"
-                 "error_spread_rad,tilt_deg,evidence,lead,sign,parallax_deg,confidence\n";
-    homeward::report(pairs, name, seed);
+                 "error_spread_rad,tilt_deg,evidence,lead,sign,parallax_deg,confidence,answered\n";
+    homeward::report(pairs, name, general, seed);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return 1;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <random>
 
-#include "core/angles.hpp"
 #include <Eigen/Geometry>
+#include "core/angles.hpp"
 
+#include "geometry/general_motion.hpp"
+#include "geometry/motion_fit.hpp"
 #include "geometry/planar_motion.hpp"
 
 namespace homeward::geometry {
@@ -64,37 +66,65 @@ std::vector<Scene> buildings(double outlier_share, double tilt_rad) {
   return scenes;
 }
 
+/// The direction's error when it is known which matches are right and that the views are level: no method does better.
+double best_possible_deg(const Scene& scene, double outlier_share) {
+  const auto wrong = static_cast<std::ptrdiff_t>(outlier_share * static_cast<double>(scene.correspondences.size()));
+  const std::vector<Correspondence> right(scene.correspondences.begin() + wrong, scene.correspondences.end());
+  FitConfig config;
+  config.level = true;
+  const MotionFit fit = fit_motion(right, {scene.truth}, config);
+  return std::abs(degrees(wrap_angle(fit.motion.planar.direction_rad - scene.truth.direction_rad)));
+}
+
 /// Median and 95th percentile of the direction's error, and how often there is no answer, over all scenes.
-void count_errors(benchmark::State& state, const std::vector<Scene>& scenes) {
+void count_errors(benchmark::State& state, const std::vector<Scene>& scenes, double outlier_share, bool level) {
   std::vector<double> errors_deg;
+  std::vector<double> bounds_deg;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const auto estimate = estimate_planar_motion(scenes[i].correspondences, {}, i);
     errors_deg.push_back(
         estimate ? std::abs(degrees(wrap_angle(estimate->motion.direction_rad - scenes[i].truth.direction_rad)))
                  : 180.0);
+    bounds_deg.push_back(best_possible_deg(scenes[i], outlier_share));
   }
+  std::ranges::sort(bounds_deg);
   std::ranges::sort(errors_deg);
   state.counters["median_deg"] = errors_deg[errors_deg.size() / 2];
+  if (level) state.counters["bound_median_deg"] = bounds_deg[bounds_deg.size() / 2];
   state.counters["p95_deg"] = errors_deg[errors_deg.size() * 95 / 100];
   state.counters["max_deg"] = errors_deg.back();
 }
 
 /// Arguments: outliers in percent, tilt in tenths of a degree.
 void planar_motion(benchmark::State& state) {
-  const std::vector<Scene> scenes =
-      buildings(static_cast<double>(state.range(0)) / 100.0, radians(static_cast<double>(state.range(1)) / 10.0));
+  const double outlier_share = static_cast<double>(state.range(0)) / 100.0;
+  const std::vector<Scene> scenes = buildings(outlier_share, radians(static_cast<double>(state.range(1)) / 10.0));
   std::size_t i = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(estimate_planar_motion(scenes[i % scenes.size()].correspondences, {}, i));
     ++i;
   }
-  count_errors(state, scenes);
+  count_errors(state, scenes, outlier_share, state.range(1) == 0);
 }
 BENCHMARK(planar_motion)
     ->Unit(benchmark::kMillisecond)
     ->ArgsProduct({{0, 50, 80}, {0}})
     ->Args({50, 10})
     ->Args({50, 30});
+
+/// Matches at random: all iterations of both searches. The argument is how many.
+void general_motion(benchmark::State& state) {
+  std::vector<Scene> scenes;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    scenes.push_back(building(static_cast<int>(state.range(0)), 1.0, 0.7, 0.0, 9000 + seed));
+  }
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(estimate_motion(scenes[i % scenes.size()].correspondences, {}, i));
+    ++i;
+  }
+}
+BENCHMARK(general_motion)->Unit(benchmark::kMillisecond)->Arg(60)->Arg(200);
 
 }  // namespace
 }  // namespace homeward::geometry

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <limits>
 
 #include "support/planar_scene.hpp"
@@ -142,6 +143,97 @@ TEST(PlanarEstimate, RandomMatchesFindFewInliers) {
       EXPECT_EQ(estimate.error().code, ErrorCode::kTooLittleSupport);
     }
   }
+}
+
+TEST(PlanarEstimate, SwappingTheViewsGivesTheMotionBack) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const PlanarScene scene = planar_scene(120, 0.4, 0.001, 0.8, 500 + seed);
+    std::vector<Correspondence> swapped;
+    for (const Correspondence& c : scene.correspondences) swapped.push_back({c.target, c.current});
+    const auto there = estimate_planar_motion(scene.correspondences, {}, seed);
+    const auto back = estimate_planar_motion(swapped, {}, seed);
+    ASSERT_TRUE(there && back) << seed;
+    // Seen from the target the current viewpoint lies the other way, in a frame that is turned.
+    const PlanarMotion expected{wrap_angle(there->motion.direction_rad + kPi - there->motion.turn_rad),
+                                -there->motion.turn_rad};
+    EXPECT_LT(direction_error_deg(back->motion, expected), 0.3) << seed;
+    EXPECT_LT(turn_error_deg(back->motion, expected), 0.1) << seed;
+    EXPECT_NEAR(back->evidence, there->evidence, 0.1 * there->evidence) << seed;
+  }
+}
+
+TEST(PlanarEstimate, TurningTheRobotChangesNothingButTheTurn) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const PlanarScene scene = planar_scene(120, 0.4, 0.001, 0.8, 600 + seed);
+    const double by_rad = 0.5 * static_cast<double>(seed) - 2.9;
+    const Eigen::Matrix3d turned = Eigen::AngleAxisd(-by_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    std::vector<Correspondence> target_turned;
+    for (const Correspondence& c : scene.correspondences) target_turned.push_back({c.current, turned * c.target});
+    const auto before = estimate_planar_motion(scene.correspondences, {}, seed);
+    const auto after = estimate_planar_motion(target_turned, {}, seed);
+    ASSERT_TRUE(before && after) << seed;
+    EXPECT_LT(direction_error_deg(after->motion, before->motion), 0.3) << seed;
+    EXPECT_LT(turn_error_deg(after->motion, {0.0, wrap_angle(before->motion.turn_rad + by_rad)}), 0.1) << seed;
+    EXPECT_NEAR(after->evidence, before->evidence, 0.1 * before->evidence) << seed;
+  }
+}
+
+TEST(PlanarEstimate, EvidenceTellsRightMotionsFromChance) {
+  double greatest_by_chance = -1e9;
+  double least_right = 1e9;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const auto chance = estimate_planar_motion(planar_scene(80, 1.0, 0.001, 0.8, 700 + seed).correspondences, {}, seed);
+    if (chance) greatest_by_chance = std::max(greatest_by_chance, chance->evidence);
+    const auto right = estimate_planar_motion(planar_scene(80, 0.5, 0.001, 0.8, 800 + seed).correspondences, {}, seed);
+    ASSERT_TRUE(right);
+    least_right = std::min(least_right, right->evidence);
+  }
+  EXPECT_LT(greatest_by_chance, 3.0);
+  EXPECT_GT(least_right, 20.0);
+}
+
+/// Every match at the height of the camera: any motion explains all of them.
+TEST(PlanarEstimate, MatchesAtTheHorizonAreNoEvidence) {
+  PlanarScene scene = planar_scene(60, 0.0, 0.0005, 0.8, 31);
+  for (Correspondence& c : scene.correspondences) {
+    c.current = Eigen::Vector3d(c.current.x(), c.current.y(), 0.0).normalized();
+    c.target = Eigen::Vector3d(c.target.x(), c.target.y(), 0.0).normalized();
+  }
+  EXPECT_FALSE(estimate_planar_motion(scene.correspondences, {}, 1));
+  // Beside them, a few matches that can tell decide and are all the evidence there is.
+  const PlanarScene telling = planar_scene(20, 0.0, 0.0005, 0.8, 32);
+  const auto alone = estimate_planar_motion(telling.correspondences, {}, 1);
+  auto both = telling.correspondences;
+  both.insert(both.end(), scene.correspondences.begin(), scene.correspondences.end());
+  const auto among = estimate_planar_motion(both, {}, 1);
+  ASSERT_TRUE(alone && among);
+  EXPECT_LT(direction_error_deg(among->motion, telling.truth), 5.0);
+  EXPECT_LT(among->evidence, alone->evidence + 60.0 * 0.7);  // log 2 each, for lying in front
+}
+
+TEST(PlanarEstimate, TheSignIsRightAndTheMoreSureTheMoreMatches) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const auto few = planar_scene(20, 0.3, 0.001, 0.8, 900 + seed);
+    const auto many = planar_scene(200, 0.3, 0.001, 0.8, 900 + seed);
+    const auto of_few = estimate_planar_motion(few.correspondences, {}, seed);
+    const auto of_many = estimate_planar_motion(many.correspondences, {}, seed);
+    ASSERT_TRUE(of_few && of_many);
+    EXPECT_LT(direction_error_deg(of_many->motion, many.truth), 5.0) << seed;
+    EXPECT_GT(of_many->sign_log_odds, of_few->sign_log_odds) << seed;
+    EXPECT_GE(of_few->sign_log_odds, 0.0) << seed;
+  }
+}
+
+TEST(PlanarEstimate, BrokenBearingsAmongGoodOnesAreLeftOut) {
+  const PlanarScene scene = planar_scene(60, 0.2, 0.001, 0.8, 41);
+  auto broken = scene.correspondences;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 20; i < 30; ++i) broken[i].target = {nan, 0.0, 0.0};
+  const auto estimate = estimate_planar_motion(broken, {}, 1);
+  ASSERT_TRUE(estimate);
+  EXPECT_LT(direction_error_deg(estimate->motion, scene.truth), 4.0);
+  for (const int inlier : estimate->inliers) EXPECT_TRUE(inlier < 20 || inlier >= 30) << inlier;
+  EXPECT_TRUE(std::isfinite(estimate->evidence));
 }
 
 }  // namespace
