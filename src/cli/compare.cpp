@@ -11,7 +11,6 @@
 #include "cli/command.hpp"
 #include "features/global.hpp"
 #include "imageio/decode.hpp"
-#include "matching/match_columns.hpp"
 #include "matching/visual_distance.hpp"
 #include "pipeline/comparison_picture.hpp"
 #include "pipeline/eye.hpp"
@@ -24,7 +23,6 @@ struct Options {
   std::string measure = "features";
   std::vector<std::string> pictures;
   std::string drawing;
-  int columns = 0;
   std::uint64_t seed = 1;
 };
 
@@ -79,13 +77,11 @@ Status compare_by_features(const pipeline::Eye& eye, const std::vector<View>& vi
     if (std::isfinite(compared.distance)) line["dissimilarity"] = compared.distance;
     line["turn_rad"] = nullptr;
     if (compared.pose) line["turn_rad"] = compared.pose->motion.turn_rad;
-    const auto columns = matching::match_columns(first->columns, other->columns, {});
-    if (options.columns > 0) line["column_matches"] = columns.size();
     std::cout << line.dump() << "\n";
     if (options.drawing.empty()) continue;
     const auto verified = matching::verify(*first, *other, {}, options.seed);
     const Image drawing = pipeline::draw_comparison({views.front().panorama, *first}, {views[i].panorama, *other},
-                                                    verified ? std::optional(*verified) : std::nullopt, columns);
+                                                    verified ? std::optional(*verified) : std::nullopt);
     const auto png = imageio::encode_png(drawing);
     const std::string_view bytes(reinterpret_cast<const char*>(png.data()), png.size());
     if (Status written = agent::write_file(options.drawing, bytes); !written) return written;
@@ -115,9 +111,7 @@ Status compare(const Options& options) {
   if (!config) return pass_on(config);
   const auto camera = camera::Camera::create(*config);
   if (!camera) return pass_on(camera);
-  features::FeatureConfig features = pipeline::suited_feature_config(**camera);
-  features.max_columns = options.columns;
-  const auto eye = pipeline::Eye::create(*config, features);
+  const auto eye = pipeline::Eye::create(*config, pipeline::suited_feature_config(**camera));
   if (!eye) return pass_on(eye);
   std::vector<View> views;
   for (const std::string& file : options.pictures) {
@@ -138,9 +132,6 @@ void register_compare(CLI::App& program) {
   command->add_option("--measure", options->measure, "features, moments, jeffrey, chi2, sad or fourier")
       ->capture_default_str();
   command->add_option("--draw", options->drawing, "Picture (PNG) of the two panoramas and what they have in common");
-  command->add_option("--columns", options->columns, "How many upright segments of columns to match and draw as well")
-      ->check(CLI::Range(0, 2000))
-      ->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of everything random");
   command->add_option("pictures", options->pictures, "Pictures")->required();
   run_on(*command, [options] { return compare(*options); });

@@ -14,10 +14,10 @@ struct FeatureConfig {
   int panorama_width_px = 1024;
   double elevation_max_rad = 0.34;   // top row of the panorama
   double elevation_min_rad = -0.95;  // bottom row
-  int max_sift = 700;                // strongest kept, spread over azimuth
+  int max_sift = 620;                // strongest kept, spread over azimuth
   double sift_contrast_threshold = 0.015;
   int sift_code_length = 32;  // bytes of a SIFT descriptor, 1 to 64
-  int max_columns = 0;        // invariant column segments kept, spread over azimuth
+  int max_columns = 150;      // invariant column segments kept, spread over azimuth
 };
 
 /// Short text that is equal exactly when features are comparable, for example

@@ -12,10 +12,14 @@ struct MatchConfig {
   int max_colour_difference = 100;  // largest difference of one colour invariant, of 254
 };
 
+/// Which of an appearance's two sets a match is about.
+enum class FeatureKind { kSift, kColumn };
+
 /// Feature `current` of one picture and feature `target` of another that look alike.
 struct Match {
   int current = 0;
   int target = 0;
+  FeatureKind kind = FeatureKind::kSift;
 };
 
 /// Mutual nearest neighbours that pass the ratio test in one direction and the colour check. Ascending in `current`.

@@ -120,7 +120,7 @@ std::vector<Match> match_columns(const features::FeatureSet& current, const feat
                                  config.max_colour_difference)) {
       continue;
     }
-    matches.push_back({i, j});
+    matches.push_back({i, j, FeatureKind::kColumn});
   }
   return matches;
 }

@@ -16,12 +16,25 @@ double log_ratio(float over, float under) {
 
 }  // namespace
 
+std::vector<Match> match_both_kinds(const features::Appearance& current, const features::Appearance& target,
+                                    const MatchConfig& sift, const ColumnMatchConfig& columns) {
+  std::vector<Match> matches = match(current.sift, target.sift, sift);
+  const std::vector<Match> of_columns = match_columns(current.columns, target.columns, columns);
+  matches.insert(matches.end(), of_columns.begin(), of_columns.end());
+  return matches;
+}
+
 std::vector<geometry::Correspondence> correspondences(const features::Appearance& current,
                                                       const features::Appearance& target,
                                                       std::span<const Match> matches) {
   std::vector<geometry::Correspondence> pairs;
   pairs.reserve(matches.size());
   for (const Match& match : matches) {
+    if (match.kind == FeatureKind::kColumn) {
+      const ColumnBearings ends = bearings_of(current.columns, target.columns, match);
+      pairs.push_back({ends.current, ends.target});
+      continue;
+    }
     pairs.push_back({current.sift.bearings.row(match.current).transpose().cast<double>().normalized(),
                      target.sift.bearings.row(match.target).transpose().cast<double>().normalized(),
                      log_ratio(target.sift.scales_rad[match.target], current.sift.scales_rad[match.current])});
@@ -50,7 +63,7 @@ Result<VerifiedMatch> verify(const features::Appearance& current, const features
                                                 " are needed.");
   }
   VerifiedMatch verified;
-  verified.matches = match(current.sift, target.sift, config.match);
+  verified.matches = match_both_kinds(current, target, config.match, config.columns);
   const std::vector<geometry::Correspondence> pairs = correspondences(current, target, verified.matches);
   const auto estimate = config.general_motion ? geometry::estimate_motion(pairs, {.planar = config.ransac}, seed)
                                               : geometry::estimate_planar_motion(pairs, config.ransac, seed);

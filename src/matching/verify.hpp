@@ -11,11 +11,13 @@
 #include "geometry/planar_motion.hpp"
 #include "geometry/relative_pose.hpp"
 #include "matching/match.hpp"
+#include "matching/match_columns.hpp"
 
 namespace homeward::matching {
 
 struct VerifyConfig {
   MatchConfig match;
+  ColumnMatchConfig columns;
   geometry::PlanarRansacConfig ransac;
   int min_inliers = 8;
   double min_evidence = 3.0;    // natural logarithm over chance: one motion in twenty of pairs at random would pass
@@ -28,7 +30,11 @@ struct VerifiedMatch {
   geometry::RelativePose pose;  // of the target seen from the current view; inliers index `matches`
 };
 
-/// The bearings of matches and how their sizes change.
+/// What looks alike in two appearances: SIFT features, then columns.
+std::vector<Match> match_both_kinds(const features::Appearance& current, const features::Appearance& target,
+                                    const MatchConfig& sift, const ColumnMatchConfig& columns);
+
+/// The bearings of matches and, of SIFT features, how their sizes change.
 std::vector<geometry::Correspondence> correspondences(const features::Appearance& current,
                                                       const features::Appearance& target,
                                                       std::span<const Match> matches);

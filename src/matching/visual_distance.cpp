@@ -27,7 +27,9 @@ PairComparison compare(const features::Appearance& a, const features::Appearance
     std::vector<double> differences_rad;
     for (const int inlier : verified->pose.inliers) {
       const Match& pair = verified->matches[static_cast<std::size_t>(inlier)];
-      differences_rad.push_back(wrap_angle(azimuth_rad(b.sift, pair.target) - azimuth_rad(a.sift, pair.current)));
+      const bool column = pair.kind == FeatureKind::kColumn;
+      differences_rad.push_back(wrap_angle(azimuth_rad(column ? b.columns : b.sift, pair.target) -
+                                           azimuth_rad(column ? a.columns : a.sift, pair.current)));
     }
     const double turn_rad = circular_median(differences_rad);
     double sum_rad = 0.0;

@@ -10,8 +10,6 @@
 
 #include "core/angles.hpp"
 #include "features/columns.hpp"
-#include "geometry/planar_motion.hpp"
-#include "matching/match_columns.hpp"
 
 namespace homeward::pipeline {
 namespace {
@@ -27,7 +25,6 @@ const cv::Scalar kFeature(255, 190, 40);
 const cv::Scalar kColumn(60, 190, 205);
 const cv::Scalar kColumnAgrees(160, 60, 220);
 const cv::Scalar kColumnDisagrees(225, 150, 175);
-constexpr double kColumnError_rad = 0.015;  // a run of columns has no exact azimuth
 const cv::Scalar kHome(30, 90, 220);
 
 /// One view as it is drawn: its first row, and the turn that its panorama is shifted by.
@@ -85,44 +82,35 @@ void connect(cv::Mat& rgb, const cv::Point& above, const cv::Point& below, const
   if (shift != 0) cv::line(rgb, {above.x - shift, above.y}, below, colour, 1, cv::LINE_AA);
 }
 
-void draw_matches(cv::Mat& rgb, const Drawn& upper, const Drawn& lower, const matching::VerifiedMatch& verified) {
-  std::vector<bool> agrees(verified.matches.size(), false);
-  for (const int inlier : verified.pose.inliers) agrees[static_cast<std::size_t>(inlier)] = true;
-  for (const bool wanted : {false, true}) {  // what agrees is drawn over what does not
-    const cv::Scalar& colour = wanted ? kAgrees : kDisagrees;
-    for (std::size_t i = 0; i < verified.matches.size(); ++i) {
-      if (agrees[i] != wanted) continue;
-      const cv::Point above = upper.feature(verified.matches[i].current);
-      const cv::Point below = lower.feature(verified.matches[i].target);
-      connect(rgb, above, below, colour);
-      cv::circle(rgb, above, 3, colour, 1, cv::LINE_AA);
-      cv::circle(rgb, below, 3, colour, 1, cv::LINE_AA);
-    }
-  }
-}
-
 /// The stroke of one column segment. Its ends stand above each other.
 void stroke(cv::Mat& rgb, const Drawn& drawn, int index, const cv::Scalar& colour, int thickness_px) {
   const features::ColumnEnds ends = features::column_ends(drawn.view.appearance.columns, index);
   cv::line(rgb, drawn.point(ends.top), drawn.point(ends.bottom), colour, thickness_px, cv::LINE_8);
 }
 
-void draw_column_matches(cv::Mat& rgb, const Drawn& upper, const Drawn& lower, const geometry::PlanarMotion& motion,
-                         const std::vector<matching::Match>& columns) {
-  const features::FeatureSet& here = upper.view.appearance.columns;
-  const features::FeatureSet& there = lower.view.appearance.columns;
-  for (const bool wanted : {false, true}) {
-    const cv::Scalar& colour = wanted ? kColumnAgrees : kColumnDisagrees;
-    for (const matching::Match& match : columns) {
-      const matching::ColumnBearings seen = matching::bearings_of(here, there, match);
-      const double error_rad = geometry::epipolar_error_rad(motion, {seen.current, seen.target});
-      if ((std::abs(error_rad) < kColumnError_rad) != wanted) continue;
-      stroke(rgb, upper, match.current, colour, 2);
-      stroke(rgb, lower, match.target, colour, 2);
-      const auto middle = [](const Drawn& drawn, const features::FeatureSet& set, int i) {
-        return drawn.point(set.bearings.row(i).transpose().cast<double>());
-      };
-      connect(rgb, middle(upper, here, match.current), middle(lower, there, match.target), colour);
+void draw_matches(cv::Mat& rgb, const Drawn& upper, const Drawn& lower, const matching::VerifiedMatch& verified) {
+  std::vector<bool> agrees(verified.matches.size(), false);
+  for (const int inlier : verified.pose.inliers) agrees[static_cast<std::size_t>(inlier)] = true;
+  const auto middle = [](const Drawn& drawn, int column) {
+    return drawn.point(drawn.view.appearance.columns.bearings.row(column).transpose().cast<double>());
+  };
+  for (const bool wanted : {false, true}) {  // what agrees is drawn over what does not
+    for (std::size_t i = 0; i < verified.matches.size(); ++i) {
+      if (agrees[i] != wanted) continue;
+      const matching::Match& match = verified.matches[i];
+      if (match.kind == matching::FeatureKind::kColumn) {
+        const cv::Scalar& colour = wanted ? kColumnAgrees : kColumnDisagrees;
+        stroke(rgb, upper, match.current, colour, 2);
+        stroke(rgb, lower, match.target, colour, 2);
+        connect(rgb, middle(upper, match.current), middle(lower, match.target), colour);
+        continue;
+      }
+      const cv::Scalar& colour = wanted ? kAgrees : kDisagrees;
+      const cv::Point above = upper.feature(match.current);
+      const cv::Point below = lower.feature(match.target);
+      connect(rgb, above, below, colour);
+      cv::circle(rgb, above, 3, colour, 1, cv::LINE_AA);
+      cv::circle(rgb, below, 3, colour, 1, cv::LINE_AA);
     }
   }
 }
@@ -158,8 +146,7 @@ std::string summary(const std::optional<matching::VerifiedMatch>& verified) {
 }  // namespace
 
 Image draw_comparison(const ComparedView& current, const ComparedView& target,
-                      const std::optional<matching::VerifiedMatch>& verified,
-                      const std::vector<matching::Match>& columns) {
+                      const std::optional<matching::VerifiedMatch>& verified) {
   const double turn_rad = verified ? verified->pose.motion.turn_rad : 0.0;
   const Drawn upper{current, kHeader_px + kAxis_px, 0.0};
   const Drawn lower{target, upper.top_px + current.panorama.rgb.height_px + kBetween_px + kAxis_px, turn_rad};
@@ -173,13 +160,12 @@ Image draw_comparison(const ComparedView& current, const ComparedView& target,
   }
   if (verified) {
     draw_matches(rgb, upper, lower, *verified);
-    draw_column_matches(rgb, upper, lower, verified->pose.motion, columns);
     const double home_rad = verified->pose.motion.direction_rad;
     mark(rgb, upper, home_rad, "way home");
     mark(rgb, lower, wrap_angle(home_rad + kPi - turn_rad), "way back");
   }
   write(rgb, summary(verified), {6, 16});
-  if (!columns.empty()) legend(rgb);
+  if (verified) legend(rgb);
   write(rgb, "here", {6, upper.top_px - 8});
   write(rgb, "there", {6, lower.top_px - 8});
 

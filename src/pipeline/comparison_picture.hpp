@@ -21,10 +21,9 @@ struct ComparedView {
 /// For people: the present view above, the target's below, turned so that the same direction of the world stands under
 /// itself. Features are dots; matches that one motion explains are green lines, those that it does not are red; marks
 /// point the way home and, from the target, the way back. `verified` is nothing where no motion is common. Column
-/// segments are upright strokes of their length, joined in violet where `columns` matches them and the motion explains
-/// it, in pink where it does not. The panoramas need one geometry.
+/// segments are upright strokes of their length, matches of them violet where the motion explains them, pink where it
+/// does not. The panoramas need one geometry.
 Image draw_comparison(const ComparedView& current, const ComparedView& target,
-                      const std::optional<matching::VerifiedMatch>& verified,
-                      const std::vector<matching::Match>& columns = {});
+                      const std::optional<matching::VerifiedMatch>& verified);
 
 }  // namespace homeward::pipeline

@@ -78,7 +78,7 @@ int suited_width_px(const camera::Camera& camera, int usual_px) {
   }
   if (per_rad.empty() || per_rad.size() > kAzimuths / 2) return usual_px;
   std::ranges::nth_element(per_rad, per_rad.begin() + static_cast<std::ptrdiff_t>(per_rad.size() / 2));
-  constexpr double kNarrowest_px = 512.0;
+  constexpr double kNarrowest_px = 1024.0;  // finer than a coarse picture's own: small blobs are found as well
   constexpr double kWidest_px = 4096.0;
   const double width_px = 2.0 * kPi * per_rad[per_rad.size() / 2];
   constexpr double kMultiple = 64.0;

@@ -93,7 +93,7 @@ std::vector<Pair> read_pairs(const fs::path& camera, const fs::path& list, const
     }
     const features::Appearance& current = pictures(list.parent_path() / pair.current);
     const features::Appearance& target = pictures(list.parent_path() / pair.target);
-    const auto matches = matching::match(current.sift, target.sift, matching::MatchConfig{});
+    const auto matches = matching::match_both_kinds(current, target, {}, {});
     pair.correspondences = matching::correspondences(current, target, matches);
     pairs.push_back(std::move(pair));
   }
