@@ -238,6 +238,7 @@ Status RetrievalIndex::remove(const std::string& id) {
 std::vector<Candidate> RetrievalIndex::query(const features::FeatureSet& set, std::size_t k) const {
   std::vector<Candidate> candidates;
   if (k == 0 || size() == 0 || set.descriptors.rows() == 0) return candidates;
+  if (set.descriptors.cols() != parts_->vocabulary.words.cols()) return candidates;
   const std::vector<std::uint8_t> asked = make_record(parts_->code(set).data(), parts_->coder.code_length());
   const Record query{asked.data()};
   if (parts_->graph) {

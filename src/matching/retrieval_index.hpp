@@ -42,7 +42,8 @@ class RetrievalIndex {
   Status add(std::string id, const features::FeatureSet& set);
   /// Errors: kNotFound.
   Status remove(const std::string& id);
-  /// At most `k` places, the most similar first, equals by id. A picture without features is like none.
+  /// At most `k` places, the most similar first, equals by id. A picture without features, or with
+  /// descriptors of another length than the words, is like none.
   [[nodiscard]] std::vector<Candidate> query(const features::FeatureSet& set, std::size_t k) const;
 
   [[nodiscard]] std::size_t size() const;
