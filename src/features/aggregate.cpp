@@ -137,8 +137,7 @@ Eigen::VectorXf aggregate(const FeatureSet& set, const Vocabulary& vocabulary) {
     const float members = all.members[static_cast<std::size_t>(w)];
     const Eigen::RowVectorXf residual = all.sums.row(w) - members * vocabulary.words.row(w);
     const Eigen::RowVectorXf rooted = residual.array().sign() * residual.array().abs().sqrt();
-    const float norm = rooted.norm();
-    if (norm > 0.0F) vector.segment(w * length, length) = (rooted / norm).transpose();
+    vector.segment(w * length, length) = rooted.transpose();
   }
   const float norm = vector.norm();
   if (norm > 0.0F) vector /= norm;

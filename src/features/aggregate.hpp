@@ -25,9 +25,10 @@ struct Vocabulary {
 Result<Vocabulary> train_vocabulary(std::span<const FeatureSet* const> sets, int words, std::uint64_t seed);
 
 /// All descriptors of a picture in one vector of length 1: for each word the sum of the differences of its descriptors
-/// from it (VLAD: Jegou et al. 2010), each word's sum made equally long (intra-normalisation: Arandjelovic & Zisserman
-/// 2013) after signed square roots. Blind to the order of the features, so to the robot's heading. Descriptors must
-/// have the words' length; none at all give zeros.
+/// from it, then signed square roots against features that come often in one picture (VLAD: Jegou et al. 2012, §3).
+/// Blind to the order of the features, so to the robot's heading. Making each word's sum equally long instead, or as
+/// well (Arandjelovic & Zisserman 2013), finds a little less here: docs/benchmarks.md. Descriptors must have the words'
+/// length; none at all give zeros.
 Eigen::VectorXf aggregate(const FeatureSet& set, const Vocabulary& vocabulary);
 
 }  // namespace homeward::features

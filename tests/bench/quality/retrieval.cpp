@@ -78,13 +78,13 @@ struct Hits {
 };
 
 void report(const std::vector<Seen>& gallery, const std::vector<Seen>& queries, const std::vector<int>& best,
-            const std::string& name, int words, int code_length) {
+            const std::string& name, int words, int code_length, std::uint64_t seed) {
   std::vector<const features::FeatureSet*> sets;
   sets.reserve(gallery.size());
   for (const Seen& seen : gallery) sets.push_back(&seen.appearance.sift);
   const auto start = Clock::now();
   auto index =
-      or_die(matching::RetrievalIndex::create(or_die(features::train_vocabulary(sets, words, 1)), {code_length, 2000}));
+      or_die(matching::RetrievalIndex::create(or_die(features::train_vocabulary(sets, words, seed)), {code_length}));
   const auto trained = Clock::now();
   for (std::size_t i = 0; i < gallery.size(); ++i) {
     const Status added = index.add(std::to_string(i), gallery[i].appearance.sift);
@@ -110,7 +110,7 @@ void report(const std::vector<Seen>& gallery, const std::vector<Seen>& queries, 
   const auto asked = Clock::now();
   const auto ms = [](auto from, auto to) { return std::chrono::duration<double, std::milli>(to - from).count(); };
   const auto share = [&](int count) { return static_cast<double>(count) / static_cast<double>(queries.size()); };
-  std::cout << name << "," << words << "," << code_length << "," << share(hits.true_place[0]) << ","
+  std::cout << name << "," << words << "," << code_length << "," << seed << "," << share(hits.true_place[0]) << ","
             << share(hits.true_place[1]) << "," << share(hits.best[0]) << "," << share(hits.best[1]) << ","
             << index.bytes_per_place() << "," << ms(start, trained) << ","
             << ms(trained, built) / static_cast<double>(gallery.size()) << ","
@@ -126,17 +126,19 @@ int main(int argc, char** argv) {
   std::string gallery_folder;
   std::vector<std::string> query_folders;
   std::vector<int> word_counts{16, 32, 64, 128};
-  std::vector<int> code_lengths{256, 512, 1024, 65536};
+  std::vector<int> code_lengths{256, 512, 1024};
+  std::vector<std::uint64_t> seeds{1, 2, 3};
   std::string kept = ".";
   program.add_option("--gallery", gallery_folder, "Tour with camera.json and poses.csv")->required();
   program.add_option("--queries", query_folders, "Such tours")->required();
   program.add_option("--words", word_counts, "Sizes of the vocabulary");
   program.add_option("--lengths", code_lengths, "Lengths of a place's code");
+  program.add_option("--seeds", seeds, "Seeds of the vocabulary, a line for each");
   program.add_option("--keep", kept, "Folder for the answers of comparing with every picture");
   CLI11_PARSE(program, argc, argv);
   try {
     const auto gallery = homeward::read_tour(gallery_folder);
-    std::cout << "queries,words,code_length,place_at_1,place_at_10,best_at_1,best_at_10,bytes_per_place,"
+    std::cout << "queries,words,code_length,seed,place_at_1,place_at_10,best_at_1,best_at_10,bytes_per_place,"
                  "train_ms,add_ms,query_ms\n";
     for (const std::string& folder : query_folders) {
       const auto queries = homeward::read_tour(folder);
@@ -151,7 +153,9 @@ int main(int argc, char** argv) {
       std::cout << "# " << name << ": the best of all is of the query's place for " << right << " of " << queries.size()
                 << "\n";
       for (const int words : word_counts) {
-        for (const int length : code_lengths) homeward::report(gallery, queries, best, name, words, length);
+        for (const int length : code_lengths) {
+          for (const auto seed : seeds) homeward::report(gallery, queries, best, name, words, length, seed);
+        }
       }
     }
   } catch (const std::exception& error) {

@@ -44,7 +44,7 @@ const features::Vocabulary& vocabulary() {
   static const features::Vocabulary trained = [] {
     std::vector<const features::FeatureSet*> sets;
     for (const auto& set : pictures()) sets.push_back(&set);
-    return features::train_vocabulary(sets, 64, 1).value();
+    return features::train_vocabulary(sets, matching::kRetrievalWords, 1).value();
   }();
   return trained;
 }
@@ -109,11 +109,12 @@ const matching::RetrievalIndex& graph_index(int places) {
 }
 
 void ask(benchmark::State& state, const matching::RetrievalIndex& index) {
+  const int places = static_cast<int>(state.range(0));
   std::vector<features::FeatureSet> queries;
-  for (int i = 0; i < kQueries; ++i) queries.push_back(place(i * 37, 1));
+  for (int i = 0; i < kQueries; ++i) queries.push_back(place(i * 37 % places, 1));
   std::size_t at = 0;
   for (auto _ : state) benchmark::DoNotOptimize(index.query(queries[at++ % kQueries], 10));
-  const auto& exact = exact_index(static_cast<int>(state.range(0)));
+  const auto& exact = exact_index(places);
   int same = 0;
   int itself = 0;
   for (int i = 0; i < kQueries; ++i) {
@@ -122,7 +123,7 @@ void ask(benchmark::State& state, const matching::RetrievalIndex& index) {
     for (const auto& a : truth) {
       same += std::any_of(found.begin(), found.end(), [&](const auto& b) { return a.id == b.id; }) ? 1 : 0;
     }
-    const std::string id = "place " + std::to_string(i * 37);
+    const std::string id = "place " + std::to_string(i * 37 % places);
     itself += std::any_of(found.begin(), found.end(), [&](const auto& b) { return b.id == id; }) ? 1 : 0;
   }
   state.counters["as_exact"] = same / (10.0 * kQueries);
@@ -134,9 +135,24 @@ void ask(benchmark::State& state, const matching::RetrievalIndex& index) {
 void BM_AskExact(benchmark::State& state) { ask(state, exact_index(static_cast<int>(state.range(0)))); }
 void BM_AskGraph(benchmark::State& state) { ask(state, graph_index(static_cast<int>(state.range(0)))); }
 
+/// With aggregation; without making the graph longer.
+void BM_Add(benchmark::State& state) {
+  auto index = matching::RetrievalIndex::create(vocabulary()).value();
+  const features::FeatureSet set = place(1, 0);
+  int count = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(index.add(std::to_string(count++), set));
+}
+
 void BM_Aggregate(benchmark::State& state) {
   const features::FeatureSet set = place(1, 0);
   for (auto _ : state) benchmark::DoNotOptimize(features::aggregate(set, vocabulary()));
+}
+
+/// Reading an index without a graph.
+void BM_Read(benchmark::State& state) {
+  const auto bytes = exact_index(static_cast<int>(state.range(0))).serialise();
+  for (auto _ : state) benchmark::DoNotOptimize(matching::RetrievalIndex::deserialise(bytes, "bench"));
+  state.counters["bytes"] = static_cast<double>(bytes.size());
 }
 
 /// Reading an index and making its graph.
@@ -146,9 +162,11 @@ void BM_ReadWithGraph(benchmark::State& state) {
   state.counters["bytes"] = static_cast<double>(bytes.size());
 }
 
+BENCHMARK(BM_Add)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_Aggregate)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_AskExact)->Arg(2'000)->Arg(10'000)->Arg(100'000)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_AskGraph)->Arg(2'000)->Arg(10'000)->Arg(100'000)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_Read)->Arg(10'000)->Arg(100'000)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_ReadWithGraph)->Arg(2'000)->Arg(10'000)->Arg(100'000)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace

@@ -93,8 +93,8 @@ TEST(Aggregate, SumsDifferencesFromTheNearestWord) {
   // Two by the first word: differences (9, 0) and (0, -16); one by the second: (0, 4); none by the third.
   const Eigen::VectorXf vector = aggregate(rows_of({{128 + 9, 128}, {128, 128 - 16}, {228, 128 + 4}}), vocabulary);
   Eigen::VectorXf expected(6);
-  expected << 3.0F / 5.0F, -4.0F / 5.0F, 0.0F, 1.0F, 0.0F, 0.0F;
-  EXPECT_TRUE(vector.isApprox(expected / std::sqrt(2.0F))) << vector.transpose();
+  expected << 3.0F, -4.0F, 0.0F, 2.0F, 0.0F, 0.0F;
+  EXPECT_TRUE(vector.isApprox(expected / std::sqrt(29.0F))) << vector.transpose();
 }
 
 TEST(Aggregate, IsBlindToTheOrderOfFeatures) {

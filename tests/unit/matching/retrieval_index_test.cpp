@@ -30,7 +30,7 @@ RetrievalIndex index_of(int places, const RetrievalConfig& config = {}) {
 }
 
 /// The same place seen again: some of its features are others.
-FeatureSet seen_again(int place, int others = 20) {
+FeatureSet seen_again(int place, int others = 12) {
   FeatureSet set = clustered_features(60, static_cast<std::uint64_t>(place));
   set.descriptors.topRows(others) = clustered_features(others, 500'000 + static_cast<std::uint64_t>(place)).descriptors;
   return set;
