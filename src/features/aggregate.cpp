@@ -16,6 +16,7 @@ constexpr std::size_t kMostSamples = 20'000;
 constexpr int kMostWords = 4096;
 constexpr int kRounds = 10;
 constexpr float kCentre = 128.0F;
+constexpr float kHorizonHalfHeight = 0.1F;  // sine of an elevation
 
 /// A number from 0 to below 1, the same with every standard library.
 double chance(std::mt19937_64& random) { return static_cast<double>(random() >> 11U) * 0x1p-53; }
@@ -77,9 +78,13 @@ std::vector<Eigen::Index> nearest_words(const Rows& descriptors, const Rows& wor
   return nearest;
 }
 
+/// Below, about and above the horizon (0.1 is 6 degrees): where a feature stays while the robot turns and mostly while
+/// it drives.
+Eigen::Index band_of(float upward) { return upward < -kHorizonHalfHeight ? 0 : upward < kHorizonHalfHeight ? 1 : 2; }
+
 struct Sums {
   Rows sums;                   // per word, of its descriptors
-  std::vector<float> members;  // per word
+  std::vector<float> members;  // ... how many
 };
 
 Sums sum_by_word(const Rows& descriptors, const std::vector<Eigen::Index>& word_of, Eigen::Index words) {
@@ -129,15 +134,20 @@ Result<Vocabulary> train_vocabulary(std::span<const FeatureSet* const> sets, int
 
 Eigen::VectorXf aggregate(const FeatureSet& set, const Vocabulary& vocabulary) {
   Eigen::VectorXf vector = Eigen::VectorXf::Zero(vocabulary.aggregate_length());
-  if (set.descriptors.rows() == 0 || set.descriptors.cols() != vocabulary.words.cols()) return vector;
-  const Rows descriptors = set.descriptors.cast<float>().array() - kCentre;
-  const Sums all = sum_by_word(descriptors, nearest_words(descriptors, vocabulary.words), vocabulary.words.rows());
+  const Eigen::Index count = set.descriptors.rows();
   const Eigen::Index length = vocabulary.words.cols();
-  for (Eigen::Index w = 0; w < vocabulary.words.rows(); ++w) {
-    const float members = all.members[static_cast<std::size_t>(w)];
-    const Eigen::RowVectorXf residual = all.sums.row(w) - members * vocabulary.words.row(w);
+  if (count == 0 || set.descriptors.cols() != length || set.bearings.rows() != count) return vector;
+  const Rows descriptors = set.descriptors.cast<float>().array() - kCentre;
+  const Eigen::Index words = vocabulary.words.rows();
+  std::vector<Eigen::Index> block_of = nearest_words(descriptors, vocabulary.words);
+  for (Eigen::Index i = 0; i < count; ++i) block_of[static_cast<std::size_t>(i)] += words * band_of(set.bearings(i, 2));
+  const Sums all = sum_by_word(descriptors, block_of, kElevationBands * words);
+  for (Eigen::Index b = 0; b < all.sums.rows(); ++b) {
+    const float members = all.members[static_cast<std::size_t>(b)];
+    const Eigen::RowVectorXf residual = all.sums.row(b) - members * vocabulary.words.row(b % words);
     const Eigen::RowVectorXf rooted = residual.array().sign() * residual.array().abs().sqrt();
-    vector.segment(w * length, length) = rooted.transpose();
+    const float norm = rooted.norm();
+    if (norm > 0.0F) vector.segment(b * length, length) = (rooted / norm).transpose();
   }
   const float norm = vector.norm();
   if (norm > 0.0F) vector /= norm;

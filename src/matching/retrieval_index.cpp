@@ -323,7 +323,7 @@ Result<RetrievalIndex> RetrievalIndex::deserialise(std::span<const std::uint8_t>
   if (!reader.get(counts.data(), counts.size())) return corrupt(kTooShort);
   const auto [words, length, code_length, graph_from] = counts;
   if (words == 0 || words > kMaxWords || length == 0 || length > kMaxDescriptorLength || code_length == 0 ||
-      code_length > kMaxCodeLength || code_length > words * length || zero != 0) {
+      code_length > kMaxCodeLength || code_length > features::kElevationBands * words * length || zero != 0) {
     return corrupt("The index claims words or codes of sizes over the limit.");
   }
   std::vector<std::int8_t> numbers(std::size_t{words} * length);

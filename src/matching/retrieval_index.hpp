@@ -13,11 +13,11 @@
 namespace homeward::matching {
 
 /// How many words a vocabulary for an index best has.
-inline constexpr int kRetrievalWords = 64;
+inline constexpr int kRetrievalWords = 16;
 
 struct RetrievalConfig {
-  int code_length = 512;  // bytes kept of each place, at most
-  // Places from which on the graph is made. Below, looking at all of them is exact and quick (200,000 in 7 ms of a
+  int code_length = 1024;  // bytes kept of each place, at most
+  // Places from which on the graph is made. Below, looking at all of them is exact and quick (100,000 in 7 ms of a
   // processor), and nothing is to be built: docs/benchmarks.md.
   std::size_t graph_from = 200'000;
 };

@@ -125,9 +125,9 @@ int main(int argc, char** argv) {
   CLI::App program("Recall of the retrieval index beside comparing with every picture, as CSV");
   std::string gallery_folder;
   std::vector<std::string> query_folders;
-  std::vector<int> word_counts{16, 32, 64, 128};
+  std::vector<int> word_counts{8, 16, 24, 32};
   std::vector<int> code_lengths{256, 512, 1024};
-  std::vector<std::uint64_t> seeds{1, 2, 3};
+  std::vector<std::uint64_t> seeds{1, 2, 3, 4, 5};
   std::string kept = ".";
   program.add_option("--gallery", gallery_folder, "Tour with camera.json and poses.csv")->required();
   program.add_option("--queries", query_folders, "Such tours")->required();

@@ -70,6 +70,7 @@ features::FeatureSet place(int number, int visit) {
     }
     const auto& descriptors = pictures()[from].descriptors;
     const auto at = static_cast<Eigen::Index>(row % static_cast<std::uint64_t>(descriptors.rows()));
+    set.bearings.row(i) = pictures()[from].bearings.row(at);
     std::uint64_t bits = 0;
     for (Eigen::Index d = 0; d < set.descriptors.cols(); ++d) {
       if (d % 16 == 0) bits = noise();
@@ -86,7 +87,8 @@ const matching::RetrievalIndex& exact_index(int places) {
   static std::map<int, matching::RetrievalIndex> made;
   const auto known = made.find(places);
   if (known != made.end()) return known->second;
-  auto index = matching::RetrievalIndex::create(vocabulary(), {512, kNoGraph}).value();
+  auto index =
+      matching::RetrievalIndex::create(vocabulary(), {matching::RetrievalConfig{}.code_length, kNoGraph}).value();
   for (int i = 0; i < places; ++i) {
     if (!index.add("place " + std::to_string(i), place(i, 0))) std::abort();
   }

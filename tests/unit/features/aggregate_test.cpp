@@ -91,20 +91,32 @@ TEST(Aggregate, SumsDifferencesFromTheNearestWord) {
   vocabulary.words.resize(3, 2);
   vocabulary.words << 0, 0, 100, 0, 0, 100;
   // Two by the first word: differences (9, 0) and (0, -16); one by the second: (0, 4); none by the third.
-  const Eigen::VectorXf vector = aggregate(rows_of({{128 + 9, 128}, {128, 128 - 16}, {228, 128 + 4}}), vocabulary);
-  Eigen::VectorXf expected(6);
-  expected << 3.0F, -4.0F, 0.0F, 2.0F, 0.0F, 0.0F;
-  EXPECT_TRUE(vector.isApprox(expected / std::sqrt(29.0F))) << vector.transpose();
+  FeatureSet set = rows_of({{128 + 9, 128}, {128, 128 - 16}, {228, 128 + 4}});
+  Eigen::VectorXf expected = Eigen::VectorXf::Zero(18);
+  expected.segment(6, 6) << 3.0F / 5.0F, -4.0F / 5.0F, 0.0F, 1.0F, 0.0F, 0.0F;
+  EXPECT_TRUE(aggregate(set, vocabulary).isApprox(expected / std::sqrt(2.0F)));
+
+  // The same below the horizon, but for one feature above it.
+  set.bearings.col(2) << -0.2F, 0.2F, -0.2F;
+  expected.setZero();
+  expected.segment(0, 6) << 1.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F;
+  expected.segment(12, 6) << 0.0F, -1.0F, 0.0F, 0.0F, 0.0F, 0.0F;
+  EXPECT_TRUE(aggregate(set, vocabulary).isApprox(expected / std::sqrt(3.0F)));
 }
 
-TEST(Aggregate, IsBlindToTheOrderOfFeatures) {
+TEST(Aggregate, IsBlindToTheOrderOfFeaturesAndToHeading) {
   const FeatureSet set = clustered_features(700, 3);
   const Vocabulary vocabulary = vocabulary_of(set, 32);
   std::vector<int> order(700);
   std::iota(order.begin(), order.end(), 0);
   std::shuffle(order.begin(), order.end(), std::mt19937(5));
   FeatureSet turned = set;
-  for (int i = 0; i < 700; ++i) turned.descriptors.row(i) = set.descriptors.row(order[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < 700; ++i) {
+    const int from = order[static_cast<std::size_t>(i)];
+    turned.descriptors.row(i) = set.descriptors.row(from);
+    // ... and to azimuths: a quarter turn.
+    turned.bearings.row(i) << -set.bearings(from, 1), set.bearings(from, 0), set.bearings(from, 2);
+  }
   EXPECT_EQ(aggregate(set, vocabulary), aggregate(turned, vocabulary));
   EXPECT_NEAR(aggregate(set, vocabulary).norm(), 1.0F, 1e-6F);
 }

@@ -95,7 +95,7 @@ TEST(RetrievalIndex, APlaceFindsItselfAndThenThoseLikeIt) {
 }
 
 TEST(RetrievalIndex, FewPlacesAreComparedExactly) {
-  const RetrievalIndex index = index_of(100);
+  const RetrievalIndex index = index_of(100, {512});
   const PlaceCoder coder(vocabulary().aggregate_length(), 512);
   const auto code = [&](const FeatureSet& set) { return coder.encode(features::aggregate(set, vocabulary())); };
   const auto query = code(seen_again(5));
