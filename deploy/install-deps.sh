@@ -28,6 +28,7 @@ packages=(
   libvalijson-dev
   libspdlog-dev
   libcli11-dev
+  libhnswlib-dev
   prometheus-cpp-dev
   libsodium-dev
   libssl-dev
