@@ -14,14 +14,14 @@ struct FeatureConfig {
   int panorama_width_px = 1024;
   double elevation_max_rad = 0.34;   // top row of the panorama
   double elevation_min_rad = -0.95;  // bottom row
-  int max_sift = 620;                // strongest kept, spread over azimuth
+  int max_sift = 600;                // strongest kept, spread over azimuth
   double sift_contrast_threshold = 0.015;
   int sift_code_length = 32;  // bytes of a SIFT descriptor, 1 to 64
   int max_columns = 150;      // invariant column segments kept, spread over azimuth
 };
 
 /// Short text that is equal exactly when features are comparable, for example
-/// "hw2-w1024-e0.3400_-0.9500-s700-t0.0150-l32-c0".
+/// "hw2-w1024-e0.3400_-0.9500-s600-t0.0150-l32-c150".
 std::string feature_config_id(const FeatureConfig& config);
 
 /// One kind of local features of one picture. Row i of all members belongs to feature i.
