@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// homeward_bench_columns CAMERA PAIRS MODE [MAX_COLUMNS [MAX_SIFT]]: what invariant column segments give on pairs of pictures
-// whose motion is known. PAIRS has no header; each line is group,current,target,bearing_rad,turn_rad (nan: turn not
-// known). MODE: time, spread, right or home.
+// homeward_bench_columns CAMERA PAIRS MODE [MAX_COLUMNS [MAX_SIFT]]: what invariant column segments give on pairs of
+// pictures whose motion is known. PAIRS has no header; each line is group,current,target,bearing_rad,turn_rad (nan:
+// turn not known). MODE: time, spread, right or home.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
