@@ -42,6 +42,8 @@ if(HOMEWARD_ASAN)
   target_compile_options(homeward_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                                                     -fno-omit-frame-pointer)
   target_link_options(homeward_options INTERFACE -fsanitize=address,undefined)
+  # Eigen allocates in another way under the sanitizer; what OpenGV's library allocated has to be freed as it was.
+  target_compile_definitions(homeward_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 if(HOMEWARD_TSAN)
   # GCC warns that atomic_thread_fence is not modelled; Asio uses it.

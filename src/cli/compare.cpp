@@ -9,6 +9,7 @@
 #include "agent/files/read_file.hpp"
 #include "agent/files/write_file.hpp"
 #include "cli/command.hpp"
+#include "features/aggregate.hpp"
 #include "features/global.hpp"
 #include "imageio/decode.hpp"
 #include "matching/visual_distance.hpp"
@@ -64,6 +65,32 @@ Status compare_globally(features::GlobalMeasure measure, const std::vector<View>
   return {};
 }
 
+/// By aggregated descriptors, their words learnt from the pictures themselves.
+Status compare_aggregated(const pipeline::Eye& eye, const std::vector<View>& views, const Options& options) {
+  std::vector<features::Appearance> seen;
+  for (const View& view : views) {
+    if (const auto shows_something = describe(view); !shows_something) return pass_on(shows_something);
+    auto appearance = eye.look(view.picture);
+    if (!appearance) return pass_on(appearance);
+    if (appearance->sift.size() == 0) {
+      return fail(ErrorCode::kTooFewFeatures, "The picture shows no features.", view.file);
+    }
+    seen.push_back(std::move(*appearance));
+  }
+  std::vector<const features::FeatureSet*> sets;
+  for (const features::Appearance& appearance : seen) sets.push_back(&appearance.sift);
+  constexpr int kWords = 16;
+  const auto vocabulary = features::train_vocabulary(sets, kWords, options.seed);
+  if (!vocabulary) return pass_on(vocabulary);
+  const Eigen::VectorXf first = features::aggregate(seen.front().sift, *vocabulary);
+  for (std::size_t i = 1; i < views.size(); ++i) {
+    nlohmann::json line = line_of(views.front(), views[i], options.measure);
+    line["dissimilarity"] = std::max(0.0F, 1.0F - first.dot(features::aggregate(seen[i].sift, *vocabulary)));
+    std::cout << line.dump() << "\n";
+  }
+  return {};
+}
+
 Status compare_by_features(const pipeline::Eye& eye, const std::vector<View>& views, const Options& options) {
   const auto first = eye.look(views.front().picture);
   if (!first) return pass_on(first);
@@ -95,13 +122,14 @@ Status compare(const Options& options) {
                 "compare");
   }
   const bool by_features = options.measure == "features";
+  const bool aggregated = options.measure == "vlad";
   const auto measure = std::ranges::find_if(features::kGlobalMeasures, [&](features::GlobalMeasure one) {
     return features::global_measure_name(one) == options.measure;
   });
-  if (!by_features && measure == features::kGlobalMeasures.end()) {
+  if (!by_features && !aggregated && measure == features::kGlobalMeasures.end()) {
     return fail(ErrorCode::kInvalidInput,
                 "The measure '" + options.measure +
-                    "' is not known; there are features, moments, jeffrey, chi2, sad and fourier.",
+                    "' is not known; there are features, moments, jeffrey, chi2, sad, fourier and vlad.",
                 "--measure");
   }
   if (!options.drawing.empty() && (!by_features || options.pictures.size() != 2)) {
@@ -119,7 +147,8 @@ Status compare(const Options& options) {
     if (!view) return pass_on(view);
     views.push_back(std::move(*view));
   }
-  return by_features ? compare_by_features(*eye, views, options) : compare_globally(*measure, views);
+  if (by_features) return compare_by_features(*eye, views, options);
+  return aggregated ? compare_aggregated(*eye, views, options) : compare_globally(*measure, views);
 }
 
 }  // namespace
@@ -129,7 +158,7 @@ void register_compare(CLI::App& program) {
       "compare", "How different the first picture is from each of the others: a JSON line per pair");
   const auto options = std::make_shared<Options>();
   command->add_option("--camera", options->camera, "camera.json")->required();
-  command->add_option("--measure", options->measure, "features, moments, jeffrey, chi2, sad or fourier")
+  command->add_option("--measure", options->measure, "features, moments, jeffrey, chi2, sad, fourier or vlad")
       ->capture_default_str();
   command->add_option("--draw", options->drawing, "Picture (PNG) of the two panoramas and what they have in common");
   command->add_option("--seed", options->seed, "Seed of everything random");

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "features/aggregate.hpp"
 #include "matching/visual_distance.hpp"
 
 namespace homeward::pipeline {
@@ -38,6 +40,22 @@ Eigen::MatrixXd for_each_pair(std::span<const RowView> tests, std::span<const Ro
   return result;
 }
 
+/// One less the cosine of aggregated descriptors, their words learnt from the training row; infinite where the row has
+/// too few features for that.
+Eigen::MatrixXd aggregated(std::span<const RowView> tests, std::span<const RowView> training, std::uint64_t seed) {
+  std::vector<const features::FeatureSet*> sets;
+  for (const RowView& view : training) sets.push_back(&view.appearance.sift);
+  constexpr int kWords = 16;
+  const auto vocabulary = features::train_vocabulary(sets, kWords, seed);
+  if (!vocabulary) {
+    return Eigen::MatrixXd::Constant(std::ssize(tests), std::ssize(training), std::numeric_limits<double>::infinity());
+  }
+  return for_each_pair(tests, training, [&](const RowView& a, const RowView& b) {
+    return 1.0 - static_cast<double>(features::aggregate(a.appearance.sift, *vocabulary)
+                                         .dot(features::aggregate(b.appearance.sift, *vocabulary)));
+  });
+}
+
 }  // namespace
 
 std::vector<RowMeasure> row_measures(std::uint64_t seed) {
@@ -49,6 +67,7 @@ std::vector<RowMeasure> row_measures(std::uint64_t seed) {
                           });
                         }});
   }
+  measures.push_back({"vlad", [seed](auto tests, auto training) { return aggregated(tests, training, seed); }});
   measures.push_back({"features", [seed](auto tests, auto training) {
                         return for_each_pair(tests, training, [seed](const RowView& a, const RowView& b) {
                           return matching::compare(a.appearance, b.appearance, {}, seed).distance;

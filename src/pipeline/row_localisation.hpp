@@ -36,7 +36,8 @@ struct RowMeasure {
   std::function<Eigen::MatrixXd(std::span<const RowView> tests, std::span<const RowView> training)> compare;
 };
 
-/// All measures: those of whole pictures by their names, and "features", the visual distance D.
+/// All measures: those of whole pictures by their names, "vlad", the aggregated descriptors, and "features", the visual
+/// distance D.
 std::vector<RowMeasure> row_measures(std::uint64_t seed);
 
 /// The index of the nearest training picture for each test picture; of two equally near ones the first.

@@ -148,7 +148,7 @@ class HappyPath(CliTest):
         self.tour()
         near, far = sorted((self.folder / "tour").glob("*.jpg"))[1], sorted((self.folder / "tour").glob("*.jpg"))[-1]
         first = sorted((self.folder / "tour").glob("*.jpg"))[0]
-        for measure in ("moments", "jeffrey", "chi2", "sad", "fourier", "features"):
+        for measure in ("moments", "jeffrey", "chi2", "sad", "fourier", "vlad", "features"):
             lines = self.lines_of("compare", "--camera", "tour/camera.json", "--measure", measure, first, first, near, far)
             self.assertEqual([line["measure"] for line in lines], [measure] * 3)
             same, step, other = (line["dissimilarity"] for line in lines)

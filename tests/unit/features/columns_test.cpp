@@ -251,7 +251,7 @@ TEST(Columns, KeepTheBudgetAllAround) {
 }
 
 TEST(Columns, ExtractGivesThemWhenAskedTo) {
-  EXPECT_EQ(extract(room(), {}).columns.size(), 0);
+  EXPECT_EQ(extract(room(), with_columns(0)).columns.size(), 0);
   EXPECT_EQ(extract(room(), with_columns(50)).columns.size(), 50);
 }
 

@@ -25,7 +25,8 @@ TEST(Extract, KeepsTheBudget) {
     config.max_sift = budget;
     const Appearance seen = extract(sample_panorama(), config);
     EXPECT_EQ(seen.sift.size(), budget);  // the room has more than enough
-    EXPECT_EQ(seen.size(), budget);
+    EXPECT_EQ(seen.size(), budget + seen.columns.size());
+    EXPECT_LE(seen.columns.size(), config.max_columns);
     EXPECT_EQ(seen.sift.descriptors.rows(), budget);
     EXPECT_EQ(seen.sift.descriptors.cols(), config.sift_code_length);
     EXPECT_EQ(seen.sift.colours.rows(), budget);
