@@ -51,8 +51,9 @@ Eigen::MatrixXd aggregated(std::span<const RowView> tests, std::span<const RowVi
     return Eigen::MatrixXd::Constant(std::ssize(tests), std::ssize(training), std::numeric_limits<double>::infinity());
   }
   return for_each_pair(tests, training, [&](const RowView& a, const RowView& b) {
-    return 1.0 - static_cast<double>(features::aggregate(a.appearance.sift, *vocabulary)
-                                         .dot(features::aggregate(b.appearance.sift, *vocabulary)));
+    const float cosine =
+        features::aggregate(a.appearance.sift, *vocabulary).dot(features::aggregate(b.appearance.sift, *vocabulary));
+    return std::max(0.0, 1.0 - static_cast<double>(cosine));  // rounding makes a cosine more than 1
   });
 }
 

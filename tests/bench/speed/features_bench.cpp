@@ -8,6 +8,7 @@
 
 #include "camera/panorama.hpp"
 #include "features/colour.hpp"
+#include "features/columns.hpp"
 #include "features/extract.hpp"
 #include "imageio/decode.hpp"
 #include "pipeline/eye.hpp"
@@ -62,6 +63,28 @@ void BM_Extract(benchmark::State& state) {
   state.counters["features"] = count;
 }
 
+/// Without columns: SIFT with its colour invariants, and the colour moments.
+void BM_ExtractSift(benchmark::State& state) {
+  features::FeatureConfig config = scene().config;
+  config.max_columns = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(features::extract(scene().panorama, config));
+}
+
+void BM_ExtractColumns(benchmark::State& state) {
+  scene();  // made before the clock runs
+  for (auto _ : state) benchmark::DoNotOptimize(features::extract_columns(scene().panorama, scene().config));
+}
+
+/// The colour invariants of as many patches as there are SIFT features.
+void BM_ColourInvariants(benchmark::State& state) {
+  const Image& rgb = scene().panorama.rgb;
+  for (auto _ : state) {
+    for (int i = 0; i < scene().config.max_sift; ++i) {
+      benchmark::DoNotOptimize(features::colour_invariants(rgb, i * 1.7, 20 + i % 160, 3.0 + i % 7));
+    }
+  }
+}
+
 void BM_ColourMoments(benchmark::State& state) {
   scene();  // made before the clock runs
   for (auto _ : state) benchmark::DoNotOptimize(features::colour_moments(scene().panorama));
@@ -93,6 +116,9 @@ void BM_OpenCvSift(benchmark::State& state) {
 BENCHMARK(BM_Decode)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_Unwrap)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_Extract)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_ExtractSift)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_ExtractColumns)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_ColourInvariants)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_ColourMoments)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_JpegToFeatures)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_OpenCvSift)->Unit(benchmark::kMillisecond);
