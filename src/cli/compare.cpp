@@ -12,6 +12,7 @@
 #include "features/aggregate.hpp"
 #include "features/global.hpp"
 #include "imageio/decode.hpp"
+#include "matching/retrieval_index.hpp"
 #include "matching/visual_distance.hpp"
 #include "pipeline/comparison_picture.hpp"
 #include "pipeline/eye.hpp"
@@ -79,8 +80,7 @@ Status compare_aggregated(const pipeline::Eye& eye, const std::vector<View>& vie
   }
   std::vector<const features::FeatureSet*> sets;
   for (const features::Appearance& appearance : seen) sets.push_back(&appearance.sift);
-  constexpr int kWords = 16;
-  const auto vocabulary = features::train_vocabulary(sets, kWords, options.seed);
+  const auto vocabulary = features::train_vocabulary(sets, matching::kRetrievalWords, options.seed);
   if (!vocabulary) return pass_on(vocabulary);
   const Eigen::VectorXf first = features::aggregate(seen.front().sift, *vocabulary);
   for (std::size_t i = 1; i < views.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/angles.hpp"
+#include "features/azimuth_spread.hpp"
 #include "features/column_runs.hpp"
 
 namespace homeward::features {
@@ -280,27 +281,14 @@ std::vector<ColumnSegment> raw_segments(const cv::Mat& grey, const cv::Mat& trus
   return segments;
 }
 
-/// The strongest of each sector of azimuth in turn.
-std::vector<int> spread_over_azimuth(const std::vector<ColumnCandidate>& candidates, int width_px, int budget) {
-  constexpr int kSectors = 24;
-  std::vector<int> order(candidates.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  const auto strength = [&](int i) { return candidates[static_cast<std::size_t>(i)].strength; };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return strength(a) > strength(b); });
-  std::vector<std::vector<int>> sectors(kSectors);
-  for (const int i : order) {
-    const int sector = candidates[static_cast<std::size_t>(i)].segment.u_px * kSectors / width_px;
-    sectors[static_cast<std::size_t>(sector)].push_back(i);
+/// Which columns to keep.
+std::vector<int> strongest(const std::vector<ColumnCandidate>& candidates, int width_px, int budget) {
+  std::vector<RankedFeature> ranked;
+  ranked.reserve(candidates.size());
+  for (const ColumnCandidate& candidate : candidates) {
+    ranked.push_back({candidate.strength, candidate.segment.u_px * kAzimuthSectors / width_px});
   }
-  std::vector<int> kept;
-  for (std::size_t rank = 0; static_cast<int>(kept.size()) < budget; ++rank) {
-    const std::size_t before = kept.size();
-    for (const auto& sector : sectors) {
-      if (rank < sector.size() && static_cast<int>(kept.size()) < budget) kept.push_back(sector[rank]);
-    }
-    if (kept.size() == before) break;
-  }
-  return kept;
+  return spread_over_azimuth(ranked, budget);
 }
 
 FeatureSet as_features(const std::vector<ColumnCandidate>& candidates, const std::vector<int>& kept,
@@ -357,7 +345,7 @@ FeatureSet extract_columns(const camera::Panorama& panorama, const FeatureConfig
     candidates.push_back(candidate);
   }
   const std::vector<ColumnCandidate> prototypes = one_of_each_run(candidates, width_px);
-  return as_features(prototypes, spread_over_azimuth(prototypes, width_px, config.max_columns), panorama.geometry);
+  return as_features(prototypes, strongest(prototypes, width_px, config.max_columns), panorama.geometry);
 }
 
 ColumnEnds column_ends(const FeatureSet& columns, int index) {

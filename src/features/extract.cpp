@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/angles.hpp"
+#include "features/azimuth_spread.hpp"
 #include "features/colour.hpp"
 #include "features/columns.hpp"
 #include "features/descriptor_code.hpp"
@@ -109,25 +109,17 @@ std::vector<SiftPoint> clear_of_border(std::vector<SiftPoint> found, const cv::M
   return found;
 }
 
-/// The strongest of each sector of azimuth in turn, so that no single poster takes the whole budget. Larger blobs are
-/// seen again from farther away: the root of the size counts too (docs/benchmarks.md has the comparison).
-std::vector<SiftPoint> spread_over_azimuth(std::vector<SiftPoint> points, const Strip& strip, int budget) {
-  constexpr int kSectors = 24;
-  const auto rank = [](const SiftPoint& point) { return point.response * std::sqrt(point.sigma_px); };
-  std::ranges::stable_sort(points, std::greater<>(), rank);
-  std::vector<std::vector<SiftPoint>> sectors(kSectors);
+/// Which blobs to keep. Larger ones are seen again from farther away: the root of the size counts too
+/// (docs/benchmarks.md has the comparison).
+std::vector<SiftPoint> strongest(const std::vector<SiftPoint>& points, const Strip& strip, int budget) {
+  std::vector<RankedFeature> ranked;
+  ranked.reserve(points.size());
   for (const SiftPoint& point : points) {
-    const int sector = static_cast<int>((point.u_px + 0.5F) * kSectors / static_cast<float>(strip.width_px));
-    sectors[static_cast<std::size_t>(std::clamp(sector, 0, kSectors - 1))].push_back(point);
+    ranked.push_back({static_cast<double>(point.response * std::sqrt(point.sigma_px)),
+                      static_cast<int>((point.u_px + 0.5F) * kAzimuthSectors / static_cast<float>(strip.width_px))});
   }
   std::vector<SiftPoint> kept;
-  for (std::size_t turn = 0; static_cast<int>(kept.size()) < budget; ++turn) {
-    const std::size_t before = kept.size();
-    for (const auto& sector : sectors) {
-      if (turn < sector.size() && static_cast<int>(kept.size()) < budget) kept.push_back(sector[turn]);
-    }
-    if (kept.size() == before) break;
-  }
+  for (const int i : spread_over_azimuth(ranked, budget)) kept.push_back(points[static_cast<std::size_t>(i)]);
   return kept;
 }
 
@@ -135,9 +127,9 @@ FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& 
   const int width_px = panorama.rgb.width_px;
   const Strip strip = seen_strip(panorama);
   const UprightSift sift(cut(stretched_grey(panorama.rgb), strip));
-  const auto points = spread_over_azimuth(clear_of_border(sift.detect(config.sift_contrast_threshold),
-                                                          distance_to_border(panorama, strip), strip, width_px),
-                                          strip, config.max_sift);
+  const auto points = strongest(clear_of_border(sift.detect(config.sift_contrast_threshold),
+                                                distance_to_border(panorama, strip), strip, width_px),
+                                strip, config.max_sift);
   FeatureSet set;
   const auto count = static_cast<Eigen::Index>(points.size());
   set.bearings.resize(count, 3);

@@ -6,17 +6,15 @@
 #include <hnswlib/hnswlib.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <unordered_map>
 
+#include "core/bytes.hpp"
 #include "matching/place_code.hpp"
 
 namespace homeward::matching {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "an index is copied as it lies in memory");
 
 constexpr char kMagic[4] = {'H', 'W', 'R', 'I'};
 constexpr std::uint16_t kVersion = 1;
@@ -89,40 +87,6 @@ void sort_and_cut(std::vector<Candidate>& candidates, std::size_t k) {
   std::partial_sort(candidates.begin(), end, candidates.end(), better);
   candidates.erase(end, candidates.end());
 }
-
-class Writer {
- public:
-  template <class T>
-  void put(const T* values, std::size_t count) {
-    const auto* first = reinterpret_cast<const std::uint8_t*>(values);
-    bytes_.insert(bytes_.end(), first, first + count * sizeof(T));
-  }
-  template <class T>
-  void put(T value) {
-    put(&value, 1);
-  }
-  std::vector<std::uint8_t> take() { return std::move(bytes_); }
-
- private:
-  std::vector<std::uint8_t> bytes_;
-};
-
-class Reader {
- public:
-  explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-  template <class T>
-  bool get(T* values, std::size_t count = 1) {
-    const std::size_t size = count * sizeof(T);
-    if (size > bytes_.size()) return false;
-    if (size > 0) std::memcpy(values, bytes_.data(), size);
-    bytes_ = bytes_.subspan(size);
-    return true;
-  }
-  [[nodiscard]] std::size_t left() const { return bytes_.size(); }
-
- private:
-  std::span<const std::uint8_t> bytes_;
-};
 
 }  // namespace
 
@@ -289,7 +253,7 @@ std::size_t RetrievalIndex::bytes_per_place() const {
 const features::Vocabulary& RetrievalIndex::vocabulary() const { return parts_->vocabulary; }
 
 std::vector<std::uint8_t> RetrievalIndex::serialise() const {
-  Writer writer;
+  ByteWriter writer;
   const auto& words = parts_->vocabulary.words;
   writer.put(kMagic, 4);
   writer.put(kVersion);
@@ -313,7 +277,7 @@ std::vector<std::uint8_t> RetrievalIndex::serialise() const {
 Result<RetrievalIndex> RetrievalIndex::deserialise(std::span<const std::uint8_t> bytes, const std::string& where) {
   const auto corrupt = [&](const char* message) { return fail(ErrorCode::kCorruptFile, message, where); };
   constexpr const char* kTooShort = "The index ends too early.";
-  Reader reader(bytes);
+  ByteReader reader(bytes);
   char magic[4] = {};
   if (!reader.get(magic, 4) || std::memcmp(magic, kMagic, 4) != 0) {
     return fail(ErrorCode::kUnsupportedFormat, "These bytes are not a retrieval index.", where);

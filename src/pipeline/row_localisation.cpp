@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "features/aggregate.hpp"
+#include "matching/retrieval_index.hpp"
 #include "matching/visual_distance.hpp"
 
 namespace homeward::pipeline {
@@ -45,8 +46,7 @@ Eigen::MatrixXd for_each_pair(std::span<const RowView> tests, std::span<const Ro
 Eigen::MatrixXd aggregated(std::span<const RowView> tests, std::span<const RowView> training, std::uint64_t seed) {
   std::vector<const features::FeatureSet*> sets;
   for (const RowView& view : training) sets.push_back(&view.appearance.sift);
-  constexpr int kWords = 16;
-  const auto vocabulary = features::train_vocabulary(sets, kWords, seed);
+  const auto vocabulary = features::train_vocabulary(sets, matching::kRetrievalWords, seed);
   if (!vocabulary) {
     return Eigen::MatrixXd::Constant(std::ssize(tests), std::ssize(training), std::numeric_limits<double>::infinity());
   }

@@ -2,16 +2,14 @@
 #include "wire/appearance_blob.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "core/angles.hpp"
+#include "core/bytes.hpp"
 
 namespace homeward::wire {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "blobs are copied as they lie in memory");
 
 constexpr char kMagic[4] = {'H', 'W', 'A', 'P'};
 constexpr std::uint16_t kVersion = 2;
@@ -20,42 +18,7 @@ constexpr double kAzimuthUnitsPerRad = 32768.0 / kPi;  // wraps as the number do
 constexpr double kElevationUnitsPerRad = 32767.0 / (0.5 * kPi);
 constexpr float kScaleUnitsPerRad = 32768.0F;
 
-class Writer {
- public:
-  template <class T>
-  void put(const T* values, std::size_t count) {
-    const auto* first = reinterpret_cast<const std::uint8_t*>(values);
-    bytes_.insert(bytes_.end(), first, first + count * sizeof(T));
-  }
-  template <class T>
-  void put(T value) {
-    put(&value, 1);
-  }
-  std::vector<std::uint8_t> take() { return std::move(bytes_); }
-
- private:
-  std::vector<std::uint8_t> bytes_;
-};
-
-class Reader {
- public:
-  explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-
-  template <class T>
-  bool get(T* values, std::size_t count) {
-    const std::size_t size = count * sizeof(T);
-    if (size > bytes_.size()) return false;
-    if (size > 0) std::memcpy(values, bytes_.data(), size);
-    bytes_ = bytes_.subspan(size);
-    return true;
-  }
-  [[nodiscard]] std::size_t left() const { return bytes_.size(); }
-
- private:
-  std::span<const std::uint8_t> bytes_;
-};
-
-void put_set(Writer& writer, const features::FeatureSet& set) {
+void put_set(ByteWriter& writer, const features::FeatureSet& set) {
   const auto count = static_cast<std::size_t>(set.size());
   writer.put(static_cast<std::uint32_t>(count));
   writer.put(static_cast<std::uint16_t>(set.descriptors.cols()));
@@ -76,7 +39,7 @@ void put_set(Writer& writer, const features::FeatureSet& set) {
   writer.put(set.colours.data(), static_cast<std::size_t>(set.colours.size()));
 }
 
-Status get_set(Reader& reader, features::FeatureSet& set, const std::string& where) {
+Status get_set(ByteReader& reader, features::FeatureSet& set, const std::string& where) {
   const auto too_short = [&] { return fail(ErrorCode::kCorruptFile, "The appearance ends too early.", where); };
   std::uint32_t count = 0;
   std::uint16_t dimension = 0;
@@ -115,7 +78,7 @@ Status get_set(Reader& reader, features::FeatureSet& set, const std::string& whe
 }  // namespace
 
 std::vector<std::uint8_t> encode_appearance(const features::Appearance& appearance) {
-  Writer writer;
+  ByteWriter writer;
   writer.put(kMagic, 4);
   writer.put(kVersion);
   writer.put(std::uint16_t{0});
@@ -126,7 +89,7 @@ std::vector<std::uint8_t> encode_appearance(const features::Appearance& appearan
 }
 
 Result<features::Appearance> decode_appearance(std::span<const std::uint8_t> bytes, const std::string& where) {
-  Reader reader(bytes);
+  ByteReader reader(bytes);
   char magic[4] = {};
   std::uint16_t version = 0;
   std::uint16_t zero = 0;

@@ -197,7 +197,7 @@ def map_and_places(bench):
     bench.row(part, "places", figures["places"])
     bench.row(part, "spread of places, 95th percentile, m", figures["place_spread_p95"])
     bench.row(part, "edges right", figures["edge_ok"])
-    bench.row(part, "kB a place, with small pictures", figures["bytes_per_place"] / KILOBYTE)
+    bench.row(part, "kB a place", figures["bytes_per_place"] / KILOBYTE, most=32.0)
     bench.row(part, "seconds to build", seconds)
     for walk in ("test_day", "test_night"):
         images = bench.folder("sim", "home", walk)
