@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "matching/match.hpp"
 
+#include <cmath>
 #include <cstdint>
 
 #include "features/colour.hpp"
@@ -24,7 +25,8 @@ std::vector<Match> match(const features::FeatureSet& current, const features::Fe
                                  config.max_colour_difference)) {
       continue;
     }
-    matches.push_back({i, j});
+    const double ratio = std::sqrt(nearest.distance[at] / static_cast<double>(nearest.second_distance[at]));
+    matches.push_back({i, j, FeatureKind::kSift, static_cast<float>(ratio)});
   }
   return matches;
 }

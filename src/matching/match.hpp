@@ -20,6 +20,7 @@ struct Match {
   int current = 0;
   int target = 0;
   FeatureKind kind = FeatureKind::kSift;
+  float ratio = 1.0F;  // of the distance to that to the second best: near 0 there is nothing else like it
 };
 
 /// Mutual nearest neighbours that pass the ratio test in one direction and the colour check. Ascending in `current`.

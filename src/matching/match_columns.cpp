@@ -115,12 +115,13 @@ std::vector<Match> match_columns(const features::FeatureSet& current, const feat
     const Nearest& mine = nearest[static_cast<std::size_t>(i)];
     const int j = mine.index;
     if (mine.best > bound2 || index[j] != i) continue;
-    if (mine.best >= ratio2 * std::min(mine.second, second[j])) continue;
+    const float rival = std::min(mine.second, second[j]);
+    if (mine.best >= ratio2 * rival) continue;
     if (!features::colours_agree(current.colours.row(i).data(), target.colours.row(j).data(),
                                  config.max_colour_difference)) {
       continue;
     }
-    matches.push_back({i, j, FeatureKind::kColumn});
+    matches.push_back({i, j, FeatureKind::kColumn, std::sqrt(mine.best / rival)});
   }
   return matches;
 }

@@ -83,6 +83,8 @@ TEST(MatchColumns, SwappedPicturesSwapTheMatches) {
   for (std::size_t i = 0; i < forward.size(); ++i) {
     EXPECT_EQ(forward[i].current, backward[i].target);
     EXPECT_EQ(forward[i].target, backward[i].current);
+    EXPECT_NEAR(forward[i].ratio, backward[i].ratio, 1e-5);
+    EXPECT_LT(forward[i].ratio, ColumnMatchConfig{}.ratio);
   }
 }
 

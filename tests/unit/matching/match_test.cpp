@@ -56,6 +56,13 @@ TEST(Match, TheSecondBestMustBeClearlyWorse) {
   EXPECT_EQ(match(current, features_of({{100, 9}, {100, 10}}), config).size(), 1U);
 }
 
+TEST(Match, SaysHowFarBehindTheSecondBestIs) {
+  const auto current = features_of({{100, 0}});
+  EXPECT_FLOAT_EQ(match(current, features_of({{100, 7}, {100, 10}}), {}).at(0).ratio, 0.7F);
+  EXPECT_FLOAT_EQ(match(current, features_of({{100, 0}, {100, 10}}), {}).at(0).ratio, 0.0F);
+  EXPECT_LT(match(current, features_of({{100, 7}}), {}).at(0).ratio, 0.001F);  // nothing else at all
+}
+
 TEST(Match, TwoPerfectOnesAreOneTooMany) {
   const auto current = features_of({{100, 0}});
   EXPECT_EQ(match(current, features_of({{100, 0}, {100, 0}}), {}).size(), 0U);
