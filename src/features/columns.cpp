@@ -131,7 +131,7 @@ class ColumnReader {
       if (u < 0) u += width_px_;
       const auto* column = rgb_.ptr<std::uint8_t>(u);
       for (const int row : rows) {
-        const std::uint8_t* pixel = column + 3 * row;
+        const std::uint8_t* pixel = column + std::ptrdiff_t{3} * row;
         const int red = pixel[0];
         const int green = pixel[1];
         const int blue = pixel[2];
@@ -309,7 +309,7 @@ FeatureSet as_features(const std::vector<ColumnCandidate>& candidates, const std
       set.colours(i, k) = cv::saturate_cast<std::int8_t>(127.0F * one.invariants[static_cast<std::size_t>(k)]);
     }
     for (int k = 0; k < kColumnCoefficients; ++k) {
-      const float value = one.invariants[static_cast<std::size_t>(kColumnColours + k)];
+      const float value = one.invariants[kColumnColours + static_cast<std::size_t>(k)];
       set.descriptors(i, k) = cv::saturate_cast<std::uint8_t>(128.0F + 127.0F * value);
     }
   }

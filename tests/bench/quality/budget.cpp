@@ -26,10 +26,11 @@ struct Variant {
   bool column_floats = false;  // instead of bytes
 };
 
+/// As what SIFT features and columns are kept.
 std::string code_of(const Variant& variant) {
-  std::string code = variant.sift_floats > 0 ? std::to_string(variant.sift_floats) + " floats" : "bytes";
-  if (variant.sift == 0) code = "none";
-  return code + (variant.columns == 0 ? " none" : variant.column_floats ? " floats" : " bytes");
+  const std::string sift = variant.sift_floats > 0 ? std::to_string(variant.sift_floats) + " floats" : "bytes";
+  const std::string columns = variant.column_floats ? "floats" : "bytes";
+  return (variant.sift > 0 ? sift : "none") + "/" + (variant.columns > 0 ? columns : "none");
 }
 
 /// A picture with all features that any variant keeps.
@@ -269,8 +270,10 @@ void measure_recall(const Tour& gallery, const Tour& queries, const std::vector<
         places.push_back({distance_m(queries.poses[q], gallery.poses[p]), alike(asked[q], kept[p], variant)});
       }
       const double nearest_m = std::ranges::min(places, {}, &Place::apart_m).apart_m;
-      std::ranges::stable_sort(places, std::greater<>(), [](const Place& place) { return place.matches.size(); });
-      places.resize(std::min(places.size(), shortlist));
+      if (places.size() > shortlist) {
+        std::ranges::stable_sort(places, std::greater<>(), [](const Place& place) { return place.matches.size(); });
+        places.resize(shortlist);
+      }
       double found_m = std::numeric_limits<double>::infinity();
       std::size_t most = 0;
       for (const Place& place : places) {
@@ -313,7 +316,7 @@ int main(int argc, char** argv) {
   int seeds = 3;
   int every_place = 1;
   int every_query = 1;
-  std::size_t shortlist = 20;
+  std::size_t shortlist = std::numeric_limits<std::size_t>::max();
   std::vector<int> sift{homeward::features::FeatureConfig().max_sift};
   std::vector<int> columns{homeward::features::FeatureConfig().max_columns};
   const auto add_inputs = [&](CLI::App* command) {
@@ -327,7 +330,7 @@ int main(int argc, char** argv) {
     command->add_option("--queries", queries, "Such a folder with pictures to be placed");
     command->add_option("--every-place", every_place, "Of the gallery only each so many")->check(CLI::PositiveNumber);
     command->add_option("--every-query", every_query, "Of the queries only each so many")->check(CLI::PositiveNumber);
-    command->add_option("--shortlist", shortlist, "Places that are verified, those with the most matches")
+    command->add_option("--shortlist", shortlist, "Verify only so many places, those with the most matches")
         ->check(CLI::PositiveNumber);
     command->add_option("--sift", sift, "SIFT features kept")->check(CLI::PositiveNumber)->delimiter(',');
     command->add_option("--columns", columns, "Columns kept")->check(CLI::NonNegativeNumber)->delimiter(',');

@@ -4,10 +4,11 @@
 `codes`: descriptors and columns as floating point numbers and as the bytes that are stored. `budget`: how many features
 are kept. Both on a house that the program generates, found again by night, and on the developers' pictures where these
 are there. A place counts as found when the picture that most verified matches speak for was taken within 1 m of the
-query; queries without any picture so near are left out.
+query (`budget`: of the twenty pictures with the most matches); queries without any picture so near are left out.
 """
 
 import csv
+import decimal
 import statistics
 import subprocess
 
@@ -104,23 +105,23 @@ def by_variant(rows):
 
 # Title of a column, the set it is about, decimals, and the figure.
 CODE_FIGURES = (
-    ("generated house: right matches", "generated house", 1, lambda rows: bearings(rows)["right_matches"]),
-    ("of all matches", "generated house", 3, lambda rows: bearings(rows)["right_share"]),
-    ("median error, degrees", "generated house", 2, lambda rows: bearings(rows)["median_deg"]),
-    ("below 15 degrees", "generated house", 3, lambda rows: bearings(rows)["below_15"]),
-    ("place by night", "generated house", 3, found),
-    ("rendered house: right matches", "rendered house", 1, lambda rows: bearings(rows)["right_matches"]),
-    ("of all matches", "rendered house", 3, lambda rows: bearings(rows)["right_share"]),
-    ("median error, degrees", "rendered house", 2, lambda rows: bearings(rows)["median_deg"]),
-    ("below 15 degrees", "rendered house", 3, lambda rows: bearings(rows)["below_15"]),
-    ("place by day", "rendered house by day", 3, found),
-    ("place by night", "rendered house by night", 3, found),
-    ("hand-held corridor: right matches", "hand-held corridor", 1, lambda rows: bearings(rows)["right_matches"]),
-    ("of all matches", "hand-held corridor", 3, lambda rows: bearings(rows)["right_share"]),
-    ("median error, degrees", "hand-held corridor", 2, lambda rows: bearings(rows)["median_deg"]),
-    ("below 15 degrees", "hand-held corridor", 3, lambda rows: bearings(rows)["below_15"]),
+    ("generated house: right matches of a pair", "generated house", 1, lambda rows: bearings(rows)["right_matches"]),
+    ("generated house: right, of all matches", "generated house", 3, lambda rows: bearings(rows)["right_share"]),
+    ("generated house: median error, degrees", "generated house", 2, lambda rows: bearings(rows)["median_deg"]),
+    ("generated house: below 15 degrees", "generated house", 3, lambda rows: bearings(rows)["below_15"]),
+    ("generated house: place by night", "generated house", 3, found),
+    ("rendered house: right matches of a pair", "rendered house", 1, lambda rows: bearings(rows)["right_matches"]),
+    ("rendered house: right, of all matches", "rendered house", 3, lambda rows: bearings(rows)["right_share"]),
+    ("rendered house: median error, degrees", "rendered house", 2, lambda rows: bearings(rows)["median_deg"]),
+    ("rendered house: below 15 degrees", "rendered house", 3, lambda rows: bearings(rows)["below_15"]),
+    ("rendered house: place by day", "rendered house by day", 3, found),
+    ("rendered house: place by night", "rendered house by night", 3, found),
+    ("hand-held corridor: right matches of a pair", "hand-held corridor", 1, lambda rows: bearings(rows)["right_matches"]),
+    ("hand-held corridor: right, of all matches", "hand-held corridor", 3, lambda rows: bearings(rows)["right_share"]),
+    ("hand-held corridor: median error, degrees", "hand-held corridor", 2, lambda rows: bearings(rows)["median_deg"]),
+    ("hand-held corridor: below 15 degrees", "hand-held corridor", 3, lambda rows: bearings(rows)["below_15"]),
     ("corridors alike: answered", "corridors alike", 2, lambda rows: bearings(rows)["answered"]),
-    ("of these below 30 degrees", "corridors alike", 2, lambda rows: bearings(rows)["answered_below_30"]),
+    ("corridors alike: of these below 30 degrees", "corridors alike", 2, lambda rows: bearings(rows)["answered_below_30"]),
 )
 BUDGET_FIGURES = (
     ("generated house: place by night", "generated house", 3, found),
@@ -140,7 +141,7 @@ BUDGET_FIGURES = (
 
 
 def tabulate(bench, part, command, arguments, figures):
-    """One row for each variant, in the order in which the program measures them."""
+    """For each variant in the order in which the program measures them: what it is, and its figures."""
     results = {}
     for name, runs in sets_of(bench, lambda reason: bench.skip(part, reason)):
         results[name] = by_variant(row for run in runs for row in measured(bench, command, run + arguments))
@@ -148,19 +149,24 @@ def tabulate(bench, part, command, arguments, figures):
     rows = []
     for variant in results["generated house"]:
         sizes = [float(row["bytes"]) for of_set in results.values() for row in of_set[variant]]
-        cells = [variant[0], variant[1], variant[2], round(statistics.mean(sizes))]
+        cells = [round(statistics.mean(sizes))]
         for _, name, decimals, figure in used:
             value = figure(results[name][variant])
-            cells.append(None if value is None else round(value, decimals))
-        rows.append(cells)
-    header = ["SIFT", "columns", "kept as", "bytes"]
-    bench.table(part, header + [title for title, *_ in used], rows)
+            cells.append(None if value is None else decimal.Decimal(f"{value:.{decimals}f}"))
+        rows.append((variant, cells))
+    return ["bytes"] + [title for title, *_ in used], rows
 
 
 def codes(bench):
-    tabulate(bench, "codes", "codes", ["--sift", IN_USE[0], "--columns", IN_USE[1]], CODE_FIGURES)
+    titles, rows = tabulate(bench, "codes", "codes", ["--sift", IN_USE[0], "--columns", IN_USE[1]], CODE_FIGURES)
+    header = [""]
+    for (sift, columns, code), _ in rows:
+        kinds = zip((sift, columns), ("SIFT", "columns"), code.split("/"))
+        header.append("; ".join(f"{count} {kind}, {kept}" for count, kind, kept in kinds if count > 0))
+    bench.table("What bytes cost", header, [[title, *(cells[i] for _, cells in rows)] for i, title in enumerate(titles)])
 
 
 def budget(bench):
-    lists = ["--sift", ",".join(map(str, SIFT)), "--columns", ",".join(map(str, COLUMNS))]
-    tabulate(bench, "budget", "curve", lists, BUDGET_FIGURES)
+    lists = ["--shortlist", 20, "--sift", ",".join(map(str, SIFT)), "--columns", ",".join(map(str, COLUMNS))]
+    titles, rows = tabulate(bench, "budget", "curve", lists, BUDGET_FIGURES)
+    bench.table("What features are worth", ["SIFT", "columns", *titles], [[sift, columns, *cells] for (sift, columns, _), cells in rows])

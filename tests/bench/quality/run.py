@@ -290,7 +290,7 @@ def main():
     for table in bench.tables:
         print(markdown(table))
     if options.json:
-        options.json.write_text(json.dumps({"machine": machine(), "rows": bench.rows, "tables": bench.tables}, indent=2) + "\n")
+        options.json.write_text(json.dumps({"machine": machine(), "rows": bench.rows, "tables": bench.tables}, indent=2, default=float) + "\n")
     if broken:
         sys.exit(2)
     sys.exit(1 if any(row["holds"] is False for row in bench.rows) else 0)
