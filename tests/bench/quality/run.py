@@ -6,8 +6,8 @@ usage: run.py [--bin DIR] [--data DIR] [--judges DIR] [--only PART,...] [--json 
 
 Runs the program `homeward` on the developers' data and has its answers judged by the scripts beside that data; what is
 not there is skipped and named. The look-alike offices are rendered by the program itself and need no data. The parts
-`codes` and `budget` (budget.py) take minutes, have no bounds and are run only by name. Exit code: 0
-when every bound that could be measured holds, 1 when one does not, 2 when something does not run.
+`codes` and `budget` (budget.py) take many minutes, have no bounds and are run only by name. Exit code: 0 when every bound
+that could be measured holds, 1 when one does not, 2 when something does not run.
 """
 
 import argparse
