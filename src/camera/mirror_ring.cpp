@@ -2,8 +2,11 @@
 #include "camera/mirror_ring.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <vector>
 
 namespace homeward::camera {
 namespace {
@@ -215,14 +218,12 @@ bool improve(const Rim& rim, Circle& circle) {
   const double scale_px = std::max(0.1, kOfNormal * median(distances_px));
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  double weights = 0.0;
   for (const RimPoint& point : rim.points) {
     const double off_px = point.radius_px - circle.radius_px;
     const double weight = 1.0 / (1.0 + std::pow((point.radius_px - middle_px) / scale_px, 2));
     const Eigen::Vector3d row = towards(point.direction).homogeneous();
     normal += weight * row * row.transpose();
     right += weight * off_px * row;
-    weights += weight;
   }
   const Eigen::Matrix3d covariance = normal.inverse();
   const Eigen::Vector3d step = covariance * right;

@@ -2,8 +2,10 @@
 // What an appearance may cost: home vectors and the places that pictures are taken for, by how many features are kept
 // of each picture and in how many bytes. A CSV line for each answer; budget.py makes tables of them.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <iostream>
+#include <span>
 
 #include "features/colour.hpp"
 #include "features/descriptor_code.hpp"
