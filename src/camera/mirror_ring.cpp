@@ -134,13 +134,15 @@ struct Rim {
 /// The steepest point in each direction, at most `window_px` from the circle.
 Rim rim_near(const cv::Mat& grey, const Eigen::Vector2d& centre_px, double radius_px, int window_px, Bright bright) {
   Rim rim;
-  std::vector<float> steep(static_cast<std::size_t>(2 * window_px + 1));
+  const int window = 2 * window_px + 1;
+  std::vector<float> steep(static_cast<std::size_t>(window));
   for (int direction = 0; direction < kDirections; ++direction) {
     bool whole = true;
     for (int k = -window_px; k <= window_px && whole; ++k) {
       const auto here = edge(grey, centre_px, direction, radius_px + k, bright);
       whole = here.has_value();
-      if (whole) steep[static_cast<std::size_t>(k + window_px)] = *here;
+      const int at = k + window_px;
+      if (whole) steep[static_cast<std::size_t>(at)] = *here;
     }
     if (!whole) continue;
     ++rim.visible;

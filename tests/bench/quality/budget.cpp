@@ -101,7 +101,7 @@ Kept keep(const Whole& whole, const Variant& variant) {
 
 /// Two nearest of each by squared distance, in parts of 2^-26: finer than single precision tells distances apart.
 matching::NearestNeighbours nearest_of(const Numbers& current, const Numbers& target) {
-  constexpr float kParts = 1 << 26;
+  constexpr float kParts = 67'108'864.0F;  // 2^26
   constexpr auto kNone = matching::NearestNeighbours::kNone;
   Numbers distances = -2.0F * current * target.transpose();
   distances.colwise() += current.rowwise().squaredNorm();
