@@ -43,8 +43,8 @@ int window_px(const std::vector<cv::Point2f>& corners, cv::Size board, int i) {
   const int row = i / board.width;
   const auto look = [&](int other_col, int other_row) {
     if (other_col < 0 || other_row < 0 || other_col >= board.width || other_row >= board.height) return;
-    const cv::Point2f apart =
-        corners[static_cast<std::size_t>(other_row * board.width + other_col)] - corners[static_cast<std::size_t>(i)];
+    const int other = other_row * board.width + other_col;
+    const cv::Point2f apart = corners[static_cast<std::size_t>(other)] - corners[static_cast<std::size_t>(i)];
     nearest_px = std::min(nearest_px, std::hypot(static_cast<double>(apart.x), static_cast<double>(apart.y)));
   };
   look(col - 1, row);
@@ -125,6 +125,7 @@ Result<std::vector<Eigen::Vector2d>> find_board(const Image& picture, int cols, 
       }
       refine(grey, board, own);
       std::vector<Eigen::Vector2d> found_px;
+      found_px.reserve(own.size());
       for (const cv::Point2f& corner : own) found_px.emplace_back(corner.x, corner.y);
       return found_px;
     }

@@ -69,6 +69,7 @@ tl::unexpected<Error> too_few(std::size_t usable) {
 
 std::vector<BoardView> chosen(const std::vector<BoardView>& views, const std::vector<std::size_t>& indices) {
   std::vector<BoardView> own;
+  own.reserve(indices.size());
   for (const std::size_t index : indices) own.push_back(views[index]);
   return own;
 }

@@ -310,7 +310,7 @@ std::optional<BoardPose> pose_of_board(const CameraModel& model, const std::vect
     Eigen::Matrix3d cross;
     cross << 0.0, -bearing->z(), bearing->y(), bearing->z(), 0.0, -bearing->x(), -bearing->y(), bearing->x(), 0.0;
     Eigen::Matrix<double, 3, 9> rows;
-    for (int k = 0; k < 3; ++k) rows.middleCols<3>(3 * k) = on_board[k] * cross;
+    for (Eigen::Index k = 0; k < 3; ++k) rows.middleCols<3>(3 * k) = on_board[k] * cross;
     normal += rows.transpose() * rows;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> split(normal);

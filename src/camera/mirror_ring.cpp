@@ -2,8 +2,11 @@
 #include "camera/mirror_ring.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <vector>
 
 namespace homeward::camera {
 namespace {
@@ -131,13 +134,15 @@ struct Rim {
 /// The steepest point in each direction, at most `window_px` from the circle.
 Rim rim_near(const cv::Mat& grey, const Eigen::Vector2d& centre_px, double radius_px, int window_px, Bright bright) {
   Rim rim;
-  std::vector<float> steep(static_cast<std::size_t>(2 * window_px + 1));
+  const int window = 2 * window_px + 1;
+  std::vector<float> steep(static_cast<std::size_t>(window));
   for (int direction = 0; direction < kDirections; ++direction) {
     bool whole = true;
     for (int k = -window_px; k <= window_px && whole; ++k) {
       const auto here = edge(grey, centre_px, direction, radius_px + k, bright);
       whole = here.has_value();
-      if (whole) steep[static_cast<std::size_t>(k + window_px)] = *here;
+      const int at = k + window_px;
+      if (whole) steep[static_cast<std::size_t>(at)] = *here;
     }
     if (!whole) continue;
     ++rim.visible;
@@ -215,14 +220,12 @@ bool improve(const Rim& rim, Circle& circle) {
   const double scale_px = std::max(0.1, kOfNormal * median(distances_px));
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  double weights = 0.0;
   for (const RimPoint& point : rim.points) {
     const double off_px = point.radius_px - circle.radius_px;
     const double weight = 1.0 / (1.0 + std::pow((point.radius_px - middle_px) / scale_px, 2));
     const Eigen::Vector3d row = towards(point.direction).homogeneous();
     normal += weight * row * row.transpose();
     right += weight * off_px * row;
-    weights += weight;
   }
   const Eigen::Matrix3d covariance = normal.inverse();
   const Eigen::Vector3d step = covariance * right;

@@ -79,6 +79,7 @@ Status compare_aggregated(const pipeline::Eye& eye, const std::vector<View>& vie
     seen.push_back(std::move(*appearance));
   }
   std::vector<const features::FeatureSet*> sets;
+  sets.reserve(seen.size());
   for (const features::Appearance& appearance : seen) sets.push_back(&appearance.sift);
   const auto vocabulary = features::train_vocabulary(sets, matching::kRetrievalWords, options.seed);
   if (!vocabulary) return pass_on(vocabulary);

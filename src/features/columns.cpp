@@ -131,7 +131,7 @@ class ColumnReader {
       if (u < 0) u += width_px_;
       const auto* column = rgb_.ptr<std::uint8_t>(u);
       for (const int row : rows) {
-        const std::uint8_t* pixel = column + 3 * row;
+        const std::uint8_t* pixel = column + std::ptrdiff_t{3} * row;
         const int red = pixel[0];
         const int green = pixel[1];
         const int blue = pixel[2];
@@ -309,7 +309,7 @@ FeatureSet as_features(const std::vector<ColumnCandidate>& candidates, const std
       set.colours(i, k) = cv::saturate_cast<std::int8_t>(127.0F * one.invariants[static_cast<std::size_t>(k)]);
     }
     for (int k = 0; k < kColumnCoefficients; ++k) {
-      const float value = one.invariants[static_cast<std::size_t>(kColumnColours + k)];
+      const float value = one.invariants[kColumnColours + static_cast<std::size_t>(k)];
       set.descriptors(i, k) = cv::saturate_cast<std::uint8_t>(128.0F + 127.0F * value);
     }
   }
@@ -326,7 +326,8 @@ ColumnInvariants column_invariants(const camera::Panorama& panorama, const Colum
   return invariants;
 }
 
-FeatureSet extract_columns(const camera::Panorama& panorama, const FeatureConfig& config) {
+FeatureSet extract_columns(const camera::Panorama& panorama, const FeatureConfig& config, UnroundedColumns* unrounded) {
+  if (unrounded != nullptr) unrounded->resize(0, kColumnInvariants);
   const int width_px = panorama.rgb.width_px;
   const double px_per_rad = width_px / (2.0 * kPi);
   constexpr int kLeastSide_px = 2 * kGradientRadius_px + 3;  // the gradient needs its neighbours
@@ -345,7 +346,15 @@ FeatureSet extract_columns(const camera::Panorama& panorama, const FeatureConfig
     candidates.push_back(candidate);
   }
   const std::vector<ColumnCandidate> prototypes = one_of_each_run(candidates, width_px);
-  return as_features(prototypes, strongest(prototypes, width_px, config.max_columns), panorama.geometry);
+  const std::vector<int> kept = strongest(prototypes, width_px, config.max_columns);
+  if (unrounded != nullptr) {
+    unrounded->resize(static_cast<Eigen::Index>(kept.size()), kColumnInvariants);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      std::ranges::copy(prototypes[static_cast<std::size_t>(kept[i])].invariants,
+                        unrounded->row(static_cast<Eigen::Index>(i)).data());
+    }
+  }
+  return as_features(prototypes, kept, panorama.geometry);
 }
 
 ColumnEnds column_ends(const FeatureSet& columns, int index) {

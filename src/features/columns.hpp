@@ -15,6 +15,9 @@ constexpr int kColumnInvariants = kColumnColours + kColumnCoefficients;
 /// Colour invariants, then profile coefficients; every one lies within -1 and 1.
 using ColumnInvariants = std::array<float, kColumnInvariants>;
 
+/// Of many segments, a row for each.
+using UnroundedColumns = Eigen::Matrix<float, Eigen::Dynamic, kColumnInvariants, Eigen::RowMajor>;
+
 /// What one unit of the diagonal Mahalanobis distance is for each of them: the standard deviation of the difference
 /// between the same segment in two pictures taken 0.4 to 1 m apart. Measured; docs/benchmarks.md says how.
 constexpr ColumnInvariants kColumnSpread = {0.08F, 0.10F, 0.03F, 0.15F, 0.21F, 0.14F, 0.13F, 0.09F, 0.08F, 0.07F};
@@ -37,7 +40,9 @@ ColumnInvariants column_invariants(const camera::Panorama& panorama, const Colum
 /// neighbouring columns, at most `config.max_columns`, those of most contrast at each azimuth first. `bearings` point
 /// to their middles, `scales_rad` are their lengths in elevation, `colours` the colour invariants times 127 and
 /// `descriptors` 128 plus 127 times the profile's coefficients. Turning the robot changes azimuths and nothing else.
-FeatureSet extract_columns(const camera::Panorama& panorama, const FeatureConfig& config);
+/// `unrounded`, where asked for, gets the invariants before they become bytes.
+FeatureSet extract_columns(const camera::Panorama& panorama, const FeatureConfig& config,
+                           UnroundedColumns* unrounded = nullptr);
 
 /// The upper and lower end of segment `index` as unit vectors in the robot frame.
 struct ColumnEnds {

@@ -64,7 +64,7 @@ Basis<kDirections> circular_basis() {
 
 }  // namespace
 
-void encode_sift(std::span<const float, 128> descriptor, std::span<std::uint8_t> code) {
+void sift_coefficients(std::span<const float, 128> descriptor, std::span<float> coefficients) {
   static const Basis<kCells> kCosine = cosine_basis();
   static const Basis<kDirections> kCircular = circular_basis();
   using Cube = std::array<std::array<std::array<float, kDirections>, kCells>, kCells>;
@@ -94,15 +94,23 @@ void encode_sift(std::span<const float, 128> descriptor, std::span<std::uint8_t>
       }
     }
   }
-  // A step that leaves the widest coefficient (spread 0.21) within its 8 bits and the narrowest (0.03) six steps wide.
-  constexpr float kStepsPerUnit = 204.8F;
   constexpr float kUsualMean = 0.727F;  // of the coefficient of lowest frequencies; the others' means are near 0
-  constexpr float kZero = 128.0F;
-  for (std::size_t i = 0; i < std::min(code.size(), kOrder.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(coefficients.size(), kOrder.size()); ++i) {
     const Coefficient& k = kOrder[i];
     const bool is_mean = k.row == 0 && k.column == 0 && k.direction == 0;
-    const float value = by_row[k.row][k.column][k.direction] - (is_mean ? kUsualMean : 0.0F);
-    code[i] = static_cast<std::uint8_t>(std::clamp(std::round(kZero + kStepsPerUnit * value), 0.0F, 255.0F));
+    coefficients[i] = by_row[k.row][k.column][k.direction] - (is_mean ? kUsualMean : 0.0F);
+  }
+}
+
+void encode_sift(std::span<const float, 128> descriptor, std::span<std::uint8_t> code) {
+  std::array<float, kMaxSiftCodeLength> coefficients{};
+  const std::size_t length = std::min(code.size(), coefficients.size());
+  sift_coefficients(descriptor, std::span(coefficients).first(length));
+  // A step that leaves the widest coefficient (spread 0.21) within its 8 bits and the narrowest (0.03) six steps wide.
+  constexpr float kStepsPerUnit = 204.8F;
+  constexpr float kZero = 128.0F;
+  for (std::size_t i = 0; i < length; ++i) {
+    code[i] = static_cast<std::uint8_t>(std::clamp(std::round(kZero + kStepsPerUnit * coefficients[i]), 0.0F, 255.0F));
   }
 }
 

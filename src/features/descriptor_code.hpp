@@ -17,4 +17,8 @@ inline constexpr int kMaxSiftCodeLength = 64;
 /// distances of descriptors. docs/benchmarks.md says what each length costs.
 void encode_sift(std::span<const float, 128> descriptor, std::span<std::uint8_t> code);
 
+/// The numbers that `encode_sift` rounds to bytes, at most `kMaxSiftCodeLength`. Their Euclidean distances are those of
+/// the descriptors as far as so few numbers tell.
+void sift_coefficients(std::span<const float, 128> descriptor, std::span<float> coefficients);
+
 }  // namespace homeward::features

@@ -123,7 +123,7 @@ std::vector<SiftPoint> strongest(const std::vector<SiftPoint>& points, const Str
   return kept;
 }
 
-FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& config) {
+FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& config, Unrounded* unrounded) {
   const int width_px = panorama.rgb.width_px;
   const Strip strip = seen_strip(panorama);
   const UprightSift sift(cut(stretched_grey(panorama.rgb), strip));
@@ -136,6 +136,7 @@ FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& 
   set.scales_rad.resize(count);
   set.descriptors.resize(count, config.sift_code_length);
   set.colours.resize(count, 3);
+  if (unrounded != nullptr) unrounded->sift.resize(count, UprightSift::kDescriptorLength);
   const double px_to_rad = 2.0 * kPi / width_px;
   for (Eigen::Index i = 0; i < count; ++i) {
     const SiftPoint& point = points[static_cast<std::size_t>(i)];
@@ -146,6 +147,7 @@ FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& 
     std::array<float, UprightSift::kDescriptorLength> descriptor;
     sift.describe(point, descriptor.data());
     encode_sift(descriptor, {set.descriptors.row(i).data(), static_cast<std::size_t>(config.sift_code_length)});
+    if (unrounded != nullptr) std::ranges::copy(descriptor, unrounded->sift.row(i).data());
     const auto colour = colour_invariants(panorama.rgb, pixel_px.x(), pixel_px.y(),
                                           std::max(2.0, static_cast<double>(kPatchRadiusPerSigma * point.sigma_px)));
     set.colours.row(i) << colour[0], colour[1], colour[2];
@@ -163,12 +165,15 @@ std::string feature_config_id(const FeatureConfig& config) {
   return text;
 }
 
-Appearance extract(const camera::Panorama& panorama, const FeatureConfig& config) {
+Appearance extract(const camera::Panorama& panorama, const FeatureConfig& config, Unrounded* unrounded) {
   Appearance appearance;
-  appearance.sift = sift_features(panorama, config);
+  appearance.sift = sift_features(panorama, config, unrounded);
   appearance.columns.bearings.resize(0, 3);
   appearance.columns.colours.resize(0, 3);
-  if (config.max_columns > 0) appearance.columns = extract_columns(panorama, config);
+  if (unrounded != nullptr) unrounded->columns.resize(0, kColumnInvariants);
+  if (config.max_columns > 0) {
+    appearance.columns = extract_columns(panorama, config, unrounded != nullptr ? &unrounded->columns : nullptr);
+  }
   appearance.colour_moments = colour_moments(panorama);
   if (is_monochrome(panorama)) {
     appearance.sift.colours.setConstant(kNoColour);

@@ -27,7 +27,8 @@ class Differences {
 
   /// `layer`, `row` and `column` as offsets from the pixel.
   [[nodiscard]] float operator()(int layer, int row, int column) const {
-    const auto l = static_cast<std::size_t>(layer_ + layer);
+    const int sharper = layer_ + layer;
+    const auto l = static_cast<std::size_t>(sharper);
     return blurred_[l + 1].ptr<float>(row_ + row)[column_ + column] -
            blurred_[l].ptr<float>(row_ + row)[column_ + column];
   }
@@ -82,7 +83,7 @@ cv::Mat every_other_pixel(const cv::Mat& picture) {
   for (int row = 0; row < half.rows; ++row) {
     const float* from = picture.ptr<float>(2 * row);
     float* to = half.ptr<float>(row);
-    for (int column = 0; column < half.cols; ++column) to[column] = from[2 * column];
+    for (std::ptrdiff_t column = 0; column < half.cols; ++column) to[column] = from[2 * column];
   }
   return half;
 }
@@ -251,7 +252,7 @@ void UprightSift::describe(const SiftPoint& point, float* descriptor) const {
     const float cells = (static_cast<float>(first_column + i) - u) / cell_px;
     const float place = cells + kCells * 0.5F - 0.5F;
     const float lower = std::floor(place);
-    column_cell[static_cast<std::size_t>(i)] = static_cast<int>(lower);
+    column_cell[static_cast<std::size_t>(i)] = static_cast<int>(lower) + 1;  // with the margin
     column_share[i] = place - lower;
     column_weight[i] = weight(cells);
   }
@@ -270,7 +271,7 @@ void UprightSift::describe(const SiftPoint& point, float* descriptor) const {
     const float from_centre = (static_cast<float>(row) - v) / cell_px;
     const float place = from_centre + kCells * 0.5F - 0.5F;
     const float lower = std::floor(place);
-    const auto row_cell = static_cast<std::size_t>(static_cast<int>(lower) + 1);
+    const auto row_cell = static_cast<std::size_t>(lower + 1.0F);  // with the margin
     const float row_share = place - lower;
     const float row_weight = weight(from_centre);
     std::array<std::array<float, kDirections + 2>, kCells + 2> of_row{};
@@ -281,7 +282,7 @@ void UprightSift::describe(const SiftPoint& point, float* descriptor) const {
       const float amount = magnitude[i] * column_weight[i];
       const float right = amount * column_share[i];
       const float left = amount - right;
-      const auto cell = static_cast<std::size_t>(column_cell[static_cast<std::size_t>(i)] + 1);
+      const auto cell = static_cast<std::size_t>(column_cell[static_cast<std::size_t>(i)]);
       const auto d = static_cast<std::size_t>(lower_direction);
       of_row[cell][d] += left * (1.0F - direction_share);
       of_row[cell][d + 1] += left * direction_share;

@@ -53,7 +53,8 @@ std::vector<double> weights_of(std::span<const Correspondence> correspondences, 
         explained += residual * residual < bound_rad * bound_rad * gradient2 ? 1.0 : 0.0;
       }
     }
-    constexpr double kAll = kPhases / 2 * kPhases + 0.5;
+    constexpr int kMotions = kPhases / 2 * kPhases;
+    constexpr double kAll = kMotions + 0.5;
     weights.push_back(std::log(kAll / explained) / std::log(kAll / 0.5));
   }
   return weights;
@@ -78,7 +79,8 @@ std::size_t bin_of(const PlanarMotion& motion) {
   const double line_rad = motion.direction_rad < 0.0 ? motion.direction_rad + kPi : motion.direction_rad;
   const int line = std::clamp(static_cast<int>(line_rad * kLines / kPi), 0, kLines - 1);
   const int turn = std::clamp(static_cast<int>((motion.turn_rad + kPi) * kTurns / (2.0 * kPi)), 0, kTurns - 1);
-  return static_cast<std::size_t>(line * kTurns + turn);
+  const int bin = line * kTurns + turn;
+  return static_cast<std::size_t>(bin);
 }
 
 /// The best planar motion of each bin of directions and turns, best first.

@@ -5,14 +5,18 @@
 #include <cstdint>
 
 #include "features/colour.hpp"
-#include "matching/nearest.hpp"
 
 namespace homeward::matching {
+
 std::vector<Match> match(const features::FeatureSet& current, const features::FeatureSet& target,
                          const MatchConfig& config) {
   const Eigen::Index dimension = current.descriptors.cols();
   if (current.size() == 0 || target.size() == 0 || dimension != target.descriptors.cols()) return {};
-  const NearestNeighbours nearest = find_nearest(current.descriptors, target.descriptors);
+  return match_nearest(find_nearest(current.descriptors, target.descriptors), current, target, config);
+}
+
+std::vector<Match> match_nearest(const NearestNeighbours& nearest, const features::FeatureSet& current,
+                                 const features::FeatureSet& target, const MatchConfig& config) {
   const double ratio2 = config.ratio * config.ratio;
   std::vector<Match> matches;
   for (int i = 0; i < current.size(); ++i) {

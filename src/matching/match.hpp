@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "features/appearance.hpp"
+#include "matching/nearest.hpp"
 
 namespace homeward::matching {
 
@@ -27,5 +28,9 @@ struct Match {
 /// (Goedemé 2007 §3.3; Lowe 2004.)
 std::vector<Match> match(const features::FeatureSet& current, const features::FeatureSet& target,
                          const MatchConfig& config);
+
+/// The same where the nearest neighbours are known already, of descriptors of any kind.
+std::vector<Match> match_nearest(const NearestNeighbours& nearest, const features::FeatureSet& current,
+                                 const features::FeatureSet& target, const MatchConfig& config);
 
 }  // namespace homeward::matching

@@ -14,13 +14,9 @@ namespace {
 
 constexpr float kFar = std::numeric_limits<float>::max();
 
-/// One row for each invariant and one column for each segment, in units of the Mahalanobis distance: a loop over
-/// segments is then a loop over neighbours in memory.
-using Scaled = Eigen::Matrix<float, features::kColumnInvariants, Eigen::Dynamic, Eigen::RowMajor>;
-
 /// Without colour those of its rows are 0 and say nothing.
-Scaled scaled(const features::FeatureSet& columns, bool with_colour) {
-  Scaled all(features::kColumnInvariants, columns.size());
+ScaledColumns scaled(const features::FeatureSet& columns, bool with_colour) {
+  ScaledColumns all(features::kColumnInvariants, columns.size());
   for (Eigen::Index k = 0; k < features::kColumnInvariants; ++k) {
     const float unit = 127.0F * features::kColumnSpread[static_cast<std::size_t>(k)];
     if (k < features::kColumnColours) {
@@ -32,7 +28,8 @@ Scaled scaled(const features::FeatureSet& columns, bool with_colour) {
   return all;
 }
 
-void squared_distances(const Scaled& all, const Eigen::Vector<float, features::kColumnInvariants>& one, float* into) {
+void squared_distances(const ScaledColumns& all, const Eigen::Vector<float, features::kColumnInvariants>& one,
+                       float* into) {
   const Eigen::Index count = all.cols();
   const float* values = all.data();
   for (Eigen::Index j = 0; j < count; ++j) {
@@ -81,8 +78,13 @@ std::vector<Match> match_columns(const features::FeatureSet& current, const feat
     return {};
   }
   const bool with_colour = current.colours(0, 0) != features::kNoColour && target.colours(0, 0) != features::kNoColour;
-  const Scaled of_current = scaled(current, with_colour);
-  const Scaled of_target = scaled(target, with_colour);
+  return match_columns(current, target, scaled(current, with_colour), scaled(target, with_colour), config);
+}
+
+std::vector<Match> match_columns(const features::FeatureSet& current, const features::FeatureSet& target,
+                                 const ScaledColumns& of_current, const ScaledColumns& of_target,
+                                 const ColumnMatchConfig& config) {
+  if (current.size() == 0 || target.size() == 0) return {};
   const Heights heights(current);
   const Heights target_heights(target);
   const auto bound2 = static_cast<float>(config.max_distance * config.max_distance);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "features/appearance.hpp"
+#include "features/columns.hpp"
 #include "matching/match.hpp"
 
 namespace homeward::matching {
@@ -19,6 +20,15 @@ struct ColumnMatchConfig {
 /// that pass the ratio test in both directions and the colour check. Ascending in `current`; exchanging the pictures
 /// exchanges the sides of each match and changes nothing else. (Goedemé 2007 §3.4, equation 2.)
 std::vector<Match> match_columns(const features::FeatureSet& current, const features::FeatureSet& target,
+                                 const ColumnMatchConfig& config);
+
+/// The ten invariants of segments, one row for each invariant and one column for each segment, in units of the
+/// Mahalanobis distance: a loop over segments is then a loop over neighbours in memory.
+using ScaledColumns = Eigen::Matrix<float, features::kColumnInvariants, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The same by invariants given apart from the sets, which may be more exact than the bytes there.
+std::vector<Match> match_columns(const features::FeatureSet& current, const features::FeatureSet& target,
+                                 const ScaledColumns& of_current, const ScaledColumns& of_target,
                                  const ColumnMatchConfig& config);
 
 /// The one correspondence that a match of columns is worth: the ends farther from the horizon. Both ends would be no

@@ -7,12 +7,9 @@
 #include <iostream>
 #include <map>
 
-#include "agent/files/csv.hpp"
-#include "agent/files/read_file.hpp"
-#include "core/angles.hpp"
 #include "matching/confidence.hpp"
 #include "matching/verify.hpp"
-#include "pipeline/eye.hpp"
+#include "truth.hpp"
 
 namespace homeward {
 namespace {
@@ -20,28 +17,16 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A pair with its truth and its matches: all that verification needs, without the pictures.
-struct Pair {
-  std::string current;
-  std::string target;
-  bool same = true;
-  double distance_m = 0.0;  // 0: not known
-  double bearing_rad = 0.0;
+struct Pair : KnownPair {
   std::vector<matching::Match> matches;
   std::vector<geometry::Correspondence> correspondences;  // of the matches
 };
-
-template <typename T>
-T or_die(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().where + ": " + result.error().message);
-  return std::move(*result);
-}
 
 class Pictures {
  public:
   explicit Pictures(const fs::path& camera_file) {
     const camera::CameraConfig config = or_die(agent::read_camera(camera_file));
-    eye_.emplace(or_die(
-        pipeline::Eye::create(config, pipeline::suited_feature_config(*or_die(camera::Camera::create(config))))));
+    eye_.emplace(or_die(pipeline::Eye::create(config, usual_features(config))));
   }
 
   const features::Appearance& operator()(const fs::path& file) {
@@ -55,49 +40,15 @@ class Pictures {
   std::map<fs::path, features::Appearance> seen_;
 };
 
-struct Pose {
-  double x_m, y_m, theta_rad;
-};
-
-std::map<std::string, Pose> read_poses(const fs::path& file) {
-  const agent::CsvTable table = or_die(agent::read_csv(file));
-  std::map<std::string, Pose> poses;
-  const auto at = [&](const char* name) { return table.column(name).value(); };
-  for (const auto& row : table.rows) {
-    poses[row[at("filename")]] = {std::stod(row[at("x_m")]), std::stod(row[at("y_m")]),
-                                  std::stod(row[at("theta_rad")])};
-  }
-  return poses;
-}
-
-/// Pairs of a table; a row with same=0, or, with poses, one whose pictures are further than `same_m` apart, is of
-/// different places.
-std::vector<Pair> read_pairs(const fs::path& camera, const fs::path& list, const fs::path& poses_file, double same_m) {
+std::vector<Pair> match_pairs(const fs::path& camera, const fs::path& list, const fs::path& poses, double same_m) {
   Pictures pictures(camera);
-  const agent::CsvTable table = or_die(agent::read_csv(list));
-  const std::map<std::string, Pose> poses = poses_file.empty() ? std::map<std::string, Pose>{} : read_poses(poses_file);
   std::vector<Pair> pairs;
-  for (const auto& row : table.rows) {
-    Pair pair;
-    pair.current = row[table.column("current").value()];
-    pair.target = row[table.column("target").value()];
-    const auto same = table.column("same");
-    pair.same = !same || row[*same] != "0";
-    if (!poses.empty()) {
-      const Pose& here = poses.at(pair.current);
-      const Pose& there = poses.at(pair.target);
-      pair.distance_m = std::hypot(there.x_m - here.x_m, there.y_m - here.y_m);
-      pair.bearing_rad = wrap_angle(std::atan2(there.y_m - here.y_m, there.x_m - here.x_m) - here.theta_rad);
-      if (pair.distance_m < 0.05) continue;
-      if (pair.distance_m > same_m) pair.same = false;
-    } else if (pair.same) {
-      pair.bearing_rad = std::stod(row[table.column("bearing_rad").value()]);
-    }
-    const features::Appearance& current = pictures(list.parent_path() / pair.current);
-    const features::Appearance& target = pictures(list.parent_path() / pair.target);
-    pair.matches = matching::match_both_kinds(current, target, {}, {});
-    pair.correspondences = matching::correspondences(current, target, pair.matches);
-    pairs.push_back(std::move(pair));
+  for (KnownPair& known : read_pairs(list, poses, same_m)) {
+    const features::Appearance& current = pictures(list.parent_path() / known.current);
+    const features::Appearance& target = pictures(list.parent_path() / known.target);
+    auto matches = matching::match_both_kinds(current, target, {}, {});
+    auto correspondences = matching::correspondences(current, target, matches);
+    pairs.push_back({std::move(known), std::move(matches), std::move(correspondences)});
   }
   return pairs;
 }
@@ -187,7 +138,7 @@ int main(int argc, char** argv) {
   program.add_flag("--general", general, "Look for a general motion where the planar one is weak");
   CLI11_PARSE(program, argc, argv);
   try {
-    const auto pairs = loaded.empty() ? homeward::read_pairs(camera, list, poses, same_m) : homeward::load(loaded);
+    const auto pairs = loaded.empty() ? homeward::match_pairs(camera, list, poses, same_m) : homeward::load(loaded);
     if (!saved.empty()) homeward::save(pairs, saved);
     std::cout << "set,current,target,same,distance_m,matches,ms,error_deg,inliers,forward_share,spread_deg,"
                  "error_spread_rad,tilt_deg,evidence,lead,sign,parallax_deg,around,disagreeing,confidence,answered\n";

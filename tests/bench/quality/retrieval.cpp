@@ -5,11 +5,9 @@
 #include <fstream>
 #include <iostream>
 
-#include "agent/files/csv.hpp"
-#include "agent/files/read_file.hpp"
 #include "matching/retrieval_index.hpp"
 #include "matching/visual_distance.hpp"
-#include "pipeline/eye.hpp"
+#include "truth.hpp"
 
 namespace homeward {
 namespace {
@@ -19,31 +17,20 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kSamePlaceM = 1.0;
 
-template <typename T>
-T or_die(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().where + ": " + result.error().message);
-  return std::move(*result);
-}
-
 struct Seen {
   std::string file;
-  double x_m = 0.0;
-  double y_m = 0.0;
+  Pose pose{};
   features::Appearance appearance;
 };
 
-double distance_m(const Seen& a, const Seen& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
+double distance_m(const Seen& a, const Seen& b) { return distance_m(a.pose, b.pose); }
 
 std::vector<Seen> read_tour(const fs::path& folder) {
   const camera::CameraConfig config = or_die(agent::read_camera(folder / "camera.json"));
-  const auto eye =
-      or_die(pipeline::Eye::create(config, pipeline::suited_feature_config(*or_die(camera::Camera::create(config)))));
-  const agent::CsvTable table = or_die(agent::read_csv(folder / "poses.csv"));
+  const auto eye = or_die(pipeline::Eye::create(config, usual_features(config)));
   std::vector<Seen> tour;
-  for (const auto& row : table.rows) {
-    const std::string& file = row[table.column("filename").value()];
-    tour.push_back({file, std::stod(row[table.column("x_m").value()]), std::stod(row[table.column("y_m").value()]),
-                    or_die(eye.look(or_die(agent::read_picture(folder / file))))});
+  for (const auto& [file, pose] : read_poses(folder / "poses.csv")) {
+    tour.push_back({file, pose, or_die(eye.look(or_die(agent::read_picture(folder / file))))});
   }
   return tour;
 }
@@ -148,7 +135,7 @@ int main(int argc, char** argv) {
       std::size_t right = 0;
       for (std::size_t q = 0; q < queries.size(); ++q) {
         const auto& found = gallery[static_cast<std::size_t>(best[q])];
-        right += homeward::distance_m(queries[q], found) <= homeward::kSamePlaceM ? 1 : 0;
+        right += homeward::distance_m(queries[q].pose, found.pose) <= homeward::kSamePlaceM ? 1 : 0;
       }
       std::cout << "# " << name << ": the best of all is of the query's place for " << right << " of " << queries.size()
                 << "\n";

@@ -5,8 +5,9 @@
 usage: run.py [--bin DIR] [--data DIR] [--judges DIR] [--only PART,...] [--json FILE]
 
 Runs the program `homeward` on the developers' data and has its answers judged by the scripts beside that data; what is
-not there is skipped and named. The look-alike offices are rendered by the program itself and need no data. Exit code: 0
-when every bound that could be measured holds, 1 when one does not, 2 when something does not run.
+not there is skipped and named. The look-alike offices are rendered by the program itself and need no data. The parts
+`codes` and `budget` (budget.py) take many minutes, have no bounds and are run only by name. Exit code: 0 when every bound
+that could be measured holds, 1 when one does not, 2 when something does not run.
 """
 
 import argparse
@@ -20,6 +21,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+import budget
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 KILOBYTE = 1000
@@ -36,6 +39,7 @@ class Bench:
         self.judges = options.judges
         self.scratch = scratch
         self.rows = []
+        self.tables = []
 
     def program(self, *arguments, out=None):
         """Runs homeward; its standard output, or the file that it was written to."""
@@ -70,6 +74,10 @@ class Bench:
         if least is not None or most is not None:
             holds = value is not None and (least is None or value >= least) and (most is None or value <= most)
         self.rows.append({"part": part, "figure": figure, "value": value, "least": least, "most": most, "holds": holds})
+
+    def table(self, title, header, rows):
+        """Figures without bounds that are better read side by side."""
+        self.tables.append({"title": title, "header": header, "rows": rows})
 
     def skip(self, part, reason):
         self.rows.append({"part": part, "figure": "skipped", "value": None, "least": None, "most": None, "holds": None, "reason": reason})
@@ -220,6 +228,8 @@ PARTS = {
     "night_against_day": night_against_day,
     "map_and_places": map_and_places,
 }
+# Run only by name: minutes each, and no bounds.
+BY_NAME = {"codes": budget.codes, "budget": budget.budget}
 
 
 def shown(value):
@@ -239,6 +249,11 @@ def table_of(rows):
     return "\n".join(f"{line[0]:{widths[0]}}  {line[1]:{widths[1]}}  {line[2]:>{widths[2]}}  {line[3]:{widths[3]}}  {line[4]}".rstrip() for line in cells)
 
 
+def markdown(table):
+    lines = [f"\n{table['title']}\n", table["header"], ["---"] * len(table["header"]), *table["rows"]]
+    return "\n".join(line if isinstance(line, str) else "| " + " | ".join("" if cell is None else str(cell) for cell in line) + " |" for line in lines)
+
+
 def machine():
     model = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), platform.machine())
     return f"{os.cpu_count()} cores of {model}"
@@ -249,29 +264,33 @@ def main():
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build" / "release" / "bin")
     parser.add_argument("--data", type=pathlib.Path, default=ROOT.parent / "shared" / "data")
     parser.add_argument("--judges", type=pathlib.Path, default=ROOT.parent / "shared" / "tools" / "eval")
-    parser.add_argument("--only", default=",".join(PARTS), help="parts, with commas between: " + ", ".join(PARTS))
+    parser.add_argument("--only", default=",".join(PARTS), help="parts, with commas between: " + ", ".join(PARTS) + "; only by name: " + ", ".join(BY_NAME))
     parser.add_argument("--json", type=pathlib.Path)
     options = parser.parse_args()
     if not (options.bin / "homeward").is_file():
         parser.error(f"{options.bin / 'homeward'} is not there; build it, or name its folder with --bin")
-    unknown = [part for part in options.only.split(",") if part not in PARTS]
+    parts = PARTS | BY_NAME
+    unknown = [part for part in options.only.split(",") if part not in parts]
     if unknown:
-        parser.error(f"there is no part '{unknown[0]}'; there are {', '.join(PARTS)}")
+        parser.error(f"there is no part '{unknown[0]}'; there are {', '.join(parts)}")
     broken = False
     with tempfile.TemporaryDirectory(prefix="homeward-quality-") as scratch:
         bench = Bench(options, pathlib.Path(scratch))
         for part in options.only.split(","):
             print(f"{part} ...", file=sys.stderr, flush=True)
             try:
-                PARTS[part](bench)
+                parts[part](bench)
             except Skipped as reason:
                 bench.skip(part, str(reason))
             except (RuntimeError, KeyError, ValueError) as error:
                 broken = True
                 bench.skip(part, f"did not run: {str(error).splitlines()[0]}")
-    print(table_of(bench.rows))
+    if bench.rows:
+        print(table_of(bench.rows))
+    for table in bench.tables:
+        print(markdown(table))
     if options.json:
-        options.json.write_text(json.dumps({"machine": machine(), "rows": bench.rows}, indent=2) + "\n")
+        options.json.write_text(json.dumps({"machine": machine(), "rows": bench.rows, "tables": bench.tables}, indent=2, default=float) + "\n")
     if broken:
         sys.exit(2)
     sys.exit(1 if any(row["holds"] is False for row in bench.rows) else 0)

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -87,6 +88,20 @@ TEST(DescriptorCode, ExtremesAreHeldNotWrapped) {
   Descriptor other{};
   other[4] = 1.0F;
   EXPECT_GT(code_distance(one, other, kMaxSiftCodeLength), 0.6 * distance(one, other));
+}
+
+TEST(DescriptorCode, BytesAreTheCoefficientsRounded) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Descriptor descriptor = random_descriptor(seed);
+    std::array<float, kMaxSiftCodeLength> coefficients{};
+    Code code{};
+    sift_coefficients(descriptor, coefficients);
+    encode_sift(descriptor, code);
+    for (std::size_t i = 0; i < code.size(); ++i) {
+      const double step = std::clamp(128.0 + 204.8 * static_cast<double>(coefficients[i]), 0.0, 255.0);
+      EXPECT_NEAR(code[i], step, 0.501);
+    }
+  }
 }
 
 }  // namespace

@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
+#include <span>
 
 #include "core/angles.hpp"
+#include "features/descriptor_code.hpp"
 #include "support/painted_room.hpp"
 
 namespace homeward::features {
@@ -127,6 +131,43 @@ TEST(Extract, ATurnMovesFeaturesAndChangesNothingElse) {
   }
   EXPECT_GT(found, 0.8 * b.sift.size()) << found << " of " << b.sift.size();
   EXPECT_NEAR(a.sift.size(), b.sift.size(), 0.03 * a.sift.size());
+}
+
+TEST(Extract, ASmallerBudgetKeepsTheFirstOfALargerOne) {
+  FeatureConfig few;
+  few.max_sift = 100;  // no multiple of the sectors
+  few.max_columns = 31;
+  const Appearance all = extract(sample_panorama(), {});
+  const Appearance first = extract(sample_panorama(), few);
+  ASSERT_EQ(first.sift.size(), 100);
+  ASSERT_EQ(first.columns.size(), 31);
+  EXPECT_EQ(first.sift.bearings, all.sift.bearings.topRows(100));
+  EXPECT_EQ(first.sift.descriptors, all.sift.descriptors.topRows(100));
+  EXPECT_EQ(first.columns.bearings, all.columns.bearings.topRows(31));
+  EXPECT_EQ(first.columns.descriptors, all.columns.descriptors.topRows(31));
+}
+
+TEST(Extract, UnroundedNumbersAreThoseThatBecameBytes) {
+  Unrounded unrounded;
+  const Appearance seen = extract(sample_panorama(), {}, &unrounded);
+  ASSERT_GT(seen.sift.size(), 0);
+  ASSERT_GT(seen.columns.size(), 0);
+  ASSERT_EQ(unrounded.sift.rows(), seen.sift.size());
+  ASSERT_EQ(unrounded.columns.rows(), seen.columns.size());
+  for (Eigen::Index i = 0; i < unrounded.sift.rows(); ++i) {
+    EXPECT_NEAR(unrounded.sift.row(i).norm(), 1.0F, 1e-4F);
+    std::array<std::uint8_t, 32> code{};
+    encode_sift(std::span<const float, 128>(unrounded.sift.row(i).data(), 128), code);
+    EXPECT_TRUE(std::ranges::equal(code, std::span(seen.sift.descriptors.row(i).data(), 32)));
+  }
+  for (Eigen::Index i = 0; i < unrounded.columns.rows(); ++i) {
+    for (int k = 0; k < kColumnColours; ++k) {
+      EXPECT_NEAR(seen.columns.colours(i, k), 127.0F * unrounded.columns(i, k), 0.51F);
+    }
+    for (int k = 0; k < kColumnCoefficients; ++k) {
+      EXPECT_NEAR(seen.columns.descriptors(i, k), 128.0F + 127.0F * unrounded.columns(i, kColumnColours + k), 0.51F);
+    }
+  }
 }
 
 TEST(FeatureConfigId, DiffersWhereverFeaturesDo) {
