@@ -107,7 +107,7 @@ void save(const std::vector<Pair>& pairs, const fs::path& file) {
     out << pair.current << ' ' << pair.target << ' ' << pair.same << ' ' << pair.distance_m << ' ' << pair.bearing_rad
         << ' ' << pair.correspondences.size() << '\n';
     for (const geometry::Correspondence& c : pair.correspondences) {
-      out << c.current.transpose() << ' ' << c.target.transpose() << ' ' << c.log_scale_ratio << '\n';
+      out << c.current.transpose() << ' ' << c.target.transpose() << ' ' << c.log_scale_ratio << ' ' << c.odds << '\n';
     }
   }
 }
@@ -121,7 +121,7 @@ std::vector<Pair> load(const fs::path& file) {
     pair.correspondences.resize(count);
     for (geometry::Correspondence& c : pair.correspondences) {
       in >> c.current.x() >> c.current.y() >> c.current.z() >> c.target.x() >> c.target.y() >> c.target.z() >>
-          c.log_scale_ratio;
+          c.log_scale_ratio >> c.odds;
     }
     pairs.push_back(pair);
   }
@@ -144,10 +144,11 @@ void report(const std::vector<Pair>& pairs, const std::string& name, bool genera
       std::cout << ',' << std::abs(error_deg) << ',' << estimate->inliers.size() << ',' << estimate->forward_share
                 << ',' << degrees(estimate->direction_spread_rad) << ',' << estimate->error_spread_rad << ','
                 << degrees(estimate->tilt_rad) << ',' << estimate->evidence << ',' << estimate->lead << ','
-                << estimate->sign_log_odds << ',' << degrees(estimate->median_parallax_rad) << ','
-                << matching::confidence(*estimate, pair.correspondences.size()) << ',' << answered;
+                << estimate->sign_log_odds << ',' << degrees(estimate->median_parallax_rad) << ',' << estimate->height
+                << ',' << estimate->agreeing << ',' << matching::confidence(*estimate, pair.correspondences.size())
+                << ',' << answered;
     } else {
-      std::cout << ",,0,,,,,,,,,0,0";
+      std::cout << ",,0,,,,,,,,,,,0,0";
     }
     std::cout << '\n';
   }
@@ -181,7 +182,7 @@ int main(int argc, char** argv) {
     const auto pairs = loaded.empty() ? homeward::read_pairs(camera, list, poses, same_m) : homeward::load(loaded);
     if (!saved.empty()) homeward::save(pairs, saved);
     std::cout << "set,current,target,same,distance_m,matches,ms,error_deg,inliers,forward_share,spread_deg,"
-                 "error_spread_rad,tilt_deg,evidence,lead,sign,parallax_deg,confidence,answered\n";
+                 "error_spread_rad,tilt_deg,evidence,lead,sign,parallax_deg,height,agreeing,confidence,answered\n";
     homeward::report(pairs, name, general, seed);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
