@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/angles.hpp"
+#include "matching/confidence.hpp"
 #include "matching/match_odds.hpp"
 
 namespace homeward::matching {
@@ -44,19 +44,6 @@ std::vector<geometry::Correspondence> correspondences(const features::Appearance
   return pairs;
 }
 
-// Logistic regression on pairs of rendered and real pictures with known directions, by
-// tests/bench/quality/confidence.py; docs/benchmarks.md has its reliability. What tells right motions from wrong ones
-// is how far the best rival is behind. Matches that do not agree weigh the more the less the views differ: two views of
-// one spot should agree altogether, two look-alikes agree on what they share.
-double confidence(const geometry::PlanarEstimate& estimate, std::size_t matches) {
-  const auto count = static_cast<double>(std::max<std::size_t>(1, matches));
-  const double unexplained = 1.0 - static_cast<double>(estimate.inliers.size()) / count;
-  const double parallax = std::log(std::clamp(degrees(estimate.median_parallax_rad), 0.5, 10.0) / 10.0);
-  const double log_odds = -1.534 + 0.957 * std::log(std::max(1.0, estimate.lead)) + 2.246 * unexplained * parallax -
-                          0.432 * std::min(3.0, degrees(estimate.tilt_rad)) + 0.397 * estimate.evidence / count;
-  return 1.0 / (1.0 + std::exp(-log_odds));
-}
-
 Result<VerifiedMatch> verify(const features::Appearance& current, const features::Appearance& target,
                              const VerifyConfig& config, std::uint64_t seed) {
   if (current.size() < config.min_inliers || target.size() < config.min_inliers) {
@@ -81,7 +68,7 @@ Result<VerifiedMatch> verify(const features::Appearance& current, const features
   verified.pose.motion = estimate->motion;
   verified.pose.inliers = estimate->inliers;
   verified.pose.correspondences = static_cast<int>(verified.matches.size());
-  verified.pose.confidence = confidence(*estimate, verified.matches.size());
+  verified.pose.confidence = confidence(signs_of(*estimate, verified.matches, pairs));
   verified.pose.median_parallax_rad = estimate->median_parallax_rad;
   return verified;
 }

@@ -39,10 +39,6 @@ std::vector<geometry::Correspondence> correspondences(const features::Appearance
                                                       const features::Appearance& target,
                                                       std::span<const Match> matches);
 
-/// The probability that the direction is right within 15 degrees, from what an estimate knows about itself; `matches`
-/// is how many it was made from.
-double confidence(const geometry::PlanarEstimate& estimate, std::size_t matches);
-
 /// Matches two appearances and verifies them by planar epipolar geometry. Deterministic by `seed`.
 /// Errors: kTooFewFeatures, kTooLittleSupport.
 Result<VerifiedMatch> verify(const features::Appearance& current, const features::Appearance& target,

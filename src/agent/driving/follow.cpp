@@ -15,6 +15,11 @@ bool is_sure(const homing::HomeVector& vector, const FollowConfig& config) {
   return vector.confidence >= config.sure && vector.inliers >= config.sure_inliers;
 }
 
+/// Bayes' rule: a probability whose odds are multiplied.
+double with_odds(double probability, double odds) {
+  return probability * odds / (probability * odds + 1.0 - probability);
+}
+
 /// Where the views after a known one must lie by the map's edges.
 void expect_onwards(FollowState& state, const VisualPath& path, int from) {
   constexpr double kKnownTo_m = 3.0;  // beyond that much doubt an expectation is worth nothing
@@ -76,8 +81,10 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
   const int first = state.index;
   int clearest = -1;
   for (int index = first; index <= std::min(last, first + config.look_ahead); ++index) {
-    const auto vector = homing::home_vector(seen, path.views[static_cast<std::size_t>(index)], config.homing, seed);
-    if (!vector || vector->confidence < config.believe) continue;
+    auto vector = homing::home_vector(seen, path.views[static_cast<std::size_t>(index)], config.homing, seed);
+    if (!vector) continue;
+    vector->confidence = with_odds(vector->confidence, config.path_odds);
+    if (vector->confidence < config.believe) continue;
     ViewTrack& track = state.tracks[static_cast<std::size_t>(index)];
     // A view that the map says nothing of yet is taken up only from a clear answer.
     if (!track.known() && index != first && !is_sure(*vector, config)) continue;

@@ -24,7 +24,9 @@ struct FollowConfig {
   ViewTrackConfig track;
   double pass_m = 0.5;     // a view on the way is passed within this distance
   double abreast_m = 1.1;  // or when the robot is level with it within this one
-  double sure = 0.8;       // confidence of a clear answer
+  // A view of the path is met where the path leads: what stands against its being another place that looks alike.
+  double path_odds = 4.0;  // the odds of an answer's confidence are multiplied by these
+  double sure = 0.8;       // confidence of a clear answer, after that
   int sure_inliers = 24;
   double believe = 0.5;       // below that an answer says nothing
   int look_ahead = 3;         // views tried beyond the present one

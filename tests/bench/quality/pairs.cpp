@@ -10,6 +10,8 @@
 #include "agent/files/csv.hpp"
 #include "agent/files/read_file.hpp"
 #include "core/angles.hpp"
+#include "matching/confidence.hpp"
+#include "matching/match_odds.hpp"
 #include "matching/verify.hpp"
 #include "pipeline/eye.hpp"
 
@@ -25,7 +27,8 @@ struct Pair {
   bool same = true;
   double distance_m = 0.0;  // 0: not known
   double bearing_rad = 0.0;
-  std::vector<geometry::Correspondence> correspondences;
+  std::vector<matching::Match> matches;
+  std::vector<geometry::Correspondence> correspondences;  // of the matches
 };
 
 template <typename T>
@@ -93,8 +96,8 @@ std::vector<Pair> read_pairs(const fs::path& camera, const fs::path& list, const
     }
     const features::Appearance& current = pictures(list.parent_path() / pair.current);
     const features::Appearance& target = pictures(list.parent_path() / pair.target);
-    const auto matches = matching::match_both_kinds(current, target, {}, {});
-    pair.correspondences = matching::correspondences(current, target, matches);
+    pair.matches = matching::match_both_kinds(current, target, {}, {});
+    pair.correspondences = matching::correspondences(current, target, pair.matches);
     pairs.push_back(std::move(pair));
   }
   return pairs;
@@ -106,8 +109,10 @@ void save(const std::vector<Pair>& pairs, const fs::path& file) {
   for (const Pair& pair : pairs) {
     out << pair.current << ' ' << pair.target << ' ' << pair.same << ' ' << pair.distance_m << ' ' << pair.bearing_rad
         << ' ' << pair.correspondences.size() << '\n';
-    for (const geometry::Correspondence& c : pair.correspondences) {
-      out << c.current.transpose() << ' ' << c.target.transpose() << ' ' << c.log_scale_ratio << ' ' << c.odds << '\n';
+    for (std::size_t i = 0; i < pair.correspondences.size(); ++i) {
+      const geometry::Correspondence& c = pair.correspondences[i];
+      out << c.current.transpose() << ' ' << c.target.transpose() << ' ' << c.log_scale_ratio << ' '
+          << static_cast<int>(pair.matches[i].kind) << ' ' << pair.matches[i].ratio << '\n';
     }
   }
 }
@@ -119,9 +124,14 @@ std::vector<Pair> load(const fs::path& file) {
   std::size_t count = 0;
   while (in >> pair.current >> pair.target >> pair.same >> pair.distance_m >> pair.bearing_rad >> count) {
     pair.correspondences.resize(count);
-    for (geometry::Correspondence& c : pair.correspondences) {
+    pair.matches.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      geometry::Correspondence& c = pair.correspondences[i];
+      int kind = 0;
       in >> c.current.x() >> c.current.y() >> c.current.z() >> c.target.x() >> c.target.y() >> c.target.z() >>
-          c.log_scale_ratio >> c.odds;
+          c.log_scale_ratio >> kind >> pair.matches[i].ratio;
+      pair.matches[i].kind = static_cast<matching::FeatureKind>(kind);
+      c.odds = matching::odds_of(pair.matches[i]);
     }
     pairs.push_back(pair);
   }
@@ -138,17 +148,18 @@ void report(const std::vector<Pair>& pairs, const std::string& name, bool genera
               << pair.correspondences.size() << ',' << ms;
     const matching::VerifyConfig config;
     if (estimate) {
+      const matching::ConfidenceSigns signs = matching::signs_of(*estimate, pair.matches, pair.correspondences);
       const bool answered =
           static_cast<int>(estimate->inliers.size()) >= config.min_inliers && estimate->evidence >= config.min_evidence;
       const double error_deg = degrees(wrap_angle(estimate->motion.direction_rad - pair.bearing_rad));
       std::cout << ',' << std::abs(error_deg) << ',' << estimate->inliers.size() << ',' << estimate->forward_share
                 << ',' << degrees(estimate->direction_spread_rad) << ',' << estimate->error_spread_rad << ','
                 << degrees(estimate->tilt_rad) << ',' << estimate->evidence << ',' << estimate->lead << ','
-                << estimate->sign_log_odds << ',' << degrees(estimate->median_parallax_rad) << ',' << estimate->height
-                << ',' << estimate->agreeing << ',' << matching::confidence(*estimate, pair.correspondences.size())
-                << ',' << answered;
+                << estimate->sign_log_odds << ',' << degrees(estimate->median_parallax_rad) << ',' << signs.around
+                << ',' << signs.disagreeing << ',' << estimate->height << ',' << estimate->agreeing << ','
+                << matching::confidence(signs) << ',' << answered;
     } else {
-      std::cout << ",,0,,,,,,,,,,,0,0";
+      std::cout << ",,0,,,,,,,,,,,,,0,0";
     }
     std::cout << '\n';
   }
@@ -181,8 +192,10 @@ int main(int argc, char** argv) {
   try {
     const auto pairs = loaded.empty() ? homeward::read_pairs(camera, list, poses, same_m) : homeward::load(loaded);
     if (!saved.empty()) homeward::save(pairs, saved);
-    std::cout << "set,current,target,same,distance_m,matches,ms,error_deg,inliers,forward_share,spread_deg,"
-                 "error_spread_rad,tilt_deg,evidence,lead,sign,parallax_deg,height,agreeing,confidence,answered\n";
+    std::cout
+        << "set,current,target,same,distance_m,matches,ms,error_deg,inliers,forward_share,spread_deg,"
+           "error_spread_rad,tilt_deg,evidence,lead,sign,parallax_deg,around,disagreeing,height,agreeing,confidence,"
+           "answered\n";
     homeward::report(pairs, name, general, seed);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "geometry/planar_motion.hpp"
+#include "matching/match.hpp"
+
+namespace homeward::matching {
+
+/// What an estimate and the matches that it was made from tell of whether it is right.
+struct ConfidenceSigns {
+  double lead = 0.0;                 // logarithm of how much likelier the motion is than its best rival
+  double around = 0.0;               // share of the circle in which matches agree, of 0 to 1, over both views
+  double disagreeing = 0.0;          // SIFT matches far off the motion: each counts the more the less else is like it
+  double median_parallax_rad = 0.0;  // of those that agree
+};
+
+/// Two views of one room agree all around, and clear matches that disagree are few; two rooms that look alike share
+/// some things, which agree, and others that stand elsewhere, which match as clearly and disagree. `correspondences`
+/// are those of `matches`, in their order. Turning one of the views changes nothing.
+ConfidenceSigns signs_of(const geometry::PlanarEstimate& estimate, std::span<const Match> matches,
+                         std::span<const geometry::Correspondence> correspondences);
+
+/// The probability that the two views are of one place and the direction is right within 15 degrees. Logistic
+/// regression on pairs of rendered and real pictures, rooms that look alike among them, by
+/// tests/bench/quality/confidence.py; docs/benchmarks.md has its reliability.
+double confidence(const ConfidenceSigns& signs);
+
+}  // namespace homeward::matching
