@@ -52,7 +52,7 @@ Result<PlanarEstimate> with_finite_only(
     std::span<const Correspondence> correspondences,
     const std::function<Result<PlanarEstimate>(std::span<const Correspondence>)>& estimate) {
   const auto is_finite = [](const Correspondence& c) {
-    return c.current.allFinite() && c.target.allFinite() && std::isfinite(c.log_scale_ratio);
+    return c.current.allFinite() && c.target.allFinite() && std::isfinite(c.log_scale_ratio) && std::isfinite(c.odds);
   };
   if (std::ranges::all_of(correspondences, is_finite)) return estimate(correspondences);
   std::vector<Correspondence> finite;

@@ -12,6 +12,7 @@
 
 #include "geometry/estimate_summary.hpp"
 #include "geometry/packed_matches.hpp"
+#include "geometry/repetition.hpp"
 
 namespace homeward::geometry {
 namespace {
@@ -106,10 +107,14 @@ Result<PlanarEstimate> estimate_general(std::span<const Correspondence> correspo
   const auto size = static_cast<double>(correspondences.size());
   const double tries = std::lgamma(size + 1.0) - std::lgamma(size - kSample + 1.0) - std::lgamma(kSample + 1.0) +
                        std::log(static_cast<double>(kSolutions));
-  const double evidence = best->log_likelihood - kSample * best->greatest_gain - tries;
+  const SharedView view = shared_view(correspondences, *best);
+  const double evidence =
+      (1.0 - repetition_probability(view)) * (best->log_likelihood - kSample * best->greatest_gain - tries);
   auto estimate = summarise(correspondences, std::move(*best), config.planar.max_error_rad);
   if (!estimate) return estimate;
   estimate->evidence = evidence;
+  estimate->height = view.height;
+  estimate->agreeing = view.agreeing;
   estimate->general = true;
   return estimate;
 }

@@ -117,34 +117,39 @@ void look(std::span<const Correspondence> correspondences, const FitConfig& conf
   fit.belief.resize(correspondences.size());
   fit.log_likelihood = -prior_cost(fit.motion, config.tilt);
   fit.greatest_gain = 0.0;
+  // Likelihoods are given how the matches look: looks alone are no evidence of any motion.
+  const auto share_of = [&](double odds) { return fit.share * odds / (fit.share * odds + 1.0 - fit.share); };
   // Beyond so many spreads a match cannot be right enough to matter.
   constexpr double kHopeless2 = 30.0 * 30.0;
-  const double gain_of_wrong = std::log(1.0 - fit.share);
   double telling = 0.0;
+  double expected = 0.0;
   double right = 0.0;
   double squares = 0.0;
   for (std::size_t i = 0; i < correspondences.size(); ++i) {
     const double error_rad = error_of(correspondences[i]);
     const double error2 = error_rad * error_rad * per_variance;
+    const double share = share_of(correspondences[i].odds);
     if (error2 > kHopeless2) {
       fit.belief[i] = 0.0;
-      fit.log_likelihood += gain_of_wrong;
+      fit.log_likelihood += std::log(1.0 - share);
       telling += 1.0;
+      expected += share;
       continue;
     }
     const double chance =
         std::max(config.least_chance, chance_share(error_of.essential(), correspondences[i], window_rad));
     along.look_at(correspondences[i]);
     const double tail = 1.0 / (1.0 + error2 / kFreedom);
-    const double as_right = fit.share * along.likelihood_of_side(fit.spread_rad) *
+    const double as_right = share * along.likelihood_of_side(fit.spread_rad) *
                             along.likelihood_of_size(fit.spread_rad) * tail * tail * std::sqrt(tail) / chance;
-    const double belief = as_right / (as_right + 1.0 - fit.share);
-    const double gain = std::log(as_right + 1.0 - fit.share);
+    const double belief = as_right / (as_right + 1.0 - share);
+    const double gain = std::log(as_right + 1.0 - share);
     fit.belief[i] = belief;
     fit.log_likelihood += gain;
     fit.greatest_gain = std::max(fit.greatest_gain, gain);
     const double pull = tail * (kFreedom + 1.0) / kFreedom;
     telling += 1.0 - chance;
+    expected += (1.0 - chance) * share;
     right += (1.0 - chance) * belief;
     squares += (1.0 - chance) * belief * pull * error_rad * error_rad;
     if (normal == nullptr || belief < 1e-4) continue;
@@ -154,8 +159,12 @@ void look(std::span<const Correspondence> correspondences, const FitConfig& conf
     normal->curvature += weight * slope * slope.transpose();
     normal->gradient += weight * error_rad * slope;
   }
-  // One right match more and one wrong one more than seen keep the share off its ends.
-  fit.share = (right + 1.0) / (telling + 2.0);
+  // The share is the one that expects as many right matches as there seem to be. One right match more and one wrong one
+  // more than seen keep it off its ends.
+  const double ratio = (right + 1.0) / (telling - right + 1.0) * (telling - expected + 1.0) / (expected + 1.0);
+  const double odds = ratio * fit.share / (1.0 - fit.share);
+  constexpr double kLeastShare = 0.002;
+  fit.share = std::clamp(odds / (1.0 + odds), kLeastShare, 1.0 - kLeastShare);
   fit.spread_rad =
       std::clamp(std::sqrt(squares / std::max(right, 1e-9)), config.least_spread_rad, config.most_spread_rad);
 }

@@ -11,6 +11,7 @@
 #include "geometry/estimate_summary.hpp"
 #include "geometry/motion_fit.hpp"
 #include "geometry/packed_matches.hpp"
+#include "geometry/repetition.hpp"
 
 namespace homeward::geometry {
 namespace {
@@ -60,6 +61,13 @@ std::vector<double> weights_of(std::span<const Correspondence> correspondences, 
   return weights;
 }
 
+/// What is left of a match's weight for how it looks: as likely as it is to be right among matches of which few are, in
+/// units of what one whose look says nothing has.
+double weight_of_look(double odds) {
+  constexpr double kShare = 0.1;
+  return odds / (kShare * odds + 1.0 - kShare);
+}
+
 /// How many samples of two make it `sure_enough` that one of them was free of outliers.
 int iterations_needed(double inlier_share, double sure_enough, int limit) {
   // Noise spoils many a sample without outliers.
@@ -85,20 +93,28 @@ std::size_t bin_of(const PlanarMotion& motion) {
 
 /// The best planar motion of each bin of directions and turns, best first.
 std::vector<Candidate> search(std::span<const Correspondence> correspondences, const std::vector<int>& pool,
-                              const PackedMatches& packed, const PlanarRansacConfig& config, std::uint64_t seed) {
+                              const std::vector<double>& weights, const PackedMatches& packed,
+                              const PlanarRansacConfig& config, std::uint64_t seed) {
   std::array<Candidate, static_cast<std::size_t>(kLines) * kTurns> best;
   float best_cost = packed.total_weight();
   const int count = static_cast<int>(pool.size());
   std::mt19937_64 random(seed);
-  const auto pick = [&](int limit) { return static_cast<int>(random() % static_cast<std::uint64_t>(limit)); };
+  std::vector<double> upto;
+  double total = 0.0;
+  for (const double weight : weights) upto.push_back(total += weight);
+  // Matches are drawn as often as they weigh.
+  const auto pick = [&] {
+    const double at = total * static_cast<double>(random() >> 11) * 0x1p-53;
+    return std::min(count - 1, static_cast<int>(std::ranges::upper_bound(upto, at) - upto.begin()));
+  };
   const auto match = [&](int i) {
     return correspondences[static_cast<std::size_t>(pool[static_cast<std::size_t>(i)])];
   };
   int needed = config.max_iterations;
   for (int iteration = 0; iteration < needed; ++iteration) {
-    const int first = pick(count);
-    int second = pick(count - 1);
-    if (second >= first) ++second;
+    const int first = pick();
+    const int second = pick();
+    if (first == second) continue;
     for (const PlanarMotion& motion : solve_planar_motion({match(first), match(second)})) {
       Candidate& here = best[bin_of(motion)];
       const float enough = std::min(here.cost, packed.total_weight());
@@ -156,6 +172,10 @@ Judged judge(std::span<const Correspondence> correspondences, const std::vector<
     if (static_cast<int>(fits.size()) == config.candidates) break;
     fits.push_back(fit_motion(correspondences, tightened(candidate.motion, correspondences, config), quick));
   }
+  // That a repetition looks alike is one coincidence, however many matches it is made of.
+  for (MotionFit& fit : fits) {
+    fit.log_likelihood *= 1.0 - repetition_probability(shared_view(correspondences, fit));
+  }
   const auto best = std::ranges::max_element(fits, {}, &MotionFit::log_likelihood);
   double rival = 0.0;  // chance
   for (const MotionFit& fit : fits) {
@@ -184,16 +204,17 @@ Result<PlanarEstimate> estimate_of_finite(std::span<const Correspondence> corres
   for (std::size_t i = 0; i < correspondences.size(); ++i) {
     if (weights[i] < kTelling) continue;
     pool.push_back(static_cast<int>(i));
-    pool_weights.push_back(weights[i]);
+    pool_weights.push_back(weights[i] * weight_of_look(correspondences[i].odds));
   }
   if (static_cast<int>(pool.size()) < kFewest) {
     return fail(ErrorCode::kTooLittleSupport, "Fewer than three matches that could tell one motion from another.");
   }
   const PackedMatches packed(correspondences, pool, pool_weights);
-  const std::vector<Candidate> candidates = search(correspondences, pool, packed, config, seed);
+  const std::vector<Candidate> candidates = search(correspondences, pool, pool_weights, packed, config, seed);
   if (candidates.empty()) return fail(ErrorCode::kTooLittleSupport, "No motion explains three matches.");
 
   Judged judged = judge(correspondences, candidates, config);
+  const SharedView view = shared_view(correspondences, judged.best);
   const double log_likelihood = judged.best.log_likelihood;
   const double greatest_gain = judged.best.greatest_gain;
   auto estimate = summarise(correspondences, std::move(judged.best), config.max_error_rad);
@@ -201,7 +222,10 @@ Result<PlanarEstimate> estimate_of_finite(std::span<const Correspondence> corres
   estimate->lead = judged.lead;
   // Two matches fit by construction; every other pair could have been tried, each with two motions.
   const auto size = static_cast<double>(pool.size());
-  estimate->evidence = log_likelihood - 2.0 * greatest_gain - std::log(size * (size - 1.0));
+  estimate->evidence =
+      (1.0 - repetition_probability(view)) * (log_likelihood - 2.0 * greatest_gain - std::log(size * (size - 1.0)));
+  estimate->height = view.height;
+  estimate->agreeing = view.agreeing;
   return estimate;
 }
 

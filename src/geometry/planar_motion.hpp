@@ -17,6 +17,7 @@ struct Correspondence {
   Eigen::Vector3d current;
   Eigen::Vector3d target;
   double log_scale_ratio = 0.0;  // log of the feature's size in the target view over that in the current; 0: not known
+  double odds = 1.0;             // factor on the odds that the match is right, from how it looks; 1: says nothing
 };
 
 /// What a minimal sample allows: none, one or two motions.
@@ -49,8 +50,8 @@ struct TiltPrior {
 };
 
 struct PlanarRansacConfig {
-  double max_error_rad = 0.006;     // inlier bound of the epipolar error
-  double search_error_rad = 0.015;  // the same while tilts are not known yet
+  double max_error_rad = 0.008;    // inlier bound of the epipolar error
+  double search_error_rad = 0.02;  // the same while tilts are not known yet
   int max_iterations = 1000;
   double sure_enough = 0.9999;  // stop when a better model would have been met with this probability
   int refinements = 5;          // Gauss-Newton steps of a local optimisation
@@ -67,6 +68,8 @@ struct PlanarEstimate {
   double forward_share = 0.0;         // of inliers with visible parallax that lie in front of both viewpoints
   double error_spread_rad = 0.0;      // standard deviation of the right matches' epipolar errors
   double tilt_rad = 0.0;              // between the views; 0 where the matches do not ask for any
+  double height = 0.0;                // median of right matches over or under the camera, in units of the distance
+  double agreeing = 0.0;              // share of all matches that agree with the motion
   bool general = false;               // not planar: see general_motion.hpp
   // Natural logarithms of how much likelier the matches are with this motion than
   double evidence = 0.0;       // at random, less what the search tried: matches that any motion explains add nothing

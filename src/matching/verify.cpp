@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "matching/confidence.hpp"
+#include "matching/match_odds.hpp"
 
 namespace homeward::matching {
 namespace {
@@ -32,12 +33,13 @@ std::vector<geometry::Correspondence> correspondences(const features::Appearance
   for (const Match& match : matches) {
     if (match.kind == FeatureKind::kColumn) {
       const ColumnBearings ends = bearings_of(current.columns, target.columns, match);
-      pairs.push_back({ends.current, ends.target});
+      pairs.push_back({ends.current, ends.target, 0.0, odds_of(match)});
       continue;
     }
     pairs.push_back({current.sift.bearings.row(match.current).transpose().cast<double>().normalized(),
                      target.sift.bearings.row(match.target).transpose().cast<double>().normalized(),
-                     log_ratio(target.sift.scales_rad[match.target], current.sift.scales_rad[match.current])});
+                     log_ratio(target.sift.scales_rad[match.target], current.sift.scales_rad[match.current]),
+                     odds_of(match)});
   }
   return pairs;
 }

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "matching/confidence.hpp"
+#include "matching/match_odds.hpp"
 #include "matching/verify.hpp"
 #include "truth.hpp"
 
@@ -81,6 +82,7 @@ std::vector<Pair> load(const fs::path& file) {
       in >> c.current.x() >> c.current.y() >> c.current.z() >> c.target.x() >> c.target.y() >> c.target.z() >>
           c.log_scale_ratio >> kind >> pair.matches[i].ratio;
       pair.matches[i].kind = static_cast<matching::FeatureKind>(kind);
+      c.odds = matching::odds_of(pair.matches[i]);
     }
     pairs.push_back(pair);
   }
@@ -105,9 +107,10 @@ void report(const std::vector<Pair>& pairs, const std::string& name, bool genera
                 << ',' << degrees(estimate->direction_spread_rad) << ',' << estimate->error_spread_rad << ','
                 << degrees(estimate->tilt_rad) << ',' << estimate->evidence << ',' << estimate->lead << ','
                 << estimate->sign_log_odds << ',' << degrees(estimate->median_parallax_rad) << ',' << signs.around
-                << ',' << signs.disagreeing << ',' << matching::confidence(signs) << ',' << answered;
+                << ',' << signs.disagreeing << ',' << estimate->height << ',' << estimate->agreeing << ','
+                << matching::confidence(signs) << ',' << answered;
     } else {
-      std::cout << ",,0,,,,,,,,,,,0,0";
+      std::cout << ",,0,,,,,,,,,,,,,0,0";
     }
     std::cout << '\n';
   }
@@ -140,8 +143,10 @@ int main(int argc, char** argv) {
   try {
     const auto pairs = loaded.empty() ? homeward::match_pairs(camera, list, poses, same_m) : homeward::load(loaded);
     if (!saved.empty()) homeward::save(pairs, saved);
-    std::cout << "set,current,target,same,distance_m,matches,ms,error_deg,inliers,forward_share,spread_deg,"
-                 "error_spread_rad,tilt_deg,evidence,lead,sign,parallax_deg,around,disagreeing,confidence,answered\n";
+    std::cout
+        << "set,current,target,same,distance_m,matches,ms,error_deg,inliers,forward_share,spread_deg,"
+           "error_spread_rad,tilt_deg,evidence,lead,sign,parallax_deg,around,disagreeing,height,agreeing,confidence,"
+           "answered\n";
     homeward::report(pairs, name, general, seed);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";

@@ -236,5 +236,46 @@ TEST(PlanarEstimate, BrokenBearingsAmongGoodOnesAreLeftOut) {
   EXPECT_TRUE(std::isfinite(estimate->evidence));
 }
 
+TEST(PlanarEstimate, ListensToWhatLooksMoreLikelyRight) {
+  // Of 120 matches some 10 are right. Where looks say nothing these are often lost.
+  int blind = 0;
+  int told = 0;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    PlanarScene scene = planar_scene(120, 0.92, 0.002, 2.0, 500 + seed);
+    const auto without = estimate_planar_motion(scene.correspondences, {}, seed);
+    blind += without && direction_error_deg(without->motion, scene.truth) < 10.0 ? 1 : 0;
+    // Three of four right ones look unique, and every eighth wrong one.
+    for (std::size_t i = 0; i < scene.correspondences.size(); ++i) {
+      const bool unique = scene.outlier[i] ? i % 8 == 0 : i % 4 != 0;
+      scene.correspondences[i].odds = unique ? 6.0 : 0.3;
+    }
+    const auto with = estimate_planar_motion(scene.correspondences, {}, seed);
+    told += with && direction_error_deg(with->motion, scene.truth) < 10.0 ? 1 : 0;
+  }
+  EXPECT_GE(told, 26);
+  EXPECT_LE(blind, told - 4);
+}
+
+TEST(PlanarEstimate, LooksAloneAreNoEvidence) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    PlanarScene scene = planar_scene(100, 1.0, 0.001, 0.8, 700 + seed);
+    for (std::size_t i = 0; i < scene.correspondences.size(); i += 2) scene.correspondences[i].odds = 7.0;
+    const auto estimate = estimate_planar_motion(scene.correspondences, {}, seed);
+    if (estimate) {
+      EXPECT_LT(estimate->evidence, 3.0) << seed;
+    }
+  }
+}
+
+TEST(PlanarEstimate, EqualLooksChangeNothing) {
+  PlanarScene scene = planar_scene(100, 0.4, 0.001, 0.8, 801);
+  const auto plain = estimate_planar_motion(scene.correspondences, {}, 1);
+  for (Correspondence& c : scene.correspondences) c.odds = 3.0;
+  const auto equal = estimate_planar_motion(scene.correspondences, {}, 1);
+  ASSERT_TRUE(plain && equal);
+  EXPECT_LT(direction_error_deg(equal->motion, plain->motion), 0.2);
+  EXPECT_NEAR(equal->evidence, plain->evidence, 0.05 * plain->evidence);
+}
+
 }  // namespace
 }  // namespace homeward::geometry
