@@ -62,8 +62,8 @@ double confidence(const ConfidenceSigns& signs) {
   constexpr double kFewestDisagreeing = 5.0;
   const double disagreeing = std::log1p(std::max(kFewestDisagreeing, signs.disagreeing));
   const double parallax = std::log(std::clamp(degrees(signs.median_parallax_rad), 0.5, 10.0) / 10.0);
-  const double log_odds = 4.92 + 0.44 * std::log(std::max(1.0, signs.lead)) + 8.74 * signs.around - 3.19 * disagreeing +
-                          2.17 * parallax * signs.around;
+  const double log_odds = 5.69 + 0.23 * std::log(std::max(1.0, signs.lead)) + 9.86 * signs.around - 3.27 * disagreeing +
+                          1.86 * parallax * signs.around;
   return 1.0 / (1.0 + std::exp(-log_odds));
 }
 
