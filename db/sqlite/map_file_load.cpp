@@ -47,6 +47,7 @@ void get_meta(SQLite::Database& database, map::TopologicalMap& map) {
   map.feature_config.max_sift = features.at("max_sift").get<int>();
   map.feature_config.sift_contrast_threshold = features.at("sift_contrast_threshold").get<double>();
   map.feature_config.sift_code_length = features.at("sift_code_length").get<int>();
+  map.feature_config.sift_windows = features.value("sift_windows", 1);  // files of before have one
   map.feature_config.max_columns = features.at("max_columns").get<int>();
   map.feature_config_id = meta(database, "feature_config_id").get<std::string>();
   const json motion = meta(database, "motion");

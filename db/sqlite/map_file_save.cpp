@@ -35,6 +35,7 @@ void put_meta(SQLite::Database& database, const map::TopologicalMap& map) {
                          {"max_sift", features.max_sift},
                          {"sift_contrast_threshold", features.sift_contrast_threshold},
                          {"sift_code_length", features.sift_code_length},
+                         {"sift_windows", features.sift_windows},
                          {"max_columns", features.max_columns}});
   put("feature_config_id", map.feature_config_id);
   put("motion", {{"hop_spread", map.motion.hop_spread},

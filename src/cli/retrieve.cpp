@@ -51,13 +51,16 @@ Result<features::FeatureSet> look(const pipeline::Eye& eye, const fs::path& file
   return std::move(appearance->sift);
 }
 
-/// A lens sees less than a mirror does around it: more and weaker features make up for it.
+/// A lens sees less than a mirror does around it: more and weaker features make up for it, each with its wider
+/// surroundings, for a door frame alone is found everywhere in a corridor.
 features::FeatureConfig retrieval_config(const camera::Camera& camera) {
   features::FeatureConfig config = pipeline::suited_feature_config(camera);
+  config.max_columns = 0;  // not compared
   const auto& model = camera.config().model;
   if (std::holds_alternative<camera::Pinhole>(model) || std::holds_alternative<camera::Fisheye>(model)) {
     config.max_sift = 1200;
     config.sift_contrast_threshold = 0.004;
+    config.sift_windows = 3;
   }
   return config;
 }

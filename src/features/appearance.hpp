@@ -18,10 +18,13 @@ struct FeatureConfig {
   double sift_contrast_threshold = 0.015;
   int sift_code_length = 32;  // bytes of a SIFT descriptor, 1 to 64
   int max_columns = 150;      // invariant column segments kept, spread over azimuth
+  // Each feature is described so many times one after the other, every time with its surroundings to twice the
+  // distance: a descriptor has sift_code_length bytes for each. 1 to 4.
+  int sift_windows = 1;
 };
 
 /// Short text that is equal exactly when features are comparable, for example
-/// "hw2-w1024-e0.3400_-0.9500-s600-t0.0150-l32-c150".
+/// "hw2-w1024-e0.3400_-0.9500-s600-t0.0150-l32-c150"; with more windows than one, their number: "...-c150-x3".
 std::string feature_config_id(const FeatureConfig& config);
 
 /// One kind of local features of one picture. Row i of all members belongs to feature i.

@@ -134,7 +134,7 @@ FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& 
   const auto count = static_cast<Eigen::Index>(points.size());
   set.bearings.resize(count, 3);
   set.scales_rad.resize(count);
-  set.descriptors.resize(count, config.sift_code_length);
+  set.descriptors.resize(count, static_cast<Eigen::Index>(config.sift_code_length) * config.sift_windows);
   set.colours.resize(count, 3);
   if (unrounded != nullptr) unrounded->sift.resize(count, UprightSift::kDescriptorLength);
   const double px_to_rad = 2.0 * kPi / width_px;
@@ -144,10 +144,15 @@ FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& 
                                    static_cast<double>(point.v_px));
     set.bearings.row(i) = panorama.geometry.bearing(pixel_px).cast<float>();
     set.scales_rad[i] = static_cast<float>(2.0 * static_cast<double>(point.sigma_px) * px_to_rad);
-    std::array<float, UprightSift::kDescriptorLength> descriptor;
-    sift.describe(point, descriptor.data());
-    encode_sift(descriptor, {set.descriptors.row(i).data(), static_cast<std::size_t>(config.sift_code_length)});
-    if (unrounded != nullptr) std::ranges::copy(descriptor, unrounded->sift.row(i).data());
+    SiftPoint window = point;
+    for (int k = 0; k < config.sift_windows; ++k) {
+      std::array<float, UprightSift::kDescriptorLength> descriptor;
+      sift.describe(window, descriptor.data());
+      encode_sift(descriptor, {set.descriptors.row(i).data() + static_cast<std::ptrdiff_t>(k) * config.sift_code_length,
+                               static_cast<std::size_t>(config.sift_code_length)});
+      if (unrounded != nullptr && k == 0) std::ranges::copy(descriptor, unrounded->sift.row(i).data());
+      window = sift.widened(window);
+    }
     const auto colour = colour_invariants(panorama.rgb, pixel_px.x(), pixel_px.y(),
                                           std::max(2.0, static_cast<double>(kPatchRadiusPerSigma * point.sigma_px)));
     set.colours.row(i) << colour[0], colour[1], colour[2];
@@ -162,7 +167,8 @@ std::string feature_config_id(const FeatureConfig& config) {
   std::snprintf(text, sizeof text, "hw2-w%d-e%.4f_%.4f-s%d-t%.4f-l%d-c%d", config.panorama_width_px,
                 config.elevation_max_rad, config.elevation_min_rad, config.max_sift, config.sift_contrast_threshold,
                 config.sift_code_length, config.max_columns);
-  return text;
+  // One window is what maps were made with before there could be more.
+  return config.sift_windows == 1 ? text : text + ("-x" + std::to_string(config.sift_windows));
 }
 
 Appearance extract(const camera::Panorama& panorama, const FeatureConfig& config, Unrounded* unrounded) {

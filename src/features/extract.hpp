@@ -9,7 +9,8 @@ namespace homeward::features {
 
 /// What features are before they are rounded to bytes, a row for each: to measure what the bytes cost.
 struct Unrounded {
-  Eigen::Matrix<float, Eigen::Dynamic, 128, Eigen::RowMajor> sift;  // descriptors, not turned or cut yet
+  Eigen::Matrix<float, Eigen::Dynamic, 128, Eigen::RowMajor>
+      sift;  // descriptors of the first window, not turned or cut yet
   UnroundedColumns columns;
 };
 

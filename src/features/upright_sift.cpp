@@ -217,6 +217,12 @@ void UprightSift::search(int octave, double contrast, std::vector<SiftPoint>& po
   }
 }
 
+SiftPoint UprightSift::widened(SiftPoint point) const {
+  point.sigma_px *= 2.0F;
+  point.octave = std::min(point.octave + 1, static_cast<int>(octaves_.size()) - 1);
+  return point;
+}
+
 void UprightSift::describe(const SiftPoint& point, float* descriptor) const {
   constexpr int kCells = 4;
   constexpr int kDirections = 8;

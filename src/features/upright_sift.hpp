@@ -34,6 +34,9 @@ class UprightSift {
   /// Zisserman 2012), so its length is 1; all 0 where the picture is flat.
   void describe(const SiftPoint& point, float* descriptor) const;
 
+  /// The same point with its surroundings to twice the distance, for `describe`; an octave coarser where there is one.
+  [[nodiscard]] SiftPoint widened(SiftPoint point) const;
+
  private:
   /// Adds one octave's extrema.
   void search(int octave, double contrast, std::vector<SiftPoint>& points) const;

@@ -9,8 +9,8 @@
 namespace homeward::matching {
 
 struct RerankConfig {
-  int background = 30;            // the rank, among the candidates, of the nearest feature that counts as chance
-  double log_scale_spread = 0.2;  // of the sizes of features seen again from near by
+  int background = 30;             // the rank, among the candidates, of the nearest feature that counts as chance
+  double log_scale_spread = 0.35;  // of the sizes of features seen again from near by
 };
 
 /// How well each candidate explains the features of a picture. Every feature finds its nearest neighbour in every

@@ -37,9 +37,11 @@ Result<Eye> Eye::create(const camera::CameraConfig& camera, const features::Feat
                 "feature_config");
   }
   constexpr int kMostFeatures = 20'000;
+  constexpr int kMostWindows = 4;
   const bool sensible = features.max_sift >= 0 && features.max_sift <= kMostFeatures && features.max_columns >= 0 &&
                         features.max_columns <= kMostFeatures && features.sift_code_length >= 1 &&
-                        features.sift_code_length <= features::kMaxSiftCodeLength;
+                        features.sift_code_length <= features::kMaxSiftCodeLength && features.sift_windows >= 1 &&
+                        features.sift_windows <= kMostWindows;
   if (!sensible) {
     return fail(ErrorCode::kInvalidInput,
                 "The feature configuration asks for a number of features or a length of descriptors that cannot be.",

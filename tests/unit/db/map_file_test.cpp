@@ -31,7 +31,8 @@ class MapFile : public ::testing::Test {
 };
 
 TEST_F(MapFile, GivesBackWhatWasSaved) {
-  const map::TopologicalMap before = sample_map();
+  map::TopologicalMap before = sample_map();
+  before.feature_config.sift_windows = 2;
   const Thumbnails thumbnails = {{before.images[0].id, {1, 2, 3}}};
   ASSERT_TRUE(save_map(file(), before, thumbnails));
   const auto stored = load_map(file());
@@ -40,6 +41,7 @@ TEST_F(MapFile, GivesBackWhatWasSaved) {
   EXPECT_EQ(after.name, before.name);
   EXPECT_EQ(after.revision, before.revision);
   EXPECT_EQ(after.feature_config_id, before.feature_config_id);
+  EXPECT_EQ(after.feature_config.sift_windows, 2);
   EXPECT_EQ(after.camera.width_px, before.camera.width_px);
   EXPECT_TRUE(after.camera.robot_from_camera_rotation.isApprox(before.camera.robot_from_camera_rotation));
   ASSERT_EQ(after.images.size(), 3U);

@@ -38,6 +38,26 @@ TEST(Extract, KeepsTheBudget) {
   }
 }
 
+TEST(Extract, WindowsStandOneAfterTheOther) {
+  FeatureConfig config;
+  const Appearance one = extract(sample_panorama(), config);
+  config.sift_windows = 3;
+  const Appearance three = extract(sample_panorama(), config);
+  ASSERT_EQ(three.sift.size(), one.sift.size());
+  const Eigen::Index length = config.sift_code_length;
+  ASSERT_EQ(three.sift.descriptors.cols(), 3 * length);
+  // The first is the feature as ever; the wider ones see something else.
+  EXPECT_EQ(three.sift.descriptors.leftCols(length), one.sift.descriptors);
+  EXPECT_NE(three.sift.descriptors.middleCols(length, length), one.sift.descriptors);
+  EXPECT_NE(three.sift.descriptors.rightCols(length), three.sift.descriptors.middleCols(length, length));
+  // Wide surroundings of neighbours overlap: such descriptors are nearer each other than narrow ones.
+  const auto spread = [&](Eigen::Index first) {
+    const Eigen::MatrixXd window = three.sift.descriptors.middleCols(first, length).cast<double>();
+    return (window.rowwise() - window.colwise().mean()).squaredNorm();
+  };
+  EXPECT_LT(spread(2 * length), spread(0));
+}
+
 TEST(Extract, RowsAreUnitLengthAndInsideThePanorama) {
   const Appearance seen = extract(sample_panorama(), {});
   const camera::PanoramaGeometry geometry;
@@ -194,7 +214,10 @@ TEST(FeatureConfigId, DiffersWhereverFeaturesDo) {
   config = {};
   config.max_columns = 10;
   ids.insert(feature_config_id(config));
-  EXPECT_EQ(ids.size(), 8U);
+  config = {};
+  config.sift_windows = 2;
+  ids.insert(feature_config_id(config));
+  EXPECT_EQ(ids.size(), 9U);
   EXPECT_EQ(feature_config_id({}), id);
 }
 
