@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   homeward::cli::register_home(program);
   homeward::cli::register_compare(program);
   homeward::cli::register_localise(program);
+  homeward::cli::register_loops(program);
   homeward::cli::register_retrieve(program);
   homeward::cli::register_route(program);
   homeward::cli::register_simulate(program);

@@ -190,6 +190,20 @@ def night_against_day(bench):
     bench.row("night against day", "first picture within 1 m", near / len(poses["test_night"]), least=0.97)
 
 
+def loops(bench):
+    train = bench.folder("sim", "home", "train")
+    if not bench.has("loops"):
+        raise Skipped("`homeward loops` is not built")
+    lines = bench.program("loops", "--images", train, "--camera", train / "camera.json", out=bench.scratch / "loops.jsonl")
+    figures = bench.judge("loops.py", lines, train / "poses.csv")
+    part = "loops, rendered house"
+    bench.row(part, "recall without a wrong match", figures["recall_at_100"], least=0.97)
+    bench.row(part, "recall of all matches", figures["recall"])
+    bench.row(part, "precision of all matches", figures["precision"])
+    bench.row(part, "ms a picture (median)", figures["ms_p50"], most=40.0)
+    bench.row(part, "ms a picture (99th percentile)", figures["ms_p99"])
+
+
 def map_and_places(bench):
     data = bench.folder("sim", "home")
     train = data / "train"
@@ -226,6 +240,7 @@ PARTS = {
     "recall_corridor": recall_corridor,
     "recall_tower": recall_tower,
     "night_against_day": night_against_day,
+    "loops": loops,
     "map_and_places": map_and_places,
 }
 # Run only by name: minutes each, and no bounds.
