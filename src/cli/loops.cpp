@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdlib>
 #include <ctime>
 #include <iostream>
 #include <memory>
@@ -19,6 +18,7 @@ struct Options {
   std::string images;
   std::string camera;
   int gap = pipeline::LoopConfig{}.gap;
+  double least_score = pipeline::LoopConfig{}.least_score;
   std::uint64_t seed = 1;
 };
 
@@ -36,17 +36,12 @@ Status loops(const Options& options) {
   if (!config) return pass_on(config);
   const auto camera = camera::Camera::create(*config);
   if (!camera) return pass_on(camera);
-  auto fc = pipeline::loop_feature_config(**camera);
-  if (const char* e = std::getenv("W")) fc.panorama_width_px = std::atoi(e);
-  if (const char* e = std::getenv("S")) fc.max_sift = std::atoi(e);
-  if (const char* e = std::getenv("T")) fc.sift_contrast_threshold = std::atof(e);
-  const auto eye = pipeline::Eye::create(*config, fc);
+  const auto eye = pipeline::Eye::create(*config, pipeline::loop_feature_config(**camera));
   if (!eye) return pass_on(eye);
   pipeline::LoopConfig settings;
   settings.gap = options.gap;
   settings.seed = options.seed;
-  if (const char* e = std::getenv("K")) settings.shortlist = std::atoi(e);
-  if (const char* e = std::getenv("V")) settings.verified = std::atoi(e);
+  settings.least_score = options.least_score;
   auto detector = pipeline::LoopDetector::create(settings);
   if (!detector) return pass_on(detector);
   cv::setNumThreads(1);  // one processor is what a robot has to spare, and what is counted
@@ -56,7 +51,6 @@ Status loops(const Options& options) {
     if (!picture) return pass_on(picture);
     auto appearance = eye->look(*picture);
     if (!appearance) return fail(appearance.error().code, appearance.error().message, file.string());
-    const double looked_ms = processor_ms();
     const auto loop = detector->see(std::move(*appearance));
     if (!loop) return fail(loop.error().code, loop.error().message, file.string());
     nlohmann::json line{{"image", file.filename().string()}, {"match", nullptr}, {"score", nullptr}};
@@ -65,18 +59,7 @@ Status loops(const Options& options) {
       line["score"] = (*loop)->score;
     }
     line["ms"] = processor_ms() - begin_ms;
-    if (std::getenv("D") != nullptr) {
-      line["look_ms"] = looked_ms - begin_ms;
-      for (const auto& one : detector->judged()) {
-        line["judged"].push_back({{"p", one.picture},
-                                  {"m", one.matches},
-                                  {"i", one.inliers},
-                                  {"d", one.distance},
-                                  {"c", one.confidence},
-                                  {"px", one.parallax_rad}});
-      }
-    }
-    std::cout << line.dump() << "\n";
+    std::cout << line.dump() << "\n" << std::flush;  // a robot reads along
   }
   return {};
 }
@@ -92,6 +75,9 @@ void register_loops(CLI::App& program) {
   command->add_option("--gap", options->gap, "By how many pictures a match is older, at least")
       ->capture_default_str()
       ->check(CLI::Range(1, 1'000'000));
+  command->add_option("--least-score", options->least_score, "Matches below this score are not told")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
   command->add_option("--seed", options->seed, "Seed of everything random");
   run_on(*command, [options] { return loops(*options); });
 }

@@ -2,7 +2,6 @@
 #include "pipeline/loop_detector.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -15,35 +14,37 @@ namespace homeward::pipeline {
 namespace {
 
 constexpr std::size_t kLearnAgain = 4;    // times as many pictures
-constexpr std::size_t kLearnFrom = 1000;  // pictures, at most
+constexpr std::size_t kLearnFrom = 1000;  // pictures: with so many the words are final
 constexpr std::size_t kBeside = 2;        // pictures before and after the last match
 
 }  // namespace
 
+LoopDetector::LoopDetector(const LoopConfig& config)
+    : config_(config), learn_at_(static_cast<std::size_t>(config.gap) + 1) {}
+
 Result<LoopDetector> LoopDetector::create(const LoopConfig& config) {
   if (config.gap < 1 || config.shortlist < 1 || config.verified < 1) {
-    return fail(ErrorCode::kInvalidInput, "A match is one picture older or more, and one or more are compared.",
+    return fail(ErrorCode::kInvalidInput, "The gap and the numbers of pictures to compare are 1 or more.",
                 "loop_config");
   }
-  LoopDetector detector(config);
-  detector.learn_at_ = static_cast<std::size_t>(config.gap) + 1;
-  return detector;
+  if (!(config.least_score >= 0.0 && config.least_score <= 1.0)) {
+    return fail(ErrorCode::kInvalidInput, "The least score is not within 0 to 1.", "loop_config");
+  }
+  return LoopDetector(config);
 }
 
 Status LoopDetector::learn() {
   std::vector<const features::FeatureSet*> sets;
-  const std::size_t step = 1 + (seen_.size() - 1) / kLearnFrom;
-  for (std::size_t i = 0; i < seen_.size(); i += step) sets.push_back(&seen_[i].sift);
+  for (const features::Appearance& picture : seen_) sets.push_back(&picture.sift);
   auto vocabulary = features::train_vocabulary(sets, matching::kRetrievalWords, config_.seed);
   if (!vocabulary) {
-    if (vocabulary.error().code == ErrorCode::kTooFewFeatures) return {};  // again at the next picture
+    if (vocabulary.error().code == ErrorCode::kTooFewFeatures) return {};  // tried again at the next picture
     return pass_on(vocabulary);
   }
   auto index = matching::RetrievalIndex::create(std::move(*vocabulary));
   if (!index) return pass_on(index);
   index_.emplace(std::move(*index));
-  const std::size_t old_enough = seen_.size() - static_cast<std::size_t>(config_.gap);
-  for (std::size_t i = 0; i + 1 < old_enough; ++i) {
+  for (std::size_t i = 0; i + 1 < old_enough_; ++i) {
     if (Status added = remember(i); !added) return added;
   }
   learn_at_ = seen_.size() < kLearnFrom ? kLearnAgain * seen_.size() : 0;
@@ -51,12 +52,11 @@ Status LoopDetector::learn() {
 }
 
 Status LoopDetector::remember(std::size_t picture) {
-  // A picture without features is like none.
   if (!index_ || seen_[picture].sift.size() == 0) return {};
   return index_->add(std::to_string(picture), seen_[picture].sift);
 }
 
-std::vector<std::size_t> LoopDetector::shortlist(std::size_t old_enough) const {
+std::vector<std::size_t> LoopDetector::shortlist() const {
   std::vector<std::size_t> pictures;
   if (!index_) return pictures;
   for (const matching::Candidate& one : index_->query(seen_.back().sift, static_cast<std::size_t>(config_.shortlist))) {
@@ -64,32 +64,17 @@ std::vector<std::size_t> LoopDetector::shortlist(std::size_t old_enough) const {
   }
   if (last_) {
     const std::size_t first = last_->picture - std::min(last_->picture, kBeside);
-    for (std::size_t i = first; i < std::min(old_enough, last_->picture + kBeside + 1); ++i) {
+    for (std::size_t i = first; i < std::min(old_enough_, last_->picture + kBeside + 1); ++i) {
       if (std::ranges::find(pictures, i) == pictures.end()) pictures.push_back(i);
     }
   }
   return pictures;
 }
 
-Result<std::optional<Loop>> LoopDetector::see(features::Appearance appearance) {
-  const Eigen::Index length = appearance.sift.size() > 0 ? appearance.sift.descriptors.cols() : 0;
-  if (length != 0 && descriptor_length_ != 0 && length != descriptor_length_) {
-    return fail(ErrorCode::kInvalidInput, "The picture's descriptors do not have the length of those before.");
-  }
-  if (length != 0) descriptor_length_ = length;
-  seen_.push_back(std::move(appearance));
-  judged_.clear();
-  const auto gap = static_cast<std::size_t>(config_.gap);
-  if (seen_.size() <= gap) return std::optional<Loop>();
-  const std::size_t old_enough = seen_.size() - gap;
-  if (learn_at_ != 0 && seen_.size() >= learn_at_) {
-    if (Status learnt = learn(); !learnt) return pass_on(learnt);
-  }
-  if (Status added = remember(old_enough - 1); !added) return pass_on(added);
-
+std::optional<Loop> LoopDetector::best_of(const std::vector<std::size_t>& pictures) const {
   const features::Appearance& here = seen_.back();
   std::vector<std::pair<std::size_t, std::size_t>> alike;  // matches, picture
-  for (const std::size_t picture : shortlist(old_enough)) {
+  for (const std::size_t picture : pictures) {
     alike.emplace_back(matching::match(here.sift, seen_[picture].sift, config_.verify.match).size(), picture);
   }
   std::ranges::sort(
@@ -99,26 +84,35 @@ Result<std::optional<Loop>> LoopDetector::see(features::Appearance appearance) {
   for (const auto& [matches, picture] : alike) {
     const auto compared = matching::compare(here, seen_[picture], config_.verify, config_.seed);
     if (!compared.pose) continue;
-    Loop loop;
-    loop.picture = picture;
-    loop.matches = compared.matches;
-    loop.inliers = compared.verified;
-    loop.distance = compared.distance;
-    loop.confidence = compared.pose->confidence;
-    loop.parallax_rad = compared.pose->median_parallax_rad;
-    loop.score = loop.confidence / (1.0 + compared.distance);
-    judged_.push_back(loop);
-    if (!best || loop.score > best->score) best = loop;
+    const double score = compared.pose->confidence / (1.0 + compared.distance);
+    if (score >= config_.least_score && (!best || score > best->score)) best = Loop{picture, score};
   }
-  last_ = best;
   return best;
+}
+
+Result<std::optional<Loop>> LoopDetector::see(features::Appearance appearance) {
+  const Eigen::Index length = appearance.sift.size() > 0 ? appearance.sift.descriptors.cols() : descriptor_length_;
+  if (descriptor_length_ != 0 && length != descriptor_length_) {
+    return fail(ErrorCode::kInvalidInput, "The picture's descriptors do not have the length of those before.");
+  }
+  descriptor_length_ = length;
+  seen_.push_back(std::move(appearance));
+  const auto gap = static_cast<std::size_t>(config_.gap);
+  if (seen_.size() <= gap) return std::optional<Loop>();
+  old_enough_ = seen_.size() - gap;
+  if (learn_at_ != 0 && seen_.size() >= learn_at_) {
+    if (Status learnt = learn(); !learnt) return pass_on(learnt);
+  }
+  if (Status added = remember(old_enough_ - 1); !added) return pass_on(added);
+  last_ = best_of(shortlist());
+  return last_;
 }
 
 features::FeatureConfig loop_feature_config(const camera::Camera& camera) {
   features::FeatureConfig config = suited_feature_config(camera);
-  config.panorama_width_px = config.panorama_width_px * 3 / 4;
+  config.panorama_width_px = config.panorama_width_px * 5 / 8;
   config.max_sift = 400;
-  config.max_columns = 0;
+  config.max_columns = 0;  // slow to find, and not needed to tell places
   return config;
 }
 

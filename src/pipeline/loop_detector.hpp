@@ -15,49 +15,56 @@
 namespace homeward::pipeline {
 
 struct LoopConfig {
-  int gap = 20;        // pictures by which a match is older, at least; 1 or more
-  int shortlist = 16;  // pictures that look most alike as a whole: their features are matched
-  int verified = 4;    // ... of these, with the most matches: held against one motion
-  matching::VerifyConfig verify;
+  int gap = 20;              // pictures by which a match is older, at least
+  int shortlist = 8;         // pictures that look most alike as a whole: their features are matched
+  int verified = 3;          // ... of these, with the most matches: held against one motion of the robot
+  double least_score = 0.3;  // below, nothing is said; 0 to 1
+  matching::VerifyConfig verify{};
   std::uint64_t seed = 1;
 };
 
 /// An earlier picture that shows the same place.
 struct Loop {
-  std::size_t picture = 0;  // by its number, the first being 0
-  double score = 0.0;
-  int matches = 0;
-  int inliers = 0;
-  double distance = 0.0;
-  double confidence = 0.0;
-  double parallax_rad = 0.0;
-  double log_scale = 0.0;
-  double similarity = 0.0;
+  std::size_t picture = 0;  // its number, the first picture's being 0
+  double score = 0.0;       // 0 to 1, the surer and nearer the higher: not a probability
 };
 
+/// Finds, picture by picture as a robot drives, the earlier picture that shows the same place.
+///
+/// Pictures that are old enough are kept in a retrieval index whose visual words are learnt from the drive itself: when
+/// the first picture is old enough, then each time when there are four times as many, up to a thousand. Of those that
+/// look most alike as a whole, and of the neighbours of the picture that the last one was matched with, the ones with
+/// the most matching features are verified by planar motion geometry. A candidate's score is
+/// its confidence / (1 + D), with the visual distance D (Goedemé 2007 §4.2): pictures taken side by side share most of
+/// their features, in nearly the same directions; from the other end of the same room they share few, far apart.
+/// Earlier answers bring in candidates and do not change a score. Deterministic: the same pictures give the same loops.
 class LoopDetector {
  public:
+  /// Errors: kInvalidInput (a number below 1, a score not within 0 to 1).
   static Result<LoopDetector> create(const LoopConfig& config);
 
+  /// The match of the next picture, if there is one. A picture without features is like none.
+  /// Errors: kInvalidInput (descriptors of another length than those of the pictures before; nothing is changed).
   Result<std::optional<Loop>> see(features::Appearance appearance);
-  [[nodiscard]] const std::vector<Loop>& judged() const { return judged_; }
 
  private:
-  explicit LoopDetector(const LoopConfig& config) : config_(config) {}
+  explicit LoopDetector(const LoopConfig& config);
   Status learn();
   Status remember(std::size_t picture);
-  [[nodiscard]] std::vector<std::size_t> shortlist(std::size_t old_enough) const;
+  [[nodiscard]] std::vector<std::size_t> shortlist() const;
+  [[nodiscard]] std::optional<Loop> best_of(const std::vector<std::size_t>& pictures) const;
 
   LoopConfig config_;
   std::vector<features::Appearance> seen_;
-  std::optional<matching::RetrievalIndex> index_;  // of the pictures that are old enough
-  std::size_t learn_at_ = 0;                       // pictures seen
+  std::size_t old_enough_ = 0;                     // so many of them, the first ones
+  std::optional<matching::RetrievalIndex> index_;  // of those
+  std::size_t learn_at_;                           // so many pictures seen; 0: never again
   Eigen::Index descriptor_length_ = 0;             // of the first picture with features; 0: none yet
   std::optional<Loop> last_;
-  std::vector<Loop> judged_;
 };
 
-/// Settings of features that are quick to find and enough for recognition.
+/// Settings of features for a camera that are quick to find and enough for loops: SIFT alone, fewer of it, on a
+/// panorama of five eighths of the usual width (docs/benchmarks.md has the comparison).
 features::FeatureConfig loop_feature_config(const camera::Camera& camera);
 
 }  // namespace homeward::pipeline
