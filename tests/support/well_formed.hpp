@@ -10,7 +10,7 @@ namespace homeward::testing {
 /// What keeps a page from being well-formed: tags that do not match, bare `<` and `&`, attributes without quotes.
 /// Empty when nothing does. The content of <style> is not looked at.
 inline std::string markup_problem(const std::string& page) {
-  static const std::regex kTag(R"re(^<(/?)([A-Za-z][A-Za-z0-9]*)((?:\s+[A-Za-z:-]+="[^"<]*")*)\s*(/?)>)re");
+  static const std::regex kTag(R"re(^<(/?)([A-Za-z][A-Za-z0-9]*)((?:\s+[A-Za-z][A-Za-z0-9:-]*="[^"<]*")*)\s*(/?)>)re");
   static const std::regex kEntity(R"(^&(amp|lt|gt|quot|#[0-9]+);)");
   const std::string doctype = "<!DOCTYPE html>";
   std::vector<std::string> open;
