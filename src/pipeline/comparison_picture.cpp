@@ -95,10 +95,17 @@ void draw_matches(cv::Mat& rgb, const Drawn& upper, const Drawn& lower, const ma
   const auto middle = [](const Drawn& drawn, int column) {
     return drawn.point(drawn.view.appearance.columns.bearings.row(column).transpose().cast<double>());
   };
+  const auto agreeing = static_cast<int>(verified.pose.inliers.size());
+  int passed = 0;                            // of those that agree; every so many of them is drawn
   for (const bool wanted : {false, true}) {  // what agrees is drawn over what does not
     if (!wanted && !style.unmatched) continue;
     for (std::size_t i = 0; i < verified.matches.size(); ++i) {
       if (agrees[i] != wanted) continue;
+      if (wanted && agreeing > style.most_lines) {
+        const std::int64_t before = std::int64_t{passed} * style.most_lines / agreeing;
+        const std::int64_t after = std::int64_t{++passed} * style.most_lines / agreeing;
+        if (before == after) continue;
+      }
       const matching::Match& match = verified.matches[i];
       if (match.kind == matching::FeatureKind::kColumn) {
         const cv::Scalar& colour = wanted ? kColumnAgrees : kColumnDisagrees;

@@ -20,9 +20,10 @@ struct ComparedView {
 
 /// What of a comparison is drawn.
 struct ComparisonStyle {
-  bool words = true;      // strips with a summary, a legend and the ways home and back
-  bool unmatched = true;  // features and columns without a match, and matches that do not agree
-  bool cut = false;       // what neither view shows left and right is cut off: for lenses that see little
+  bool words = true;         // strips with a summary, a legend and the ways home and back
+  bool unmatched = true;     // features and columns without a match, and matches that do not agree
+  int most_lines = 1 << 20;  // of matches that agree: more would hide the views
+  bool cut = false;          // what neither view shows left and right is cut off: for lenses that see little
 };
 
 /// For people: the present view above, the target's below, turned so that the same direction of the world stands under

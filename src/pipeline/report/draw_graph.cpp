@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kWidth = 1000.0;
 constexpr double kMargin = 40.0;
-constexpr double kMostHeight = 900.0;
+constexpr double kMostHeight = 760.0;
 constexpr std::size_t kMostIds = 160;  // beyond, the ids of places would cover each other
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-/// Places on the drawing: the layout's own bounds fill the width.
+/// Places on the drawing: the layout, turned so that its longer side lies across, fills the width.
 struct Sheet {
   std::vector<Eigen::Vector2d> points;
   double height = 0.0;
@@ -28,9 +28,18 @@ Sheet lay_out(const map::TopologicalMap& map) {
   Sheet sheet{map::layout(map), 0.0};
   Eigen::Array2d low = Eigen::Array2d::Constant(1.0);
   Eigen::Array2d high = Eigen::Array2d::Constant(0.0);
-  for (const Eigen::Vector2d& point : sheet.points) {
-    low = low.min(point.array());
-    high = high.max(point.array());
+  const auto measure = [&] {
+    low = Eigen::Array2d::Constant(1.0);
+    high = Eigen::Array2d::Constant(0.0);
+    for (const Eigen::Vector2d& point : sheet.points) {
+      low = low.min(point.array());
+      high = high.max(point.array());
+    }
+  };
+  measure();
+  if (high.y() - low.y() > high.x() - low.x()) {  // by a quarter: a page is read across
+    for (Eigen::Vector2d& point : sheet.points) point = Eigen::Vector2d(1.0 - point.y(), point.x());
+    measure();
   }
   const Eigen::Array2d size = (high - low).max(1e-3);
   const double scale = std::min((kWidth - 2.0 * kMargin) / size.x(), (kMostHeight - 2.0 * kMargin) / size.y());

@@ -78,6 +78,7 @@ std::string row(const Axis& axis, const std::vector<int>& values, double top) {
 
 std::string arcs(const map::TopologicalMap& map, const Axis& axis) {
   const auto images = map::image_indices(map);
+  const double widest = axis.length(static_cast<int>(map.images.size())) / 2.0;
   std::string svg;
   for (const map::Decision wanted : {map::Decision::kRejected, map::Decision::kUndecided, map::Decision::kAccepted}) {
     const char* kind = wanted == map::Decision::kAccepted    ? "arc accepted"
@@ -92,7 +93,8 @@ std::string arcs(const map::TopologicalMap& map, const Axis& axis) {
       const double right = axis.middle(std::max(a->second, b->second));
       const double half = std::max((right - left) / 2.0, 0.5);
       path += "M" + number(left, 1) + " " + number(kArcs, 0) + "A" + number(half, 1) + " " +
-              number(std::min(half, kArcs - 5.0), 1) + " 0 0 1 " + number(right, 1) + " " + number(kArcs, 0);
+              number((kArcs - 4.0) * std::sqrt(std::min(1.0, half / widest)), 1) + " 0 0 1 " + number(right, 1) + " " +
+              number(kArcs, 0);
     }
     if (!path.empty()) svg += "<path class=\"" + std::string(kind) + "\" d=\"" + path + "\"/>\n";
   }

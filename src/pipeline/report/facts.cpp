@@ -135,6 +135,18 @@ void find_look_alikes(const BuiltMap& built, ReportFacts& facts) {
   std::ranges::stable_sort(facts.look_alikes, {}, &LookAlike::distance);
 }
 
+void find_joined(const map::TopologicalMap& map, ReportFacts& facts) {
+  const auto images = map::image_indices(map);
+  for (const map::Hypothesis& hypothesis : map.hypotheses) {
+    const auto a = images.find(hypothesis.prototype_a);
+    const auto b = images.find(hypothesis.prototype_b);
+    const bool known = a != images.end() && b != images.end() && facts.place_of[at(a->second)] >= 0;
+    const bool joined = known && facts.place_of[at(a->second)] == facts.place_of[at(b->second)];
+    facts.joined.push_back(joined ? 1 : 0);
+    if (!joined && hypothesis.decision == map::Decision::kUndecided) ++facts.open;
+  }
+}
+
 void find_gaps(const BuiltMap& built, ReportFacts& facts) {
   const std::vector<map::MapImage>& images = built.map.images;
   for (int i = 1; i < static_cast<int>(images.size()); ++i) {
@@ -168,6 +180,7 @@ ReportFacts gather_facts(const BuiltMap& built) {
   facts.parts = facts.component_of.empty() ? 0 : *std::ranges::max_element(facts.component_of) + 1;
   find_weak(built, facts);
   find_look_alikes(built, facts);
+  find_joined(map, facts);
   find_gaps(built, facts);
   facts.uncertain_first.resize(map.hypotheses.size());
   std::iota(facts.uncertain_first.begin(), facts.uncertain_first.end(), 0);

@@ -56,6 +56,8 @@ struct ReportFacts {
   int weak_off_tour = 0;               // weak edges that no tour drove
   std::vector<LookAlike> look_alikes;  // most alike first
   std::vector<Gap> gaps;               // longest first
+  std::vector<char> joined;            // of each hypothesis: its two pictures are in one place, by whatever way
+  int open = 0;                        // undecided hypotheses that are not joined
   std::vector<int> uncertain_first;    // indices of hypotheses
 };
 

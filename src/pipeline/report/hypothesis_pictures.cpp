@@ -58,7 +58,8 @@ Result<HypothesisPicture> draw(const Eye& eye, const Pictures& pictures, const B
     picture.matches = static_cast<int>(verified->matches.size());
     picture.agree = static_cast<int>(verified->pose.inliers.size());
   }
-  const Image drawn = draw_comparison(upper, lower, shown, {.words = false, .unmatched = false, .cut = true});
+  const Image drawn =
+      draw_comparison(upper, lower, shown, {.words = false, .unmatched = false, .most_lines = kMostLines, .cut = true});
   const Image small = imageio::shrink_to_fit(drawn, kWidth_px, 2 * kWidth_px);
   picture.uri = data_uri("image/jpeg", imageio::encode_jpeg(small, kQuality));
   return picture;

@@ -9,6 +9,8 @@
 
 namespace homeward::pipeline {
 
+inline constexpr int kMostLines = 70;  // between two views; more would hide them
+
 /// Two views that may be one place, for a page.
 struct HypothesisPicture {
   std::string uri;  // JPEG: one view above the other, lines between what agrees

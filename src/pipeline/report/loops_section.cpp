@@ -28,7 +28,7 @@ std::string way_text(const std::optional<mapping::TrackVerdict>& way) {
 }
 
 /// Why it was decided so, in a sentence.
-std::string reason(const BuiltMap& built, int index) {
+std::string reason(const BuiltMap& built, const ReportFacts& facts, int index) {
   const map::Hypothesis& h = built.map.hypotheses[at(index)];
   const mapping::HypothesisConfig& config = built.notes.mapping.config.hypotheses;
   if (h.by != "method") return "A person decided this.";
@@ -51,7 +51,9 @@ std::string reason(const BuiltMap& built, int index) {
                        " would do, but one place of both would join places that are kept apart."
                  : "Support " + number(h.support, 2) + " is not above " + number(config.accept_support, 2) +
                        " and plausibility " + number(h.plausibility, 2) + " not below " +
-                       number(config.reject_plausibility, 2) + ": kept apart until somebody knows better.";
+                       number(config.reject_plausibility, 2) +
+                       (facts.joined[at(index)] != 0 ? ". Other loops make it one place all the same."
+                                                     : ": kept apart until somebody knows better.");
       break;
   }
   if (way == mapping::TrackVerdict::kAgrees) text += " The way driven agrees.";
@@ -80,7 +82,8 @@ std::string masses_row(const char* name, const map::Masses& masses) {
          "</td><td class=\"n\">" + number(masses.is_false, 2) + "</td></tr>";
 }
 
-std::string card(const BuiltMap& built, int index, const std::string& ends, const HypothesisPicture& picture) {
+std::string card(const BuiltMap& built, const ReportFacts& facts, int index, const std::string& ends,
+                 const HypothesisPicture& picture) {
   const map::Hypothesis& h = built.map.hypotheses[at(index)];
   const std::string agreement = picture.agree > 0 ? std::to_string(picture.agree) + " of " +
                                                         counted(at(picture.matches), "match", "matches") +
@@ -91,7 +94,7 @@ std::string card(const BuiltMap& built, int index, const std::string& ends, cons
          "<table><tr><th scope=\"col\">masses</th><td></td><th scope=\"col\" class=\"n\">for</th>"
          "<th scope=\"col\" class=\"n\">unknown</th><th scope=\"col\" class=\"n\">against</th></tr>" +
          masses_row("before", h.masses_before) + masses_row("after", h.masses_after) + "</table>\n<p>" +
-         reason(built, index) + "</p>\n<p class=\"soft\">Similarity " + number(h.similarity, 2) + " · support " +
+         reason(built, facts, index) + "</p>\n<p class=\"soft\">Similarity " + number(h.similarity, 2) + " · support " +
          number(h.support, 2) + " · plausibility " + number(h.plausibility, 2) +
          " · way driven: " + way_text(way_of(built, index)) + " · decided by " +
          (h.by == "method" ? "the method" : "a person") + " · " + agreement + ".</p>\n</article>\n";
@@ -126,24 +129,26 @@ std::string loops_section(const BuiltMap& built, const ReportFacts& facts,
   }
   html +=
       "<p>Each of these asks: was the robot here before? The two views stand above each other, turned so that the same "
-      "direction of the world is under itself; lines join what agrees, green between features and violet between "
-      "upright edges. The masses tell how much speaks for one place, how much against, and how much nobody knows, "
-      "before "
-      "and after the hypotheses nearby were heard.</p>\n";
+      "direction of the world is under itself. Lines join what agrees, green between features and violet between "
+      "upright edges, at most " +
+      std::to_string(kMostLines) +
+      " of them. The masses tell how much speaks for one place, how much against, and how much nobody knows, before "
+      "and "
+      "after the hypotheses nearby were heard.</p>\n";
   const auto images = map::image_indices(map);
   const auto ends = [&](int index) { return ends_text(map, facts, images, map.hypotheses[at(index)]); };
   if (pictures.size() < map.hypotheses.size()) {
     html += "<p>The map has " + counted(map.hypotheses.size(), "hypothesis", "hypotheses") + "; the " +
             std::to_string(pictures.size()) + " least certain ones are shown in pictures, the others in a table.</p>\n";
   }
-  for (const auto& [decision, title] : {std::pair(map::Decision::kUndecided, "Undecided: kept apart"),
-                                        std::pair(map::Decision::kAccepted, "Accepted: one place"),
-                                        std::pair(map::Decision::kRejected, "Rejected: two places")}) {
+  for (const auto& [decision, title] :
+       {std::pair(map::Decision::kUndecided, "Undecided"), std::pair(map::Decision::kAccepted, "Accepted: one place"),
+        std::pair(map::Decision::kRejected, "Rejected: two places")}) {
     std::string cards;
     for (const int index : facts.uncertain_first) {
       const auto picture = pictures.find(index);
       if (picture == pictures.end() || map.hypotheses[at(index)].decision != decision) continue;
-      cards += card(built, index, ends(index), picture->second);
+      cards += card(built, facts, index, ends(index), picture->second);
     }
     if (!cards.empty()) html += "<h3>" + std::string(title) + "</h3>\n<div class=\"loops\">\n" + cards + "</div>\n";
   }

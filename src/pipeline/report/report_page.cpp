@@ -72,8 +72,9 @@ std::string to_do(const BuiltMap& built, const ReportFacts& facts) {
     add("<a href=\"#weak\">Drive again</a>: " + counted(facts.weak.size(), "stretch", "stretches") + " with " +
         counted(static_cast<std::size_t>(facts.weak_edges), "weak way", "weak ways") + ".");
   }
-  if (const std::size_t open = decided(built.map, map::Decision::kUndecided); open > 0) {
-    add("<a href=\"#loops\">Look at " + counted(open, "undecided loop", "undecided loops") +
+  if (facts.open > 0) {
+    add("<a href=\"#loops\">Look at " +
+        counted(static_cast<std::size_t>(facts.open), "undecided loop", "undecided loops") +
         "</a> and accept or reject them in the map editor.");
   }
   if (!built.notes.skipped.empty()) {

@@ -14,13 +14,14 @@ body { margin: 0 auto; padding: 2.5rem 1.5rem 4rem; max-width: 66rem; background
 h1 { font-size: 2.1rem; line-height: 1.15; margin: 0; letter-spacing: -0.02em; overflow-wrap: anywhere; }
 h2 { font-size: 1.35rem; margin: 3rem 0 0.4rem; padding-top: 0.8rem; border-top: 1px solid var(--line); letter-spacing: -0.01em; }
 h3 { font-size: 1.05rem; margin: 1.8rem 0 0.5rem; }
-p { margin: 0.5rem 0; max-width: 46rem; }
+p { margin: 0.5rem 0; max-width: 50rem; }
+header p { max-width: none; }
 .kicker { margin: 0 0 0.3rem; color: var(--soft); font-size: 0.85rem; letter-spacing: 0.08em; text-transform: uppercase; }
 .soft, figcaption { color: var(--soft); font-size: 0.9rem; }
 nav ul { list-style: none; margin: 1.4rem 0 0; padding: 0; display: flex; flex-wrap: wrap; gap: 0.3rem 1.2rem; font-size: 0.92rem; }
 a { color: var(--blue); }
 a:focus-visible { outline: 3px solid var(--blue); outline-offset: 2px; }
-dl.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(8.2rem, 1fr)); gap: 0.7rem; margin: 1.4rem 0; }
+dl.tiles { display: grid; grid-template-columns: repeat(5, 1fr); gap: 0.7rem; margin: 1.4rem 0; }
 dl.tiles div { background: var(--wash); border-radius: 0.5rem; padding: 0.7rem 0.9rem; }
 dl.tiles dt { color: var(--soft); font-size: 0.85rem; line-height: 1.3; }
 dl.tiles dd { margin: 0.1rem 0 0; font-size: 1.7rem; line-height: 1.15; font-weight: 600; }
@@ -74,6 +75,7 @@ td.n, th.n { text-align: right; }
 .badge.rejected { background: var(--no); }
 .badge.undecided { background: var(--open); }
 .name { overflow-wrap: anywhere; }
+@media (max-width: 48rem) { dl.tiles { grid-template-columns: repeat(3, 1fr); } }
 @media (max-width: 30rem) { body { padding: 1.2rem 1rem 3rem; } h1 { font-size: 1.6rem; } dl.tiles { grid-template-columns: 1fr 1fr; } }
 @media print {
   @page { size: A4; margin: 15mm 14mm 16mm; }
@@ -82,7 +84,7 @@ td.n, th.n { text-align: right; }
   h1 { font-size: 22pt; } h2 { font-size: 14pt; margin-top: 9mm; } h2, h3, h4 { break-after: avoid; }
   p, ul.todo { max-width: none; }
   nav { display: none; } a { color: inherit; text-decoration: none; }
-  dl.tiles { grid-template-columns: repeat(4, 1fr); gap: 2.5mm; } dl.tiles dd { font-size: 15pt; }
+  dl.tiles { grid-template-columns: repeat(5, 1fr); gap: 2mm; } dl.tiles dd { font-size: 15pt; }
   figure, tr, ul.todo li, .tile { break-inside: avoid; }
   .scroll { overflow: visible; } svg.wide, svg.matrix { min-width: 0; }
   svg.matrix { max-width: 150mm; }

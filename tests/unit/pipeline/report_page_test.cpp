@@ -114,6 +114,10 @@ TEST(ReportPage, AHypothesisHasItsMassesItsDecisionAndWhy) {
   map.map.hypotheses[0].support = 0.3;
   map.notes.mapping.way.clear();
   page = page_of(map);
+  EXPECT_THAT(page, HasSubstr("Other loops make it one place all the same."));
+  EXPECT_THAT(page, Not(HasSubstr("undecided loop<")));
+  map.map.hypotheses[0].prototype_b = map.map.images[5].id;  // the other end of the corridor
+  page = page_of(map);
   EXPECT_THAT(page, HasSubstr("kept apart until somebody knows better."));
   EXPECT_THAT(page, HasSubstr("way driven: not told"));
   EXPECT_THAT(page, HasSubstr("Look at 1 undecided loop<"));
