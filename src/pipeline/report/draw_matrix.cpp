@@ -92,7 +92,8 @@ void paint_places(const map::TopologicalMap& map, const ReportFacts& facts, cons
     const auto b = images.find(hypothesis.prototype_b);
     if (hypothesis.decision == map::Decision::kAccepted || a == images.end() || b == images.end()) continue;
     if (facts.place_of[at(a->second)] == facts.place_of[at(b->second)]) continue;
-    const auto [u, v] = std::minmax(cells.of(a->second), cells.of(b->second));
+    const int u = cells.of(std::min(a->second, b->second));
+    const int v = cells.of(std::max(a->second, b->second));
     const Colour& colour = hypothesis.decision == map::Decision::kRejected ? kRejected : kUndecided;
     for (int dv = -spread; dv <= spread; ++dv) {
       for (int du = -spread; du <= spread; ++du) {

@@ -63,7 +63,7 @@ struct ReportFacts {
 
 ReportFacts gather_facts(const BuiltMap& built);
 
-/// How sure the decision of a hypothesis is, 0.5 or so where it could go either way, 1 where nothing speaks against it.
+/// How much is known for or against a hypothesis, whichever is more: 0 where nothing is, 1 where there is no doubt.
 double certainty(const map::Hypothesis& hypothesis);
 
 /// "kitchen (p12)", escaped for HTML.

@@ -42,7 +42,7 @@ svg .place.twice { fill: #8fbfe6; }
 svg .place.often { fill: #2b6ca8; }
 svg text { fill: var(--ink); font-size: 12px; }
 svg text.id { fill: var(--soft); font-size: 10px; }
-svg text.name { font-size: 16px; font-weight: 650; paint-order: stroke; stroke: #ffffff; stroke-width: 4px; stroke-linejoin: round; }
+svg text.name { font-size: 16px; font-weight: 650; paint-order: stroke; stroke: #ffffff; stroke-width: 3px; stroke-linejoin: round; }
 svg text.axis { fill: var(--soft); font-size: 12px; }
 svg .tick, svg .frame { stroke: #9aa5ae; stroke-width: 1; fill: none; }
 svg .lead { stroke: #9aa5ae; stroke-width: 1; stroke-dasharray: 2 2; }
@@ -80,14 +80,15 @@ td.n, th.n { text-align: right; }
 @media print {
   @page { size: A4; margin: 15mm 14mm 16mm; }
   * { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
-  body { padding: 0; max-width: none; font-size: 9.5pt; line-height: 1.42; }
-  h1 { font-size: 22pt; } h2 { font-size: 14pt; margin-top: 9mm; } h2, h3, h4 { break-after: avoid; }
+  html { font-size: 8.8pt; } body { padding: 0; max-width: none; line-height: 1.42; }
+  h1 { font-size: 22pt; } h2 { font-size: 13pt; margin-top: 7mm; } h2, h3, h4, h3 + p { break-after: avoid; }
   p, ul.todo { max-width: none; }
   nav { display: none; } a { color: inherit; text-decoration: none; }
-  dl.tiles { grid-template-columns: repeat(5, 1fr); gap: 2mm; } dl.tiles dd { font-size: 15pt; }
+  dl.tiles { grid-template-columns: repeat(5, 1fr); gap: 2mm; } dl.tiles dd { font-size: 14pt; }
   figure, tr, ul.todo li, .tile { break-inside: avoid; }
   .scroll { overflow: visible; } svg.wide, svg.matrix { min-width: 0; }
-  svg.matrix { max-width: 150mm; }
+  svg.matrix { max-width: 125mm; } svg.wide text { font-size: 15px; } svg.wide text.id { font-size: 13px; }
+  svg.wide text.name { font-size: 20px; }
   .loops { grid-template-columns: 1fr 1fr; gap: 4mm; } .loop { padding: 2.5mm; }
 }
 )css";
