@@ -9,7 +9,7 @@
 namespace homeward::pipeline {
 namespace {
 
-constexpr std::size_t kMostRows = 40;
+constexpr std::size_t kMostRows = 25;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 

@@ -41,7 +41,7 @@ svg .place { fill: #e3effa; stroke: var(--blue); stroke-width: 1.4; }
 svg .place.twice { fill: #8fbfe6; }
 svg .place.often { fill: #2b6ca8; }
 svg text { fill: var(--ink); font-size: 12px; }
-svg text.id { fill: var(--soft); font-size: 10px; }
+svg text.id { fill: var(--soft); font-size: 10px; paint-order: stroke; stroke: #ffffff; stroke-width: 2px; }
 svg text.name { font-size: 16px; font-weight: 650; paint-order: stroke; stroke: #ffffff; stroke-width: 3px; stroke-linejoin: round; }
 svg text.axis { fill: var(--soft); font-size: 12px; }
 svg .tick, svg .frame { stroke: #9aa5ae; stroke-width: 1; fill: none; }
