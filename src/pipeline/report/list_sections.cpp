@@ -116,7 +116,7 @@ std::string coverage_section(const BuiltMap& built, const ReportFacts& facts) {
     html += "</table>\n" + cut_note(at(facts.parts), "parts");
   }
   if (facts.gaps.empty()) return html + "</section>\n";
-  constexpr std::size_t kLongest = 6;
+  constexpr std::size_t kLongest = 5;
   html += "<h3>Longest gaps</h3>\n<p>The longest steps from one picture to the next" +
           std::string(facts.metric ? ", by odometry" : ", by how little the two have in common") +
           ".</p>\n<div class=\"scroll\"><table>\n<tr><th scope=\"col\">From</th><th scope=\"col\">To</th>"

@@ -161,8 +161,8 @@ std::string loops_section(const BuiltMap& built, const ReportFacts& facts,
   if (!rows.empty()) {
     html +=
         "<h3>More certain ones</h3>\n<div class=\"scroll\"><table>\n<tr><th scope=\"col\">Decision</th>"
-        "<th scope=\"col\">Pictures</th><th scope=\"col\" class=\"n\">before: for / unknown / against</th>"
-        "<th scope=\"col\" class=\"n\">after</th><th scope=\"col\" class=\"n\">Support</th>"
+        "<th scope=\"col\">Pictures</th><th scope=\"col\" class=\"n\">Before: for / unknown / against</th>"
+        "<th scope=\"col\" class=\"n\">After</th><th scope=\"col\" class=\"n\">Support</th>"
         "<th scope=\"col\" class=\"n\">Plausibility</th><th scope=\"col\">Way driven</th>"
         "<th scope=\"col\">By</th></tr>\n" +
         rows + "</table></div>\n";

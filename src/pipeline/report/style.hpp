@@ -61,7 +61,8 @@ ul.legend svg { display: inline-block; width: 1.9rem; height: 0.8rem; margin-rig
 table { border-collapse: collapse; width: 100%; font-size: 0.9rem; }
 th, td { text-align: left; padding: 0.35rem 0.7rem 0.35rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 th { color: var(--soft); font-weight: 600; }
-td.n, th.n { text-align: right; }
+td.n, th.n { text-align: right; white-space: nowrap; padding-right: 1.2rem; }
+th.n { white-space: normal; }
 .loops { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 27rem), 1fr)); gap: 1.2rem; margin: 1rem 0; }
 .loop { border: 1px solid var(--line); border-radius: 0.5rem; padding: 0.8rem; break-inside: avoid; min-width: 0; }
 .loop h4 { margin: 0 0 0.5rem; font-size: 0.95rem; line-height: 1.35; overflow-wrap: anywhere; }
@@ -80,7 +81,7 @@ td.n, th.n { text-align: right; }
 @media print {
   @page { size: A4; margin: 15mm 14mm 16mm; }
   * { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
-  html { font-size: 8.8pt; } body { padding: 0; max-width: none; line-height: 1.42; }
+  html { font-size: 8.8pt; } p { orphans: 3; widows: 3; } body { padding: 0; max-width: none; line-height: 1.42; }
   h1 { font-size: 22pt; } h2 { font-size: 13pt; margin-top: 7mm; } h2, h3, h4, h3 + p { break-after: avoid; }
   p, ul.todo { max-width: none; }
   nav { display: none; } a { color: inherit; text-decoration: none; }
@@ -89,7 +90,8 @@ td.n, th.n { text-align: right; }
   .scroll { overflow: visible; } svg.wide, svg.matrix { min-width: 0; }
   svg.matrix { max-width: 125mm; } svg.wide text { font-size: 15px; } svg.wide text.id { font-size: 13px; }
   svg.wide text.name { font-size: 20px; }
-  .loops { grid-template-columns: 1fr 1fr; gap: 4mm; } .loop { padding: 2.5mm; }
+  .loops { grid-template-columns: 1fr 1fr; gap: 3.5mm; } .loop { padding: 2mm 2.5mm; }
+  .loop h4 { margin-bottom: 1mm; } .loop p { font-size: 0.82rem; line-height: 1.32; margin-top: 1mm; } .loop table { margin-top: 1mm; }
 }
 )css";
 
