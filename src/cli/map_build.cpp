@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <chrono>
+#include <ctime>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "agent/files/read_file.hpp"
 #include "agent/files/tour_folder.hpp"
+#include "agent/files/write_file.hpp"
 #include "cli/command.hpp"
 #include "cli/map.hpp"
 #include "db/map_file.hpp"
 #include "pipeline/build_map.hpp"
 #include "pipeline/eye.hpp"
+#include "pipeline/report/report_page.hpp"
 #include "pipeline/thumbnail.hpp"
 
 namespace homeward::cli {
@@ -20,6 +25,8 @@ struct Options {
   std::string camera;
   std::string out;
   std::string name;
+  std::string report;  // folder
+  int report_pictures = 60;
   int threads = 0;
   std::uint64_t seed = 1;
 };
@@ -48,31 +55,56 @@ Result<db::Thumbnails> make_thumbnails(const map::TopologicalMap& map, const age
   return thumbnails;
 }
 
+/// "21 November 2026", local time.
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  std::array<char, 64> text{};
+  if (localtime_r(&now, &local) == nullptr) return {};
+  std::strftime(text.data(), text.size(), "%e %B %Y", &local);
+  const std::string date = text.data();
+  return date.substr(std::min(date.find_first_not_of(' '), date.size()));
+}
+
+Status write_report(const Options& options, const pipeline::BuiltMap& built, const agent::TourFolder& tour) {
+  const pipeline::ReportOptions report{today(), options.report_pictures, options.threads, options.seed};
+  const auto page = pipeline::report_page(built, {&tour}, report);
+  if (!page) return pass_on(page);
+  const std::filesystem::path file = std::filesystem::path(options.report) / "report.html";
+  if (Status written = agent::write_file(file, *page); !written) return written;
+  std::cout << "report: " << file.string() << "\n";
+  return {};
+}
+
 Status build(const Options& options) {
   const auto tour = agent::TourFolder::open(options.tour);
   if (!tour) return pass_on(tour);
   const auto camera = agent::read_camera(options.camera);
   if (!camera) return pass_on(camera);
+  if (!options.report.empty()) {  // before the work: a folder that cannot be made is not told after it
+    if (Status made = agent::make_folder(options.report); !made) return made;
+  }
   const auto begin = std::chrono::steady_clock::now();
-  Result<map::TopologicalMap> map;
+  Result<pipeline::BuiltMap> built;
   {
     ProgressBar bar;
     const pipeline::BuildOptions build_options{options.name, options.threads, options.seed};
-    map = pipeline::build_map({&*tour}, *camera, build_options, nullptr,
-                              [&](const pipeline::BuildProgress& at) { bar.show(at.stage, at.share); });
+    built = pipeline::build_noted_map({&*tour}, *camera, build_options, nullptr,
+                                      [&](const pipeline::BuildProgress& at) { bar.show(at.stage, at.share); });
   }
-  if (!map) {
-    Error error = map.error();
+  if (!built) {
+    Error error = built.error();
     if (error.where.empty()) error.where = options.tour;
     return tl::unexpected<Error>(error);
   }
-  map->build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const auto thumbnails = make_thumbnails(*map, *tour);
+  map::TopologicalMap& map = built->map;
+  map.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const auto thumbnails = make_thumbnails(map, *tour);
   if (!thumbnails) return pass_on(thumbnails);
-  if (const Status saved = db::save_map(options.out, *map, *thumbnails); !saved) return saved;
-  std::cout << map->images.size() << " pictures, " << map->places.size() << " places, " << map->edges.size()
-            << " edges, " << map->destinations.size() << " destinations: " << options.out << "\n";
-  return {};
+  if (const Status saved = db::save_map(options.out, map, *thumbnails); !saved) return saved;
+  std::cout << map.images.size() << " pictures, " << map.places.size() << " places, " << map.edges.size() << " edges, "
+            << map.destinations.size() << " destinations: " << options.out << "\n";
+  return options.report.empty() ? Status{} : write_report(options, *built, *tour);
 }
 
 }  // namespace
@@ -84,6 +116,13 @@ void register_map_build(CLI::App& map) {
   command->add_option("--camera", options->camera, "camera.json")->required();
   command->add_option("--out", options->out, "Map file to write")->required();
   command->add_option("--name", options->name, "Name of the map");
+  command->add_option("--report", options->report,
+                      "Folder for report.html: one page on the map and how it came about, to read and to print");
+  command
+      ->add_option("--report-pictures", options->report_pictures,
+                   "Loop hypotheses that the report shows in pictures, the least certain first")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
   command->add_option("--threads", options->threads, "Threads (0: as many as the machine has)")
       ->check(CLI::Range(0, 256));
   command->add_option("--seed", options->seed, "Seed of everything random");

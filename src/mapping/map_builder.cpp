@@ -308,6 +308,10 @@ float place_distance_threshold(const MappingInput& input, const TourPath& path, 
 
 map::TopologicalMap make_map(const MappingInput& input, const MappingConfig& config,
                              const map::TopologicalMap* previous) {
+  return make_noted_map(input, config, previous).map;
+}
+
+NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, const map::TopologicalMap* previous) {
   const int images = static_cast<int>(input.images.size());
   const TourPath path(input);
   const std::vector<const std::string*> labels = labels_by_image(input);
@@ -347,7 +351,9 @@ map::TopologicalMap make_map(const MappingInput& input, const MappingConfig& con
   map.places = form_places(input, parts, place_of_part, labels);
   map.edges = form_edges(input, path, track, config, map.places, place_of_image);
   map.destinations = form_destinations(input, map.places, place_of_image);
+  MappingNotes notes{config, threshold, cluster_of, {}};
   for (const LoopHypothesis& hypothesis : hypotheses) {
+    notes.way.push_back(hypothesis.way.verdict);
     map::Hypothesis kept;
     kept.prototype_a = input.images[at(parts[at(hypothesis.a)].prototype)].id;
     kept.prototype_b = input.images[at(parts[at(hypothesis.b)].prototype)].id;
@@ -367,7 +373,7 @@ map::TopologicalMap make_map(const MappingInput& input, const MappingConfig& con
     replay_edits(map, previous->edits);
   }
   keep_identity(map, previous);
-  return map;
+  return {std::move(map), std::move(notes)};
 }
 
 }  // namespace homeward::mapping

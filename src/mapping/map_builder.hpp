@@ -57,8 +57,25 @@ class TourPath {
 /// Goedemé 2007 §4.2.3: the place definition is a constant visual distance; which one comes from the tour itself.
 float place_distance_threshold(const MappingInput& input, const TourPath& path, const MappingConfig& config);
 
+/// What the builder found out on its way and the map does not keep: for a report.
+struct MappingNotes {
+  MappingConfig config;
+  float place_distance = 0.0F;    // the visual distance up to which images make one place
+  std::vector<int> cluster_of;    // of each image
+  std::vector<TrackVerdict> way;  // of the way driven on each of the map's hypotheses
+};
+
+/// A map with how it came about.
+struct NotedMap {
+  map::TopologicalMap map;
+  MappingNotes notes;
+};
+
 /// Places, edges, destinations, hypotheses and statistics of a map (Goedemé 2006 §3.3-3.6); camera, settings and name
 /// are the caller's to fill in. `previous`, or null: its ids, labels, decisions and edits outlive the rebuild.
+NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, const map::TopologicalMap* previous);
+
+/// The same without the notes.
 map::TopologicalMap make_map(const MappingInput& input, const MappingConfig& config,
                              const map::TopologicalMap* previous);
 

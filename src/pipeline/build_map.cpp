@@ -123,6 +123,14 @@ Status check_texture(const Pictures& pictures, const std::vector<features::Appea
 Result<map::TopologicalMap> build_map(const std::vector<const TourSource*>& tours, const camera::CameraConfig& camera,
                                       const BuildOptions& options, const map::TopologicalMap* previous,
                                       const ProgressSink& progress, std::stop_token stop) {
+  auto built = build_noted_map(tours, camera, options, previous, progress, std::move(stop));
+  if (!built) return pass_on(built);
+  return std::move(built->map);
+}
+
+Result<BuiltMap> build_noted_map(const std::vector<const TourSource*>& tours, const camera::CameraConfig& camera,
+                                 const BuildOptions& options, const map::TopologicalMap* previous,
+                                 const ProgressSink& progress, std::stop_token stop) {
   const auto pictures = gather(tours);
   if (!pictures) return pass_on(pictures);
   const std::size_t count = pictures->images.size();
@@ -142,23 +150,25 @@ Result<map::TopologicalMap> build_map(const std::vector<const TourSource*>& tour
       if (progress) progress({name, begin + share * done});
     };
   };
-  const auto appearances = look_at_all(*pictures, *eye, options.threads, stage("features", 0.0, kFeaturesShare), stop);
+  auto appearances = look_at_all(*pictures, *eye, options.threads, stage("features", 0.0, kFeaturesShare), stop);
   if (!appearances) return pass_on(appearances);
   if (const Status textured = check_texture(*pictures, *appearances); !textured) return pass_on(textured);
 
-  const auto pairs = mapping::compare_all(*appearances, pictures->tour_of, {}, options.seed, options.threads,
-                                          stage("compare", kFeaturesShare, kCompareShare), stop);
+  auto pairs = mapping::compare_all(*appearances, pictures->tour_of, {}, options.seed, options.threads,
+                                    stage("compare", kFeaturesShare, kCompareShare), stop);
   if (!pairs) return pass_on(pairs);
 
   stage("cluster", kFeaturesShare + kCompareShare, 0.0)(0.0);
   const mapping::MappingInput input{pictures->images, pictures->tour_of, *appearances, pictures->marks, &*pairs};
-  map::TopologicalMap map = mapping::make_map(input, {}, previous);
+  mapping::NotedMap made = mapping::make_noted_map(input, {}, previous);
+  map::TopologicalMap& map = made.map;
   map.name = options.name;
   map.camera = camera;
   map.feature_config = eye->feature_config();
   map.feature_config_id = features::feature_config_id(map.feature_config);
   stage("places", 1.0, 0.0)(0.0);
-  return map;
+  return BuiltMap{std::move(made.map),
+                  {pictures->tour_of, std::move(*appearances), std::move(*pairs), std::move(made.notes), {}}};
 }
 
 }  // namespace homeward::pipeline

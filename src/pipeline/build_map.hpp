@@ -9,7 +9,10 @@
 
 #include "camera/camera_config.hpp"
 #include "core/result.hpp"
+#include "features/appearance.hpp"
 #include "map/topological_map.hpp"
+#include "mapping/map_builder.hpp"
+#include "mapping/pair_table.hpp"
 #include "pipeline/tour.hpp"
 
 namespace homeward::pipeline {
@@ -27,6 +30,21 @@ struct BuildOptions {
   std::uint64_t seed = 1;
 };
 
+/// What was seen and compared on the way to a map. Row i of all members belongs to image i of the map.
+struct BuildNotes {
+  std::vector<int> tour_of;
+  std::vector<features::Appearance> appearances;
+  mapping::PairTable pairs{0};
+  mapping::MappingNotes mapping;
+  std::vector<Error> skipped;  // pictures that the map does without, and why
+};
+
+/// A map with all that a report on it tells.
+struct BuiltMap {
+  map::TopologicalMap map;
+  BuildNotes notes;
+};
+
 /// Builds the map of one or more tours with the same camera. Same input, same map, whatever the number of threads.
 /// `previous`: a map whose ids, labels, destinations and edits outlive the rebuild, or null.
 /// Errors: kEmptyInput, kTooFewImages (under 3), kTooFewFeatures (names the share of pictures without texture),
@@ -34,5 +52,10 @@ struct BuildOptions {
 Result<map::TopologicalMap> build_map(const std::vector<const TourSource*>& tours, const camera::CameraConfig& camera,
                                       const BuildOptions& options, const map::TopologicalMap* previous = nullptr,
                                       const ProgressSink& progress = {}, std::stop_token stop = {});
+
+/// The same, with what was found out on the way.
+Result<BuiltMap> build_noted_map(const std::vector<const TourSource*>& tours, const camera::CameraConfig& camera,
+                                 const BuildOptions& options, const map::TopologicalMap* previous = nullptr,
+                                 const ProgressSink& progress = {}, std::stop_token stop = {});
 
 }  // namespace homeward::pipeline

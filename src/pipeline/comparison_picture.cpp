@@ -88,15 +88,24 @@ void stroke(cv::Mat& rgb, const Drawn& drawn, int index, const cv::Scalar& colou
   cv::line(rgb, drawn.point(ends.top), drawn.point(ends.bottom), colour, thickness_px, cv::LINE_8);
 }
 
-void draw_matches(cv::Mat& rgb, const Drawn& upper, const Drawn& lower, const matching::VerifiedMatch& verified) {
+void draw_matches(cv::Mat& rgb, const Drawn& upper, const Drawn& lower, const matching::VerifiedMatch& verified,
+                  const ComparisonStyle& style) {
   std::vector<bool> agrees(verified.matches.size(), false);
   for (const int inlier : verified.pose.inliers) agrees[static_cast<std::size_t>(inlier)] = true;
   const auto middle = [](const Drawn& drawn, int column) {
     return drawn.point(drawn.view.appearance.columns.bearings.row(column).transpose().cast<double>());
   };
+  const auto agreeing = static_cast<int>(verified.pose.inliers.size());
+  int passed = 0;                            // of those that agree; every so many of them is drawn
   for (const bool wanted : {false, true}) {  // what agrees is drawn over what does not
+    if (!wanted && !style.unmatched) continue;
     for (std::size_t i = 0; i < verified.matches.size(); ++i) {
       if (agrees[i] != wanted) continue;
+      if (wanted && agreeing > style.most_lines) {
+        const std::int64_t before = std::int64_t{passed} * style.most_lines / agreeing;
+        const std::int64_t after = std::int64_t{++passed} * style.most_lines / agreeing;
+        if (before == after) continue;
+      }
       const matching::Match& match = verified.matches[i];
       if (match.kind == matching::FeatureKind::kColumn) {
         const cv::Scalar& colour = wanted ? kColumnAgrees : kColumnDisagrees;
@@ -143,34 +152,58 @@ std::string summary(const std::optional<matching::VerifiedMatch>& verified) {
   return text;
 }
 
+/// The columns that one view or the other sees, first and last.
+cv::Range seen_columns(const Drawn& upper, const Drawn& lower) {
+  const int width = upper.view.panorama.rgb.width_px;
+  std::vector<char> seen(static_cast<std::size_t>(width), 0);
+  for (const Drawn& drawn : {upper, lower}) {
+    const int shift_px = static_cast<int>(std::lround(drawn.turn_rad / (2.0 * kPi) * width));
+    const std::vector<std::uint8_t>& valid = drawn.view.panorama.valid;
+    for (std::size_t i = 0; i < valid.size(); ++i) {
+      if (valid[i] == 0) continue;
+      const int u = (static_cast<int>(i % seen.size()) - shift_px) % width;
+      seen[static_cast<std::size_t>((u + width) % width)] = 1;
+    }
+  }
+  const auto first = std::ranges::find(seen, 1);
+  if (first == seen.end()) return {0, width};
+  const auto last = std::find(seen.rbegin(), seen.rend(), 1);
+  return {static_cast<int>(first - seen.begin()), static_cast<int>(seen.rend() - last)};
+}
+
 }  // namespace
 
 Image draw_comparison(const ComparedView& current, const ComparedView& target,
-                      const std::optional<matching::VerifiedMatch>& verified) {
+                      const std::optional<matching::VerifiedMatch>& verified, const ComparisonStyle& style) {
   const double turn_rad = verified ? verified->pose.motion.turn_rad : 0.0;
-  const Drawn upper{current, kHeader_px + kAxis_px, 0.0};
-  const Drawn lower{target, upper.top_px + current.panorama.rgb.height_px + kBetween_px + kAxis_px, turn_rad};
+  const int axis_px = style.words ? kAxis_px : 0;
+  const Drawn upper{current, style.words ? kHeader_px + kAxis_px : 0, 0.0};
+  const Drawn lower{target, upper.top_px + current.panorama.rgb.height_px + kBetween_px + axis_px, turn_rad};
   cv::Mat rgb(lower.top_px + target.panorama.rgb.height_px, current.panorama.rgb.width_px, CV_8UC3, kPaper);
   for (const Drawn& drawn : {upper, lower}) {
     paste(rgb, drawn);
+    if (!style.unmatched) continue;
     for (int i = 0; i < drawn.view.appearance.sift.size(); ++i) {
       cv::circle(rgb, drawn.feature(i), 1, kFeature, cv::FILLED);
     }
     for (int i = 0; i < drawn.view.appearance.columns.size(); ++i) stroke(rgb, drawn, i, kColumn, 1);
   }
-  if (verified) {
-    draw_matches(rgb, upper, lower, *verified);
+  if (verified) draw_matches(rgb, upper, lower, *verified, style);
+  if (verified && style.words) {
     const double home_rad = verified->pose.motion.direction_rad;
     mark(rgb, upper, home_rad, "way home");
     mark(rgb, lower, wrap_angle(home_rad + kPi - turn_rad), "way back");
   }
-  write(rgb, summary(verified), {6, 16});
-  if (verified) legend(rgb);
-  write(rgb, "here", {6, upper.top_px - 8});
-  write(rgb, "there", {6, lower.top_px - 8});
+  if (style.words) {
+    write(rgb, summary(verified), {6, 16});
+    if (verified) legend(rgb);
+    write(rgb, "here", {6, upper.top_px - 8});
+    write(rgb, "there", {6, lower.top_px - 8});
+  }
+  const cv::Mat kept = style.cut ? rgb.colRange(seen_columns(upper, lower)).clone() : rgb;
 
-  Image picture(rgb.cols, rgb.rows, 3);
-  std::copy_n(rgb.ptr<std::uint8_t>(0), picture.data.size(), picture.data.begin());
+  Image picture(kept.cols, kept.rows, 3);
+  std::copy_n(kept.ptr<std::uint8_t>(0), picture.data.size(), picture.data.begin());
   return picture;
 }
 

@@ -80,6 +80,12 @@ class BadTours(CliTest):
         self.tour()
         self.assert_refused(5, ["none/out.map"], *BUILD[:-1], "none/out.map")
 
+    def test_a_report_that_cannot_be_written_is_told_before_the_work(self):
+        self.tour()
+        self.assert_refused(5, ["tour/tour.json"], *BUILD, "--report", "tour/tour.json")
+        self.assert_refused(5, ["tour/tour.json/report"], *BUILD, "--report", "tour/tour.json/report")
+        self.assert_refused(2, ["--report-pictures"], *BUILD, "--report", "report", "--report-pictures", "-1")
+
 
 class BadCameras(CliTest):
     def build_with(self, code, names, change):

@@ -163,6 +163,37 @@ class HappyPath(CliTest):
         self.assertGreater(line["verified"], 12)
         self.assertEqual((self.folder / "both.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
 
+    def test_reports_on_a_map_in_one_page(self):
+        self.tour()
+        told = self.result_of("map", "build", "--tour", "tour", "--camera", "tour/camera.json", "--out", "told.map", "--name",
+                              "Ward <3> & hall", "--report", "new/report", "--report-pictures", 3)
+        self.assertIn("report: new/report/report.html", told)
+        self.assertEqual([file.name for file in (self.folder / "new" / "report").iterdir()], ["report.html"])
+        text = (self.folder / "new" / "report" / "report.html").read_text(encoding="utf-8")
+        self.assertLess(len(text), 3_000_000)
+        page = ElementTree.fromstring(text)  # raises where it is not well-formed
+        xhtml, svg = "{http://www.w3.org/1999/xhtml}", "{http://www.w3.org/2000/svg}"
+        self.assertEqual(page.find(f".//{xhtml}h1").text, "Ward <3> & hall")
+        report = self.inspect("told.map")
+        tiles = {tile.find(f"{xhtml}dt").text: tile.find(f"{xhtml}dd").text for tile in page.iterfind(f".//{xhtml}dl/{xhtml}div")}
+        self.assertEqual(tiles["pictures"], str(report["images"]))
+        self.assertEqual(tiles["places"], str(len(report["places"])))
+        for decision in ("accepted", "rejected", "undecided"):
+            self.assertEqual(tiles[f"loops {decision}"], str(sum(h["decision"] == decision for h in report["hypotheses"])))
+        self.assertEqual(len(page.findall(f".//{xhtml}article")), min(3, len(report["hypotheses"])))
+        names = {element.text for element in page.iterfind(f".//{svg}text")}
+        self.assertTrue({"corridor", "office_1"} <= names, names)
+        for picture in [*page.iterfind(f".//{xhtml}img"), *page.iterfind(f".//{svg}image")]:
+            self.assertTrue((picture.get("src") or picture.get("href")).startswith("data:image/"))
+        for element in page.iterfind(f".//{xhtml}img"):
+            self.assertGreater(len(element.get("alt")), 20)
+
+    def test_a_report_changes_nothing_in_the_map(self):
+        self.tour()
+        for name, report in (("with.map", ("--report", "report")), ("without.map", ())):
+            self.result_of("map", "build", "--tour", "tour", "--camera", "tour/camera.json", "--out", name, *report)
+        self.assertEqual(self.content("with.map"), self.content("without.map"))
+
     def test_helps(self):
         for command in ((), ("map",), ("map", "build"), ("map", "export"), ("localise",), ("home",), ("route",), ("simulate", "tour")):
             self.assertIn("Usage:", self.result_of(*command, "--help"))

@@ -79,5 +79,34 @@ TEST_F(ComparisonPicture, ColumnsHaveTheirOwnColour) {
   EXPECT_LT(violet(), 200) << "more than the legend";
 }
 
+TEST_F(ComparisonPicture, InPlainStyleHasNoWordsAndOnlyWhatAgrees) {
+  const Seen here = from({0.0, 0.0, 0.0});
+  const Seen there = from({0.5, 0.1, 0.8});
+  const auto verified = matching::verify(here.appearance, there.appearance, {}, 1);
+  ASSERT_TRUE(verified);
+  const ComparisonStyle plain{.words = false, .unmatched = false, .cut = true};
+  const Image drawn =
+      draw_comparison({here.panorama, here.appearance}, {there.panorama, there.appearance}, *verified, plain);
+  EXPECT_EQ(drawn.width_px, here.panorama.rgb.width_px);  // the camera sees all around: nothing is cut off
+  EXPECT_LT(drawn.height_px, 2 * here.panorama.rgb.height_px + 20);
+  EXPECT_GT(count_of(drawn, kGreen), 1000);
+  EXPECT_EQ(count_of(drawn, kBlue), 0);
+  constexpr std::array kFeature = {255, 190, 40};
+  EXPECT_EQ(count_of(drawn, kFeature), 0);
+}
+
+TEST_F(ComparisonPicture, CutsOffWhatNeitherViewShows) {
+  Seen here = from({0.0, 0.0, 0.0});
+  const int width_px = here.panorama.rgb.width_px;
+  for (std::size_t i = 0; i < here.panorama.valid.size(); ++i) {
+    const int u = static_cast<int>(i) % width_px;
+    here.panorama.valid[i] = u >= 100 && u < 180 ? 1 : 0;
+  }
+  const ComparisonStyle plain{.words = false, .unmatched = false, .cut = true};
+  const ComparedView view{here.panorama, here.appearance};
+  EXPECT_EQ(draw_comparison(view, view, std::nullopt, plain).width_px, 80);
+  EXPECT_EQ(draw_comparison(view, view, std::nullopt).width_px, width_px);
+}
+
 }  // namespace
 }  // namespace homeward::pipeline

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "pipeline/report/report_page.hpp"
+
+namespace homeward::pipeline {
+
+inline constexpr int kMostLines = 70;  // between two views; more would hide them
+
+/// Two views that may be one place, for a page.
+struct HypothesisPicture {
+  std::string uri;  // JPEG: one view above the other, lines between what agrees
+  int matches = 0;  // that look alike
+  int agree = 0;    // of these, that one motion explains
+};
+
+/// Pictures of the hypotheses with these indices, by index. Errors: those of TourSource::read and Eye.
+Result<std::unordered_map<int, HypothesisPicture>> draw_hypotheses(const BuiltMap& built,
+                                                                   const std::vector<const TourSource*>& tours,
+                                                                   const std::vector<int>& wanted,
+                                                                   const ReportOptions& options);
+
+}  // namespace homeward::pipeline
