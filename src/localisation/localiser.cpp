@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "localisation/calibration.hpp"
@@ -64,30 +63,40 @@ struct Localiser::Known {
     return std::max(config.sensor_floor, std::pow(1.0 + z * z, -config.sensor_exponent));
   }
 
-  /// The places worth comparing: those where the robot is expected, then those that look like the picture.
-  [[nodiscard]] std::vector<int> candidates(const features::Appearance& seen, const PlaceBelief& expected) const {
-    const auto wanted = std::min(map->places.size(), at(std::max(1, config.max_candidates)));
-    std::vector<int> places;
-    if (wanted == map->places.size()) {
-      places.resize(wanted);
-      std::iota(places.begin(), places.end(), 0);
-      return places;
+  [[nodiscard]] PlaceShare compared(const features::Appearance& seen, int place) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const features::Appearance& appearance : map->places[at(place)].appearances) {
+      nearest = std::min(nearest, matching::compare(seen, appearance, {}, kSeed).distance);
     }
-    for (const PlaceShare& share : expected.largest(wanted / 2, true)) places.push_back(share.place);
-    const std::vector<int> alike = finder.find(seen, wanted - places.size(), places);
-    places.insert(places.end(), alike.begin(), alike.end());
-    return places;
+    return {place, likelihood(nearest)};
   }
 
-  /// How probable each candidate makes the picture.
+  /// How probable the places worth comparing make the picture: those where the robot is expected, then those that look
+  /// like it. Once some explain it well, a place that would stay improbable even if it explained the picture perfectly
+  /// is left out; but never the few most alike, or a robot taken for being at a look-alike would never be put right.
   [[nodiscard]] std::vector<PlaceShare> compare(const features::Appearance& seen, const PlaceBelief& expected) const {
+    const auto wanted = std::min(map->places.size(), at(std::max(1, config.max_candidates)));
     std::vector<PlaceShare> likelihoods;
-    for (const int place : candidates(seen, expected)) {
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const features::Appearance& appearance : map->places[at(place)].appearances) {
-        nearest = std::min(nearest, matching::compare(seen, appearance, {}, kSeed).distance);
-      }
-      likelihoods.push_back({place, likelihood(nearest)});
+    if (wanted == map->places.size()) {
+      for (std::size_t i = 0; i < wanted; ++i) likelihoods.push_back(compared(seen, static_cast<int>(i)));
+      return likelihoods;
+    }
+    double explained = 0.0;
+    const auto negligible = [&](double prior) { return prior < config.negligible_share * explained; };
+    std::vector<int> known;
+    for (const PlaceShare& share : expected.largest(wanted / 2, true)) {
+      if (negligible(share.probability)) break;
+      likelihoods.push_back(compared(seen, share.place));
+      explained += share.probability * likelihoods.back().probability;
+      known.push_back(share.place);
+    }
+    const auto always = std::max<std::size_t>(1, wanted / 4);
+    const std::vector<int> alike = finder.find(seen, wanted - known.size(), known);
+    for (std::size_t i = 0; i < alike.size(); ++i) {
+      const double prior = expected.of(alike[i]);
+      if (i >= always && negligible(prior)) continue;
+      likelihoods.push_back(compared(seen, alike[i]));
+      explained += prior * likelihoods.back().probability;
     }
     return likelihoods;
   }
