@@ -90,7 +90,7 @@ struct Localiser::Known {
       explained += share.probability * likelihoods.back().probability;
       known.push_back(share.place);
     }
-    const auto always = std::max<std::size_t>(1, wanted / 4);
+    const auto always = std::max<std::size_t>(1, wanted / 8);
     const std::vector<int> alike = finder.find(seen, wanted - known.size(), known);
     for (std::size_t i = 0; i < alike.size(); ++i) {
       const double prior = expected.of(alike[i]);

@@ -13,7 +13,7 @@ namespace homeward::localisation {
 
 struct LocaliserConfig {
   int max_candidates = 16;              // places compared by features per update; the rest get the floor
-  double negligible_share = 1e-3;       // places that could not get more of the belief need not be compared
+  double negligible_share = 1e-2;       // places that could not get more of the belief need not be compared
   double sensor_floor = 1e-6;           // likelihood of a place that was not seen, relative to a perfect match
   double sensor_exponent = 2.0;         // how fast the likelihood falls with the visual distance
   double unknown_distance = 4.0;        // visual distance at which "not in this map" explains a picture as well

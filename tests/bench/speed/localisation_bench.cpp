@@ -52,11 +52,13 @@ const Seen& seen() {
 features::Appearance made_up(int number) {
   std::mt19937_64 random(static_cast<std::uint64_t>(number));
   features::Appearance made = seen().appearances[random() % kPictures];
-  for (Eigen::Index i = 0; i < made.sift.size(); ++i) {
-    const int most = random() % 4 == 0 ? 20 : 80;
-    for (Eigen::Index d = 0; d < made.sift.descriptors.cols(); ++d) {
-      const int change = static_cast<int>(random() % static_cast<std::uint64_t>(2 * most + 1)) - most;
-      made.sift.descriptors(i, d) = static_cast<std::uint8_t>(std::clamp(made.sift.descriptors(i, d) + change, 0, 255));
+  for (features::FeatureSet* set : {&made.sift, &made.columns}) {
+    for (Eigen::Index i = 0; i < set->size(); ++i) {
+      const int most = random() % 4 == 0 ? 20 : 80;
+      for (Eigen::Index d = 0; d < set->descriptors.cols(); ++d) {
+        const int change = static_cast<int>(random() % static_cast<std::uint64_t>(2 * most + 1)) - most;
+        set->descriptors(i, d) = static_cast<std::uint8_t>(std::clamp(set->descriptors(i, d) + change, 0, 255));
+      }
     }
   }
   return made;
@@ -72,6 +74,7 @@ std::shared_ptr<const map::TopologicalMap> map_of(int places) {
   map.feature_config = seen().config;
   map.feature_config_id = features::feature_config_id(map.feature_config);
   map.motion.distance_scale = 0.2;
+  map.motion.hop_spread = 0.6;
   for (int i = 0; i < places; ++i) {
     map::Place place;
     place.id = PlaceId("p" + std::to_string(i));
