@@ -82,7 +82,7 @@ struct MotionStatistics {
 };
 
 /// How the share of a belief that a place and its neighbours hold becomes the probability of being there: a logistic
-/// function of its log odds. Learnt on the map's own tours; the defaults are those of a rendered house.
+/// function of its log odds. Learnt on the map's own tours; the defaults take the share as it is.
 struct BeliefCalibration {
   double offset = 0.0;
   double slope = 1.0;
