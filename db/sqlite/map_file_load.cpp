@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -26,11 +28,17 @@ struct LoadFailure : std::runtime_error {
   throw LoadFailure({ErrorCode::kCorruptFile, std::move(message), std::move(where)});
 }
 
-json meta(SQLite::Database& database, const std::string& key) {
+std::optional<json> optional_meta(SQLite::Database& database, const std::string& key) {
   SQLite::Statement select(database, "SELECT value FROM meta WHERE key = ?");
   select.bind(1, key);
-  if (!select.executeStep()) refuse("The map file lacks the entry '" + key + "'.", "meta");
+  if (!select.executeStep()) return std::nullopt;
   return json::parse(select.getColumn(0).getString());
+}
+
+json meta(SQLite::Database& database, const std::string& key) {
+  std::optional<json> found = optional_meta(database, key);
+  if (!found) refuse("The map file lacks the entry '" + key + "'.", "meta");
+  return std::move(*found);
 }
 
 void get_meta(SQLite::Database& database, map::TopologicalMap& map) {
@@ -54,6 +62,14 @@ void get_meta(SQLite::Database& database, map::TopologicalMap& map) {
   map.motion.hop_spread = motion.at("hop_spread").get<double>();
   map.motion.distance_spread = motion.at("distance_spread").get<double>();
   map.motion.distance_scale = motion.at("distance_scale").get<double>();
+  // Files of before have none: the defaults serve.
+  if (const auto calibration = optional_meta(database, "calibration")) {
+    map.calibration.offset = calibration->at("offset").get<double>();
+    map.calibration.slope = calibration->at("slope").get<double>();
+    if (!std::isfinite(map.calibration.offset) || !(map.calibration.slope > 0.0)) {
+      refuse("The map's calibration of beliefs cannot be.", "meta");
+    }
+  }
   map.next_place_number = meta(database, "next_place_number").get<std::int64_t>();
   map.next_destination_number = meta(database, "next_destination_number").get<std::int64_t>();
   map.build_seconds = meta(database, "build_seconds").get<double>();

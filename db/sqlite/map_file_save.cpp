@@ -41,6 +41,7 @@ void put_meta(SQLite::Database& database, const map::TopologicalMap& map) {
   put("motion", {{"hop_spread", map.motion.hop_spread},
                  {"distance_spread", map.motion.distance_spread},
                  {"distance_scale", map.motion.distance_scale}});
+  put("calibration", {{"offset", map.calibration.offset}, {"slope", map.calibration.slope}});
   put("next_place_number", map.next_place_number);
   put("next_destination_number", map.next_destination_number);
   put("build_seconds", map.build_seconds);

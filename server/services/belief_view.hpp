@@ -14,7 +14,7 @@ inline wire::BeliefView view_of(const localisation::Belief& belief) {
   for (const localisation::PlaceProbability& place : belief.top) view.top.push_back({place.place, place.probability});
   if (!view.top.empty()) {
     view.place = view.top.front().place;
-    view.probability = view.top.front().probability;
+    view.probability = belief.near_probability;
   }
   return view;
 }

@@ -25,9 +25,11 @@ nlohmann::json line_of(const std::string& image, const localisation::Belief& bel
   for (const localisation::PlaceProbability& at : belief.top) {
     top.push_back({{"place", at.place.str()}, {"probability", at.probability}});
   }
-  nlohmann::json line{{"image", image}, {"updates", belief.updates}, {"top", top}, {"lost", belief.lost}, {"ms", ms}};
+  nlohmann::json line{{"image", image},      {"updates", belief.updates},
+                      {"top", top},          {"near_share", belief.near_share},
+                      {"lost", belief.lost}, {"ms", ms}};
   line["place"] = belief.top.empty() ? nlohmann::json() : nlohmann::json(belief.top.front().place.str());
-  line["probability"] = belief.top.empty() ? nlohmann::json() : nlohmann::json(belief.top.front().probability);
+  line["probability"] = belief.top.empty() ? nlohmann::json() : nlohmann::json(belief.near_probability);
   return line;
 }
 

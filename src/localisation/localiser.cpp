@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
 
-#include "features/colour.hpp"
+#include "localisation/calibration.hpp"
+#include "localisation/candidates.hpp"
 #include "localisation/motion_model.hpp"
+#include "localisation/place_belief.hpp"
 #include "map/graph.hpp"
 #include "matching/visual_distance.hpp"
 
@@ -19,17 +21,38 @@ constexpr std::uint64_t kSeed = 1;
 // The robot may be driven faster than on the tour, or send fewer pictures.
 constexpr double kFasterThanTour = 2.0;
 
-double sum_of(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// Each place's neighbours, edges taken in both directions.
+std::vector<std::vector<int>> neighbours_of(const map::PlaceGraph& graph) {
+  std::vector<std::vector<int>> neighbours(at(graph.size()));
+  for (int from = 0; from < graph.size(); ++from) {
+    for (const map::Arc& arc : graph.arcs_from(from)) {
+      if (arc.to == from) continue;
+      neighbours[at(from)].push_back(arc.to);
+      neighbours[at(arc.to)].push_back(from);
+    }
+  }
+  for (std::vector<int>& own : neighbours) {
+    std::ranges::sort(own);
+    const auto repeated = std::ranges::unique(own);
+    own.erase(repeated.begin(), repeated.end());
+  }
+  return neighbours;
+}
 
 }  // namespace
 
-struct Localiser::State {
-  State(const map::TopologicalMap& m, const LocaliserConfig& c)
-      : places(m.places),
+/// What does not change from picture to picture.
+struct Localiser::Known {
+  Known(std::shared_ptr<const map::TopologicalMap> m, const LocaliserConfig& c)
+      : map(std::move(m)),
         config(c),
-        distance_scale(std::max(m.motion.distance_scale, 1e-3)),
-        graph(m),
-        motion(graph, std::max(0.5, kFasterThanTour * m.motion.hop_spread), c.max_hops_per_update) {}
+        distance_scale(std::max(map->motion.distance_scale, 1e-3)),
+        graph(*map),
+        neighbours(neighbours_of(graph)),
+        motion(graph, std::max(0.5, kFasterThanTour * map->motion.hop_spread), c.max_hops_per_update),
+        finder(*map) {}
 
   /// P(z | x) of a place at this visual distance. The papers' Gaussian (2007 eq. 14) has thin tails: by night, when all
   /// distances grow together, it would call every place impossible. A Student distribution of the same spread keeps
@@ -40,111 +63,115 @@ struct Localiser::State {
     return std::max(config.sensor_floor, std::pow(1.0 + z * z, -config.sensor_exponent));
   }
 
-  /// The places worth comparing: those where the robot is expected, then those of similar colours.
-  [[nodiscard]] std::vector<std::size_t> candidates(const features::Appearance& seen,
-                                                    const std::vector<double>& expected) const {
-    std::vector<std::size_t> order(places.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto wanted = std::min(order.size(), static_cast<std::size_t>(std::max(1, config.max_candidates)));
-    if (wanted == order.size()) return order;
-    const auto middle = order.begin() + static_cast<std::ptrdiff_t>(wanted / 2);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return expected[a] > expected[b]; });
-    std::vector<double> colour(places.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      colour[i] = std::numeric_limits<double>::infinity();
-      for (const features::Appearance& appearance : places[i].appearances) {
-        colour[i] =
-            std::min(colour[i], features::colour_moment_distance(seen.colour_moments, appearance.colour_moments));
-      }
+  [[nodiscard]] PlaceShare compared(const features::Appearance& seen, int place) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const features::Appearance& appearance : map->places[at(place)].appearances) {
+      nearest = std::min(nearest, matching::compare(seen, appearance, {}, kSeed).distance);
     }
-    std::stable_sort(middle, order.end(), [&](std::size_t a, std::size_t b) { return colour[a] < colour[b]; });
-    order.resize(wanted);
-    return order;
+    return {place, likelihood(nearest)};
   }
 
-  void predict() {
-    const double inside = sum_of(belief);
-    std::vector<double> moved = motion.predict(belief);
-    const double spread_evenly = (config.jump_probability * inside + config.leave_probability * elsewhere) /
-                                 static_cast<double>(std::max<std::size_t>(1, places.size()));
-    for (double& probability : moved) {
-      probability = probability * (1.0 - config.jump_probability - config.leave_probability) + spread_evenly;
+  /// How probable the places worth comparing make the picture: those where the robot is expected, then those that look
+  /// like it. Once some explain it well, a place that would stay improbable even if it explained the picture perfectly
+  /// is left out; but never the few most alike, or a robot taken for being at a look-alike would never be put right.
+  [[nodiscard]] std::vector<PlaceShare> compare(const features::Appearance& seen, const PlaceBelief& expected) const {
+    const auto wanted = std::min(map->places.size(), at(std::max(1, config.max_candidates)));
+    std::vector<PlaceShare> likelihoods;
+    if (wanted == map->places.size()) {
+      for (std::size_t i = 0; i < wanted; ++i) likelihoods.push_back(compared(seen, static_cast<int>(i)));
+      return likelihoods;
     }
-    elsewhere = elsewhere * (1.0 - config.leave_probability) + inside * config.leave_probability;
-    belief = std::move(moved);
+    double explained = 0.0;
+    const auto negligible = [&](double prior) { return prior < config.negligible_share * explained; };
+    std::vector<int> known;
+    for (const PlaceShare& share : expected.largest(wanted / 2, true)) {
+      if (negligible(share.probability)) break;
+      likelihoods.push_back(compared(seen, share.place));
+      explained += share.probability * likelihoods.back().probability;
+      known.push_back(share.place);
+    }
+    const auto always = std::max<std::size_t>(1, wanted / 8);
+    const std::vector<int> alike = finder.find(seen, wanted - known.size(), known);
+    for (std::size_t i = 0; i < alike.size(); ++i) {
+      const double prior = expected.of(alike[i]);
+      if (i >= always && negligible(prior)) continue;
+      likelihoods.push_back(compared(seen, alike[i]));
+      explained += prior * likelihoods.back().probability;
+    }
+    return likelihoods;
   }
 
-  void weigh(const features::Appearance& seen) {
-    std::vector<double> likelihoods(places.size(), config.sensor_floor);
-    for (const std::size_t place : candidates(seen, belief)) {
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const features::Appearance& appearance : places[place].appearances) {
-        nearest = std::min(nearest, matching::compare(seen, appearance, {}, kSeed).distance);
-      }
-      likelihoods[place] = likelihood(nearest);
-    }
-    for (std::size_t i = 0; i < belief.size(); ++i) belief[i] *= likelihoods[i];
-    // Also where the map's own distances are so small that the floor hides the difference: a picture that no place
-    // explains speaks for being elsewhere.
+  /// Of a place "not in this map". Also where the map's own distances are so small that the floor hides the difference:
+  /// a picture that no place explains speaks for being elsewhere.
+  [[nodiscard]] double elsewhere_likelihood() const {
     constexpr double kOverFloor = 10.0;
-    elsewhere *= std::max(likelihood(config.unknown_distance), kOverFloor * config.sensor_floor);
-    const double total = sum_of(belief) + elsewhere;
-    for (double& probability : belief) probability /= total;
-    elsewhere /= total;
+    return std::max(likelihood(config.unknown_distance), kOverFloor * config.sensor_floor);
   }
+
+  std::shared_ptr<const map::TopologicalMap> map;
+  LocaliserConfig config;
+  double distance_scale;
+  map::PlaceGraph graph;
+  std::vector<std::vector<int>> neighbours;
+  MotionModel motion;
+  CandidateFinder finder;
+};
+
+struct Localiser::State {
+  explicit State(std::shared_ptr<const Known> k)
+      : known(std::move(k)), belief(known->motion, {known->config.jump_probability, known->config.leave_probability}) {}
 
   [[nodiscard]] Belief report(bool nothing_seen) const {
     Belief result;
     result.updates = updates;
-    std::vector<std::size_t> order(places.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return belief[a] > belief[b]; });
-    for (std::size_t i = 0; i < std::min(kReported, order.size()); ++i) {
-      result.top.push_back({places[order[i]].id, belief[order[i]]});
+    const std::vector<PlaceShare> top = belief.largest(kReported);
+    for (const PlaceShare& share : top) {
+      result.top.push_back({known->map->places[at(share.place)].id, share.probability});
     }
-    double around = 0.0;
-    if (!order.empty()) {
-      for (const map::Reached& near : map::reach(graph, static_cast<int>(order.front()), 1)) {
-        around += belief[static_cast<std::size_t>(near.place)];
-      }
+    if (!top.empty()) {
+      result.near_share = top.front().probability;
+      for (const int near : known->neighbours[at(top.front().place)]) result.near_share += belief.of(near);
+      result.near_probability = calibrated(known->map->calibration, result.near_share);
     }
-    result.lost = nothing_seen || around < config.lost_below_probability || elsewhere > around;
+    result.lost = nothing_seen || result.near_share < known->config.lost_below_probability ||
+                  belief.elsewhere() > result.near_share;
     return result;
   }
 
-  std::vector<map::Place> places;
-  LocaliserConfig config;
-  double distance_scale;
-  map::PlaceGraph graph;
-  MotionModel motion;
-  std::vector<double> belief;  // of each place
-  double elsewhere = 0.0;      // of not being in this map; all together sum to 1
+  std::shared_ptr<const Known> known;
+  PlaceBelief belief;
   int updates = 0;
 };
 
 Localiser::Localiser(const map::TopologicalMap& map, const LocaliserConfig& config)
-    : state_(std::make_unique<State>(map, config)) {
-  restart();
-}
+    : Localiser(std::make_shared<const map::TopologicalMap>(map), config) {}
+
+Localiser::Localiser(std::shared_ptr<const map::TopologicalMap> map, const LocaliserConfig& config)
+    : Localiser(std::make_shared<const Known>(std::move(map), config)) {}
+
+Localiser::Localiser(std::shared_ptr<const Known> known) : state_(std::make_unique<State>(std::move(known))) {}
 
 Localiser::~Localiser() = default;
 Localiser::Localiser(Localiser&&) noexcept = default;
 Localiser& Localiser::operator=(Localiser&&) noexcept = default;
 
+Localiser Localiser::another() const { return Localiser(state_->known); }
+
 void Localiser::restart() {
-  const double even = 1.0 / static_cast<double>(state_->places.size() + 1);
-  state_->belief.assign(state_->places.size(), even);
-  state_->elsewhere = even;
+  state_->belief.restart();
   state_->updates = 0;
 }
 
 Belief Localiser::update(const features::Appearance& seen) {
-  if (state_->updates > 0) state_->predict();
-  ++state_->updates;
-  const bool nothing_seen = seen.size() < state_->config.min_features;
-  if (!nothing_seen) state_->weigh(seen);
-  return state_->report(nothing_seen);
+  State& state = *state_;
+  if (state.updates > 0) state.belief.predict();
+  ++state.updates;
+  const Known& known = *state.known;
+  const bool nothing_seen = seen.size() < known.config.min_features;
+  if (!nothing_seen) {
+    state.belief.weigh(known.compare(seen, state.belief), known.config.sensor_floor, known.elsewhere_likelihood());
+  }
+  return state.report(nothing_seen);
 }
 
 }  // namespace homeward::localisation

@@ -12,7 +12,8 @@
 namespace homeward::localisation {
 
 struct LocaliserConfig {
-  int max_candidates = 80;              // places compared by features per update; the rest get the floor
+  int max_candidates = 16;              // places compared by features per update; the rest get the floor
+  double negligible_share = 1e-2;       // places that could not get more of the belief need not be compared
   double sensor_floor = 1e-6;           // likelihood of a place that was not seen, relative to a perfect match
   double sensor_exponent = 2.0;         // how fast the likelihood falls with the visual distance
   double unknown_distance = 4.0;        // visual distance at which "not in this map" explains a picture as well
@@ -32,17 +33,25 @@ struct PlaceProbability {
 struct Belief {
   int updates = 0;                    // pictures used since the last uniform start
   std::vector<PlaceProbability> top;  // most probable first, at most 5
+  double near_share = 0.0;            // belief in the first place and its neighbours together
+  double near_probability = 0.0;      // that the robot is at one of these, as the map's own tours say (calibration)
   bool lost = false;                  // not in this map, or nothing to be seen
 };
 
 /// Bayes filter over the places of one map and the state "not in this map" (Goedemé 2007 §5). Starts uniform, which is
-/// the kidnapped robot.
+/// the kidnapped robot. A picture is compared with the places where the robot is expected and with those that it looks
+/// most like: the cost of an update hardly depends on the size of the map.
 class Localiser {
  public:
+  /// Keeps a copy of the map.
   Localiser(const map::TopologicalMap& map, const LocaliserConfig& config);
+  Localiser(std::shared_ptr<const map::TopologicalMap> map, const LocaliserConfig& config);
   ~Localiser();
   Localiser(Localiser&&) noexcept;
   Localiser& operator=(Localiser&&) noexcept;
+
+  /// Another one that starts anew and shares what was made ready for the map. Each may be used by a thread of its own.
+  [[nodiscard]] Localiser another() const;
 
   /// Takes one more picture into account. Same pictures, same belief.
   Belief update(const features::Appearance& seen);
@@ -51,7 +60,9 @@ class Localiser {
   void restart();
 
  private:
+  struct Known;
   struct State;
+  explicit Localiser(std::shared_ptr<const Known> known);
   std::unique_ptr<State> state_;
 };
 

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "map/graph.hpp"
 
 namespace homeward::localisation {
+
+/// A place, by its index in the map, and how probable it is.
+struct PlaceShare {
+  int place = 0;
+  double probability = 0.0;
+};
 
 /// P(x | x') between places: a Gaussian of the number of edges between them, within reach (Goedemé 2007 eq. 13).
 class MotionModel {
@@ -13,15 +20,14 @@ class MotionModel {
   /// spread_hops: standard deviation of the edges driven between two updates.
   MotionModel(const map::PlaceGraph& graph, double spread_hops, int max_hops);
 
-  /// Where the robot is one update after `belief` over the places. Keeps the sum.
-  [[nodiscard]] std::vector<double> predict(const std::vector<double>& belief) const;
+  /// Where the robot is one update after `belief`, each place once and ascending. Keeps the sum. Its cost follows the
+  /// places of `belief`, not those of the map.
+  [[nodiscard]] std::vector<PlaceShare> predict(std::span<const PlaceShare> belief) const;
+
+  [[nodiscard]] int places() const { return static_cast<int>(steps_.size()); }
 
  private:
-  struct Step {
-    int place = 0;
-    double probability = 0.0;
-  };
-  std::vector<std::vector<Step>> steps_;  // from each place
+  std::vector<std::vector<PlaceShare>> steps_;  // from each place
 };
 
 }  // namespace homeward::localisation

@@ -81,6 +81,13 @@ struct MotionStatistics {
   double distance_scale = 1.0;   // D0 in s = 1/(1 + D/D0)
 };
 
+/// How the share of a belief that a place and its neighbours hold becomes the probability of being there: a logistic
+/// function of its log odds. Learnt on the map's own tours; the defaults take the share as it is.
+struct BeliefCalibration {
+  double offset = 0.0;
+  double slope = 1.0;
+};
+
 enum class EditKind { kRename, kMerge, kSplit, kDelete, kMove, kAddEdge, kRemoveEdge, kBlockEdge, kDecide };
 
 /// One edit by a person, keyed to images so that it outlives a rebuild.
@@ -109,6 +116,7 @@ struct TopologicalMap {
   std::vector<Hypothesis> hypotheses;
   std::vector<Destination> destinations;
   MotionStatistics motion;
+  BeliefCalibration calibration;
   std::vector<Edit> edits;             // oldest first
   std::int64_t next_place_number = 1;  // ids are never reused
   std::int64_t next_destination_number = 1;

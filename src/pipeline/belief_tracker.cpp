@@ -28,7 +28,7 @@ Result<BeliefTracker> BeliefTracker::create(std::shared_ptr<const map::Topologic
   }
   auto eye = Eye::create(camera, map->feature_config);
   if (!eye) return pass_on(eye);
-  localisation::Localiser localiser(*map, config);
+  localisation::Localiser localiser(map, config);
   BeliefTracker tracker;
   tracker.state_ = std::make_unique<State>(State{std::move(map), std::move(*eye), std::move(localiser)});
   return tracker;

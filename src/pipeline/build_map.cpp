@@ -11,6 +11,7 @@
 #include "mapping/map_builder.hpp"
 #include "mapping/parallel.hpp"
 #include "pipeline/eye.hpp"
+#include "pipeline/learn_calibration.hpp"
 
 namespace homeward::pipeline {
 namespace {
@@ -19,7 +20,8 @@ constexpr int kFewestImages = 3;
 constexpr int kFewFeatures = 20;         // a picture with fewer shows no texture
 constexpr double kTooManyBlank = 0.5;    // share of such pictures that makes a tour useless
 constexpr double kFeaturesShare = 0.35;  // of the time of a build, for the progress bar
-constexpr double kCompareShare = 0.6;
+constexpr double kCompareShare = 0.57;
+constexpr double kClusterShare = 0.03;
 
 /// All tours one after the other.
 struct Pictures {
@@ -166,6 +168,11 @@ Result<BuiltMap> build_noted_map(const std::vector<const TourSource*>& tours, co
   map.camera = camera;
   map.feature_config = eye->feature_config();
   map.feature_config_id = features::feature_config_id(map.feature_config);
+  constexpr double kBeforeLast = kFeaturesShare + kCompareShare + kClusterShare;
+  const auto calibration = learn_calibration(map, *appearances, pictures->tour_of, options.threads,
+                                             stage("places", kBeforeLast, 1.0 - kBeforeLast), stop);
+  if (!calibration) return pass_on(calibration);
+  map.calibration = *calibration;
   stage("places", 1.0, 0.0)(0.0);
   return BuiltMap{std::move(made.map),
                   {pictures->tour_of, std::move(*appearances), std::move(*pairs), std::move(made.notes), {}}};

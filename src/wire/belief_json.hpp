@@ -20,7 +20,7 @@ struct PlaceShare {
 struct BeliefView {
   int updates = 0;                    // pictures since the last uniform start
   std::optional<PlaceId> place;       // the most probable one
-  std::optional<double> probability;  // of that place
+  std::optional<double> probability;  // of being there or at a neighbour of it; calibrated
   std::vector<PlaceShare> top;        // most probable first
   bool lost = true;
   std::optional<double> ms;    // how long the last picture took

@@ -33,6 +33,7 @@ class MapFile : public ::testing::Test {
 TEST_F(MapFile, GivesBackWhatWasSaved) {
   map::TopologicalMap before = sample_map();
   before.feature_config.sift_windows = 2;
+  before.calibration = {0.25, 0.75};
   const Thumbnails thumbnails = {{before.images[0].id, {1, 2, 3}}};
   ASSERT_TRUE(save_map(file(), before, thumbnails));
   const auto stored = load_map(file());
@@ -42,6 +43,8 @@ TEST_F(MapFile, GivesBackWhatWasSaved) {
   EXPECT_EQ(after.revision, before.revision);
   EXPECT_EQ(after.feature_config_id, before.feature_config_id);
   EXPECT_EQ(after.feature_config.sift_windows, 2);
+  EXPECT_EQ(after.calibration.offset, 0.25);
+  EXPECT_EQ(after.calibration.slope, 0.75);
   EXPECT_EQ(after.camera.width_px, before.camera.width_px);
   EXPECT_TRUE(after.camera.robot_from_camera_rotation.isApprox(before.camera.robot_from_camera_rotation));
   ASSERT_EQ(after.images.size(), 3U);
@@ -105,6 +108,20 @@ TEST_F(MapFile, RefusesOtherDatabasesNewerVersionsAndDanglingReferences) {
   EXPECT_EQ(load_map(file()).error().code, ErrorCode::kCorruptFile);
   change("PRAGMA application_id = 1213680976; DELETE FROM place_members WHERE place = 'p1'");
   EXPECT_THAT(load_map(file()).error().where, ::testing::HasSubstr("places/p1"));
+}
+
+TEST_F(MapFile, ReadsFilesFromBeforeBeliefsWereCalibrated) {
+  map::TopologicalMap map = sample_map();
+  map.calibration = {0.25, 0.75};
+  ASSERT_TRUE(save_map(file(), map, {}));
+  const auto change = [&](const char* sql) { SQLite::Database(file().string(), SQLite::OPEN_READWRITE).exec(sql); };
+  change("UPDATE meta SET value = '{\"offset\": 0, \"slope\": -1}' WHERE key = 'calibration'");
+  EXPECT_EQ(load_map(file()).error().code, ErrorCode::kCorruptFile);
+  change("DELETE FROM meta WHERE key = 'calibration'");
+  const auto stored = load_map(file());
+  ASSERT_TRUE(stored) << stored.error().message;
+  EXPECT_EQ(stored->map.calibration.offset, map::BeliefCalibration{}.offset);
+  EXPECT_EQ(stored->map.calibration.slope, map::BeliefCalibration{}.slope);
 }
 
 TEST_F(MapFile, RefusesATruncatedFile) {

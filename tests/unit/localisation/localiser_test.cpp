@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <set>
+#include <utility>
 
+#include "localisation/calibration.hpp"
+#include "localisation/candidates.hpp"
 #include "localisation/motion_model.hpp"
 #include "support/ascii_map.hpp"
 #include "support/planar_scene.hpp"
@@ -45,16 +48,27 @@ map::TopologicalMap corridor(const std::vector<int>& alike = {}) {
 TEST(MotionModel, KeepsTheSumAndReachesAsFarAsItMay) {
   const map::PlaceGraph graph(corridor());
   const MotionModel model(graph, 1.0, 2);
-  std::vector<double> belief(kPlaces, 0.0);
-  belief[4] = 0.7;
-  const std::vector<double> predicted = model.predict(belief);
-  EXPECT_NEAR(std::accumulate(predicted.begin(), predicted.end(), 0.0), 0.7, 1e-12);
-  EXPECT_EQ(predicted[1], 0.0);
-  EXPECT_GT(predicted[2], 0.0);
-  EXPECT_NEAR(predicted[3] / predicted[4], std::exp(-0.5), 1e-9);
-  EXPECT_NEAR(predicted[6] / predicted[4], std::exp(-2.0), 1e-9);
-  EXPECT_NEAR(predicted[3], predicted[5], 1e-12);
-  EXPECT_EQ(predicted[7], 0.0);
+  const std::vector<PlaceShare> predicted = model.predict(std::vector<PlaceShare>{{4, 0.7}});
+  ASSERT_EQ(predicted.size(), 5U);  // places 2 to 6
+  double sum = 0.0;
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    EXPECT_EQ(predicted[i].place, static_cast<int>(i) + 2);
+    sum += predicted[i].probability;
+  }
+  EXPECT_NEAR(sum, 0.7, 1e-12);
+  EXPECT_NEAR(predicted[1].probability / predicted[2].probability, std::exp(-0.5), 1e-9);
+  EXPECT_NEAR(predicted[4].probability / predicted[2].probability, std::exp(-2.0), 1e-9);
+  EXPECT_NEAR(predicted[1].probability, predicted[3].probability, 1e-12);
+}
+
+TEST(MotionModel, AddsUpWhatComesFromSeveralPlaces) {
+  const map::PlaceGraph graph(corridor());
+  const MotionModel model(graph, 1.0, 1);
+  const auto both = model.predict(std::vector<PlaceShare>{{2, 0.25}, {3, 0.5}});
+  const auto first = model.predict(std::vector<PlaceShare>{{2, 0.25}});
+  const auto second = model.predict(std::vector<PlaceShare>{{3, 0.5}});
+  ASSERT_EQ(both.size(), 4U);
+  EXPECT_NEAR(both[1].probability, first[1].probability + second[0].probability, 1e-12);
 }
 
 TEST(Localiser, FollowsADriveAlongTheCorridor) {
@@ -144,19 +158,62 @@ TEST(Localiser, RestartForgets) {
   EXPECT_EQ(again.top.front().probability, first.top.front().probability);  // and is the same for the same pictures
 }
 
-TEST(Localiser, ComparesNoMoreCandidatesThanAllowed) {
-  // One candidate alone: where it is expected or by colour. The belief still sums up and finds the place by its
-  // colours.
-  map::TopologicalMap map = corridor();
-  for (int i = 0; i < kPlaces; ++i) {
-    map.places[static_cast<std::size_t>(i)].appearances[0].colour_moments.fill(0.1F * static_cast<float>(i));
-  }
+TEST(Localiser, FindsThePlaceThatThePictureLooksLikeWithFewCandidates) {
   LocaliserConfig config;
   config.max_candidates = 2;
-  Localiser localiser(map, config);
-  features::Appearance seen = seen_at(6, 0.05, 0.0);
+  Localiser localiser(corridor(), config);
+  EXPECT_EQ(localiser.update(seen_at(6, 0.05, 0.0)).top.front().place.str(), "G");
+  // One candidate where it is expected, one by its looks: it follows a drive and a kidnapping alike.
+  EXPECT_EQ(localiser.update(seen_at(7, 0.05, 0.0)).top.front().place.str(), "H");
+  localiser.update(seen_at(1, 0.05, 0.0));
+  EXPECT_EQ(localiser.update(seen_at(1, 0.05, 0.0)).top.front().place.str(), "B");
+}
+
+TEST(Localiser, PlacesWithoutSiftFeaturesAreFoundByTheirColours) {
+  map::TopologicalMap map = corridor();
+  for (int i = 0; i < kPlaces; ++i) {
+    features::Appearance& appearance = map.places[static_cast<std::size_t>(i)].appearances[0];
+    appearance.columns = std::exchange(appearance.sift, {});
+    appearance.colour_moments.fill(0.1F * static_cast<float>(i));
+  }
+  const CandidateFinder finder(map);
+  features::Appearance seen = map.places[6].appearances[0];
   seen.colour_moments.fill(0.59F);
-  EXPECT_EQ(localiser.update(seen).top.front().place.str(), "G");
+  EXPECT_EQ(finder.find(seen, 2, {}), (std::vector<int>{6, 5}));
+  EXPECT_EQ(finder.find(seen, 2, {6}), (std::vector<int>{5, 7}));
+}
+
+TEST(CandidateFinder, NamesEachPlaceOnceAndNoneThatIsKnown) {
+  map::TopologicalMap map = corridor();
+  map.places[3].appearances = {seen_at(3, 0.0, 0.0), seen_at(3, 0.1, 1.0), seen_at(3, 0.2, 2.0)};
+  const CandidateFinder finder(map);
+  const std::vector<int> all = finder.find(seen_at(3, 0.05, 0.0), 4, {});
+  ASSERT_EQ(all.size(), 4U);
+  EXPECT_EQ(all.front(), 3);
+  EXPECT_EQ(std::set<int>(all.begin(), all.end()).size(), 4U);
+  const std::vector<int> others = finder.find(seen_at(3, 0.05, 0.0), 4, {3});
+  ASSERT_EQ(others.size(), 4U);
+  EXPECT_EQ(std::ranges::count(others, 3), 0);
+}
+
+TEST(Localiser, AnotherOneStartsAnew) {
+  Localiser localiser(corridor(), {});
+  const Belief first = localiser.update(seen_at(5, 0.05, 0.0));
+  Localiser second = localiser.another();
+  const Belief again = second.update(seen_at(5, 0.05, 0.0));
+  EXPECT_EQ(again.updates, 1);
+  EXPECT_EQ(again.top.front().probability, first.top.front().probability);
+}
+
+TEST(Localiser, ReportsTheCalibratedProbabilityOfThePlaceAndItsNeighbours) {
+  map::TopologicalMap map = corridor({4, 5});  // E and F look the same: each alone is half as probable
+  map.calibration = {0.5, 0.7};
+  Localiser localiser(map, {});
+  const Belief belief = localiser.update(seen_at(4, 0.3, 0.0));
+  ASSERT_GE(belief.top.size(), 2U);
+  EXPECT_LT(belief.top[0].probability, 0.55);
+  EXPECT_NEAR(belief.near_share, belief.top[0].probability + belief.top[1].probability, 1e-3);
+  EXPECT_NEAR(belief.near_probability, calibrated(map.calibration, belief.near_share), 1e-12);
 }
 
 TEST(Localiser, AnEmptyMapIsLost) {

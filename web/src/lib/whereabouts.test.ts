@@ -28,9 +28,8 @@ function drawn(line: string): Graph {
   };
 }
 
-function belief(top: Record<string, number>, lost = false): Belief {
-  const list = Object.entries(top).map(([place, probability]) => ({ place, probability }));
-  return { updates: 9, place: list[0]?.place ?? '', probability: list[0]?.probability ?? 0, top: list, lost };
+function belief(place: string, probability: number, lost = false): Belief {
+  return { updates: 9, place, probability, top: [{ place, probability }], lost };
 }
 
 const house = drawn('hall-a-b-c-living_room');
@@ -55,21 +54,28 @@ describe('placeInWords', () => {
 });
 
 describe('whereabouts', () => {
-  it('counts direct neighbours as the same spot', () => {
-    expect(whereabouts(belief({ hall: 0.6, a: 0.3, c: 0.1 }), house)).toMatchObject({
-      sureness: 'sure',
-      where: 'in the hall',
-    });
-    expect(whereabouts(belief({ hall: 0.6, living_room: 0.4 }), house)?.sureness).toBe('fairly sure');
-    expect(whereabouts(belief({ hall: 0.3, living_room: 0.29 }), house)?.sureness).toBe('unsure');
+  it('is as sure as the belief is of being there or beside it', () => {
+    const split: Belief = {
+      updates: 9,
+      place: 'hall',
+      probability: 0.95,
+      top: [
+        { place: 'hall', probability: 0.5 },
+        { place: 'a', probability: 0.4 },
+      ],
+      lost: false,
+    };
+    expect(whereabouts(split, house)).toMatchObject({ sureness: 'sure', share: 0.95, where: 'in the hall' });
+    expect(whereabouts(belief('hall', 0.6), house)?.sureness).toBe('fairly sure');
+    expect(whereabouts(belief('hall', 0.3), house)?.sureness).toBe('unsure');
   });
 
   it('says lost when the belief says so, however probable its best place', () => {
-    expect(whereabouts(belief({ hall: 0.99 }, true), house)).toMatchObject({ sureness: 'lost', where: null });
+    expect(whereabouts(belief('hall', 0.99, true), house)).toMatchObject({ sureness: 'lost', where: null });
   });
 
   it('knows nothing without a belief, and less without a graph', () => {
     expect(whereabouts(null, house)).toBeNull();
-    expect(whereabouts(belief({ hall: 0.9 }), null)).toMatchObject({ sureness: 'sure', where: null });
+    expect(whereabouts(belief('hall', 0.9), null)).toMatchObject({ sureness: 'sure', where: null });
   });
 });

@@ -4,14 +4,14 @@ import { inSentence } from './words';
 
 export type Sureness = 'sure' | 'fairly sure' | 'unsure' | 'lost';
 
-/** Where a robot believes to be, in words; `share` is the probability of the place and its direct neighbours. */
+/** Where a robot believes to be, in words; `share` is the probability of being there or right beside it. */
 export interface Whereabouts {
   sureness: Sureness;
   share: number;
   where: string | null; // completes "I am ...": "in the kitchen", "near the kitchen"
 }
 
-// A neighbour is one tour picture away, which for a person is the same spot: its probability counts with the place's.
+// A neighbour is one tour picture away, which for a person is the same spot: a belief's probability counts it already.
 const kSureShare = 0.8;
 const kFairShare = 0.5;
 
@@ -20,15 +20,7 @@ export function whereabouts(belief: Belief | null, graph: Graph | null): Whereab
   if (belief.lost) return { sureness: 'lost', share: 0, where: null };
   const { place } = belief;
   if (place === null) return { sureness: 'unsure', share: 0, where: null };
-  const near = new Set([place]);
-  for (const edge of graph?.edges ?? []) {
-    if (edge.from === place) near.add(edge.to);
-    if (edge.to === place) near.add(edge.from);
-  }
-  const of_top = belief.top
-    .filter((one) => near.has(one.place))
-    .reduce((sum, one) => sum + one.probability, 0);
-  const share = Math.min(1, Math.max(belief.probability ?? 0, of_top));
+  const share = belief.probability ?? 0;
   const sureness = share >= kSureShare ? 'sure' : share >= kFairShare ? 'fairly sure' : 'unsure';
   return { sureness, share, where: graph ? placeInWords(graph, place) : null };
 }

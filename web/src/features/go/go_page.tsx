@@ -122,7 +122,10 @@ function Destinations({ robot, graph, disabled, journey, onGo }: DestinationsPro
   const goals = goalsOf(graph);
   if (goals.length === 0)
     return <Notice still>This map has no named places yet. Give some a name under Map.</Notice>;
-  const sure = robot.belief && !robot.belief.lost && (robot.belief.probability ?? 0) > kHereProbability;
+  const { belief } = robot;
+  // Of the place alone: next to it is not there.
+  const share = belief?.top.find((one) => one.place === belief.place)?.probability ?? 0;
+  const sure = belief && !belief.lost && share > kHereProbability;
   return (
     <ul class="destinations">
       {goals.map((goal) => (

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "localisation/motion_model.hpp"
+
+namespace homeward::localisation {
+
+/// How far between two updates a robot may come without driving.
+struct MoveOdds {
+  double jump_probability = 0.01;   // that it was carried somewhere else in the map
+  double leave_probability = 0.02;  // that it left the mapped part
+};
+
+/// Probabilities of all places and of "not in this map"; together they sum to 1. Nearly all places of a large map are
+/// as good as equally improbable: they share one number, and only those that differ are kept singly. So every step
+/// costs what the places that were looked at cost, however large the map is.
+class PlaceBelief {
+ public:
+  /// `motion` outlives the belief.
+  PlaceBelief(const MotionModel& motion, const MoveOdds& odds);
+
+  /// Every place and "not in this map" equally probable.
+  void restart();
+
+  /// The robot may have moved. That all places are equally probable stays so: the motion is taken to bring as much to a
+  /// place as it takes away.
+  void predict();
+
+  /// Bayes' rule. `seen`: likelihood P(z | x) of the picture at the places that were compared, each once; every other
+  /// place has `floor`, and being elsewhere has `elsewhere`. A likelihood below `floor` counts as `floor`.
+  void weigh(std::span<const PlaceShare> seen, double floor, double elsewhere);
+
+  [[nodiscard]] double of(int place) const;
+  [[nodiscard]] double elsewhere() const { return elsewhere_; }
+  /// The most probable places, at most `count`, equals by index. With `distinct`, only places that are more probable
+  /// than those that share one number.
+  [[nodiscard]] std::vector<PlaceShare> largest(std::size_t count, bool distinct = false) const;
+  /// Places that are kept singly.
+  [[nodiscard]] std::size_t kept() const { return excess_.size(); }
+
+ private:
+  [[nodiscard]] double total() const;
+  void forget_small();
+
+  const MotionModel* motion_;
+  MoveOdds odds_;
+  double common_ = 0.0;             // of each place
+  std::vector<PlaceShare> excess_;  // over that, by place; never negative
+  double elsewhere_ = 0.0;
+};
+
+}  // namespace homeward::localisation

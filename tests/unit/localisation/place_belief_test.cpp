@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "localisation/place_belief.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/ascii_map.hpp"
+
+namespace homeward::localisation {
+namespace {
+
+constexpr double kFloor = 1e-4;
+constexpr double kElsewhere = 1e-3;
+
+map::TopologicalMap ring(int places) {
+  map::TopologicalMap map;
+  for (int i = 0; i < places; ++i) {
+    map::Place place;
+    place.id = PlaceId("p" + std::to_string(i));
+    map.places.push_back(place);
+  }
+  for (int i = 0; i < places; ++i) {
+    const int next = (i + 1) % places;
+    for (const auto& [from, to] : {std::pair(i, next), std::pair(next, i)}) {
+      map::Edge edge;
+      edge.from = map.places[static_cast<std::size_t>(from)].id;
+      edge.to = map.places[static_cast<std::size_t>(to)].id;
+      map.edges.push_back(edge);
+    }
+  }
+  return map;
+}
+
+double sum_of(const PlaceBelief& belief, int places) {
+  double sum = belief.elsewhere();
+  for (int place = 0; place < places; ++place) sum += belief.of(place);
+  return sum;
+}
+
+/// The same filter with one number for every place.
+struct Dense {
+  std::vector<double> of;
+  double elsewhere = 0.0;
+
+  explicit Dense(int places)
+      : of(static_cast<std::size_t>(places), 1.0 / (places + 1)), elsewhere(1.0 / (places + 1)) {}
+
+  void predict(const MotionModel& motion, const MoveOdds& odds) {
+    std::vector<PlaceShare> shares;
+    double inside = 0.0;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      shares.push_back({static_cast<int>(i), of[i]});
+      inside += of[i];
+    }
+    const double evenly =
+        (odds.jump_probability * inside + odds.leave_probability * elsewhere) / static_cast<double>(of.size());
+    for (const PlaceShare& share : motion.predict(shares)) {
+      of[static_cast<std::size_t>(share.place)] =
+          share.probability * (1.0 - odds.jump_probability - odds.leave_probability) + evenly;
+    }
+    elsewhere = elsewhere * (1.0 - odds.leave_probability) + inside * odds.leave_probability;
+  }
+
+  void weigh(const std::vector<PlaceShare>& seen) {
+    std::vector<double> likelihoods(of.size(), kFloor);
+    for (const PlaceShare& share : seen) {
+      likelihoods[static_cast<std::size_t>(share.place)] = std::max(kFloor, share.probability);
+    }
+    double sum = elsewhere *= kElsewhere;
+    for (std::size_t i = 0; i < of.size(); ++i) sum += of[i] *= likelihoods[i];
+    for (double& probability : of) probability /= sum;
+    elsewhere /= sum;
+  }
+};
+
+TEST(PlaceBelief, IsTheFilterWithANumberForEveryPlace) {
+  // On a ring every place gives and takes alike, so that the shared number is exact.
+  constexpr int kPlaces = 60;
+  const MotionModel motion(map::PlaceGraph(ring(kPlaces)), 1.0, 3);
+  const MoveOdds odds;
+  PlaceBelief belief(motion, odds);
+  Dense dense(kPlaces);
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> any(0, kPlaces - 1);
+  std::uniform_real_distribution<double> likelihood(0.0, 1.0);
+  for (int update = 0; update < 40; ++update) {
+    if (update > 0) {
+      belief.predict();
+      dense.predict(motion, odds);
+    }
+    const int first = any(random);
+    std::vector<PlaceShare> seen;
+    for (int i = 0; i < 5; ++i) seen.push_back({(first + 7 * i) % kPlaces, likelihood(random)});
+    seen.push_back({(first + 3) % kPlaces, 0.0});  // below the floor
+    belief.weigh(seen, kFloor, kElsewhere);
+    dense.weigh(seen);
+    ASSERT_NEAR(belief.elsewhere(), dense.elsewhere, 1e-6) << update;
+    for (int place = 0; place < kPlaces; ++place) {
+      ASSERT_NEAR(belief.of(place), dense.of[static_cast<std::size_t>(place)], 1e-6) << update << " " << place;
+    }
+    ASSERT_NEAR(sum_of(belief, kPlaces), 1.0, 1e-9);
+  }
+}
+
+TEST(PlaceBelief, KeepsFewPlacesOfALargeMap) {
+  constexpr int kPlaces = 5000;
+  const MotionModel motion(map::PlaceGraph(ring(kPlaces)), 1.5, 4);
+  PlaceBelief belief(motion, {});
+  std::mt19937 random(3);
+  std::uniform_int_distribution<int> any(0, kPlaces - 1);
+  for (int update = 0; update < 200; ++update) {
+    if (update > 0) belief.predict();
+    std::vector<PlaceShare> seen;
+    const int first = any(random);
+    for (int i = 0; i < 16; ++i) seen.push_back({(first + 301 * i) % kPlaces, 0.5});
+    belief.weigh(seen, kFloor, kElsewhere);
+    ASSERT_LE(belief.kept(), 512U);
+    ASSERT_NEAR(sum_of(belief, kPlaces), 1.0, 1e-9);
+  }
+}
+
+TEST(PlaceBelief, NamesTheMostProbablePlacesFirst) {
+  const MotionModel motion(map::PlaceGraph(ring(8)), 1.0, 1);
+  PlaceBelief belief(motion, {});
+  EXPECT_TRUE(belief.largest(3, true).empty());
+  std::vector<PlaceShare> top = belief.largest(3);
+  ASSERT_EQ(top.size(), 3U);
+  EXPECT_EQ(top[0].place, 0);
+  EXPECT_EQ(top[2].place, 2);
+  belief.weigh(std::vector<PlaceShare>{{5, 0.2}, {2, 0.9}}, kFloor, kElsewhere);
+  top = belief.largest(3);
+  EXPECT_EQ(top[0].place, 2);
+  EXPECT_EQ(top[1].place, 5);
+  EXPECT_EQ(top[2].place, 0);
+  EXPECT_NEAR(top[0].probability / top[1].probability, 4.5, 1e-6);
+  EXPECT_EQ(belief.largest(5, true).size(), 2U);
+  EXPECT_EQ(belief.largest(100).size(), 8U);
+  belief.restart();
+  EXPECT_NEAR(belief.of(2), 1.0 / 9.0, 1e-12);
+}
+
+TEST(PlaceBelief, AMapWithoutPlacesIsElsewhere) {
+  const MotionModel motion(map::PlaceGraph(map::TopologicalMap{}), 1.0, 1);
+  PlaceBelief belief(motion, {});
+  belief.predict();
+  belief.weigh({}, kFloor, kElsewhere);
+  EXPECT_NEAR(belief.elsewhere(), 1.0, 1e-12);
+  EXPECT_TRUE(belief.largest(5).empty());
+}
+
+}  // namespace
+}  // namespace homeward::localisation
