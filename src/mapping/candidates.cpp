@@ -60,11 +60,8 @@ Result<std::optional<matching::RetrievalIndex>> index_of(std::span<const feature
 /// Each pair at its later image, ascending and once.
 PairLists by_later_image(const std::vector<std::vector<int>>& chosen) {
   PairLists pairs(chosen.size());
-  for (std::size_t image = 0; image < chosen.size(); ++image) {
-    for (const int other : chosen[image]) {
-      const auto [low, high] = std::minmax(static_cast<int>(image), other);
-      pairs[at(high)].push_back(low);
-    }
+  for (int image = 0; image < static_cast<int>(chosen.size()); ++image) {
+    for (const int other : chosen[at(image)]) pairs[at(std::max(image, other))].push_back(std::min(image, other));
   }
   for (std::vector<int>& list : pairs) {
     std::ranges::sort(list);
@@ -147,23 +144,26 @@ PairLists second_candidates(const PairTable& table, const PairLists& compared, s
   std::vector<int> votes(near.size(), 0);
   for (int image = 0; image < table.images(); ++image) {
     std::vector<int> proposed;
-    const auto propose = [&](int other) {
-      const auto [low, high] = std::minmax(image, other);
+    const auto propose = [&](int other, int weight) {
       if (other == image || tour_neighbours(tour_of, image, other, config) ||
-          std::ranges::binary_search(compared[at(high)], low)) {
+          std::ranges::binary_search(compared[at(std::max(image, other))], std::min(image, other))) {
         return;
       }
-      if (votes[at(other)]++ == 0) proposed.push_back(other);
+      if (votes[at(other)] == 0) proposed.push_back(other);
+      votes[at(other)] += weight;
     };
     const auto [first, last] = stretch(tour_of, image, config.around);
     for (int beside = first; beside <= last; ++beside) {
       for (const int other : near[at(beside)]) {
         const auto [other_first, other_last] = stretch(tour_of, other, config.around);
-        for (int candidate = other_first; candidate <= other_last; ++candidate) propose(candidate);
+        for (int candidate = other_first; candidate <= other_last; ++candidate) {
+          const int steps_away = std::abs(beside - image) + std::abs(candidate - other);
+          propose(candidate, 2 * config.around + 1 - steps_away);
+        }
       }
     }
     for (const int other : near[at(image)]) {
-      for (const int candidate : near[at(other)]) propose(candidate);
+      for (const int candidate : near[at(other)]) propose(candidate, config.around + 1);
     }
     std::ranges::sort(proposed, {}, [&](int other) { return std::pair(-votes[at(other)], other); });
     for (const int other : proposed) votes[at(other)] = 0;

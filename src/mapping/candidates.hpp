@@ -38,7 +38,7 @@ Result<PairLists> first_candidates(std::span<const features::Appearance> appeara
 /// What complete linkage needs besides: it only merges images of which every pair was compared. Where images a and b
 /// of `table` were found near each other and are no tour neighbours, the tour neighbours of a are to be compared with
 /// those of b, and a with what is near b. Near is a visual distance up to the median between tour images `around`
-/// apart. Of each image the pairs that most others speak for; none that `compared` has already.
+/// apart. Of each image the pairs that most finds speak for, the nearer the more; none that `compared` has already.
 PairLists second_candidates(const PairTable& table, const PairLists& compared, std::span<const int> tour_of,
                             const CandidateConfig& config);
 

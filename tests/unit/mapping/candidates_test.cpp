@@ -126,13 +126,15 @@ TEST(FirstCandidates, CanBeCancelled) {
   EXPECT_EQ(pairs.error().code, ErrorCode::kCancelled);
 }
 
-/// A table where neighbours of one tour are 0.1 apart for each step and these pairs are at `distance`.
-PairTable chain(int images, const std::vector<std::pair<int, int>>& loops, float distance) {
+/// A table where neighbours are 0.1 apart for each step, but for those on two sides of `cut`, and these pairs are at
+/// `distance`.
+PairTable chain(int images, const std::vector<std::pair<int, int>>& loops, float distance, int cut = 0) {
   PairTable table(images);
   PairRelation relation;
   relation.inliers = 20;
   for (int b = 0; b < images; ++b) {
     for (int a = std::max(0, b - 12); a < b; ++a) {
+      if ((a < cut) != (b < cut)) continue;
       relation.distance = 0.1F * static_cast<float>(b - a);
       table.set(a, b, relation);
     }
@@ -165,7 +167,7 @@ TEST(SecondCandidates, LieAroundALoopThatWasFound) {
 }
 
 TEST(SecondCandidates, StayWithinTheTour) {
-  const PairTable table = chain(100, {{20, 70}}, 0.2F);
+  const PairTable table = chain(100, {{20, 70}}, 0.2F, 69);
   std::vector<int> tour_of(100, 0);
   std::fill(tour_of.begin() + 69, tour_of.end(), 1);
   const PairLists pairs = second_candidates(table, as_compared(table), tour_of, {});
@@ -190,7 +192,7 @@ TEST(SecondCandidates, FarPairsGiveNone) {
 }
 
 TEST(SecondCandidates, AreTheBestSupportedFew) {
-  // Both 20-70 and its neighbours were found: 21-70 hears from more of them than the corner 23-73.
+  // Both 20-70 and its neighbours were found: 21-70 hears from nearer ones than the corner 23-73.
   const PairTable table = chain(100, {{20, 70}, {21, 71}, {22, 70}}, 0.2F);
   CandidateConfig config;
   config.second_round = 1;
