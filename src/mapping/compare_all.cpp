@@ -11,10 +11,12 @@ namespace {
 
 constexpr double kFirstRoundShare = 0.75;  // of the work, roughly
 
-PairRelation relate(const features::Appearance& a, const features::Appearance& b, const CompareConfig& config,
+}  // namespace
+
+PairRelation relate(const features::Appearance& a, const features::Appearance& b, const matching::VerifyConfig& config,
                     std::uint64_t seed) {
   PairRelation relation;
-  const matching::PairComparison comparison = matching::compare(a, b, config.verify, seed);
+  const matching::PairComparison comparison = matching::compare(a, b, config, seed);
   if (!comparison.pose) return relation;
   relation.distance = static_cast<float>(comparison.distance);
   relation.inliers = comparison.verified;
@@ -26,8 +28,6 @@ PairRelation relate(const features::Appearance& a, const features::Appearance& b
   relation.confidence = static_cast<float>(comparison.pose->confidence);
   return relation;
 }
-
-}  // namespace
 
 Result<PairTable> compare_all(std::span<const features::Appearance> appearances, std::span<const int> tour_of,
                               const CompareConfig& config, std::uint64_t seed, int threads,
@@ -41,7 +41,7 @@ Result<PairTable> compare_all(std::span<const features::Appearance> appearances,
       relations[b].resize(pairs[b].size());
       for (std::size_t i = 0; i < pairs[b].size() && !stop.stop_requested(); ++i) {
         const auto a = static_cast<std::size_t>(pairs[b][i]);
-        relations[b][i] = relate(appearances[a], appearances[b], config, seed + a * images + b);
+        relations[b][i] = relate(appearances[a], appearances[b], config.verify, seed + a * images + b);
       }
     };
     const auto report = [&](std::size_t done) {

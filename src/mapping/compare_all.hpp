@@ -19,6 +19,11 @@ struct CompareConfig {
   CandidateConfig candidates;
 };
 
+/// What `b`, seen from `a`, has to do with it; unverified where too little of both is the same. Deterministic by
+/// `seed`.
+PairRelation relate(const features::Appearance& a, const features::Appearance& b, const matching::VerifyConfig& config,
+                    std::uint64_t seed);
+
 /// Compares the pairs of images that may show one place: tour neighbours, what looks alike as a whole (Goedemé 2007
 /// §4.2.3: global measure first, features for the survivors), and then what lies around those that were found near each
 /// other. Their number grows with the images, not with their square. The table does not depend on `threads` and holds

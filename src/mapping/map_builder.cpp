@@ -11,6 +11,7 @@
 #include "map/graph.hpp"
 #include "map/lookup.hpp"
 #include "mapping/clustering.hpp"
+#include "mapping/compare_all.hpp"
 #include "mapping/dempster_shafer.hpp"
 #include "mapping/edits.hpp"
 #include "mapping/identity.hpp"
@@ -183,7 +184,12 @@ double edge_length(const TourPath& path, const TourTrack& track, const Run& from
 
 map::Edge make_edge(const MappingInput& input, const MappingConfig& config, int from_prototype, int to_prototype) {
   map::Edge edge;
-  const PairRelation relation = input.pairs->relation(from_prototype, to_prototype);
+  PairRelation relation = input.pairs->relation(from_prototype, to_prototype);
+  // Prototypes of different drives along an edge may never have been compared.
+  constexpr std::uint64_t kSeed = 1;
+  if (!relation.verified()) {
+    relation = relate(input.appearances[at(from_prototype)], input.appearances[at(to_prototype)], {}, kSeed);
+  }
   if (relation.verified()) {
     edge.bearing_rad = static_cast<double>(relation.direction_rad);
     edge.turn_rad = static_cast<double>(relation.turn_rad);
