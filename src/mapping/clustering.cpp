@@ -2,6 +2,7 @@
 #include "mapping/clustering.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numeric>
@@ -9,46 +10,108 @@
 namespace homeward::mapping {
 namespace {
 
-/// Distances between the clusters that are left; row and column i stand for the cluster whose first item is i.
-class LinkageMatrix {
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// Where in an ascending list the item is or would be.
+template <typename List>
+auto find(List& list, int item) {
+  return std::ranges::lower_bound(list, item, {}, &Near::item);
+}
+
+/// Distances between the clusters that are left; a cluster goes by its first item.
+class Linkage {
  public:
-  LinkageMatrix(int items, const DistanceFunction& distance)
-      : size_(static_cast<std::size_t>(items)), values_(size_ * size_, 0.0F) {
-    for (int i = 0; i < items; ++i) {
-      for (int j = 0; j < i; ++j) at(i, j) = at(j, i) = distance(j, i);
+  Linkage(NearLists near, float threshold) : near_(std::move(near)) {
+    // What is too far is too far for every cluster that its items join: as good as infinite.
+    for (std::vector<Near>& list : near_) {
+      std::erase_if(
+          list, [&](const Near& other) { return !(other.distance <= threshold) || !std::isfinite(other.distance); });
     }
   }
-  float& at(int a, int b) { return values_[static_cast<std::size_t>(a) * size_ + static_cast<std::size_t>(b)]; }
+
+  [[nodiscard]] const std::vector<Near>& near(int cluster) const { return near_[at(cluster)]; }
+
+  [[nodiscard]] float distance(int a, int b) const {
+    const auto place = find(near_[at(a)], b);
+    const bool known = place != near_[at(a)].end() && place->item == b;
+    return known ? place->distance : std::numeric_limits<float>::infinity();
+  }
+
+  /// `kept` becomes the union of both: near to what was near to both, at the larger distance.
+  void merge(int kept, int gone) {
+    std::vector<Near> both;
+    for (const Near& other : near_[at(kept)]) {
+      if (other.item == gone) continue;
+      const float distance_to_both = std::max(other.distance, distance(gone, other.item));
+      if (std::isfinite(distance_to_both)) {
+        both.push_back({other.item, distance_to_both});
+      } else {
+        forget(other.item, kept);
+      }
+    }
+    for (const Near& other : near_[at(gone)]) {
+      if (other.item != kept) forget(other.item, gone);
+    }
+    for (const Near& other : both) {
+      find(near_[at(other.item)], kept)->distance = other.distance;
+    }
+    near_[at(kept)] = std::move(both);
+    near_[at(gone)].clear();
+  }
 
  private:
-  std::size_t size_;
-  std::vector<float> values_;
+  void forget(int cluster, int other) {
+    std::vector<Near>& list = near_[at(cluster)];
+    list.erase(find(list, other));
+  }
+
+  NearLists near_;
 };
+
+/// From the first item of each item's cluster, by way of others perhaps, to consecutive numbers.
+std::vector<int> numbered(std::vector<int> first) {
+  std::vector<int> number(first.size(), -1);
+  int next = 0;
+  for (std::size_t item = 0; item < first.size(); ++item) {
+    // First items come before all others of their cluster: theirs is final already.
+    first[item] = first[at(first[item])];
+    int& n = number[at(first[item])];
+    if (n < 0) n = next++;
+  }
+  for (int& item : first) item = number[at(item)];
+  return first;
+}
 
 }  // namespace
 
-std::vector<int> complete_linkage(int items, const DistanceFunction& distance, float threshold) {
-  LinkageMatrix linkage(items, distance);
-  std::vector<int> cluster(static_cast<std::size_t>(items));
-  std::iota(cluster.begin(), cluster.end(), 0);
-  std::vector<int> open = cluster;  // clusters that may still merge, ascending
+std::vector<int> complete_linkage(NearLists near, float threshold) {
+  const int items = static_cast<int>(near.size());
+  Linkage linkage(std::move(near), threshold);
+  std::vector<int> merged_into(at(items));
+  std::iota(merged_into.begin(), merged_into.end(), 0);
+  std::vector<char> open(at(items), 1);  // clusters that may still merge
+  int first_open = 0;
   std::vector<int> chain;
-  while (!open.empty()) {
-    if (chain.empty()) chain.push_back(open.front());
+  while (true) {
+    if (chain.empty()) {
+      while (first_open < items && open[at(first_open)] == 0) ++first_open;
+      if (first_open == items) break;
+      chain.push_back(first_open);
+    }
     const int top = chain.back();
     const int below = chain.size() > 1 ? chain[chain.size() - 2] : -1;
     // On equal distance the predecessor in the chain wins, or the chain would not end.
     int nearest = below;
-    float nearest_distance = below >= 0 ? linkage.at(top, below) : std::numeric_limits<float>::infinity();
-    for (const int other : open) {
-      if (other != top && linkage.at(top, other) < nearest_distance) {
-        nearest = other;
-        nearest_distance = linkage.at(top, other);
+    float nearest_distance = below >= 0 ? linkage.distance(top, below) : std::numeric_limits<float>::infinity();
+    for (const Near& other : linkage.near(top)) {
+      if (other.distance < nearest_distance) {
+        nearest = other.item;
+        nearest_distance = other.distance;
       }
     }
-    if (nearest < 0 || !(nearest_distance <= threshold)) {
+    if (nearest < 0) {
       // Complete linkage never brings clusters closer: this one is finished.
-      std::erase(open, top);
+      open[at(top)] = 0;
       chain.pop_back();
       continue;
     }
@@ -58,22 +121,22 @@ std::vector<int> complete_linkage(int items, const DistanceFunction& distance, f
     }
     const int kept = std::min(top, below);
     const int gone = std::max(top, below);
-    for (const int other : open) {
-      linkage.at(kept, other) = linkage.at(other, kept) = std::max(linkage.at(kept, other), linkage.at(gone, other));
-    }
-    std::ranges::replace(cluster, gone, kept);
-    std::erase(open, gone);
+    linkage.merge(kept, gone);
+    merged_into[at(gone)] = kept;
+    open[at(gone)] = 0;
     chain.resize(chain.size() - 2);
   }
-  // From first items to consecutive numbers.
-  std::vector<int> number(static_cast<std::size_t>(items), -1);
-  int next = 0;
-  for (int& first : cluster) {
-    int& n = number[static_cast<std::size_t>(first)];
-    if (n < 0) n = next++;
-    first = n;
+  return numbered(std::move(merged_into));
+}
+
+std::vector<int> complete_linkage(int items, const DistanceFunction& distance, float threshold) {
+  NearLists near(at(items));
+  for (int b = 0; b < items; ++b) {
+    for (int a = 0; a < items; ++a) {
+      if (a != b) near[at(b)].push_back({a, distance(std::min(a, b), std::max(a, b))});
+    }
   }
-  return cluster;
+  return complete_linkage(std::move(near), threshold);
 }
 
 }  // namespace homeward::mapping

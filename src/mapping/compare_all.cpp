@@ -2,35 +2,21 @@
 #include "mapping/compare_all.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
-#include "features/colour.hpp"
 #include "mapping/parallel.hpp"
 
 namespace homeward::mapping {
 namespace {
 
-double moment_distance(const features::Appearance& a, const features::Appearance& b) {
-  return features::colour_moment_distance(a.colour_moments, b.colour_moments);
-}
+constexpr double kFirstRoundShare = 0.75;  // of the work, roughly
 
-/// The colour difference beyond which two images cannot show one place, measured on the tour itself.
-double colour_gate(std::span<const features::Appearance> appearances, std::span<const int> tour_of, double factor) {
-  constexpr std::size_t kApart = 3;
-  std::vector<double> usual;
-  for (std::size_t i = kApart; i < appearances.size(); ++i) {
-    if (tour_of[i] == tour_of[i - kApart]) usual.push_back(moment_distance(appearances[i], appearances[i - kApart]));
-  }
-  if (usual.empty()) return std::numeric_limits<double>::infinity();
-  std::ranges::sort(usual);
-  return factor * usual[(usual.size() - 1) * 99 / 100];
-}
+}  // namespace
 
-PairRelation relate(const features::Appearance& a, const features::Appearance& b, const CompareConfig& config,
+PairRelation relate(const features::Appearance& a, const features::Appearance& b, const matching::VerifyConfig& config,
                     std::uint64_t seed) {
   PairRelation relation;
-  const matching::PairComparison comparison = matching::compare(a, b, config.verify, seed);
+  const matching::PairComparison comparison = matching::compare(a, b, config, seed);
   if (!comparison.pose) return relation;
   relation.distance = static_cast<float>(comparison.distance);
   relation.inliers = comparison.verified;
@@ -43,32 +29,39 @@ PairRelation relate(const features::Appearance& a, const features::Appearance& b
   return relation;
 }
 
-}  // namespace
-
 Result<PairTable> compare_all(std::span<const features::Appearance> appearances, std::span<const int> tour_of,
                               const CompareConfig& config, std::uint64_t seed, int threads,
                               const std::function<void(double)>& progress, const std::stop_token& stop) {
   const std::size_t images = appearances.size();
   PairTable table(static_cast<int>(images));
-  const double gate = colour_gate(appearances, tour_of, config.gate_factor);
-  // One image against all earlier ones is one piece of work; the longest first, so that no thread is left with them.
-  const auto compare_image = [&](std::size_t piece) {
-    const std::size_t b = images - 1 - piece;
-    for (std::size_t a = 0; a < b; ++a) {
-      if (stop.stop_requested()) return;
-      const bool neighbours = tour_of[a] == tour_of[b] && b - a <= static_cast<std::size_t>(config.always_compared);
-      if (!neighbours && moment_distance(appearances[a], appearances[b]) > gate) continue;
-      table.set(static_cast<int>(a), static_cast<int>(b),
-                relate(appearances[a], appearances[b], config, seed + a * images + b));
+  /// False if it was cancelled.
+  const auto compare = [&](const PairLists& pairs, double share_before, double share) {
+    std::vector<std::vector<PairRelation>> relations(images);
+    const auto compare_image = [&](std::size_t b) {
+      relations[b].resize(pairs[b].size());
+      for (std::size_t i = 0; i < pairs[b].size() && !stop.stop_requested(); ++i) {
+        const auto a = static_cast<std::size_t>(pairs[b][i]);
+        relations[b][i] = relate(appearances[a], appearances[b], config.verify, seed + a * images + b);
+      }
+    };
+    const auto report = [&](std::size_t done) {
+      if (progress) progress(share_before + share * static_cast<double>(done) / static_cast<double>(images));
+    };
+    const bool finished = parallel_for(images, threads, compare_image, report, stop);
+    if (!finished || stop.stop_requested()) return false;
+    for (std::size_t b = 0; b < images; ++b) {
+      for (std::size_t i = 0; i < pairs[b].size(); ++i) {
+        if (relations[b][i].verified()) table.set(pairs[b][i], static_cast<int>(b), relations[b][i]);
+      }
     }
+    return true;
   };
-  const auto report = [&](std::size_t done) {
-    if (!progress) return;
-    const double left = 1.0 - static_cast<double>(done) / static_cast<double>(images);
-    progress(1.0 - left * left);  // work falls linearly from piece to piece
-  };
-  const bool finished = parallel_for(images, threads, compare_image, report, stop);
-  if (!finished || stop.stop_requested()) return fail(ErrorCode::kCancelled, "The build was cancelled.");
+  const auto cancelled = [] { return fail(ErrorCode::kCancelled, "The build was cancelled."); };
+  const auto first = first_candidates(appearances, tour_of, config.candidates, seed, threads, stop);
+  if (!first) return pass_on(first);
+  if (!compare(*first, 0.0, kFirstRoundShare)) return cancelled();
+  const PairLists second = second_candidates(table, *first, tour_of, config.candidates);
+  if (!compare(second, kFirstRoundShare, 1.0 - kFirstRoundShare)) return cancelled();
   return table;
 }
 

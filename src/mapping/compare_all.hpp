@@ -8,6 +8,7 @@
 
 #include "core/result.hpp"
 #include "features/appearance.hpp"
+#include "mapping/candidates.hpp"
 #include "mapping/pair_table.hpp"
 #include "matching/visual_distance.hpp"
 
@@ -15,14 +16,19 @@ namespace homeward::mapping {
 
 struct CompareConfig {
   matching::VerifyConfig verify;
-  int always_compared = 12;  // tour neighbours this near are compared whatever their colours
-  double gate_factor = 1.5;  // pairs whose colour moments differ more than so many times what is usual (the 99th
-                             // percentile) between tour neighbours three images apart are not compared
+  CandidateConfig candidates;
 };
 
-/// Compares all pairs of images whose colours do not rule it out (Goedemé 2007 §4.2.3: global measure first, features
-/// for the survivors). The table does not depend on `threads`. `progress` gets the share done, from the calling thread.
-/// Errors: kCancelled.
+/// What `b`, seen from `a`, has to do with it; unverified where too little of both is the same. Deterministic by
+/// `seed`.
+PairRelation relate(const features::Appearance& a, const features::Appearance& b, const matching::VerifyConfig& config,
+                    std::uint64_t seed);
+
+/// Compares the pairs of images that may show one place: tour neighbours, what looks alike as a whole (Goedemé 2007
+/// §4.2.3: global measure first, features for the survivors), and then what lies around those that were found near each
+/// other. Their number grows with the images, not with their square. The table does not depend on `threads` and holds
+/// the verified pairs. `progress` gets the share done, from the calling thread.
+/// Errors: kInvalidInput (descriptors of different lengths), kCancelled.
 Result<PairTable> compare_all(std::span<const features::Appearance> appearances, std::span<const int> tour_of,
                               const CompareConfig& config, std::uint64_t seed, int threads,
                               const std::function<void(double)>& progress, const std::stop_token& stop);

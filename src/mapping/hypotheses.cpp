@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -17,22 +19,22 @@ map::Decision decide(const map::Masses& masses, const HypothesisConfig& config) 
   return map::Decision::kUndecided;
 }
 
-/// Merged subclusters, and which of them must stay apart.
+/// Merged subclusters.
 class Groups {
  public:
-  explicit Groups(int items) : group_(static_cast<std::size_t>(items)) { std::iota(group_.begin(), group_.end(), 0); }
-  [[nodiscard]] int of(int item) const { return group_[static_cast<std::size_t>(item)]; }
-  [[nodiscard]] std::vector<int> members(int group) const {
-    std::vector<int> items;
-    for (std::size_t i = 0; i < group_.size(); ++i) {
-      if (group_[i] == group) items.push_back(static_cast<int>(i));
-    }
-    return items;
+  explicit Groups(int items) : group_(static_cast<std::size_t>(items)), members_(group_.size()) {
+    std::iota(group_.begin(), group_.end(), 0);
+    for (std::size_t i = 0; i < members_.size(); ++i) members_[i] = {static_cast<int>(i)};
   }
+  [[nodiscard]] int of(int item) const { return group_[static_cast<std::size_t>(item)]; }
+  [[nodiscard]] const std::vector<int>& members(int group) const { return members_[static_cast<std::size_t>(group)]; }
   void merge(int a, int b) {
-    const int kept = std::min(of(a), of(b));
-    const int gone = std::max(of(a), of(b));
-    std::ranges::replace(group_, gone, kept);
+    auto& kept = members_[static_cast<std::size_t>(std::min(of(a), of(b)))];
+    auto& gone = members_[static_cast<std::size_t>(std::max(of(a), of(b)))];
+    const int group = std::min(of(a), of(b));
+    for (const int item : gone) group_[static_cast<std::size_t>(item)] = group;
+    kept.insert(kept.end(), gone.begin(), gone.end());
+    gone.clear();
   }
   [[nodiscard]] std::vector<int> numbered() const {
     std::vector<int> number(group_.size(), -1);
@@ -47,20 +49,54 @@ class Groups {
   }
 
  private:
-  std::vector<int> group_;
+  std::vector<int> group_;                 // of each item
+  std::vector<std::vector<int>> members_;  // of each group, by its first item
+};
+
+/// Finds the hypotheses near another one: in squares of the plane of both positions, as wide as evidence reaches.
+class HypothesisGrid {
+ public:
+  explicit HypothesisGrid(double reach) : width_(std::max(reach, 1.0)) {}
+  void add(std::size_t hypothesis, double position_a, double position_b) {
+    squares_[{cell(position_a), cell(position_b)}].push_back(hypothesis);
+  }
+  /// All within reach and some more, ascending.
+  [[nodiscard]] std::vector<std::size_t> around(double position_a, double position_b) const {
+    std::vector<std::size_t> found;
+    for (const std::int64_t a : {-1, 0, 1}) {
+      for (const std::int64_t b : {-1, 0, 1}) {
+        const auto square = squares_.find({cell(position_a) + a, cell(position_b) + b});
+        if (square != squares_.end()) found.insert(found.end(), square->second.begin(), square->second.end());
+      }
+    }
+    std::ranges::sort(found);
+    return found;
+  }
+
+ private:
+  [[nodiscard]] std::int64_t cell(double position) const {
+    return static_cast<std::int64_t>(std::floor(position / width_));
+  }
+
+  double width_;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::size_t>> squares_;
 };
 
 }  // namespace
 
 std::vector<LoopHypothesis> formulate_hypotheses(std::span<const Subcluster> subclusters,
                                                  const SimilarityFunction& similarity, const HypothesisConfig& config) {
+  std::map<int, std::vector<int>> by_cluster;
+  for (std::size_t i = 0; i < subclusters.size(); ++i) {
+    by_cluster[subclusters[i].cluster].push_back(static_cast<int>(i));
+  }
   std::vector<LoopHypothesis> hypotheses;
   for (std::size_t a = 0; a < subclusters.size(); ++a) {
-    for (std::size_t b = a + 1; b < subclusters.size(); ++b) {
-      if (subclusters[a].cluster != subclusters[b].cluster) continue;
+    const std::vector<int>& cluster = by_cluster.at(subclusters[a].cluster);
+    for (auto b = std::ranges::upper_bound(cluster, static_cast<int>(a)); b != cluster.end(); ++b) {
       LoopHypothesis hypothesis;
       hypothesis.a = static_cast<int>(a);
-      hypothesis.b = static_cast<int>(b);
+      hypothesis.b = *b;
       hypothesis.similarity = std::clamp(similarity(hypothesis.a, hypothesis.b), 0.0, 1.0);
       hypothesis.before = hypothesis.after = evidence(hypothesis.similarity, config.own_weight);
       hypotheses.push_back(hypothesis);
@@ -101,12 +137,20 @@ void collect_evidence(std::span<LoopHypothesis> hypotheses, std::span<const Subc
   const auto position = [&](int subcluster) {
     return position_of[static_cast<std::size_t>(subclusters[static_cast<std::size_t>(subcluster)].prototype)];
   };
+  HypothesisGrid speaking(config.neighbour_threshold_images);
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    // The way is one witness: each hypothesis has heard it once, so neighbours only pass on what they look like.
+    if (hypotheses[i].way.verdict == TrackVerdict::kContradicts) continue;
+    speaking.add(i, position(hypotheses[i].a), position(hypotheses[i].b));
+  }
   for (LoopHypothesis& hypothesis : hypotheses) {
     hypothesis.after = hypothesis.before;
     const bool excluded = hypothesis.way.verdict == TrackVerdict::kContradicts;
-    for (const LoopHypothesis& neighbour : hypotheses) {
-      // The way is one witness: each hypothesis has heard it once, so neighbours only pass on what they look like.
-      if (excluded || &neighbour == &hypothesis || neighbour.way.verdict == TrackVerdict::kContradicts) continue;
+    const auto heard =
+        excluded ? std::vector<std::size_t>() : speaking.around(position(hypothesis.a), position(hypothesis.b));
+    for (const std::size_t other : heard) {
+      const LoopHypothesis& neighbour = hypotheses[other];
+      if (&neighbour == &hypothesis) continue;
       const double distance = std::abs(position(hypothesis.a) - position(neighbour.a)) +
                               std::abs(position(hypothesis.b) - position(neighbour.b));
       const double weight = neighbour_weight(distance, config.neighbour_threshold_images);
@@ -136,8 +180,8 @@ std::vector<int> merge_accepted(int subclusters, std::span<LoopHypothesis> hypot
   Groups groups(subclusters);
   for (LoopHypothesis* hypothesis : accepted) {
     if (groups.of(hypothesis->a) == groups.of(hypothesis->b)) continue;
-    const std::vector<int> left = groups.members(groups.of(hypothesis->a));
-    const std::vector<int> right = groups.members(groups.of(hypothesis->b));
+    const std::vector<int>& left = groups.members(groups.of(hypothesis->a));
+    const std::vector<int>& right = groups.members(groups.of(hypothesis->b));
     const bool conflict = std::ranges::any_of(left, [&](int x) {
       return std::ranges::any_of(right, [&](int y) { return rejected.contains(std::minmax(x, y)) || apart(x, y); });
     });

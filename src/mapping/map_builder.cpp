@@ -11,6 +11,7 @@
 #include "map/graph.hpp"
 #include "map/lookup.hpp"
 #include "mapping/clustering.hpp"
+#include "mapping/compare_all.hpp"
 #include "mapping/dempster_shafer.hpp"
 #include "mapping/edits.hpp"
 #include "mapping/identity.hpp"
@@ -32,7 +33,7 @@ std::vector<const std::string*> labels_by_image(const MappingInput& input) {
 }
 
 /// D, but infinite between two images that carry different marks (each stands for a place of its own) and between two
-/// that the way driven keeps apart.
+/// that the way driven keeps apart. Valid as long as its parameters are.
 DistanceFunction clustering_distance(const MappingInput& input, const std::vector<const std::string*>& labels,
                                      const TourTrack& track) {
   return [&input, &labels, &track](int a, int b) {
@@ -44,22 +45,34 @@ DistanceFunction clustering_distance(const MappingInput& input, const std::vecto
   };
 }
 
+/// What images have to say to each other, by `distance`.
+NearLists near_lists(const PairTable& pairs, const DistanceFunction& distance) {
+  NearLists near(at(pairs.images()));
+  for (int a = 0; a < pairs.images(); ++a) {
+    for (const int b : pairs.partners(a)) near[at(a)].push_back({b, distance(std::min(a, b), std::max(a, b))});
+  }
+  return near;
+}
+
 /// Pairs of subclusters that look like one place but lie in different clusters because the way driven excludes it. They
 /// are kept as hypotheses: a person sees what looks alike and why it stays apart.
 void add_look_alikes(std::vector<LoopHypothesis>& hypotheses, std::span<const Subcluster> subclusters,
                      const MappingInput& input, const TourTrack& track, float threshold,
                      const SimilarityFunction& similarity) {
+  std::vector<int> represented(input.images.size(), -1);  // the subcluster that an image is the prototype of
+  for (std::size_t s = 0; s < subclusters.size(); ++s) represented[at(subclusters[s].prototype)] = static_cast<int>(s);
   for (std::size_t a = 0; a < subclusters.size(); ++a) {
-    for (std::size_t b = a + 1; b < subclusters.size(); ++b) {
-      const int image_a = subclusters[a].prototype;
-      const int image_b = subclusters[b].prototype;
-      if (subclusters[a].cluster == subclusters[b].cluster || input.pairs->distance(image_a, image_b) > threshold) {
+    const int image_a = subclusters[a].prototype;
+    for (const int image_b : input.pairs->partners(image_a)) {
+      const int b = represented[at(image_b)];
+      if (b <= static_cast<int>(a) || subclusters[a].cluster == subclusters[at(b)].cluster ||
+          input.pairs->distance(image_a, image_b) > threshold) {
         continue;
       }
       if (track.judge(image_a, image_b).verdict != TrackVerdict::kContradicts) continue;
       LoopHypothesis hypothesis;
       hypothesis.a = static_cast<int>(a);
-      hypothesis.b = static_cast<int>(b);
+      hypothesis.b = b;
       hypothesis.similarity = similarity(hypothesis.a, hypothesis.b);
       hypotheses.push_back(hypothesis);
     }
@@ -171,7 +184,12 @@ double edge_length(const TourPath& path, const TourTrack& track, const Run& from
 
 map::Edge make_edge(const MappingInput& input, const MappingConfig& config, int from_prototype, int to_prototype) {
   map::Edge edge;
-  const PairRelation relation = input.pairs->relation(from_prototype, to_prototype);
+  PairRelation relation = input.pairs->relation(from_prototype, to_prototype);
+  // Prototypes of different drives along an edge may never have been compared.
+  constexpr std::uint64_t kSeed = 1;
+  if (!relation.verified()) {
+    relation = relate(input.appearances[at(from_prototype)], input.appearances[at(to_prototype)], {}, kSeed);
+  }
   if (relation.verified()) {
     edge.bearing_rad = static_cast<double>(relation.direction_rad);
     edge.turn_rad = static_cast<double>(relation.turn_rad);
@@ -321,7 +339,7 @@ NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, 
   const float threshold = place_distance_threshold(input, path, config);
   const UsualDistances usual = usual_distances(input, path, config);
 
-  const std::vector<int> cluster_of = complete_linkage(images, distance, threshold);
+  const std::vector<int> cluster_of = complete_linkage(near_lists(*input.pairs, distance), threshold);
   std::vector<int> marked;
   for (const MarkedImage& mark : input.marks) marked.push_back(mark.image);
   const std::vector<Subcluster> parts = subclusters(cluster_of, input.tour_of, marked, distance);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/angles.hpp"
@@ -23,21 +25,21 @@ struct PairRelation {
   [[nodiscard]] bool verified() const { return inliers > 0; }
 };
 
-/// Relations of all pairs of n images. A pair that was never compared has the default relation: infinitely different.
+/// Relations between n images: of those pairs that have one, so that memory follows them and not n². A pair that was
+/// never set has the default relation: infinitely different.
 class PairTable {
  public:
   explicit PairTable(int images)
-      : images_(images),
-        pairs_(static_cast<std::size_t>(images) * static_cast<std::size_t>(images > 0 ? images - 1 : 0) / 2) {}
+      : partners_(static_cast<std::size_t>(images)), relations_(static_cast<std::size_t>(images)) {}
 
-  [[nodiscard]] int images() const { return images_; }
+  [[nodiscard]] int images() const { return static_cast<int>(partners_.size()); }
 
   /// Visual distance of two images; 0 of an image to itself.
-  [[nodiscard]] float distance(int a, int b) const { return a == b ? 0.0F : pairs_[slot(a, b)].distance; }
+  [[nodiscard]] float distance(int a, int b) const { return a == b ? 0.0F : find(a, b).distance; }
 
   /// `b` seen from `a`. Precondition: a != b.
   [[nodiscard]] PairRelation relation(int a, int b) const {
-    PairRelation relation = pairs_[slot(a, b)];
+    PairRelation relation = find(a, b);
     if (a > b) {
       relation.direction_rad = static_cast<float>(
           wrap_angle(static_cast<double>(relation.direction_rad) + kPi - static_cast<double>(relation.turn_rad)));
@@ -46,18 +48,37 @@ class PairTable {
     return relation;
   }
 
-  /// Sets the relation of `b` seen from `a`. Precondition: a < b. Different pairs may be set from different threads.
-  void set(int a, int b, const PairRelation& relation) { pairs_[slot(a, b)] = relation; }
+  /// The images that have a relation to this one, ascending. Valid until the next set().
+  [[nodiscard]] std::span<const int> partners(int image) const { return partners_[static_cast<std::size_t>(image)]; }
 
- private:
-  [[nodiscard]] std::size_t slot(int a, int b) const {
-    const auto low = static_cast<std::size_t>(a < b ? a : b);
-    const auto high = static_cast<std::size_t>(a < b ? b : a);
-    return high * (high - 1) / 2 + low;
+  /// Sets the relation of `b` seen from `a`. Precondition: a < b. Cheap where pairs come in ascending order of b.
+  void set(int a, int b, const PairRelation& relation) {
+    auto& of_b = partners_[static_cast<std::size_t>(b)];
+    auto& relations = relations_[static_cast<std::size_t>(b)];
+    const auto place = std::ranges::lower_bound(of_b, a);
+    const auto offset = place - of_b.begin();
+    if (place != of_b.end() && *place == a) {
+      relations[static_cast<std::size_t>(offset)] = relation;
+      return;
+    }
+    of_b.insert(place, a);
+    relations.insert(relations.begin() + offset, relation);
+    auto& of_a = partners_[static_cast<std::size_t>(a)];
+    of_a.insert(std::ranges::lower_bound(of_a, b), b);
   }
 
-  int images_ = 0;
-  std::vector<PairRelation> pairs_;
+ private:
+  [[nodiscard]] PairRelation find(int a, int b) const {
+    const int low = std::min(a, b);
+    const auto high = static_cast<std::size_t>(std::max(a, b));
+    const auto end = partners_[high].begin() + static_cast<std::ptrdiff_t>(relations_[high].size());
+    const auto place = std::lower_bound(partners_[high].begin(), end, low);
+    if (place == end || *place != low) return {};
+    return relations_[high][static_cast<std::size_t>(place - partners_[high].begin())];
+  }
+
+  std::vector<std::vector<int>> partners_;            // of each image, ascending: the earlier ones first
+  std::vector<std::vector<PairRelation>> relations_;  // of each image to its earlier partners, in their order
 };
 
 }  // namespace homeward::mapping

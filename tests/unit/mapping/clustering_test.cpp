@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <numeric>
 #include <random>
 
 #include "mapping/subclusters.hpp"
@@ -66,6 +68,51 @@ std::vector<int> by_definition(const Matrix& matrix, float threshold) {
   return first;
 }
 
+/// Nearest-neighbour chains over a matrix of all pairs: what the lists must come to, ties and all.
+std::vector<int> by_matrix(Matrix linkage, float threshold) {
+  std::vector<int> cluster(linkage.size());
+  std::iota(cluster.begin(), cluster.end(), 0);
+  std::vector<int> open = cluster;
+  std::vector<int> chain;
+  const auto link = [&](int a, int b) -> float& {
+    return linkage[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
+  };
+  while (!open.empty()) {
+    if (chain.empty()) chain.push_back(open.front());
+    const int top = chain.back();
+    const int below = chain.size() > 1 ? chain[chain.size() - 2] : -1;
+    int nearest = below;
+    float distance = below >= 0 ? link(top, below) : kInfinity;
+    for (const int other : open) {
+      if (other == top || link(top, other) >= distance) continue;
+      nearest = other;
+      distance = link(top, other);
+    }
+    if (nearest < 0 || !(distance <= threshold)) {
+      std::erase(open, top);
+      chain.pop_back();
+    } else if (nearest != below) {
+      chain.push_back(nearest);
+    } else {
+      const auto [kept, gone] = std::minmax(top, below);
+      for (const int other : open) {
+        link(kept, other) = link(other, kept) = std::max(link(kept, other), link(gone, other));
+      }
+      std::ranges::replace(cluster, gone, kept);
+      std::erase(open, gone);
+      chain.resize(chain.size() - 2);
+    }
+  }
+  std::vector<int> number(cluster.size(), -1);
+  int next = 0;
+  for (int& first : cluster) {
+    int& n = number[static_cast<std::size_t>(first)];
+    if (n < 0) n = next++;
+    first = n;
+  }
+  return cluster;
+}
+
 TEST(CompleteLinkage, IsWhatTheDefinitionGives) {
   std::mt19937_64 random(11);
   for (int round = 0; round < 400; ++round) {
@@ -76,6 +123,41 @@ TEST(CompleteLinkage, IsWhatTheDefinitionGives) {
           << "round " << round << ", threshold " << threshold;
     }
   }
+}
+
+TEST(CompleteLinkage, ListsGiveWhatAMatrixGives) {
+  std::mt19937_64 random(13);
+  for (int round = 0; round < 600; ++round) {
+    Matrix matrix = random_matrix(1 + round % 60, 0.1 * (round % 10), random);
+    NearLists near(matrix.size());
+    for (std::size_t i = 0; i < matrix.size(); ++i) {
+      for (std::size_t j = 0; j < matrix.size(); ++j) {
+        if (round % 2 == 0) matrix[i][j] = std::ceil(matrix[i][j] * 6.0F) / 6.0F;  // few values: many ties
+        if (i != j && std::isfinite(matrix[i][j])) near[i].push_back({static_cast<int>(j), matrix[i][j]});
+      }
+    }
+    for (const float threshold : {0.0F, 0.2F, 0.5F, 0.8F, 2.0F, kInfinity}) {
+      ASSERT_EQ(complete_linkage(near, threshold), by_matrix(matrix, threshold))
+          << "round " << round << ", threshold " << threshold;
+    }
+  }
+}
+
+TEST(CompleteLinkage, FollowsTheListsAndNotTheSquareOfTheItems) {
+  // 200,000 items on a line, each with three neighbours each way: a matrix would take 160 GB.
+  constexpr int kItems = 200'000;
+  NearLists near(kItems);
+  for (int i = 0; i < kItems; ++i) {
+    for (int other = std::max(0, i - 3); other <= std::min(kItems - 1, i + 3); ++other) {
+      if (other == i) continue;
+      near[static_cast<std::size_t>(i)].push_back({other, static_cast<float>(std::abs(i - other))});
+    }
+  }
+  const std::vector<int> cluster = complete_linkage(near, 3.0F);
+  std::vector<int> size(kItems, 0);
+  for (const int c : cluster) ++size[static_cast<std::size_t>(c)];
+  EXPECT_LE(*std::ranges::max_element(size), 4);
+  EXPECT_EQ(cluster[0], cluster[1]);
 }
 
 TEST(CompleteLinkage, NoPairOfAClusterIsFurtherApartThanTheThresholdWhateverTheTies) {

@@ -54,8 +54,9 @@ TEST(CompareAll, IsTheSameForAnyNumberOfThreads) {
 TEST(CompareAll, OtherColoursAreNotComparedButNeighboursAre) {
   auto seen = views(24);
   CompareConfig config;
-  config.always_compared = 2;
-  config.gate_factor = 1.5;  // colours three images apart differ by 0.18: beyond 0.27 nothing is compared
+  config.candidates.always_compared = 2;
+  config.candidates.second_round = 0;
+  config.candidates.gate_factor = 1.5;  // colours three images apart differ by 0.18: beyond 0.27 nothing is compared
   const PairTable table = compare_all(seen, std::vector<int>(24, 0), config, 5, 1, {}, {}).value();
   EXPECT_TRUE(table.relation(0, 4).verified());
   EXPECT_FALSE(table.relation(0, 5).verified());

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "mapping/dempster_shafer.hpp"
 #include "mapping/similarity.hpp"
 
@@ -37,6 +39,51 @@ TEST(Hypotheses, AreThePairsOfEachCluster) {
   EXPECT_DOUBLE_EQ(hypotheses[1].similarity, 1.0);  // held within [0,1]
   EXPECT_EQ(hypotheses[2].a, 1);
   EXPECT_EQ(hypotheses[2].b, 3);
+}
+
+/// Every hypothesis asks every other one.
+std::vector<map::Masses> all_asked(std::span<const LoopHypothesis> hypotheses, std::span<const Subcluster> parts,
+                                   std::span<const double> position_of, const HypothesisConfig& config) {
+  const auto position = [&](int part) {
+    return position_of[static_cast<std::size_t>(parts[static_cast<std::size_t>(part)].prototype)];
+  };
+  std::vector<map::Masses> result;
+  for (const LoopHypothesis& own : hypotheses) {
+    map::Masses masses = own.before;
+    for (const LoopHypothesis& other : hypotheses) {
+      if (&other == &own) continue;
+      const double distance =
+          std::abs(position(own.a) - position(other.a)) + std::abs(position(own.b) - position(other.b));
+      const double weight = neighbour_weight(distance, config.neighbour_threshold_images);
+      if (weight > 0.0) masses = combine(masses, evidence(other.similarity, weight));
+    }
+    result.push_back(masses);
+  }
+  return result;
+}
+
+TEST(Hypotheses, HearFromAllNeighboursInTheirOrder) {
+  std::mt19937 random(5);
+  for (int round = 0; round < 20; ++round) {
+    std::vector<std::pair<int, int>> at;
+    for (int image = 0; image < 120; image += 1 + static_cast<int>(random() % 4)) {
+      at.emplace_back(image, static_cast<int>(random() % 12));
+    }
+    const auto parts = singles(at);
+    std::vector<double> position_of = positions(120);
+    for (std::size_t i = 70; i < position_of.size(); ++i) position_of[i] += 1e6;  // another tour
+    HypothesisConfig config;
+    config.neighbour_threshold_images = round % 2 == 0 ? 24.0 : 7.5;
+    auto hypotheses = formulate_hypotheses(
+        parts, [](int a, int b) { return 0.01 * ((7 * a + 3 * b) % 90); }, config);
+    ASSERT_GT(hypotheses.size(), 20U);
+    collect_evidence(hypotheses, parts, position_of, config);
+    const auto expected = all_asked(hypotheses, parts, position_of, config);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_EQ(hypotheses[i].after.is_true, expected[i].is_true);  // bit for bit
+      EXPECT_EQ(hypotheses[i].after.is_false, expected[i].is_false);
+    }
+  }
 }
 
 TEST(Hypotheses, NeighboursMakeTheDifference) {
