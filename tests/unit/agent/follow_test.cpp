@@ -117,6 +117,23 @@ TEST(Follow, AForeignPictureSaysNothingAndMovesNothing) {
   EXPECT_FALSE(goal(state, {}, {}));
 }
 
+TEST(Follow, AViewOfThePathIsTrustedMoreThanOneMetAnywhere) {
+  const Landmarks landmarks = corner();
+  const VisualPath path = path_through(landmarks, true);
+  const auto seen = seen_from(landmarks, {0.0, 0.0, 0.2}, 1, 0.3);
+  const auto odds = [&](double path_odds) {
+    FollowConfig config;
+    config.believe = 0.0;
+    config.path_odds = path_odds;
+    FollowState state;
+    const auto vector = follow(state, path, seen, {}, config, 1).vector;
+    return vector ? vector->confidence / (1.0 - vector->confidence) : -1.0;
+  };
+  const double met_anywhere = odds(1.0);
+  ASSERT_GT(met_anywhere, 0.0);
+  EXPECT_NEAR(odds(4.0) / met_anywhere, 4.0, 1e-6);
+}
+
 TEST(Follow, DrivesOnBlindlyOnlySoFar) {
   const Landmarks landmarks = corner();
   const VisualPath path = path_through(landmarks, true);
