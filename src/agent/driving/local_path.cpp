@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/driving/local_path.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -52,11 +53,12 @@ std::vector<float> distances(std::span<const Eigen::Vector2d> points_m, double f
   return distance;
 }
 
-/// Sweeps hit a wall with many points in one cell; one of them is enough.
-std::vector<Eigen::Vector2d> thinned(std::span<const Eigen::Vector2d> points_m) {
+/// The points along the grid's axes. Sweeps hit a wall with many points in one cell; one of them is enough.
+std::vector<Eigen::Vector2d> thinned(std::span<const Eigen::Vector2d> points_m, const Eigen::Rotation2Dd& from_robot) {
   std::vector<std::uint8_t> taken(static_cast<std::size_t>(kSide) * kSide, 0);
   std::vector<Eigen::Vector2d> result;
-  for (const Eigen::Vector2d& point : points_m) {
+  for (const Eigen::Vector2d& seen : points_m) {
+    const Eigen::Vector2d point = from_robot * seen;
     const Cell cell = cell_of(point);
     if (!inside(cell) || taken[slot(cell)] != 0) continue;
     taken[slot(cell)] = 1;
@@ -65,15 +67,45 @@ std::vector<Eigen::Vector2d> thinned(std::span<const Eigen::Vector2d> points_m) 
   return result;
 }
 
+/// From a straight stretch, beginning at the robot, to the nearest point.
+double clear_along_m(std::span<const Eigen::Vector2d> points_m, const Eigen::Vector2d& end_m) {
+  const double length_squared = std::max(1e-12, end_m.squaredNorm());
+  double nearest_m = 100.0;
+  for (const Eigen::Vector2d& point : points_m) {
+    const double share = std::clamp(point.dot(end_m) / length_squared, 0.0, 1.0);
+    nearest_m = std::min(nearest_m, (point - share * end_m).norm());
+  }
+  return nearest_m;
+}
+
+/// The farthest point of the way, up to the carrot's distance, to which the straight line has room: heading for one
+/// beyond a corner would cut it, and beside things the robot would be stopped again and again by its own caution.
+Eigen::Vector2d carrot_on(std::span<const Eigen::Vector2d> way_m, std::span<const Eigen::Vector2d> points_m,
+                          double blocked_m) {
+  constexpr double kTolerance_m = 0.02;  // a step between two cells of the way grazes what neither of them does
+  const double room_m = std::min(blocked_m, clear_along_m(points_m, Eigen::Vector2d::Zero())) - kTolerance_m;
+  std::size_t end = 1;
+  double length_m = (way_m[1] - way_m[0]).norm();
+  while (end + 1 < way_m.size() && length_m < kCarrot_m) {
+    ++end;
+    length_m += (way_m[end] - way_m[end - 1]).norm();
+  }
+  while (end > 1 && clear_along_m(points_m, way_m[end]) < room_m) --end;
+  return way_m[end];
+}
+
 }  // namespace
 
 std::optional<LocalWay> local_way(const Body& body, std::span<const Eigen::Vector2d> points_m,
-                                  const Eigen::Vector2d& goal_m) {
+                                  const Eigen::Vector2d& goal_m, double heading_rad) {
+  // The grid keeps its axes while the robot turns: what is free must not change by turning, or it would dither.
+  const Eigen::Rotation2Dd from_robot(heading_rad);
   const double blocked_m = body.radius_m + kSpare_m;
-  const std::vector<float> distance = distances(thinned(points_m), blocked_m + kComfort_m);
+  const std::vector<Eigen::Vector2d> near = thinned(points_m, from_robot);
+  const std::vector<float> distance = distances(near, blocked_m + kComfort_m);
   const Cell start{kHalfCells, kHalfCells};
   // A goal outside the grid is drawn to its border.
-  Eigen::Vector2d goal = goal_m;
+  Eigen::Vector2d goal = from_robot * goal_m;
   const double limit_m = (kHalfCells - 1) * kCell_m;
   const double largest_m = goal.cwiseAbs().maxCoeff();
   if (largest_m > limit_m) goal *= limit_m / largest_m;
@@ -133,11 +165,8 @@ std::optional<LocalWay> local_way(const Body& body, std::span<const Eigen::Vecto
     points.push_back(centre_of({i % kSide, i / kSide}));
   }
   std::reverse(points.begin(), points.end());
-  way.carrot_m = points.back();
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    way.length_m += (points[i] - points[i - 1]).norm();
-    if (way.length_m >= kCarrot_m && way.carrot_m == points.back()) way.carrot_m = points[i];
-  }
+  for (std::size_t i = 1; i < points.size(); ++i) way.length_m += (points[i] - points[i - 1]).norm();
+  way.carrot_m = from_robot.inverse() * (points.size() > 1 ? carrot_on(points, near, blocked_m) : goal);
   return way;
 }
 

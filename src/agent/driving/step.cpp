@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "agent/driving/local_path.hpp"
 #include "agent/driving/orders.hpp"
+#include "agent/driving/steering.hpp"
 
 namespace homeward::agent {
 namespace {
@@ -62,16 +62,6 @@ Motion slowed_by_silence(const Motion& wanted, const DrivingState& state, const 
   return {std::clamp(wanted.speed_mps, -speed_mps, speed_mps), std::clamp(wanted.turn_radps, -turn_radps, turn_radps)};
 }
 
-/// Turns towards a point and drives there, slower in turns.
-Motion towards(const Eigen::Vector2d& carrot_m, double speed_mps, const DrivingConfig& config) {
-  const double angle_rad = std::atan2(carrot_m.y(), carrot_m.x());
-  const double turn = std::clamp(config.turn_gain * angle_rad, -config.body.max_turn_radps, config.body.max_turn_radps);
-  constexpr double kTurnFirst_rad = 0.9;
-  if (std::abs(angle_rad) > kTurnFirst_rad) return {0.0, turn};
-  const double straightness = std::cos(angle_rad * 1.57 / kTurnFirst_rad);
-  return {speed_mps * std::max(0.15, straightness), turn};
-}
-
 Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& config,
              const std::vector<Eigen::Vector2d>& points_m) {
   const bool last_view = state.follow.index + 1 == static_cast<int>(state.mission->path.views.size());
@@ -100,13 +90,11 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
       aim_m = kLeastAim_m * Eigen::Vector2d(std::cos(bearing_rad), std::sin(bearing_rad));
     }
   }
-  const auto way = local_way(config.body, points_m, aim_m);
-  if (!way) return {};
   // The less is recognised, the slower.
   if (!state.seen.answered) speed_mps = std::min(speed_mps, 0.25);
   const double doubt_m = state.follow.tracks[static_cast<std::size_t>(state.follow.index)].doubt_m();
   speed_mps *= std::clamp(1.2 - 0.4 * doubt_m, 0.4, 1.0);
-  return towards(way->carrot_m, speed_mps, config);
+  return steer_round(config.body, points_m, aim_m, inputs.odometry.theta_rad, speed_mps, config.turn_gain);
 }
 
 void judge_progress(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
