@@ -86,8 +86,14 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
     vector->confidence = with_odds(vector->confidence, config.path_odds);
     if (vector->confidence < config.believe) continue;
     ViewTrack& track = state.tracks[static_cast<std::size_t>(index)];
-    // A view that the map says nothing of yet is taken up only from a clear answer.
-    if (!track.known() && index != first && !is_sure(*vector, config)) continue;
+    // Views further on are seen from afar, and wrong answers agree with each other there: only clear ones move them.
+    // Others may still say that the way is recognised.
+    if (index != first && !is_sure(*vector, config)) {
+      if (!track.known() || !track.agrees(odometry, *vector, config.track)) continue;
+      result.answered = true;
+      state.blind_m = 0.0;
+      continue;
+    }
     if (!track.observe(odometry, *vector, config.track)) continue;
     result.answered = true;
     state.blind_m = 0.0;

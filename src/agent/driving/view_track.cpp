@@ -40,11 +40,8 @@ void ViewTrack::begin(const Pose2& robot, const homing::HomeVector& answer, doub
   contradictions_ = 0;
 }
 
-bool ViewTrack::observe(const Pose2& robot, const homing::HomeVector& answer, const ViewTrackConfig& config) {
-  if (!known_) {
-    begin(robot, answer, distance_guess_m(answer, config));
-    return true;
-  }
+ViewTrack::Innovation ViewTrack::compare(const Pose2& robot, const homing::HomeVector& answer,
+                                         const ViewTrackConfig& config) const {
   const Eigen::Vector2d here(robot.x_m, robot.y_m);
   const double angle_rad = robot.theta_rad + answer.bearing_rad;
   const Eigen::Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
@@ -53,22 +50,38 @@ bool ViewTrack::observe(const Pose2& robot, const homing::HomeVector& answer, co
   // nearer with every picture, the bias of the plain pseudo-linear filter. Very near, the thought bearing says nothing.
   constexpr double kNear_m = 0.3;
   const Eigen::Vector2d towards = apart_m > kNear_m ? Eigen::Vector2d((position_m_ - here) / apart_m) : along;
-  const Eigen::Vector2d across(-towards.y(), towards.x());
-  const double across_m = bearing_doubt_rad(answer) * std::max(0.2, apart_m) + 0.03;
+  Innovation result;
+  result.across = Eigen::Vector2d(-towards.y(), towards.x());
+  result.apart_m = apart_m;
+  result.doubt_m = bearing_doubt_rad(answer) * std::max(0.2, apart_m) + 0.03;
   const double off_rad = wrap_angle(angle_rad - std::atan2(towards.y(), towards.x()));
-  const double off_across_m = apart_m > kNear_m ? apart_m * off_rad : -across.dot(position_m_ - here);
-  const double variance_across = across.dot(covariance_m2_ * across) + across_m * across_m;
+  result.off_m = apart_m > kNear_m ? apart_m * off_rad : -result.across.dot(position_m_ - here);
+  const double variance = result.across.dot(covariance_m2_ * result.across) + result.doubt_m * result.doubt_m;
   // A view that is near may lie on any side; a far one must not change sides.
   const bool turned_round = apart_m > 0.6 && along.dot(position_m_ - here) < -0.3;
-  if (turned_round || off_across_m * off_across_m > config.gate * config.gate * variance_across) {
+  result.contradicts = turned_round || result.off_m * result.off_m > config.gate * config.gate * variance;
+  return result;
+}
+
+bool ViewTrack::agrees(const Pose2& robot, const homing::HomeVector& answer, const ViewTrackConfig& config) const {
+  return !compare(robot, answer, config).contradicts;
+}
+
+bool ViewTrack::observe(const Pose2& robot, const homing::HomeVector& answer, const ViewTrackConfig& config) {
+  if (!known_) {
+    begin(robot, answer, distance_guess_m(answer, config));
+    return true;
+  }
+  const Innovation seen = compare(robot, answer, config);
+  if (seen.contradicts) {
     constexpr int kPatience = 3;
     if (++contradictions_ < kPatience) return false;
     // Direction anew, distance as it was thought: the parallax knows it worse.
-    begin(robot, answer, std::max(apart_m, distance_guess_m(answer, config)));
+    begin(robot, answer, std::max(seen.apart_m, distance_guess_m(answer, config)));
     return true;
   }
   contradictions_ = 0;
-  measure(across, off_across_m, across_m);
+  measure(seen.across, seen.off_m, seen.doubt_m);
   // Bearings of one moment share their errors: repeated, they add up to no certainty.
   constexpr double kLeastDoubt_m = 0.04;
   covariance_m2_ += Eigen::Matrix2d::Identity() * kLeastDoubt_m * kLeastDoubt_m * 0.2;

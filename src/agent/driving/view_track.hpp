@@ -28,6 +28,9 @@ class ViewTrack {
   /// Standard deviation of the position, larger axis.
   [[nodiscard]] double doubt_m() const;
 
+  /// Whether an answer may be true by what is known.
+  [[nodiscard]] bool agrees(const Pose2& robot, const homing::HomeVector& answer, const ViewTrackConfig& config) const;
+
   /// Takes a fresh answer into account; false when it contradicts what is known and is passed over. A view that is
   /// contradicted three times in a row starts anew from the last answer.
   bool observe(const Pose2& robot, const homing::HomeVector& answer, const ViewTrackConfig& config);
@@ -42,6 +45,16 @@ class ViewTrack {
   [[nodiscard]] const Eigen::Matrix2d& covariance_m2() const { return covariance_m2_; }
 
  private:
+  /// What a bearing says against what is known.
+  struct Innovation {
+    Eigen::Vector2d across = Eigen::Vector2d::Zero();  // the direction in which it says anything
+    double apart_m = 0.0;                              // robot and view, as it is known
+    double off_m = 0.0;                                // along `across`
+    double doubt_m = 0.0;                              // of the bearing alone
+    bool contradicts = false;
+  };
+  [[nodiscard]] Innovation compare(const Pose2& robot, const homing::HomeVector& answer,
+                                   const ViewTrackConfig& config) const;
   void measure(const Eigen::Vector2d& axis, double off_m, double doubt_m);
   void begin(const Pose2& robot, const homing::HomeVector& answer, double distance_m);
 

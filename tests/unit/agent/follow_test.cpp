@@ -152,6 +152,22 @@ TEST(Follow, DrivesOnBlindlyOnlySoFar) {
   EXPECT_FALSE(goal(state, {0.0, 0.0, 0.0}, config));
 }
 
+TEST(Follow, UnclearAnswersLeaveViewsFurtherOnWhereTheMapSaysTheyAre) {
+  const Landmarks landmarks = corner();
+  const VisualPath path = path_through(landmarks, true);
+  FollowConfig config;
+  config.sure_inliers = 100'000;  // no answer is clear
+  FollowState state;
+  const FollowResult followed = follow(state, path, seen_from(landmarks, {}, 1), {}, config, 1);
+  EXPECT_TRUE(followed.answered);
+  ASSERT_TRUE(state.tracks[1].known());
+  const Pose2 first{state.tracks[0].position_m().x(), state.tracks[0].position_m().y(), state.tracks[0].heading_rad()};
+  const auto& edge = *path.edges[0];
+  const Pose2 expected =
+      first * Pose2{*edge.length_m * std::cos(*edge.bearing_rad), *edge.length_m * std::sin(*edge.bearing_rad), 0.0};
+  EXPECT_LT((state.tracks[1].position_m() - Eigen::Vector2d(expected.x_m, expected.y_m)).norm(), 1e-9);
+}
+
 TEST(Follow, IsTheSameForTheSameSeed) {
   const Landmarks landmarks = corner();
   const VisualPath path = path_through(landmarks, true);
