@@ -20,12 +20,11 @@ import platform
 import subprocess
 import sys
 import tempfile
-import time
 
 import budget
+import places
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-KILOBYTE = 1000
 
 
 class Skipped(Exception):
@@ -165,11 +164,6 @@ def recall_tower(bench):
     recall(bench, "ie_tower", 0.85)
 
 
-def read_poses(file):
-    with open(file, newline="") as table:
-        return {row["filename"]: (float(row["x_m"]), float(row["y_m"])) for row in csv.DictReader(table)}
-
-
 def night_against_day(bench):
     data = bench.folder("sim", "home")
     both = bench.scratch / "night"
@@ -177,7 +171,7 @@ def night_against_day(bench):
     poses = {}
     for folder, table in (("train", "gallery.csv"), ("test_night", "queries.csv")):
         (both / folder).symlink_to((data / folder).resolve())
-        poses[folder] = read_poses(data / folder / "poses.csv")
+        poses[folder] = places.read_poses(data / folder / "poses.csv")
         (both / table).write_text("filename\n" + "".join(f"{folder}/{name}\n" for name in poses[folder]))
     lines = retrieved(bench, "night", both / "gallery.csv", both / "queries.csv", data / "train" / "camera.json")
     near = 0
@@ -204,34 +198,6 @@ def loops(bench):
     bench.row(part, "ms a picture (99th percentile)", figures["ms_p99"])
 
 
-def map_and_places(bench):
-    data = bench.folder("sim", "home")
-    train = data / "train"
-    file, inspected = bench.scratch / "home.map", bench.scratch / "home.json"
-    begin = time.monotonic()
-    bench.program("map", "build", "--tour", train, "--camera", train / "camera.json", "--out", file)
-    seconds = time.monotonic() - begin
-    bench.program("map", "inspect", file, "--json", out=inspected)
-    figures = bench.judge("map.py", inspected, train / "poses.csv")
-    part = "map, rendered house"
-    bench.row(part, "false merges", figures["false_merges"], most=0)
-    bench.row(part, "loop recall", figures["loop_recall"])
-    bench.row(part, "places", figures["places"])
-    bench.row(part, "spread of places, 95th percentile, m", figures["place_spread_p95"])
-    bench.row(part, "edges right", figures["edge_ok"])
-    bench.row(part, "kB a place", figures["bytes_per_place"] / KILOBYTE, most=32.0)
-    bench.row(part, "seconds to build", seconds)
-    for walk in ("test_day", "test_night"):
-        images = bench.folder("sim", "home", walk)
-        lines = bench.program("localise", "--map", file, "--images", images, "--restart-every", 3, out=bench.scratch / f"{walk}.jsonl")
-        figures = bench.judge("localise.py", lines, inspected, train / "poses.csv", images / "poses.csv")
-        part = f"localise, {walk}"
-        for updates in ("1", "2", "3"):
-            bench.row(part, f"near after {updates}", figures[f"near_{updates}"])
-        bench.row(part, "exact after 1", figures["strict_1"])
-        bench.row(part, "calibration error", figures["ece"])
-
-
 PARTS = {
     "home_rendered": home_rendered,
     "home_hand_held": home_hand_held,
@@ -241,7 +207,10 @@ PARTS = {
     "recall_tower": recall_tower,
     "night_against_day": night_against_day,
     "loops": loops,
-    "map_and_places": map_and_places,
+    "map_and_places": places.map_and_places,
+    "kidnapped": places.kidnapped,
+    "foreign": places.foreign,
+    "real_tours": places.real_tours,
 }
 # Run only by name: minutes each, and no bounds.
 BY_NAME = {"codes": budget.codes, "budget": budget.budget}
