@@ -27,6 +27,32 @@ double share_of_azimuths(const Eigen::Vector3d& line, double height, double wind
   return (std::acos(low) - std::acos(high)) / kPi;
 }
 
+/// Whether share_of_azimuths is surely no more than `share`, by a bound that takes no arc cosines: between two cosines
+/// the angle changes at most as fast as at the one further from 0.
+bool surely_within(const Eigen::Vector3d& line, double height, double window, double share) {
+  const double length2 = line.squaredNorm();
+  const double reach2 = (line.x() * line.x() + line.y() * line.y()) * (1.0 - height * height);
+  const double furthest = window * std::sqrt(length2) + std::abs(line.z() * height);
+  constexpr double kRounding = 1.0 - 1e-6;
+  return 4.0 * window * window * length2 <= kRounding * (share * kPi) * (share * kPi) * (reach2 - furthest * furthest);
+}
+
+/// chance_share, but `least` where it is less than that, which is most often and quickly found.
+double chance_share_from(double least, const Eigen::Matrix3d& essential, const Correspondence& match,
+                         double window_rad) {
+  const double window = window_rad * std::sqrt(2.0);
+  const Eigen::Vector3d line_in_target = essential.transpose() * match.current;
+  const Eigen::Vector3d line_in_current = essential * match.target;
+  double share = least;
+  if (!surely_within(line_in_target, match.target.z(), window, least)) {
+    share = std::max(share, share_of_azimuths(line_in_target, match.target.z(), window));
+  }
+  if (!surely_within(line_in_current, match.current.z(), window, least)) {
+    share = std::max(share, share_of_azimuths(line_in_current, match.current.z(), window));
+  }
+  return share;
+}
+
 /// Where matches lie along a motion's direction, and what that makes of them.
 class AlongDirection {
  public:
@@ -136,8 +162,7 @@ void look(std::span<const Correspondence> correspondences, const FitConfig& conf
       expected += share;
       continue;
     }
-    const double chance =
-        std::max(config.least_chance, chance_share(error_of.essential(), correspondences[i], window_rad));
+    const double chance = chance_share_from(config.least_chance, error_of.essential(), correspondences[i], window_rad);
     along.look_at(correspondences[i]);
     const double tail = 1.0 / (1.0 + error2 / kFreedom);
     const double as_right = share * along.likelihood_of_side(fit.spread_rad) *
