@@ -10,6 +10,8 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "features/gaussian_blur.hpp"
+
 namespace homeward::features {
 namespace {
 
@@ -77,15 +79,23 @@ bool is_extremum(const std::array<RowBand, 3>& bands, int column) {
   return true;
 }
 
+using Pyramid = std::vector<std::vector<cv::Mat>>;
+
+/// The memory of this thread's last scale space, for the next one: pictures of a stream are all of one size, and to ask
+/// the operating system for it each time takes as long as half of the blurring.
+Pyramid& spare_pyramid() {
+  thread_local Pyramid spare;
+  return spare;
+}
+
 /// The pixels with even row and column. (Resizing to half an odd size would drift by up to a pixel.)
-cv::Mat every_other_pixel(const cv::Mat& picture) {
-  cv::Mat half((picture.rows + 1) / 2, (picture.cols + 1) / 2, CV_32F);
+void every_other_pixel(const cv::Mat& picture, cv::Mat& half) {
+  half.create((picture.rows + 1) / 2, (picture.cols + 1) / 2, CV_32F);
   for (int row = 0; row < half.rows; ++row) {
     const float* from = picture.ptr<float>(2 * row);
     float* to = half.ptr<float>(row);
     for (std::ptrdiff_t column = 0; column < half.cols; ++column) to[column] = from[2 * column];
   }
-  return half;
 }
 
 struct Fit {
@@ -124,24 +134,35 @@ std::optional<Fit> fit(const Differences& d) {
 }  // namespace
 
 UprightSift::UprightSift(const cv::Mat& grey) {
-  cv::Mat base;
-  grey.convertTo(base, CV_32F, 1.0 / 255.0);
-  cv::resize(base, base, {}, 2.0, 2.0, cv::INTER_LINEAR);
+  Pyramid& spare = spare_pyramid();
+  octaves_ = std::move(spare);
+  spare.clear();
+  thread_local cv::Mat sharp;
+  thread_local cv::Mat doubled;
+  grey.convertTo(sharp, CV_32F, 1.0 / 255.0);
+  cv::resize(sharp, doubled, {}, 2.0, 2.0, cv::INTER_LINEAR);
   const double missing = std::sqrt(kFirstSigma_px * kFirstSigma_px - 4.0 * kCameraSigma_px * kCameraSigma_px);
-  cv::GaussianBlur(base, base, {}, missing, missing);
-  while (std::min(base.rows, base.cols) >= kSmallestSide_px) {
-    std::vector<cv::Mat> blurred(kLayers + 3);
-    blurred[0] = base;
+  cv::Size size = doubled.size();
+  std::size_t octave = 0;
+  for (; std::min(size.width, size.height) >= kSmallestSide_px; ++octave) {
+    if (octave == octaves_.size()) octaves_.emplace_back(kLayers + 3);
+    std::vector<cv::Mat>& blurred = octaves_[octave];
+    if (octave == 0) {
+      gaussian_blur(doubled, blurred[0], missing);
+    } else {
+      every_other_pixel(octaves_[octave - 1][kLayers], blurred[0]);
+    }
     for (std::size_t layer = 1; layer < blurred.size(); ++layer) {
       const double step = std::pow(2.0, 1.0 / kLayers);
       const double before = kFirstSigma_px * std::pow(step, static_cast<double>(layer) - 1.0);
-      const double sigma = before * std::sqrt(step * step - 1.0);
-      cv::GaussianBlur(blurred[layer - 1], blurred[layer], {}, sigma, sigma);
+      gaussian_blur(blurred[layer - 1], blurred[layer], before * std::sqrt(step * step - 1.0));
     }
-    base = every_other_pixel(blurred[kLayers]);
-    octaves_.push_back(std::move(blurred));
+    size = {(size.width + 1) / 2, (size.height + 1) / 2};
   }
+  octaves_.resize(octave);
 }
+
+UprightSift::~UprightSift() { spare_pyramid() = std::move(octaves_); }
 
 std::vector<SiftPoint> UprightSift::detect(double contrast) const {
   std::vector<SiftPoint> points;
