@@ -19,6 +19,9 @@ constexpr int kLanes = 8;           // numbers of one AVX2 register
 constexpr int kBlock = 8 * kLanes;  // made at once: as many sums as are on their way through the processor
 constexpr int kStrip = 4 * kBlock;  // columns made from top to bottom: their rows stay in the processor's first cache
 
+constexpr int kLine = 16;  // numbers of one line of the cache
+constexpr int kAhead = 2;  // rows
+
 /// The row or column on this side of the border that stands for one beyond it: mirrored, the border itself once.
 int reflected(int i, int count) {
   if (i < 0) return -i;
@@ -103,6 +106,11 @@ void blur_strip(const cv::Mat& from, int first, int width, const std::vector<flo
   for (int row = 0; row < from.rows; ++row) {
     for (; next <= std::min(row + reach, from.rows - 1); ++next) {
       const float* source = from.ptr<float>(next);
+      // The strip's next rows lie pages apart, where the processor does not look ahead by itself.
+      if (next + kAhead < from.rows) {
+        const float* ahead = from.ptr<float>(next + kAhead) + first;
+        for (int i = 0; i < width; i += kLine) _mm_prefetch(reinterpret_cast<const char*>(ahead + i), _MM_HINT_T0);
+      }
       if (inside) {
         along_row(source + first - reach, whole, kernel, kept(next));
         continue;
