@@ -99,9 +99,10 @@ void blur_strip(const cv::Mat& from, int first, int width, const std::vector<flo
   std::vector<float> padded(static_cast<std::size_t>(whole + 2 * reach), 0.0F);
   std::vector<float> out(static_cast<std::size_t>(whole));
   std::vector<const float*> neighbours(taps);
-  const auto kept = [&](int row) {
-    return ring.data() + static_cast<std::size_t>(row) % taps * static_cast<std::size_t>(kStrip);
-  };
+  std::vector<float*> kept;  // where each row's sums are while it is a neighbour
+  for (int row = 0; row < from.rows; ++row) {
+    kept.push_back(ring.data() + static_cast<std::size_t>(row) % taps * static_cast<std::size_t>(kStrip));
+  }
   int next = 0;  // row to blur along
   for (int row = 0; row < from.rows; ++row) {
     for (; next <= std::min(row + reach, from.rows - 1); ++next) {
@@ -112,16 +113,21 @@ void blur_strip(const cv::Mat& from, int first, int width, const std::vector<flo
         for (int i = 0; i < width; i += kLine) _mm_prefetch(reinterpret_cast<const char*>(ahead + i), _MM_HINT_T0);
       }
       if (inside) {
-        along_row(source + first - reach, whole, kernel, kept(next));
+        along_row(source + first - reach, whole, kernel, kept[static_cast<std::size_t>(next)]);
         continue;
       }
-      for (int i = 0; i < width + 2 * reach; ++i) {
+      const int before = std::max(0, reach - first);  // numbers beyond the border
+      const int after = std::max(0, first + width + reach - from.cols);
+      const int end = width + 2 * reach;
+      std::copy_n(source + first - reach + before, end - before - after, padded.begin() + before);
+      for (int i = 0; i < before; ++i) padded[static_cast<std::size_t>(i)] = source[before - i];
+      for (int i = end - after; i < end; ++i) {
         padded[static_cast<std::size_t>(i)] = source[reflected(first - reach + i, from.cols)];
       }
-      along_row(padded.data(), whole, kernel, kept(next));
+      along_row(padded.data(), whole, kernel, kept[static_cast<std::size_t>(next)]);
     }
     for (int k = -reach; k <= reach; ++k) {
-      neighbours[static_cast<std::size_t>(k + reach)] = kept(reflected(row + k, from.rows));
+      neighbours[static_cast<std::size_t>(k + reach)] = kept[static_cast<std::size_t>(reflected(row + k, from.rows))];
     }
     if (whole == width) {
       down_columns(neighbours, width, kernel, to.ptr<float>(row) + first);
