@@ -5,17 +5,13 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <opencv2/core/hal/hal.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "features/extremum_rows.hpp"
 #include "features/gaussian_blur.hpp"
-
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
 
 namespace homeward::features {
 namespace {
@@ -24,6 +20,7 @@ constexpr int kLayers = 3;               // searched per octave
 constexpr double kFirstSigma_px = 1.6;   // of each octave's first picture
 constexpr double kCameraSigma_px = 0.5;  // blur that a picture comes with
 constexpr int kBorder_px = 5;
+constexpr std::size_t kDifferences = kLayers + 2;
 constexpr int kSmallestSide_px = 2 * kBorder_px + 6;
 
 /// Differences of an octave's neighbouring blurs about one pixel, made as they are asked for.
@@ -46,110 +43,6 @@ class Differences {
   int row_;
   int column_;
 };
-
-/// Three rows of one difference of Gaussians, the middle one being searched.
-struct RowBand {
-  const float* above;
-  const float* here;
-  const float* below;
-};
-
-/// Whether the middle row's value at `c` stands out from the four next to it by more than `floor` in size.
-bool stands_out(const RowBand& band, int c, float floor) {
-  const float v = band.here[c];
-  const float left = band.here[c - 1];
-  const float right = band.here[c + 1];
-  const float up = band.above[c];
-  const float down = band.below[c];
-  return (v > floor && v >= left && v >= right && v >= up && v >= down) ||
-         (v < -floor && v <= left && v <= right && v <= up && v <= down);
-}
-
-constexpr std::size_t kDifferences = kLayers + 2;
-using BlurredRows = std::array<const float*, kDifferences + 1>;  // one row of an octave's pictures
-using DifferenceRows = std::array<float*, kDifferences>;         // and of their differences
-
-/// From column `first` on.
-void subtract_plain(const BlurredRows& blurred, const DifferenceRows& differences, int first, int columns) {
-  for (std::size_t d = 0; d < kDifferences; ++d) {
-    for (int c = first; c < columns; ++c) differences[d][c] = blurred[d + 1][c] - blurred[d][c];
-  }
-}
-
-/// The columns of the middle row that stand out, from `first` on; few do.
-void find_candidates_plain(const RowBand& band, int first, int columns, float floor, std::vector<int>& found) {
-  for (int c = first; c < columns - kBorder_px; ++c) {
-    if (stands_out(band, c, floor)) found.push_back(c);
-  }
-}
-
-#if defined(__x86_64__)
-
-constexpr int kLanes = 8;  // numbers of one AVX2 register
-
-__attribute__((target("avx2"))) void subtract_avx2(const BlurredRows& blurred, const DifferenceRows& differences,
-                                                   int columns) {
-  int c = 0;
-  for (; c + kLanes <= columns; c += kLanes) {
-    __m256 sharp = _mm256_loadu_ps(blurred[0] + c);
-    for (std::size_t d = 0; d < kDifferences; ++d) {
-      const __m256 soft = _mm256_loadu_ps(blurred[d + 1] + c);
-      _mm256_storeu_ps(differences[d] + c, _mm256_sub_ps(soft, sharp));
-      sharp = soft;
-    }
-  }
-  subtract_plain(blurred, differences, c, columns);
-}
-
-__attribute__((target("avx2"))) void find_candidates_avx2(const RowBand& band, int columns, float floor,
-                                                          std::vector<int>& found) {
-  const __m256 above_floor = _mm256_set1_ps(floor);
-  const __m256 below_floor = _mm256_set1_ps(-floor);
-  int c = kBorder_px;
-  for (; c + kLanes <= columns - kBorder_px; c += kLanes) {
-    const __m256 v = _mm256_loadu_ps(band.here + c);
-    const __m256 high = _mm256_cmp_ps(v, above_floor, _CMP_GT_OQ);
-    const __m256 low = _mm256_cmp_ps(v, below_floor, _CMP_LT_OQ);
-    if (_mm256_movemask_ps(_mm256_or_ps(high, low)) == 0) continue;
-    const __m256 left = _mm256_loadu_ps(band.here + c - 1);
-    const __m256 right = _mm256_loadu_ps(band.here + c + 1);
-    const __m256 up = _mm256_loadu_ps(band.above + c);
-    const __m256 down = _mm256_loadu_ps(band.below + c);
-    const __m256 largest = _mm256_max_ps(_mm256_max_ps(left, right), _mm256_max_ps(up, down));
-    const __m256 smallest = _mm256_min_ps(_mm256_min_ps(left, right), _mm256_min_ps(up, down));
-    const __m256 peak = _mm256_and_ps(high, _mm256_cmp_ps(v, largest, _CMP_GE_OQ));
-    const __m256 pit = _mm256_and_ps(low, _mm256_cmp_ps(v, smallest, _CMP_LE_OQ));
-    auto marks = static_cast<unsigned>(_mm256_movemask_ps(_mm256_or_ps(peak, pit)));
-    for (; marks != 0; marks &= marks - 1) found.push_back(c + std::countr_zero(marks));
-  }
-  find_candidates_plain(band, c, columns, floor, found);
-}
-
-#endif
-
-bool has_avx2() {
-#if defined(__x86_64__)
-  static const bool has = __builtin_cpu_supports("avx2") != 0;
-  return has;
-#else
-  return false;
-#endif
-}
-
-void subtract(const BlurredRows& blurred, const DifferenceRows& differences, int columns) {
-#if defined(__x86_64__)
-  if (has_avx2()) return subtract_avx2(blurred, differences, columns);
-#endif
-  subtract_plain(blurred, differences, 0, columns);
-}
-
-void find_candidates(const RowBand& band, int columns, float floor, std::vector<int>& found) {
-  found.clear();
-#if defined(__x86_64__)
-  if (has_avx2()) return find_candidates_avx2(band, columns, floor, found);
-#endif
-  find_candidates_plain(band, kBorder_px, columns, floor, found);
-}
 
 /// Whether no neighbour in three scales beats the middle band's value at `column`.
 bool is_extremum(const std::array<RowBand, 3>& bands, int column) {
@@ -302,8 +195,8 @@ void UprightSift::search(int octave, double contrast, std::vector<SiftPoint>& po
   };
   std::vector<int> found;
   for (int filled = kBorder_px - 1; filled <= rows - kBorder_px; ++filled) {
-    BlurredRows sources{};
-    DifferenceRows differences{};
+    std::array<const float*, kDifferences + 1> sources{};
+    std::array<float*, kDifferences> differences{};
     for (std::size_t d = 0; d < sources.size(); ++d) sources[d] = blurred[d].ptr<float>(filled);
     for (std::size_t d = 0; d < differences.size(); ++d) differences[d] = row_of(d, filled);
     subtract(sources, differences, columns);
@@ -312,7 +205,7 @@ void UprightSift::search(int octave, double contrast, std::vector<SiftPoint>& po
     for (std::size_t layer = 1; layer <= kLayers; ++layer) {
       const auto band = [&](std::size_t d) { return RowBand{row_of(d, row - 1), row_of(d, row), row_of(d, row + 1)}; };
       const std::array<RowBand, 3> bands = {band(layer - 1), band(layer), band(layer + 1)};
-      find_candidates(bands[1], columns, floor, found);
+      find_candidates(bands[1], kBorder_px, columns - kBorder_px, floor, found);
       for (const int column : found) {
         if (!is_extremum(bands, column)) continue;
         const auto point = refined(octave, static_cast<int>(layer), row, column, contrast);
