@@ -243,13 +243,15 @@ void UprightSift::describe(const SiftPoint& point, float* descriptor) const {
   // What depends on the column alone: its cell, its share of it, its weight (a Gaussian of half the window).
   const auto weight = [&](float cells) { return std::exp(-cells * cells / (0.5F * kCells * kCells)); };
   thread_local std::vector<float> buffer;
-  buffer.resize(static_cast<std::size_t>(count) * 6);
+  const int rows = last_row - first_row + 1;
+  const int pixels = rows * count;
+  buffer.resize(static_cast<std::size_t>(pixels) * 4 + static_cast<std::size_t>(count) * 2);
   float* column_share = buffer.data();
   float* column_weight = column_share + count;
-  float* across = column_weight + count;
-  float* down = across + count;
-  float* angle_deg = down + count;
-  float* magnitude = angle_deg + count;
+  float* across = column_weight + count;  // of all pixels, row by row, as the next three
+  float* down = across + pixels;
+  float* angles_deg = down + pixels;
+  float* magnitudes = angles_deg + pixels;
   thread_local std::vector<int> column_cell;
   column_cell.resize(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
@@ -260,18 +262,24 @@ void UprightSift::describe(const SiftPoint& point, float* descriptor) const {
     column_share[i] = place - lower;
     column_weight[i] = weight(cells);
   }
+  for (int r = 0; r < rows; ++r) {
+    const float* above = picture.ptr<float>(first_row + r - 1) + first_column;
+    const float* here = picture.ptr<float>(first_row + r) + first_column;
+    const float* below = picture.ptr<float>(first_row + r + 1) + first_column;
+    float* row_across = across + static_cast<std::ptrdiff_t>(r) * count;
+    float* row_down = down + static_cast<std::ptrdiff_t>(r) * count;
+    for (int i = 0; i < count; ++i) {
+      row_across[i] = here[i + 1] - here[i - 1];
+      row_down[i] = below[i] - above[i];
+    }
+  }
+  cv::hal::fastAtan32f(down, across, angles_deg, pixels, true);
+  cv::hal::magnitude32f(across, down, magnitudes, pixels);
   // A margin of one cell and one direction takes what falls outside; directions wrap at the end.
   std::array<std::array<std::array<float, kDirections + 2>, kCells + 2>, kCells + 2> cells{};
   for (int row = first_row; row <= last_row; ++row) {
-    const float* above = picture.ptr<float>(row - 1) + first_column;
-    const float* here = picture.ptr<float>(row) + first_column;
-    const float* below = picture.ptr<float>(row + 1) + first_column;
-    for (int i = 0; i < count; ++i) {
-      across[i] = here[i + 1] - here[i - 1];
-      down[i] = below[i] - above[i];
-    }
-    cv::hal::fastAtan32f(down, across, angle_deg, count, true);
-    cv::hal::magnitude32f(across, down, magnitude, count);
+    const float* angle_deg = angles_deg + static_cast<std::ptrdiff_t>(row - first_row) * count;
+    const float* magnitude = magnitudes + static_cast<std::ptrdiff_t>(row - first_row) * count;
     const float from_centre = (static_cast<float>(row) - v) / cell_px;
     const float place = from_centre + kCells * 0.5F - 0.5F;
     const float lower = std::floor(place);
