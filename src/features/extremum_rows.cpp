@@ -82,7 +82,7 @@ __attribute__((target("avx2"))) void find_candidates_avx2(const RowBand& band, i
 
 #endif
 
-bool has_avx2() {
+[[maybe_unused]] bool has_avx2() {
 #if defined(__x86_64__)
   static const bool has = __builtin_cpu_supports("avx2") != 0;
   return has;

@@ -287,7 +287,7 @@ HOMEWARD_WITH_AVX2 void judge_avx2(const Rows& r, const GazeNumbers& g, const Se
 }
 #endif
 
-bool has_avx2() {
+[[maybe_unused]] bool has_avx2() {
 #if defined(__x86_64__)
   static const bool has = __builtin_cpu_supports("avx2") != 0;
   return has;
