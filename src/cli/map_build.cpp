@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <ctime>
@@ -42,10 +43,11 @@ Result<db::Thumbnails> make_thumbnails(const map::TopologicalMap& map, const age
     wanted.push_back(hypothesis.prototype_a);
     wanted.push_back(hypothesis.prototype_b);
   }
+  std::ranges::sort(wanted);
   db::Thumbnails thumbnails;
   for (std::size_t i = 0; i < tour.images().size(); ++i) {
     const ImageId& id = tour.images()[i].id;
-    if (std::ranges::find(wanted, id) == wanted.end()) continue;
+    if (!std::ranges::binary_search(wanted, id)) continue;
     const auto picture = tour.read(i);
     if (!picture) return pass_on(picture);
     auto thumbnail = pipeline::make_thumbnail(*eye, *picture);

@@ -224,6 +224,17 @@ cv::Mat trusted_pixels(const camera::Panorama& panorama) {
   return trusted;
 }
 
+/// The same, kept for this thread's last camera.
+const cv::Mat& known_trusted_pixels(const camera::Panorama& panorama) {
+  thread_local std::vector<std::uint8_t> valid;
+  thread_local cv::Mat trusted;
+  if (trusted.rows != panorama.rgb.width_px || valid != panorama.valid) {
+    trusted = trusted_pixels(panorama);
+    valid = panorama.valid;
+  }
+  return trusted;
+}
+
 /// The level above which a gradient is no noise. Most of a picture is plain, so the median of its gradients is the
 /// noise's own; it grows with the brightness as the edges do.
 double gradient_threshold(const cv::Mat& magnitude, const cv::Mat& trusted) {
@@ -337,7 +348,7 @@ FeatureSet extract_columns(const camera::Panorama& panorama, const FeatureConfig
   const ColumnReader reader(panorama);
   std::vector<ColumnCandidate> candidates;
   for (const ColumnSegment& segment :
-       raw_segments(reader.grey(), trusted_pixels(panorama), std::max(4.0, kMinLength_rad * px_per_rad))) {
+       raw_segments(reader.grey(), known_trusted_pixels(panorama), std::max(4.0, kMinLength_rad * px_per_rad))) {
     ColumnCandidate candidate{segment, {}, 0.0};
     const double contrast = reader.profile(segment, candidate.invariants.data() + kColumnColours);
     if (contrast < kMinContrast) continue;

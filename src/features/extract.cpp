@@ -95,6 +95,24 @@ cv::Mat distance_to_border(const camera::Panorama& panorama, const Strip& strip)
   return distance.rowRange(1, distance.rows - 1);
 }
 
+/// What follows from which pixels the camera sees: the same for all pictures of a camera.
+struct Sight {
+  std::vector<std::uint8_t> valid;
+  int width_px = 0;
+  Strip strip;
+  cv::Mat border_distance_px;
+};
+
+/// Of this thread's last camera.
+const Sight& sight_of(const camera::Panorama& panorama) {
+  thread_local Sight last;
+  if (last.width_px != panorama.rgb.width_px || last.valid != panorama.valid) {
+    const Strip strip = seen_strip(panorama);
+    last = {panorama.valid, panorama.rgb.width_px, strip, distance_to_border(panorama, strip)};
+  }
+  return last;
+}
+
 /// Off the border, and once each: not on the overlap of the seam.
 std::vector<SiftPoint> clear_of_border(std::vector<SiftPoint> found, const cv::Mat& border_distance_px,
                                        const Strip& strip, int panorama_width_px) {
@@ -125,11 +143,12 @@ std::vector<SiftPoint> strongest(const std::vector<SiftPoint>& points, const Str
 
 FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& config, Unrounded* unrounded) {
   const int width_px = panorama.rgb.width_px;
-  const Strip strip = seen_strip(panorama);
+  const Sight& sight = sight_of(panorama);
+  const Strip& strip = sight.strip;
   const UprightSift sift(cut(stretched_grey(panorama.rgb), strip));
-  const auto points = strongest(clear_of_border(sift.detect(config.sift_contrast_threshold),
-                                                distance_to_border(panorama, strip), strip, width_px),
-                                strip, config.max_sift);
+  const auto points =
+      strongest(clear_of_border(sift.detect(config.sift_contrast_threshold), sight.border_distance_px, strip, width_px),
+                strip, config.max_sift);
   FeatureSet set;
   const auto count = static_cast<Eigen::Index>(points.size());
   set.bearings.resize(count, 3);

@@ -10,6 +10,9 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "features/extremum_rows.hpp"
+#include "features/gaussian_blur.hpp"
+
 namespace homeward::features {
 namespace {
 
@@ -17,6 +20,7 @@ constexpr int kLayers = 3;               // searched per octave
 constexpr double kFirstSigma_px = 1.6;   // of each octave's first picture
 constexpr double kCameraSigma_px = 0.5;  // blur that a picture comes with
 constexpr int kBorder_px = 5;
+constexpr std::size_t kDifferences = kLayers + 2;
 constexpr int kSmallestSide_px = 2 * kBorder_px + 6;
 
 /// Differences of an octave's neighbouring blurs about one pixel, made as they are asked for.
@@ -40,29 +44,6 @@ class Differences {
   int column_;
 };
 
-/// Three rows of one difference of Gaussians, the middle one being searched.
-struct RowBand {
-  const float* above;
-  const float* here;
-  const float* below;
-};
-
-/// Marks where the middle row's values stand out from the four next to them by more than `floor` in size: few do, and
-/// this loop is made of vector instructions.
-void mark_candidates(const RowBand& band, int columns, float floor, std::int32_t* marks) {
-  const float* up = band.above;
-  const float* here = band.here;
-  const float* down = band.below;
-  for (int c = kBorder_px; c < columns - kBorder_px; ++c) {
-    const float v = here[c];
-    const int peak = static_cast<int>(v > floor) & static_cast<int>(v >= here[c - 1]) &
-                     static_cast<int>(v >= here[c + 1]) & static_cast<int>(v >= up[c]) & static_cast<int>(v >= down[c]);
-    const int pit = static_cast<int>(v < -floor) & static_cast<int>(v <= here[c - 1]) &
-                    static_cast<int>(v <= here[c + 1]) & static_cast<int>(v <= up[c]) & static_cast<int>(v <= down[c]);
-    marks[c] = peak | pit;
-  }
-}
-
 /// Whether no neighbour in three scales beats the middle band's value at `column`.
 bool is_extremum(const std::array<RowBand, 3>& bands, int column) {
   const float value = bands[1].here[column];
@@ -77,15 +58,23 @@ bool is_extremum(const std::array<RowBand, 3>& bands, int column) {
   return true;
 }
 
+using Pyramid = std::vector<std::vector<cv::Mat>>;
+
+/// The memory of this thread's last scale space, for the next one: pictures of a stream are all of one size, and to ask
+/// the operating system for it each time takes as long as half of the blurring.
+Pyramid& spare_pyramid() {
+  thread_local Pyramid spare;
+  return spare;
+}
+
 /// The pixels with even row and column. (Resizing to half an odd size would drift by up to a pixel.)
-cv::Mat every_other_pixel(const cv::Mat& picture) {
-  cv::Mat half((picture.rows + 1) / 2, (picture.cols + 1) / 2, CV_32F);
+void every_other_pixel(const cv::Mat& picture, cv::Mat& half) {
+  half.create((picture.rows + 1) / 2, (picture.cols + 1) / 2, CV_32F);
   for (int row = 0; row < half.rows; ++row) {
     const float* from = picture.ptr<float>(2 * row);
     float* to = half.ptr<float>(row);
     for (std::ptrdiff_t column = 0; column < half.cols; ++column) to[column] = from[2 * column];
   }
-  return half;
 }
 
 struct Fit {
@@ -124,24 +113,35 @@ std::optional<Fit> fit(const Differences& d) {
 }  // namespace
 
 UprightSift::UprightSift(const cv::Mat& grey) {
-  cv::Mat base;
-  grey.convertTo(base, CV_32F, 1.0 / 255.0);
-  cv::resize(base, base, {}, 2.0, 2.0, cv::INTER_LINEAR);
+  Pyramid& spare = spare_pyramid();
+  octaves_ = std::move(spare);
+  spare.clear();
+  thread_local cv::Mat sharp;
+  thread_local cv::Mat doubled;
+  grey.convertTo(sharp, CV_32F, 1.0 / 255.0);
+  cv::resize(sharp, doubled, {}, 2.0, 2.0, cv::INTER_LINEAR);
   const double missing = std::sqrt(kFirstSigma_px * kFirstSigma_px - 4.0 * kCameraSigma_px * kCameraSigma_px);
-  cv::GaussianBlur(base, base, {}, missing, missing);
-  while (std::min(base.rows, base.cols) >= kSmallestSide_px) {
-    std::vector<cv::Mat> blurred(kLayers + 3);
-    blurred[0] = base;
+  cv::Size size = doubled.size();
+  std::size_t octave = 0;
+  for (; std::min(size.width, size.height) >= kSmallestSide_px; ++octave) {
+    if (octave == octaves_.size()) octaves_.emplace_back(kLayers + 3);
+    std::vector<cv::Mat>& blurred = octaves_[octave];
+    if (octave == 0) {
+      gaussian_blur(doubled, blurred[0], missing);
+    } else {
+      every_other_pixel(octaves_[octave - 1][kLayers], blurred[0]);
+    }
     for (std::size_t layer = 1; layer < blurred.size(); ++layer) {
       const double step = std::pow(2.0, 1.0 / kLayers);
       const double before = kFirstSigma_px * std::pow(step, static_cast<double>(layer) - 1.0);
-      const double sigma = before * std::sqrt(step * step - 1.0);
-      cv::GaussianBlur(blurred[layer - 1], blurred[layer], {}, sigma, sigma);
+      gaussian_blur(blurred[layer - 1], blurred[layer], before * std::sqrt(step * step - 1.0));
     }
-    base = every_other_pixel(blurred[kLayers]);
-    octaves_.push_back(std::move(blurred));
+    size = {(size.width + 1) / 2, (size.height + 1) / 2};
   }
+  octaves_.resize(octave);
 }
+
+UprightSift::~UprightSift() { spare_pyramid() = std::move(octaves_); }
 
 std::vector<SiftPoint> UprightSift::detect(double contrast) const {
   std::vector<SiftPoint> points;
@@ -188,28 +188,26 @@ void UprightSift::search(int octave, double contrast, std::vector<SiftPoint>& po
   const int columns = blurred[0].cols;
   const auto floor = static_cast<float>(0.5 * contrast / kLayers);
   // The last three rows of each difference; they stay in the processor's cache.
-  constexpr std::size_t kDifferences = kLayers + 2;
   const auto width = static_cast<std::size_t>(columns);
   std::vector<float> ring(kDifferences * 3 * width);
   const auto row_of = [&](std::size_t difference, int row) {
     return ring.data() + (difference * 3 + static_cast<std::size_t>(row % 3)) * width;
   };
-  std::vector<std::int32_t> marks(width, 0);
+  std::vector<int> found;
   for (int filled = kBorder_px - 1; filled <= rows - kBorder_px; ++filled) {
-    for (std::size_t d = 0; d < kDifferences; ++d) {
-      const float* sharp = blurred[d].ptr<float>(filled);
-      const float* soft = blurred[d + 1].ptr<float>(filled);
-      float* out = row_of(d, filled);
-      for (std::size_t c = 0; c < width; ++c) out[c] = soft[c] - sharp[c];
-    }
+    std::array<const float*, kDifferences + 1> sources{};
+    std::array<float*, kDifferences> differences{};
+    for (std::size_t d = 0; d < sources.size(); ++d) sources[d] = blurred[d].ptr<float>(filled);
+    for (std::size_t d = 0; d < differences.size(); ++d) differences[d] = row_of(d, filled);
+    subtract(sources, differences, columns);
     const int row = filled - 1;
     if (row < kBorder_px) continue;
     for (std::size_t layer = 1; layer <= kLayers; ++layer) {
       const auto band = [&](std::size_t d) { return RowBand{row_of(d, row - 1), row_of(d, row), row_of(d, row + 1)}; };
       const std::array<RowBand, 3> bands = {band(layer - 1), band(layer), band(layer + 1)};
-      mark_candidates(bands[1], columns, floor, marks.data());
-      for (int column = kBorder_px; column < columns - kBorder_px; ++column) {
-        if (marks[static_cast<std::size_t>(column)] == 0 || !is_extremum(bands, column)) continue;
+      find_candidates(bands[1], kBorder_px, columns - kBorder_px, floor, found);
+      for (const int column : found) {
+        if (!is_extremum(bands, column)) continue;
         const auto point = refined(octave, static_cast<int>(layer), row, column, contrast);
         if (point) points.push_back(*point);
       }
@@ -245,13 +243,15 @@ void UprightSift::describe(const SiftPoint& point, float* descriptor) const {
   // What depends on the column alone: its cell, its share of it, its weight (a Gaussian of half the window).
   const auto weight = [&](float cells) { return std::exp(-cells * cells / (0.5F * kCells * kCells)); };
   thread_local std::vector<float> buffer;
-  buffer.resize(static_cast<std::size_t>(count) * 6);
+  const int rows = last_row - first_row + 1;
+  const int pixels = rows * count;
+  buffer.resize(static_cast<std::size_t>(pixels) * 4 + static_cast<std::size_t>(count) * 2);
   float* column_share = buffer.data();
   float* column_weight = column_share + count;
-  float* across = column_weight + count;
-  float* down = across + count;
-  float* angle_deg = down + count;
-  float* magnitude = angle_deg + count;
+  float* across = column_weight + count;  // of all pixels, row by row, as the next three
+  float* down = across + pixels;
+  float* angles_deg = down + pixels;
+  float* magnitudes = angles_deg + pixels;
   thread_local std::vector<int> column_cell;
   column_cell.resize(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
@@ -262,18 +262,24 @@ void UprightSift::describe(const SiftPoint& point, float* descriptor) const {
     column_share[i] = place - lower;
     column_weight[i] = weight(cells);
   }
+  for (int r = 0; r < rows; ++r) {
+    const float* above = picture.ptr<float>(first_row + r - 1) + first_column;
+    const float* here = picture.ptr<float>(first_row + r) + first_column;
+    const float* below = picture.ptr<float>(first_row + r + 1) + first_column;
+    float* row_across = across + static_cast<std::ptrdiff_t>(r) * count;
+    float* row_down = down + static_cast<std::ptrdiff_t>(r) * count;
+    for (int i = 0; i < count; ++i) {
+      row_across[i] = here[i + 1] - here[i - 1];
+      row_down[i] = below[i] - above[i];
+    }
+  }
+  cv::hal::fastAtan32f(down, across, angles_deg, pixels, true);
+  cv::hal::magnitude32f(across, down, magnitudes, pixels);
   // A margin of one cell and one direction takes what falls outside; directions wrap at the end.
   std::array<std::array<std::array<float, kDirections + 2>, kCells + 2>, kCells + 2> cells{};
   for (int row = first_row; row <= last_row; ++row) {
-    const float* above = picture.ptr<float>(row - 1) + first_column;
-    const float* here = picture.ptr<float>(row) + first_column;
-    const float* below = picture.ptr<float>(row + 1) + first_column;
-    for (int i = 0; i < count; ++i) {
-      across[i] = here[i + 1] - here[i - 1];
-      down[i] = below[i] - above[i];
-    }
-    cv::hal::fastAtan32f(down, across, angle_deg, count, true);
-    cv::hal::magnitude32f(across, down, magnitude, count);
+    const float* angle_deg = angles_deg + static_cast<std::ptrdiff_t>(row - first_row) * count;
+    const float* magnitude = magnitudes + static_cast<std::ptrdiff_t>(row - first_row) * count;
     const float from_centre = (static_cast<float>(row) - v) / cell_px;
     const float place = from_centre + kCells * 0.5F - 0.5F;
     const float lower = std::floor(place);

@@ -25,6 +25,10 @@ class UprightSift {
 
   /// `grey` is 8 bits, one channel. Costs the scale space: about 2/3 of all.
   explicit UprightSift(const cv::Mat& grey);
+  /// The thread that it ends in keeps the memory for its next one.
+  ~UprightSift();
+  UprightSift(const UprightSift&) = delete;
+  UprightSift& operator=(const UprightSift&) = delete;
 
   /// Extrema of the scale space of at least `contrast` (Lowe's threshold; picture over 0..1) that are no edges.
   /// Row by row, octave by octave; the same picture gives the same points in the same order.

@@ -95,10 +95,11 @@ Result<PlanarEstimate> estimate_general(std::span<const Correspondence> correspo
   fit_config.start_spread_rad = 0.5 * config.planar.max_error_rad;
   fit_config.most_spread_rad = 0.75 * config.planar.max_error_rad;
   fit_config.tilt = config.tilt;
+  const MatchRows matches(correspondences);
   std::optional<MotionFit> best;
   for (const Candidate& candidate : search(correspondences, config, seed)) {
     for (const TiltedMotion& motion : motions_of(candidate.essential)) {
-      MotionFit fit = fit_motion(correspondences, motion, fit_config);
+      MotionFit fit = fit_motion(matches, motion, fit_config);
       if (!best || fit.log_likelihood > best->log_likelihood) best = std::move(fit);
     }
   }

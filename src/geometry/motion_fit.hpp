@@ -9,11 +9,6 @@
 
 namespace homeward::geometry {
 
-/// The share of the turns about the vertical of either bearing of a match that would bring it within `window_rad` of
-/// the epipolar constraint `essential`: how easily a wrong match at these elevations passes. 1 near the horizon of a
-/// planar motion, where every match does.
-double chance_share(const Eigen::Matrix3d& essential, const Correspondence& match, double window_rad);
-
 struct FitConfig {
   double start_spread_rad = 0.003;   // of the residuals of right matches
   double least_spread_rad = 0.0003;  // no eye is more exact
@@ -40,6 +35,7 @@ struct MotionFit {
 /// and of any size (Torr & Zisserman, MLESAC, 2000, with an outlier density for each match, and with a share of right
 /// ones for each match: Tordoff & Murray, Guided-MLESAC, 2005). The direction may come out
 /// reversed: that with more matches in front is taken.
+MotionFit fit_motion(const MatchRows& matches, const TiltedMotion& start, const FitConfig& config);
 MotionFit fit_motion(std::span<const Correspondence> correspondences, const TiltedMotion& start,
                      const FitConfig& config);
 

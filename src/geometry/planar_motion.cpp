@@ -137,14 +137,12 @@ std::vector<Candidate> search(std::span<const Correspondence> correspondences, c
 }
 
 /// From a planar motion that holds loosely to one, slightly tilted, that holds tightly.
-TiltedMotion tightened(const PlanarMotion& planar, std::span<const Correspondence> correspondences,
-                       const PlanarRansacConfig& config) {
+TiltedMotion tightened(const PlanarMotion& planar, const MatchRows& matches, const PlanarRansacConfig& config) {
   TiltedMotion motion{planar};
   for (int step = 0; step < config.refinements; ++step) {
     const double share = static_cast<double>(step) / std::max(1, config.refinements - 1);
     const double bound_rad = config.search_error_rad * std::pow(config.max_error_rad / config.search_error_rad, share);
-    refine_tilted(correspondences, matches_within(bound_rad, motion, correspondences), 0.5 * bound_rad, config.tilt,
-                  motion);
+    refine_tilted(matches, bound_rad, 0.5 * bound_rad, config.tilt, motion);
   }
   return motion;
 }
@@ -165,12 +163,13 @@ struct Judged {
 /// The likeliest motion among the candidates, optimised.
 Judged judge(std::span<const Correspondence> correspondences, const std::vector<Candidate>& candidates,
              const PlanarRansacConfig& config) {
+  const MatchRows matches(correspondences);
   std::vector<MotionFit> fits;
   FitConfig quick = fit_config(config);
   quick.steps = 2;
   for (const Candidate& candidate : candidates) {
     if (static_cast<int>(fits.size()) == config.candidates) break;
-    fits.push_back(fit_motion(correspondences, tightened(candidate.motion, correspondences, config), quick));
+    fits.push_back(fit_motion(matches, tightened(candidate.motion, matches, config), quick));
   }
   // That a repetition looks alike is one coincidence, however many matches it is made of.
   for (MotionFit& fit : fits) {
@@ -185,9 +184,9 @@ Judged judge(std::span<const Correspondence> correspondences, const std::vector<
   }
   const double lead = best->log_likelihood - rival;
   FitConfig full = fit_config(config);
-  MotionFit tilted = fit_motion(correspondences, best->motion, full);
+  MotionFit tilted = fit_motion(matches, best->motion, full);
   full.level = true;
-  MotionFit level = fit_motion(correspondences, best->motion, full);
+  MotionFit level = fit_motion(matches, best->motion, full);
   // Three angles more must gain what they cost (Schwarz 1978).
   const double right = std::max(1.0, tilted.share * static_cast<double>(correspondences.size()));
   const bool tilts_pay = tilted.log_likelihood - level.log_likelihood > 1.5 * std::log(right);

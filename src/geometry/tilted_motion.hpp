@@ -2,9 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "geometry/match_rows.hpp"
 #include "geometry/planar_motion.hpp"
 
 namespace homeward::geometry {
@@ -35,19 +38,35 @@ class EpipolarError {
   /// The same with its slope along each angle, the gradient that it is divided by held.
   [[nodiscard]] double operator()(const Correspondence& correspondence, MotionAngles& slope) const;
   [[nodiscard]] const Eigen::Matrix3d& essential() const { return essential_; }
+  /// Of the essential matrix, column by column, along each angle.
+  [[nodiscard]] const Eigen::Matrix<double, 5, 9>& slopes() const { return slopes_; }
 
  private:
   Eigen::Matrix3d essential_;
-  Eigen::Matrix<double, 5, 9> slopes_;  // of the essential matrix, column by column
+  Eigen::Matrix<double, 5, 9> slopes_;
+};
+
+/// Sums of weighted squares of slopes along a motion's angles, and of slopes times errors.
+class NormalEquations {
+ public:
+  /// One match; its slopes lie `stride` numbers apart.
+  void add(double weight, double error, const double* slopes, std::size_t stride);
+  [[nodiscard]] Eigen::Matrix<double, 5, 5> curvature() const;
+  [[nodiscard]] MotionAngles gradient() const;
+
+ private:
+  std::array<double, 15> lower_{};  // triangle of the curvature, row by row
+  std::array<double, 5> gradient_{};
 };
 
 /// The matches whose epipolar error is below the bound, ascending.
+std::vector<int> matches_within(double bound_rad, const TiltedMotion& motion, const MatchRows& matches);
 std::vector<int> matches_within(double bound_rad, const TiltedMotion& motion,
                                 std::span<const Correspondence> correspondences);
 
-/// One Gauss-Newton step with Cauchy weights of `scale_rad` on the correspondences named by `inliers`, all five angles
-/// free within the prior. Returns the curvature of (direction, turn) after the other angles are taken out (Schur).
-Eigen::Matrix2d refine_tilted(std::span<const Correspondence> correspondences, const std::vector<int>& inliers,
-                              double scale_rad, const TiltPrior& prior, TiltedMotion& motion);
+/// One Gauss-Newton step with Cauchy weights of `scale_rad`, all five angles free within the prior, on the matches
+/// whose epipolar error is below `bound_rad`.
+void refine_tilted(const MatchRows& matches, double bound_rad, double scale_rad, const TiltPrior& prior,
+                   TiltedMotion& motion);
 
 }  // namespace homeward::geometry

@@ -128,6 +128,142 @@ __attribute__((target("avx2"))) NearestNeighbours compare_avx2(const ByteDescrip
   return nearest;
 }
 
+/// Target descriptors laid out for `compare_vnni`: blocks of sixteen, within a block fours of dimensions, for each the
+/// sixteen descriptors' four bytes. Blocks are filled up with descriptors that are never near.
+struct WideBlocks {
+  static constexpr std::size_t kWide = 16;  // 32-bit numbers of one AVX-512 register
+  std::size_t fours = 0;
+  std::vector<std::uint8_t> numbers;
+  std::vector<std::int32_t> squared_norms;  // of the descriptors about 128
+
+  explicit WideBlocks(const ByteDescriptors& descriptors) {
+    const auto count = static_cast<std::size_t>(descriptors.rows());
+    const auto length = static_cast<std::size_t>(descriptors.cols());
+    fours = (length + 3) / 4;
+    const std::size_t blocks = (count + kWide - 1) / kWide;
+    numbers.assign(blocks * fours * 4 * kWide, 0);
+    constexpr std::int32_t kNeverNear = 1 << 29;
+    squared_norms.assign(blocks * kWide, kNeverNear);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint8_t* from = descriptors.data() + i * length;
+      std::uint8_t* to = numbers.data() + (i / kWide * fours * kWide + i % kWide) * 4;
+      std::int32_t squares = 0;
+      for (std::size_t d = 0; d < length; ++d) {
+        const std::int32_t number = from[d] - 128;
+        to[d / 4 * 4 * kWide + d % 4] = from[d];
+        squares += number * number;
+      }
+      squared_norms[i] = squares;
+    }
+  }
+};
+
+/// Best and second best of one current descriptor, one in each lane.
+struct WideBest {
+  __m512i best;
+  __m512i second;
+  __m512i index;
+};
+
+/// What of one current descriptor goes into each comparison: fours of its numbers about 128, and |a|^2 + 256 sum(a).
+struct WideRow {
+  std::vector<std::int32_t> fours;
+  std::int32_t offset = 0;
+
+  void set(const std::uint8_t* numbers, std::size_t length) {
+    std::ranges::fill(fours, 0);
+    std::int32_t squares = 0;
+    std::int32_t sum = 0;
+    for (std::size_t d = 0; d < length; ++d) {
+      const std::int32_t number = numbers[d] - 128;
+      squares += number * number;
+      sum += number;
+      fours[d / 4] |= static_cast<std::int32_t>((static_cast<std::uint32_t>(number) & 0xFFU) << (d % 4 * 8));
+    }
+    offset = squares + 256 * sum;
+  }
+};
+
+__attribute__((target("avx512f,avx512vnni"))) inline void take(WideBest& row, __m512i distance, __m512i index) {
+  row.second = _mm512_min_epi32(row.second, _mm512_max_epi32(row.best, distance));
+  row.index = _mm512_mask_mov_epi32(row.index, _mm512_cmpgt_epi32_mask(row.best, distance), index);
+  row.best = _mm512_min_epi32(row.best, distance);
+}
+
+/// The nearest of all lanes' bests into `nearest`.
+__attribute__((target("avx512f,avx512vnni"))) inline void finish(const WideBest& row, std::size_t at, bool has_second,
+                                                                 NearestNeighbours& nearest) {
+  const std::int32_t best = _mm512_reduce_min_epi32(row.best);
+  const __mmask16 equal = _mm512_cmpeq_epi32_mask(row.best, _mm512_set1_epi32(best));
+  const std::int32_t index = _mm512_mask_reduce_min_epi32(equal, row.index);
+  const __mmask16 winner = _mm512_mask_cmpeq_epi32_mask(equal, row.index, _mm512_set1_epi32(index));
+  nearest.of_current[at] = index;
+  nearest.distance[at] = best;
+  nearest.second_distance[at] =
+      has_second ? _mm512_reduce_min_epi32(_mm512_mask_mov_epi32(row.best, winner, row.second)) : kFar;
+}
+
+/// Sixteen targets at a time and two current descriptors: with a about 128 and b as it is,
+/// |a - b|^2 = |a|^2 + |b|^2 - 2 (a.b - 128 sum(a)). `Fours` of dimensions; 0: as many as there are.
+template <std::size_t Fours>
+__attribute__((target("avx512f,avx512vnni"))) NearestNeighbours compare_vnni(const ByteDescriptors& current,
+                                                                             const ByteDescriptors& target) {
+  constexpr std::size_t kWide = WideBlocks::kWide;
+  NearestNeighbours nearest = nothing_yet(current.rows(), target.rows());
+  const WideBlocks blocks(target);
+  const std::size_t fours = Fours == 0 ? blocks.fours : Fours;
+  const std::size_t block_count = blocks.squared_norms.size() / kWide;
+  const auto length = static_cast<std::size_t>(current.cols());
+  const auto count = static_cast<std::size_t>(current.rows());
+  std::vector<std::int32_t> target_distance(blocks.squared_norms.size(), kFar);
+  std::vector<std::int32_t> target_index(blocks.squared_norms.size(), 0);
+  WideRow even{std::vector<std::int32_t>(fours)};
+  WideRow odd = even;
+  for (std::size_t i = 0; i < count; i += 2) {
+    const std::size_t second_row = std::min(i + 1, count - 1);  // the last one twice: equals change nothing
+    even.set(current.data() + i * length, length);
+    odd.set(current.data() + second_row * length, length);
+    WideBest of_even{_mm512_set1_epi32(kFar), _mm512_set1_epi32(kFar), _mm512_setzero_si512()};
+    WideBest of_odd = of_even;
+    __m512i index = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const std::int32_t* const even_fours = even.fours.data();
+    const std::int32_t* const odd_fours = odd.fours.data();
+    for (std::size_t b = 0; b < block_count; ++b) {
+      const std::uint8_t* numbers = blocks.numbers.data() + b * fours * 4 * kWide;
+      __m512i even_product = _mm512_setzero_si512();
+      __m512i odd_product = _mm512_setzero_si512();
+      for (std::size_t f = 0; f < fours; ++f) {
+        const __m512i four = _mm512_loadu_si512(numbers + f * 4 * kWide);
+        even_product = _mm512_dpbusd_epi32(even_product, four, _mm512_set1_epi32(even_fours[f]));
+        odd_product = _mm512_dpbusd_epi32(odd_product, four, _mm512_set1_epi32(odd_fours[f]));
+      }
+      const __m512i norms = _mm512_loadu_si512(blocks.squared_norms.data() + b * kWide);
+      const __m512i even_distance =
+          _mm512_sub_epi32(_mm512_add_epi32(norms, _mm512_set1_epi32(even.offset)), _mm512_slli_epi32(even_product, 1));
+      const __m512i odd_distance =
+          _mm512_sub_epi32(_mm512_add_epi32(norms, _mm512_set1_epi32(odd.offset)), _mm512_slli_epi32(odd_product, 1));
+      take(of_even, even_distance, index);
+      take(of_odd, odd_distance, index);
+      index = _mm512_add_epi32(index, _mm512_set1_epi32(kWide));
+
+      __m512i known = _mm512_loadu_si512(target_distance.data() + b * kWide);
+      __m512i known_index = _mm512_loadu_si512(target_index.data() + b * kWide);
+      known_index = _mm512_mask_mov_epi32(known_index, _mm512_cmpgt_epi32_mask(known, even_distance),
+                                          _mm512_set1_epi32(static_cast<std::int32_t>(i)));
+      known = _mm512_min_epi32(known, even_distance);
+      known_index = _mm512_mask_mov_epi32(known_index, _mm512_cmpgt_epi32_mask(known, odd_distance),
+                                          _mm512_set1_epi32(static_cast<std::int32_t>(second_row)));
+      known = _mm512_min_epi32(known, odd_distance);
+      _mm512_storeu_si512(target_distance.data() + b * kWide, known);
+      _mm512_storeu_si512(target_index.data() + b * kWide, known_index);
+    }
+    finish(of_even, i, target.rows() > 1, nearest);
+    finish(of_odd, second_row, target.rows() > 1, nearest);
+  }
+  std::copy_n(target_index.begin(), nearest.of_target.size(), nearest.of_target.begin());
+  return nearest;
+}
+
 #endif
 
 }  // namespace
@@ -160,11 +296,24 @@ NearestNeighbours find_nearest_portable(const ByteDescriptors& current, const By
   return nearest;
 }
 
-NearestNeighbours find_nearest(const ByteDescriptors& current, const ByteDescriptors& target) {
+NearestNeighbours find_nearest_avx2(const ByteDescriptors& current, const ByteDescriptors& target) {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2")) return compare_avx2(current, target);
 #endif
   return find_nearest_portable(current, target);
+}
+
+NearestNeighbours find_nearest(const ByteDescriptors& current, const ByteDescriptors& target) {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512vnni")) {
+    constexpr Eigen::Index kUsualLength = 32;  // of a SIFT code
+    return current.cols() == kUsualLength ? compare_vnni<kUsualLength / 4>(current, target)
+                                          : compare_vnni<0>(current, target);
+  }
+  return find_nearest_avx2(current, target);
+#else
+  return find_nearest_portable(current, target);
+#endif
 }
 
 }  // namespace homeward::matching

@@ -24,6 +24,9 @@ struct NearestNeighbours {
 /// descriptor, all of the same length, at most 1024.
 NearestNeighbours find_nearest(const ByteDescriptors& current, const ByteDescriptors& target);
 
+/// The same with instructions that most processors have (AVX2), or without: the same numbers.
+NearestNeighbours find_nearest_avx2(const ByteDescriptors& current, const ByteDescriptors& target);
+
 /// The same without special instructions, for other processors: the same numbers, slower.
 NearestNeighbours find_nearest_portable(const ByteDescriptors& current, const ByteDescriptors& target);
 

@@ -27,6 +27,9 @@ Result<LoopDetector> LoopDetector::create(const LoopConfig& config) {
     return fail(ErrorCode::kInvalidInput, "The gap and the numbers of pictures to compare are 1 or more.",
                 "loop_config");
   }
+  if (config.most_kept <= config.gap) {
+    return fail(ErrorCode::kInvalidInput, "More pictures have to be kept than the gap is long.", "loop_config");
+  }
   if (!(config.least_score >= 0.0 && config.least_score <= 1.0)) {
     return fail(ErrorCode::kInvalidInput, "The least score is not within 0 to 1.", "loop_config");
   }
@@ -44,16 +47,26 @@ Status LoopDetector::learn() {
   auto index = matching::RetrievalIndex::create(std::move(*vocabulary));
   if (!index) return pass_on(index);
   index_.emplace(std::move(*index));
-  for (std::size_t i = 0; i + 1 < old_enough_; ++i) {
+  for (std::size_t i = forgotten_; i + 1 < old_enough_; ++i) {
     if (Status added = remember(i); !added) return added;
   }
-  learn_at_ = seen_.size() < kLearnFrom ? kLearnAgain * seen_.size() : 0;
+  learn_at_ = count() < kLearnFrom ? kLearnAgain * count() : 0;
   return {};
 }
 
 Status LoopDetector::remember(std::size_t picture) {
-  if (!index_ || seen_[picture].sift.size() == 0) return {};
-  return index_->add(std::to_string(picture), seen_[picture].sift);
+  if (!index_ || seen(picture).sift.size() == 0) return {};
+  return index_->add(std::to_string(picture), seen(picture).sift);
+}
+
+Status LoopDetector::forget_oldest() {
+  const std::string id = std::to_string(forgotten_);
+  if (index_ && index_->contains(id)) {
+    if (Status removed = index_->remove(id); !removed) return removed;
+  }
+  seen_.pop_front();
+  ++forgotten_;
+  return {};
 }
 
 std::vector<std::size_t> LoopDetector::shortlist() const {
@@ -63,7 +76,7 @@ std::vector<std::size_t> LoopDetector::shortlist() const {
     pictures.push_back(std::stoul(one.id));
   }
   if (last_) {
-    const std::size_t first = last_->picture - std::min(last_->picture, kBeside);
+    const std::size_t first = std::max(forgotten_, last_->picture - std::min(last_->picture, kBeside));
     for (std::size_t i = first; i < std::min(old_enough_, last_->picture + kBeside + 1); ++i) {
       if (std::ranges::find(pictures, i) == pictures.end()) pictures.push_back(i);
     }
@@ -75,14 +88,14 @@ std::optional<Loop> LoopDetector::best_of(const std::vector<std::size_t>& pictur
   const features::Appearance& here = seen_.back();
   std::vector<std::pair<std::size_t, std::size_t>> alike;  // matches, picture
   for (const std::size_t picture : pictures) {
-    alike.emplace_back(matching::match(here.sift, seen_[picture].sift, config_.verify.match).size(), picture);
+    alike.emplace_back(matching::match(here.sift, seen(picture).sift, config_.verify.match).size(), picture);
   }
   std::ranges::sort(
       alike, [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
   alike.resize(std::min(alike.size(), static_cast<std::size_t>(config_.verified)));
   std::optional<Loop> best;
   for (const auto& [matches, picture] : alike) {
-    const auto compared = matching::compare(here, seen_[picture], config_.verify, config_.seed);
+    const auto compared = matching::compare(here, seen(picture), config_.verify, config_.seed);
     if (!compared.pose) continue;
     const double score = compared.pose->confidence / (1.0 + compared.distance);
     if (score >= config_.least_score && (!best || score > best->score)) best = Loop{picture, score};
@@ -97,10 +110,13 @@ Result<std::optional<Loop>> LoopDetector::see(features::Appearance appearance) {
   }
   descriptor_length_ = length;
   seen_.push_back(std::move(appearance));
+  if (seen_.size() > static_cast<std::size_t>(config_.most_kept)) {
+    if (Status forgotten = forget_oldest(); !forgotten) return pass_on(forgotten);
+  }
   const auto gap = static_cast<std::size_t>(config_.gap);
-  if (seen_.size() <= gap) return std::optional<Loop>();
-  old_enough_ = seen_.size() - gap;
-  if (learn_at_ != 0 && seen_.size() >= learn_at_) {
+  if (count() <= gap) return std::optional<Loop>();
+  old_enough_ = count() - gap;
+  if (learn_at_ != 0 && count() >= learn_at_) {
     if (Status learnt = learn(); !learnt) return pass_on(learnt);
   }
   if (Status added = remember(old_enough_ - 1); !added) return pass_on(added);

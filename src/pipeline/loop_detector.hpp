@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct LoopConfig {
   int gap = 20;              // pictures by which a match is older, at least
   int shortlist = 8;         // pictures that look most alike as a whole: their features are matched
   int verified = 3;          // ... of these, with the most matches: held against one motion of the robot
+  int most_kept = 20'000;    // pictures that a match may be among: the oldest are forgotten. 20 kB each
   double least_score = 0.3;  // below, nothing is said; 0 to 1
   matching::VerifyConfig verify{};
   std::uint64_t seed = 1;
@@ -40,7 +42,7 @@ struct Loop {
 /// Earlier answers bring in candidates and do not change a score. Deterministic: the same pictures give the same loops.
 class LoopDetector {
  public:
-  /// Errors: kInvalidInput (a number below 1, a score not within 0 to 1).
+  /// Errors: kInvalidInput (a number below 1, no more pictures kept than the gap, a score not within 0 to 1).
   static Result<LoopDetector> create(const LoopConfig& config);
 
   /// The match of the next picture, if there is one. A picture without features is like none.
@@ -51,12 +53,16 @@ class LoopDetector {
   explicit LoopDetector(const LoopConfig& config);
   Status learn();
   Status remember(std::size_t picture);
+  Status forget_oldest();
+  [[nodiscard]] std::size_t count() const { return forgotten_ + seen_.size(); }
+  [[nodiscard]] const features::Appearance& seen(std::size_t picture) const { return seen_[picture - forgotten_]; }
   [[nodiscard]] std::vector<std::size_t> shortlist() const;
   [[nodiscard]] std::optional<Loop> best_of(const std::vector<std::size_t>& pictures) const;
 
   LoopConfig config_;
-  std::vector<features::Appearance> seen_;
-  std::size_t old_enough_ = 0;                     // so many of them, the first ones
+  std::deque<features::Appearance> seen_;          // that are kept
+  std::size_t forgotten_ = 0;                      // before them
+  std::size_t old_enough_ = 0;                     // so many of all, the first ones
   std::optional<matching::RetrievalIndex> index_;  // of those
   std::size_t learn_at_;                           // so many pictures seen; 0: never again
   Eigen::Index descriptor_length_ = 0;             // of the first picture with features; 0: none yet

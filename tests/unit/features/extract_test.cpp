@@ -125,6 +125,26 @@ TEST(Extract, IsTheSameEveryTime) {
   EXPECT_EQ(once.colour_moments, twice.colour_moments);
 }
 
+TEST(Extract, ADifferentCameraBetweenTwoPicturesChangesNothing) {
+  const Appearance before = extract(sample_panorama(), {});
+  camera::Panorama half = sample_panorama();
+  for (std::size_t i = 0; i < half.valid.size(); i += 2) half.valid[i] = 0;
+  EXPECT_EQ(extract(half, {}).size(), 0);  // not one pixel with all of its neighbours
+  PaintedRoom room;
+  const camera::Panorama panorama = painted_panorama(room, {0.1, 0.1, 0.0});
+  camera::Panorama upper = panorama;
+  std::fill(upper.valid.begin() + static_cast<std::ptrdiff_t>(upper.valid.size() / 2), upper.valid.end(), 0);
+  const Appearance upper_half = extract(upper, {});
+  for (int i = 0; i < upper_half.sift.size(); ++i) {
+    EXPECT_GT(std::asin(static_cast<double>(upper_half.sift.bearings(i, 2))), -0.35);
+  }
+  const Appearance after = extract(sample_panorama(), {});
+  EXPECT_EQ(after.sift.descriptors, before.sift.descriptors);
+  EXPECT_EQ(after.sift.bearings, before.sift.bearings);
+  EXPECT_EQ(after.columns.descriptors, before.columns.descriptors);
+  EXPECT_EQ(after.columns.bearings, before.columns.bearings);
+}
+
 TEST(Extract, ATurnMovesFeaturesAndChangesNothingElse) {
   // 341 columns: features at the old seam come to lie in the middle and others at the seam. All features are kept, so
   // that which sector a feature falls into does not matter.

@@ -37,10 +37,9 @@ TEST(EpipolarError, IsZeroForTheTiltedTruth) {
 
 TEST(RefineTilted, FindsDirectionTurnAndTilt) {
   const PlanarScene scene = tilted_scene(80, 0.0, 0.0, 0.03, -0.02, 6);
-  std::vector<int> all;
-  for (int i = 0; i < 80; ++i) all.push_back(i);
   TiltedMotion motion{{scene.truth.direction_rad + 0.1, scene.truth.turn_rad - 0.05}};
-  for (int step = 0; step < 20; ++step) refine_tilted(scene.correspondences, all, 0.05, {1.0, 1.0}, motion);
+  const MatchRows matches(scene.correspondences);
+  for (int step = 0; step < 20; ++step) refine_tilted(matches, 1.0, 0.05, {1.0, 1.0}, motion);
   EXPECT_NEAR(wrap_angle(motion.planar.direction_rad - scene.truth.direction_rad), 0.0, 1e-4);
   EXPECT_NEAR(wrap_angle(motion.planar.turn_rad - scene.truth.turn_rad), 0.0, 1e-4);
   EXPECT_NEAR(motion.roll_rad, 0.03, 1e-4);
@@ -49,7 +48,7 @@ TEST(RefineTilted, FindsDirectionTurnAndTilt) {
 
 TEST(RefineTilted, WithoutMatchesThePriorHoldsTheTilt) {
   TiltedMotion motion{{0.5, 0.2}, 0.01, 0.02, -0.02};
-  for (int step = 0; step < 5; ++step) refine_tilted({}, {}, 0.003, {}, motion);
+  for (int step = 0; step < 5; ++step) refine_tilted(MatchRows({}), 1.0, 0.003, {}, motion);
   EXPECT_NEAR(motion.elevation_rad, 0.0, 1e-3);
   EXPECT_NEAR(motion.roll_rad, 0.0, 1e-3);
   EXPECT_NEAR(motion.planar.direction_rad, 0.5, 1e-9);

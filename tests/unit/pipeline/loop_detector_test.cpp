@@ -71,6 +71,27 @@ TEST(LoopDetector, FindsTheSameRoomAgainAndNothingOnTheFirstRound) {
   }
 }
 
+TEST(LoopDetector, ForgetsTheOldestPicturesAndCountsOn) {
+  const Walk walk = walk_in_rounds(3, 3);
+  const int round = static_cast<int>(walk.pictures.size()) / 3;
+  const auto all = loops_of(walk, {.gap = kGap});
+  const int kept = round + 2;  // of the round before, hardly more than the same place
+  const auto found = loops_of(walk, {.gap = kGap, .most_kept = kept});
+  int matches = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (i < static_cast<std::size_t>(kept)) {
+      ASSERT_EQ(found[i].has_value(), all[i].has_value()) << i;
+      EXPECT_EQ(found[i] ? found[i]->picture : 0, all[i] ? all[i]->picture : 0) << i;
+    }
+    if (!found[i]) continue;
+    ++matches;
+    EXPECT_GE(found[i]->picture + static_cast<std::size_t>(kept), i + 1) << i;
+    EXPECT_EQ(walk.room[found[i]->picture], walk.room[i]) << i;
+  }
+  EXPECT_GT(matches, round);
+  EXPECT_FALSE(LoopDetector::create({.gap = 20, .most_kept = 20}));
+}
+
 TEST(LoopDetector, AMatchIsOldEnough) {
   const Walk walk = walk_in_rounds(1, 6);  // every picture is like every other one
   for (const int gap : {1, 7, 12}) {

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core.hpp>
+
+namespace homeward::features {
+
+/// A picture of 32-bit floating point numbers, blurred: what cv::GaussianBlur gives with its own choice of kernel and
+/// border, sooner where the processor has AVX2 and fused multiply-add. `to` keeps its memory if that fits; it is not
+/// `from`.
+void gaussian_blur(const cv::Mat& from, cv::Mat& to, double sigma_px);
+
+}  // namespace homeward::features
