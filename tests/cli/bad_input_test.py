@@ -117,25 +117,6 @@ class BadCameras(CliTest):
 
 
 class BadMaps(CliTest):
-    def test_no_such_map(self):
-        self.assert_refused(3, ["none.map"], "map", "inspect", "none.map")
-        self.assert_refused(3, ["none.map"], "route", "--map", "none.map", "--from", "p1", "--to", "p2")
-
-    def test_files_that_are_no_map(self):
-        (self.folder / "text.map").write_text("This is no map.\n" * 100)
-        (self.folder / "empty.map").write_bytes(b"")
-        other = sqlite3.connect(self.folder / "other.map")
-        other.execute("CREATE TABLE cheese (name TEXT)")
-        other.commit()
-        other.close()
-        for name in ("text.map", "empty.map", "other.map"):
-            self.assert_refused(2, [name], "map", "inspect", name)
-
-    def test_half_a_map(self):
-        file = self.good_map("half.map")
-        file.write_bytes(file.read_bytes()[:file.stat().st_size // 2])
-        self.assert_refused(2, ["half.map"], "map", "inspect", "half.map")
-
     def test_unknown_place(self):
         self.good_map()
         self.assert_refused(3, ["cellar"], "route", "--map", "good.map", "--from", "p1", "--to", "cellar")
@@ -143,6 +124,8 @@ class BadMaps(CliTest):
 
     def test_no_route(self):
         database = sqlite3.connect(self.good_map())
+        database.execute("PRAGMA user_version = 2")  # the version before checksums: its rows may be changed
+        database.execute("DELETE FROM meta WHERE key = 'checksum'")
         database.execute("DELETE FROM edges")
         database.commit()
         database.close()
