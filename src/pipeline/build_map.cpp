@@ -11,6 +11,7 @@
 #include "mapping/parallel.hpp"
 #include "pipeline/eye.hpp"
 #include "pipeline/learn_calibration.hpp"
+#include "pipeline/picture_frame.hpp"
 #include "pipeline/tour_check.hpp"
 
 namespace homeward::pipeline {
@@ -112,7 +113,9 @@ struct SeenPictures {
 Result<SeenPictures> look_at_all(Pictures all, const Eye& eye, int threads, const std::function<void(double)>& progress,
                                  const std::stop_token& stop) {
   const std::size_t count = all.images.size();
+  const FrameSampler sampler(eye.camera());
   std::vector<PictureSize> sizes(count);
+  std::vector<PictureFrame> frames(count);
   std::vector<std::optional<Error>> troubles(count);
   SeenPictures seen;
   seen.appearances.resize(count);
@@ -126,6 +129,7 @@ Result<SeenPictures> look_at_all(Pictures all, const Eye& eye, int threads, cons
     auto appearance = eye.look(*picture);
     if (appearance) {
       seen.appearances[i] = std::move(*appearance);
+      frames[i] = sampler.sample(*picture);
     } else {
       troubles[i] = appearance.error();
     }
@@ -138,6 +142,7 @@ Result<SeenPictures> look_at_all(Pictures all, const Eye& eye, int threads, cons
     if (troubles[i]) troubles[i]->where = all.images[i].id.str();
   }
   if (const Status sized = check_sizes(all.images, sizes, eye.camera().config()); !sized) return pass_on(sized);
+  if (const Status one = check_one_camera(all.images, frames); !one) return pass_on(one);
   seen.skipped = leave_out(all, seen.appearances, troubles);
   if (const Status enough = check_left(seen.skipped, all.images.size()); !enough) return pass_on(enough);
   seen.pictures = std::move(all);
@@ -214,9 +219,12 @@ Result<BuiltMap> build_noted_map(const std::vector<const TourSource*>& tours, co
   std::vector<features::Appearance>* appearances = &seen->appearances;
   if (const Status textured = check_texture(*pictures, *appearances); !textured) return pass_on(textured);
 
+  if (const Status moved = check_motion(pictures->images, *appearances, options.seed); !moved) return pass_on(moved);
   auto pairs = mapping::compare_all(*appearances, pictures->tour_of, {}, options.seed, options.threads,
                                     stage("compare", kFeaturesShare, kCompareShare), stop);
   if (!pairs) return pass_on(pairs);
+  auto warnings = check_order(pictures->images, pictures->tour_of, *pairs);
+  if (!warnings) return pass_on(warnings);
 
   stage("cluster", kFeaturesShare + kCompareShare, 0.0)(0.0);
   const mapping::MappingInput input{pictures->images, pictures->tour_of, *appearances, pictures->marks, &*pairs};
