@@ -246,7 +246,7 @@ Result<BuiltMap> build_noted_map(const std::vector<const TourSource*>& tours, co
                    std::move(*pairs),
                    std::move(made.notes),
                    std::move(seen->skipped),
-                   {}}};
+                   std::move(*warnings)}};
 }
 
 }  // namespace homeward::pipeline
