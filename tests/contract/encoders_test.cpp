@@ -7,6 +7,7 @@
 #include "contract/codecs.hpp"
 #include "contract/schema_library.hpp"
 #include "support/sample_map.hpp"
+#include "wire/build_json.hpp"
 #include "wire/error_table.hpp"
 #include "wire/event_json.hpp"
 #include "wire/graph_export.hpp"
@@ -115,6 +116,20 @@ TEST(Encoders, NameEveryStateAsTheSchemasDo) {
   for (const ErrorRow& row : error_table()) {
     EXPECT_THAT(schemas().problems("problem", problem_to_json(Error{row.code, "Why.", "here"})), IsEmpty());
   }
+}
+
+TEST(Encoders, TellWhatABuildMade) {
+  BuildView build{"house.map", {}, {}, {}};
+  EXPECT_THAT(schemas().problems("build", build_to_json(build, sample_map())), IsEmpty());
+  build = {"house.map",
+           "report/report.html",
+           {{ErrorCode::kTruncatedImage, "The JPEG ends before its last row.", "tour/00003.jpg"}},
+           {{ErrorCode::kInvalidInput, "The tour jumps.", "tour/00012.jpg"}}};
+  const json written = build_to_json(build, sample_map());
+  EXPECT_THAT(schemas().problems("build", written), IsEmpty());
+  EXPECT_EQ(written["images"], 3);
+  EXPECT_EQ(written["skipped"][0]["code"], "truncated_image");
+  EXPECT_EQ(written["warnings"][0]["image"], "tour/00012.jpg");
 }
 
 TEST(Encoders, KeepTheSecretOfALeaseToItsHolder) {
