@@ -241,12 +241,8 @@ Result<BuiltMap> build_noted_map(const std::vector<const TourSource*>& tours, co
   map.calibration = *calibration;
   stage("places", 1.0, 0.0)(0.0);
   return BuiltMap{std::move(made.map),
-                  {pictures->tour_of,
-                   std::move(*appearances),
-                   std::move(*pairs),
-                   std::move(made.notes),
-                   std::move(seen->skipped),
-                   std::move(*warnings)}};
+                  {pictures->tour_of, std::move(*appearances), std::move(*pairs), std::move(made.notes),
+                   std::move(seen->skipped), std::move(*warnings)}};
 }
 
 }  // namespace homeward::pipeline
