@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "agent/files/read_file.hpp"
 #include "agent/files/tour_folder.hpp"
@@ -17,6 +18,7 @@
 #include "pipeline/eye.hpp"
 #include "pipeline/report/report_page.hpp"
 #include "pipeline/thumbnail.hpp"
+#include "wire/build_json.hpp"
 
 namespace homeward::cli {
 namespace {
@@ -30,6 +32,7 @@ struct Options {
   int report_pictures = 60;
   int threads = 0;
   std::uint64_t seed = 1;
+  bool json = false;
 };
 
 /// Thumbnails of what a dashboard shows: prototypes and destinations.
@@ -68,14 +71,29 @@ std::string today() {
   return date.substr(std::min(date.find_first_not_of(' '), date.size()));
 }
 
-Status write_report(const Options& options, const pipeline::BuiltMap& built, const agent::TourFolder& tour) {
+/// Returns the file.
+Result<std::string> write_report(const Options& options, const pipeline::BuiltMap& built,
+                                 const agent::TourFolder& tour) {
   const pipeline::ReportOptions report{today(), options.report_pictures, options.threads, options.seed};
   const auto page = pipeline::report_page(built, {&tour}, report);
   if (!page) return pass_on(page);
   const std::filesystem::path file = std::filesystem::path(options.report) / "report.html";
-  if (Status written = agent::write_file(file, *page); !written) return written;
-  std::cout << "report: " << file.string() << "\n";
-  return {};
+  if (const Status written = agent::write_file(file, *page); !written) return pass_on(written);
+  return file.string();
+}
+
+void tell_notes(const pipeline::BuildNotes& notes) {
+  for (const Error& skipped : notes.skipped) {
+    tell({skipped.code, "A picture was left out. " + skipped.message, skipped.where});
+  }
+  if (!notes.skipped.empty()) {
+    const std::size_t all = notes.skipped.size() + notes.appearances.size();
+    tell({ErrorCode::kInvalidInput,
+          std::to_string(notes.skipped.size()) + " of " + std::to_string(all) +
+              " pictures were left out; the map is made of the others.",
+          {}});
+  }
+  for (const Error& warning : notes.warnings) tell({warning.code, "Warning: " + warning.message, warning.where});
 }
 
 Status build(const Options& options) {
@@ -104,9 +122,22 @@ Status build(const Options& options) {
   const auto thumbnails = make_thumbnails(map, *tour);
   if (!thumbnails) return pass_on(thumbnails);
   if (const Status saved = db::save_map(options.out, map, *thumbnails); !saved) return saved;
-  std::cout << map.images.size() << " pictures, " << map.places.size() << " places, " << map.edges.size() << " edges, "
-            << map.destinations.size() << " destinations: " << options.out << "\n";
-  return options.report.empty() ? Status{} : write_report(options, *built, *tour);
+  wire::BuildView view{options.out, {}, built->notes.skipped, built->notes.warnings};
+  tell_notes(built->notes);
+  if (!options.json) {
+    std::cout << map.images.size() << " pictures, " << map.places.size() << " places, " << map.edges.size()
+              << " edges, " << map.destinations.size() << " destinations: " << options.out << "\n";
+  }
+  if (!options.report.empty()) {
+    const auto report = write_report(options, *built, *tour);
+    if (!report) return pass_on(report);
+    view.report = *report;
+    if (!options.json) std::cout << "report: " << *report << "\n";
+  }
+  if (options.json) {
+    std::cout << wire::build_to_json(view, map).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+  }
+  return {};
 }
 
 }  // namespace
@@ -128,6 +159,10 @@ void register_map_build(CLI::App& map) {
   command->add_option("--threads", options->threads, "Threads (0: as many as the machine has)")
       ->check(CLI::Range(0, 256));
   command->add_option("--seed", options->seed, "Seed of everything random");
+  command->add_flag("--json", options->json, "Print one JSON object, with the pictures left out and why");
+  command->footer(
+      "Pictures that cannot be read are left out and named on standard error. A tour whose pictures all show one view, "
+      "are out of order or come from two cameras is refused.");
   run_on(*command, [options] { return build(*options); });
 }
 
