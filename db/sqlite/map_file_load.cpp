@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -123,11 +124,20 @@ void get_places(SQLite::Database& database, map::TopologicalMap& map) {
   }
 }
 
+/// Files of version 2 do not say where lengths come from: metres where every image has odometry, else images.
+map::LengthSource old_length_source(const map::TopologicalMap& map, const map::Edge& edge) {
+  if (edge.by == "person") return map::LengthSource::kUnknown;
+  const bool metric = std::all_of(map.images.begin(), map.images.end(),
+                                  [](const map::MapImage& image) { return image.odometry.has_value(); });
+  return metric ? map::LengthSource::kOdometry : map::LengthSource::kTourImages;
+}
+
 void get_edges(SQLite::Database& database, map::TopologicalMap& map) {
-  SQLite::Statement select(
-      database,
-      "SELECT from_place, to_place, bearing_rad, turn_rad, length_m, confidence, weak, blocked, by "
-      "FROM edges ORDER BY position");
+  const bool tells_source = database.execAndGet("PRAGMA user_version").getInt() >= 3;
+  SQLite::Statement select(database,
+                           std::string("SELECT from_place, to_place, bearing_rad, turn_rad, length_m, confidence, "
+                                       "weak, blocked, by") +
+                               (tells_source ? ", length_from, inliers" : "") + " FROM edges ORDER BY position");
   while (select.executeStep()) {
     map::Edge edge;
     edge.from = PlaceId(select.getColumn(0).getString());
@@ -139,6 +149,15 @@ void get_edges(SQLite::Database& database, map::TopologicalMap& map) {
     edge.weak = select.getColumn(6).getInt() != 0;
     edge.blocked = select.getColumn(7).getInt() != 0;
     edge.by = select.getColumn(8).getString();
+    edge.length_from = old_length_source(map, edge);
+    if (tells_source) {
+      const int source = select.getColumn(9).getInt();
+      if (source < 0 || source > static_cast<int>(map::LengthSource::kTourImages)) {
+        refuse("An edge has a length from an unknown source.", "edges");
+      }
+      edge.length_from = static_cast<map::LengthSource>(source);
+      edge.inliers = select.getColumn(10).getInt();
+    }
     map.edges.push_back(std::move(edge));
   }
 }
@@ -237,10 +256,11 @@ void check_kind_and_version(SQLite::Database& database) {
   const int application_id = database.execAndGet("PRAGMA application_id").getInt();
   if (application_id != kMapApplicationId) refuse("This SQLite file is not a Homeward map.");
   const int version = database.execAndGet("PRAGMA user_version").getInt();
-  if (version != kMapFileVersion) {
+  if (version < kOldestMapFileVersion || version > kMapFileVersion) {
     throw LoadFailure({ErrorCode::kUnsupportedFormat,
-                       "The map file has version " + std::to_string(version) + "; this program reads version " +
-                           std::to_string(kMapFileVersion) + ". Rebuild the map from the kept images.",
+                       "The map file has version " + std::to_string(version) + "; this program reads versions " +
+                           std::to_string(kOldestMapFileVersion) + " to " + std::to_string(kMapFileVersion) +
+                           ". Rebuild the map from the kept images.",
                        ""});
   }
 }

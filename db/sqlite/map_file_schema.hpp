@@ -5,8 +5,10 @@ namespace homeward::db {
 
 /// "HWMP" in SQLite's application_id field: what makes an SQLite file a Homeward map.
 inline constexpr int kMapApplicationId = 0x48574D50;
-/// user_version of the map file. A released schema is never edited; a newer file is refused.
-inline constexpr int kMapFileVersion = 2;
+/// user_version of the map file. A newer file is refused. Version 3 added to edges what their length was taken from and
+/// how much both ends see; files from version 2 on are read.
+inline constexpr int kMapFileVersion = 3;
+inline constexpr int kOldestMapFileVersion = 2;
 
 inline constexpr const char* kMapFileSchema = R"sql(
 CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT;
@@ -24,7 +26,8 @@ CREATE TABLE place_appearances (
 CREATE TABLE edges (
   position INTEGER PRIMARY KEY, from_place TEXT NOT NULL REFERENCES places(id),
   to_place TEXT NOT NULL REFERENCES places(id), bearing_rad REAL, turn_rad REAL, length_m REAL NOT NULL,
-  confidence REAL NOT NULL, weak INTEGER NOT NULL, blocked INTEGER NOT NULL, by TEXT NOT NULL) STRICT;
+  confidence REAL NOT NULL, weak INTEGER NOT NULL, blocked INTEGER NOT NULL, by TEXT NOT NULL,
+  length_from INTEGER NOT NULL, inliers INTEGER NOT NULL) STRICT;
 CREATE TABLE hypotheses (
   position INTEGER PRIMARY KEY, prototype_a TEXT NOT NULL, prototype_b TEXT NOT NULL, similarity REAL NOT NULL,
   before_true REAL NOT NULL, before_false REAL NOT NULL, before_unknown REAL NOT NULL,

@@ -13,6 +13,7 @@
 #include "mapping/dempster_shafer.hpp"
 #include "mapping/edges.hpp"
 #include "mapping/edits.hpp"
+#include "mapping/extra_places.hpp"
 #include "mapping/identity.hpp"
 #include "mapping/similarity.hpp"
 #include "mapping/subclusters.hpp"
@@ -283,9 +284,14 @@ NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, 
   map::TopologicalMap map;
   map.images.assign(input.images.begin(), input.images.end());
   map.places = form_places(input, parts, place_of_part, labels);
-  map.edges = form_edges(input, path, track, config, map.places, place_of_image);
+  std::vector<int> pinned = marked;
+  for (const Subcluster& part : parts) pinned.push_back(part.prototype);
+  Sights sights(input);
+  const ExtraPlaces extra = insert_extra_places(input, config, pinned, sights, map.places, place_of_image);
+  map.edges = form_edges(input, path, track, config, map.places, place_of_image, sights, extra.bridged);
   map.destinations = form_destinations(input, map.places, place_of_image);
-  MappingNotes notes{config, threshold, cluster_of, {}};
+  MappingNotes notes{config, threshold, cluster_of, {}, {}, extra.weak_before, extra.weak_after};
+  for (const int image : extra.prototypes) notes.extra.push_back(input.images[at(image)].id);
   for (const LoopHypothesis& hypothesis : hypotheses) {
     notes.way.push_back(hypothesis.way.verdict);
     map::Hypothesis kept;

@@ -69,7 +69,7 @@ TEST(Encoders, TellEverythingOfAMap) {
   EXPECT_EQ(graph["places"][1], json::parse(R"({"id":"p2","label":"kitchen","prototype":"tour/00002.jpg",
     "members":["tour/00002.jpg"],"features":20,"x":1.0,"y":0.75})"));
   EXPECT_EQ(graph["edges"][1], json::parse(R"({"from":"p2","to":"p1","bearing_rad":null,"turn_rad":null,"length_m":1.5,
-    "weak":true,"blocked":true})"));
+    "length_from":"unknown","confidence":0.1,"inliers":0,"weak":true,"blocked":true})"));
   EXPECT_EQ(graph["destinations"][0],
             json::parse(R"({"id":"d1","place":"p2","image":"tour/00002.jpg","label":"kitchen"})"));
   EXPECT_EQ(graph["hypotheses"][0]["masses_after"], json::parse(R"({"true":0.1,"false":0.8,"unknown":0.1})"));

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <set>
+#include <span>
+#include <vector>
+
+#include "mapping/edges.hpp"
+
+namespace homeward::mapping {
+
+/// What insert_extra_places did.
+struct ExtraPlaces {
+  std::vector<int> prototypes;  // images that became places of their own, in tour order of the ways they mend
+  std::set<PlacePair> bridged;  // places that were joined by a weak edge and are now joined by extra places
+  int weak_before = 0;          // pairs of places with a transition whose edge would be weak
+  int weak_after = 0;           // the same with the extra places
+};
+
+/// Puts tour images as places of their own wherever a tour went from one place to another and the edge would be weak.
+/// The image comes from between the two prototypes of that drive and is the one that both ends see best; where one of
+/// its own two edges is weak still, another is looked for on that side, up to `extra_place_depth` deep. It is done only
+/// if it helps: if all edges of the chain are sound, or the only weak one is surer than the one it replaces.
+/// `pinned`: images that stay where they are (prototypes of subclusters, marked images). Places are appended to
+/// `places`; images near a new prototype on the way move into it.
+ExtraPlaces insert_extra_places(const MappingInput& input, const MappingConfig& config, std::span<const int> pinned,
+                                Sights& sights, std::vector<map::Place>& places, std::vector<int>& place_of_image);
+
+}  // namespace homeward::mapping
