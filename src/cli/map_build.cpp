@@ -76,6 +76,13 @@ Status write_report(const Options& options, const pipeline::BuiltMap& built, con
   return {};
 }
 
+/// Where a robot is likely to fail, and what was done about it.
+void tell_of_weak_edges(const mapping::MappingNotes& notes) {
+  if (notes.weak_before == 0) return;
+  std::cout << notes.weak_before << " pairs of neighbouring places hardly see each other: " << notes.extra.size()
+            << " extra places put between them, " << notes.weak_after << " weak edges left\n";
+}
+
 Status build(const Options& options) {
   const auto tour = agent::TourFolder::open(options.tour);
   if (!tour) return pass_on(tour);
@@ -104,6 +111,7 @@ Status build(const Options& options) {
   if (const Status saved = db::save_map(options.out, map, *thumbnails); !saved) return saved;
   std::cout << map.images.size() << " pictures, " << map.places.size() << " places, " << map.edges.size() << " edges, "
             << map.destinations.size() << " destinations: " << options.out << "\n";
+  tell_of_weak_edges(built->notes.mapping);
   return options.report.empty() ? Status{} : write_report(options, *built, *tour);
 }
 

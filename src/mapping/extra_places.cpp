@@ -32,56 +32,36 @@ class Mender {
  public:
   Mender(Sights& sights, const MappingConfig& config) : sights_(sights), config_(config) {}
 
-  [[nodiscard]] bool weak(int a, int b) { return sights_.confidence(a, b) < config_.weak_below_confidence; }
-
-  /// The images between `from` and `to` that best join them, out of `free`.
-  Chain chain(int from, int to, const std::vector<int>& free) {
-    Chain found;
-    found.images = between(from, to, free, config_.extra_place_depth);
-    found.weakest = 1.0;
-    int last = from;
-    const auto add = [&](int image) {
-      const double confidence = sights_.confidence(last, image);
-      found.weak += confidence < config_.weak_below_confidence ? 1 : 0;
-      found.weakest = std::min(found.weakest, confidence);
-      last = image;
-    };
-    for (const int image : found.images) add(image);
-    add(to);
-    return found;
+  /// The images between `from` and `to` that best join them, out of `free`; none where none helps.
+  Chain chain(int from, int to, std::span<const int> free, int depth) {
+    Chain direct{{}, 0, sights_.confidence(from, to)};
+    direct.weak = direct.weakest < config_.weak_below_confidence ? 1 : 0;
+    if (direct.weak == 0 || depth <= 0 || free.empty()) return direct;
+    const int middle = best_between(from, to, free);
+    const auto split = static_cast<std::size_t>(std::ranges::lower_bound(free, middle) - free.begin());
+    Chain joined = chain(from, middle, free.first(split), depth - 1);
+    const Chain rest = chain(middle, to, free.subspan(split + 1), depth - 1);
+    joined.images.push_back(middle);
+    joined.images.insert(joined.images.end(), rest.images.begin(), rest.images.end());
+    joined.weak += rest.weak;
+    joined.weakest = std::min(joined.weakest, rest.weakest);
+    const bool helps = joined.weak == 0 || (joined.weak == 1 && joined.weakest > direct.weakest);
+    return helps ? joined : direct;
   }
 
  private:
-  std::vector<int> between(int from, int to, const std::vector<int>& free, int depth) {
-    if (depth <= 0 || free.empty()) return {};
-    const std::vector<int> candidates = thinned(free);
-    // Best seen by both; of equals the one in the middle, and of these the earlier.
-    const double middle = (candidates.front() + candidates.back()) / 2.0;
+  /// The image that both see best; of equals the one in the middle, and of these the earlier.
+  int best_between(int from, int to, std::span<const int> free) {
+    const double middle = (free.front() + free.back()) / 2.0;
     const auto key = [&](int image) {
       const double seen = std::min(sights_.confidence(from, image), sights_.confidence(image, to));
       return std::tuple(-seen, std::abs(image - middle), image);
     };
-    int best = candidates.front();
-    auto best_key = key(best);
-    for (std::size_t i = 1; i < candidates.size(); ++i) {
-      const auto candidate_key = key(candidates[i]);
-      if (!(candidate_key < best_key)) continue;
-      best = candidates[i];
-      best_key = candidate_key;
-    }
-    std::vector<int> images;
-    const auto split = std::ranges::lower_bound(free, best);
-    if (weak(from, best)) images = between(from, best, {free.begin(), split}, depth - 1);
-    images.push_back(best);
-    if (weak(best, to)) {
-      const std::vector<int> rest = between(best, to, {std::next(split), free.end()}, depth - 1);
-      images.insert(images.end(), rest.begin(), rest.end());
-    }
-    return images;
+    return std::ranges::min(thinned(free), {}, key);
   }
 
-  static std::vector<int> thinned(const std::vector<int>& images) {
-    if (images.size() <= kMostCandidates) return images;
+  static std::vector<int> thinned(std::span<const int> images) {
+    if (images.size() <= kMostCandidates) return {images.begin(), images.end()};
     std::vector<int> kept;
     for (int i = 0; i < kMostCandidates; ++i) {
       kept.push_back(images[at(i) * (images.size() - 1) / (kMostCandidates - 1)]);
@@ -107,9 +87,8 @@ std::vector<int> free_images(const Drive& drive, const std::vector<char>& pinned
   return images;
 }
 
-/// Moves the images of the drive that lie nearest to those of the chain into places of their own.
-void insert(const MappingInput& input, const Drive& drive, const Chain& chain, std::vector<map::Place>& places,
-            std::vector<int>& place_of_image) {
+/// Gives the images of a chain places of their own. Returns the index of the first.
+int add_places(const MappingInput& input, const Chain& chain, std::vector<map::Place>& places) {
   const int first_new = static_cast<int>(places.size());
   for (const int prototype : chain.images) {
     map::Place place;
@@ -118,14 +97,30 @@ void insert(const MappingInput& input, const Drive& drive, const Chain& chain, s
     place.appearances.push_back(input.appearances[at(prototype)]);
     places.push_back(std::move(place));
   }
-  const int first = std::min(chain.images.front(), drive.after.first);
-  const int last = std::max(chain.images.back(), drive.before.last);
-  for (int image = first; image <= last; ++image) {
-    const auto nearest =
-        std::ranges::min_element(chain.images, {}, [&](int prototype) { return std::abs(image - prototype); });
-    std::erase(places[at(place_of_image[at(image)])].members, input.images[at(image)].id);
-    place_of_image[at(image)] = first_new + static_cast<int>(nearest - chain.images.begin());
-    places[at(place_of_image[at(image)])].members.push_back(input.images[at(image)].id);
+  return first_new;
+}
+
+/// Moves images of a drive into the places of a chain: from the border of the two places outwards, as long as an image
+/// looks more like one of the chain than like its own place; on the drive that the chain comes from (`own`) all between
+/// the chain and the border.
+void draw_in(const MappingInput& input, const Drive& drive, const std::vector<int>& free, const Chain& chain, bool own,
+             int first_new, const std::vector<int>& prototype, std::vector<int>& place_of_image) {
+  const auto nearest = [&](int image) {
+    return std::ranges::min_element(
+        chain.images, {}, [&](int new_one) { return std::pair(input.pairs->distance(image, new_one), new_one); });
+  };
+  const auto take = [&](int image, bool certainly) {
+    const auto best = nearest(image);
+    const int present = prototype[at(place_of_image[at(image)])];
+    if (!certainly && !(input.pairs->distance(image, *best) < input.pairs->distance(image, present))) return false;
+    place_of_image[at(image)] = first_new + static_cast<int>(best - chain.images.begin());
+    return true;
+  };
+  for (int image = drive.before.last; !free.empty() && image >= free.front(); --image) {
+    if (!take(image, own && image >= chain.images.front())) break;
+  }
+  for (int image = drive.after.first; !free.empty() && image <= free.back(); ++image) {
+    if (!take(image, own && image <= chain.images.back())) break;
   }
 }
 
@@ -157,11 +152,10 @@ ExtraPlaces insert_extra_places(const MappingInput& input, const MappingConfig& 
     const Drive* best_drive = nullptr;
     Chain best;
     for (const Drive& drive : std::span(along).first(std::min<std::size_t>(along.size(), kMostDrives))) {
-      const Chain chain =
-          mender.chain(prototype[at(drive.before.place)], prototype[at(drive.after.place)], free_images(drive, stays));
-      const bool helps = !chain.images.empty() && (chain.weak == 0 || (chain.weak == 1 && chain.weakest > direct));
+      const Chain chain = mender.chain(prototype[at(drive.before.place)], prototype[at(drive.after.place)],
+                                       free_images(drive, stays), config.extra_place_depth);
       const auto key = [](const Chain& c) { return std::tuple(c.weak, c.images.size(), -c.weakest); };
-      if (!helps || (best_drive != nullptr && !(key(chain) < key(best)))) continue;
+      if (chain.images.empty() || (best_drive != nullptr && !(key(chain) < key(best)))) continue;
       best_drive = &drive;
       best = chain;
     }
@@ -172,7 +166,16 @@ ExtraPlaces insert_extra_places(const MappingInput& input, const MappingConfig& 
     extra.weak_after += best.weak;
     extra.bridged.insert(ends);
     extra.prototypes.insert(extra.prototypes.end(), best.images.begin(), best.images.end());
-    insert(input, *best_drive, best, places, place_of_image);
+    const int first_new = add_places(input, best, places);
+    for (const Drive& drive : along) {
+      draw_in(input, drive, free_images(drive, stays), best, &drive == best_drive, first_new, prototype,
+              place_of_image);
+    }
+  }
+  if (extra.bridged.empty()) return extra;
+  for (map::Place& place : places) place.members.clear();
+  for (std::size_t i = 0; i < input.images.size(); ++i) {
+    places[at(place_of_image[i])].members.push_back(input.images[i].id);
   }
   return extra;
 }

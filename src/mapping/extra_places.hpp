@@ -18,11 +18,11 @@ struct ExtraPlaces {
 };
 
 /// Puts tour images as places of their own wherever a tour went from one place to another and the edge would be weak.
-/// The image comes from between the two prototypes of that drive and is the one that both ends see best; where one of
-/// its own two edges is weak still, another is looked for on that side, up to `extra_place_depth` deep. It is done only
-/// if it helps: if all edges of the chain are sound, or the only weak one is surer than the one it replaces.
-/// `pinned`: images that stay where they are (prototypes of subclusters, marked images). Places are appended to
-/// `places`; images near a new prototype on the way move into it.
+/// The image comes from between the two prototypes of a drive and is the one that both ends see best; where one of its
+/// own two edges is weak still, another is looked for on that side, up to `extra_place_depth` deep. It is done only if
+/// it helps: if all edges of the chain are sound, or the only weak one is surer than the one it replaces. Images of all
+/// drives between the two that look more like a new place than like their own move into it.
+/// `pinned`: images that stay where they are (prototypes of subclusters, marked images). Places are appended.
 ExtraPlaces insert_extra_places(const MappingInput& input, const MappingConfig& config, std::span<const int> pinned,
                                 Sights& sights, std::vector<map::Place>& places, std::vector<int>& place_of_image);
 
