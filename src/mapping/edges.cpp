@@ -150,8 +150,7 @@ std::vector<int> prototype_images(const MappingInput& input, std::span<const map
 
 std::vector<map::Edge> form_edges(const MappingInput& input, const TourPath& path, const TourTrack& track,
                                   const MappingConfig& config, std::span<const map::Place> places,
-                                  std::span<const int> place_of_image, Sights& sights,
-                                  const std::set<PlacePair>& bridged) {
+                                  std::span<const int> place_of_image, Sights& sights) {
   const std::vector<int> prototype = prototype_images(input, places);
   const TourClock clock(input);
   std::map<PlacePair, Length> lengths;
@@ -161,7 +160,6 @@ std::vector<map::Edge> form_edges(const MappingInput& input, const TourPath& pat
     const Run& after = stretches[r];
     if (before.place == after.place || input.tour_of[at(before.last)] != input.tour_of[at(after.first)]) continue;
     const PlacePair ends = std::minmax(before.place, after.place);
-    if (bridged.contains(ends)) continue;
     const Length length =
         edge_length(input, path, track, clock, before, after, prototype[at(before.place)], prototype[at(after.place)]);
     const auto [known, is_new] = lengths.try_emplace(ends, length);

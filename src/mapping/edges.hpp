@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -29,11 +28,10 @@ std::vector<int> prototype_images(const MappingInput& input, std::span<const map
 /// Two places, the lower index first.
 using PlacePair = std::pair<int, int>;
 
-/// Every transition between places that a tour drove, in both directions, but those of `bridged`: an extra place stands
-/// between them now. `place_of_image` has an index into `places` for each image of the input.
+/// Every transition between places that a tour drove, in both directions. `place_of_image` has an index into `places`
+/// for each image of the input.
 std::vector<map::Edge> form_edges(const MappingInput& input, const TourPath& path, const TourTrack& track,
                                   const MappingConfig& config, std::span<const map::Place> places,
-                                  std::span<const int> place_of_image, Sights& sights,
-                                  const std::set<PlacePair>& bridged);
+                                  std::span<const int> place_of_image, Sights& sights);
 
 }  // namespace homeward::mapping

@@ -164,7 +164,6 @@ ExtraPlaces insert_extra_places(const MappingInput& input, const MappingConfig& 
       continue;
     }
     extra.weak_after += best.weak;
-    extra.bridged.insert(ends);
     extra.prototypes.insert(extra.prototypes.end(), best.images.begin(), best.images.end());
     const int first_new = add_places(input, best, places);
     for (const Drive& drive : along) {
@@ -172,7 +171,7 @@ ExtraPlaces insert_extra_places(const MappingInput& input, const MappingConfig& 
               place_of_image);
     }
   }
-  if (extra.bridged.empty()) return extra;
+  if (extra.prototypes.empty()) return extra;
   for (map::Place& place : places) place.members.clear();
   for (std::size_t i = 0; i < input.images.size(); ++i) {
     places[at(place_of_image[i])].members.push_back(input.images[i].id);

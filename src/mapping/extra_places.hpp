@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <set>
 #include <span>
 #include <vector>
 
@@ -12,16 +11,16 @@ namespace homeward::mapping {
 /// What insert_extra_places did.
 struct ExtraPlaces {
   std::vector<int> prototypes;  // images that became places of their own, in tour order of the ways they mend
-  std::set<PlacePair> bridged;  // places that were joined by a weak edge and are now joined by extra places
   int weak_before = 0;          // pairs of places with a transition whose edge would be weak
-  int weak_after = 0;           // the same with the extra places
+  int weak_after = 0;           // of these, edges that are still weak where no chain of sound ones stands for them
 };
 
 /// Puts tour images as places of their own wherever a tour went from one place to another and the edge would be weak.
 /// The image comes from between the two prototypes of a drive and is the one that both ends see best; where one of its
 /// own two edges is weak still, another is looked for on that side, up to `extra_place_depth` deep. It is done only if
 /// it helps: if all edges of the chain are sound, or the only weak one is surer than the one it replaces. Images of all
-/// drives between the two that look more like a new place than like their own move into it.
+/// drives between the two that look more like a new place than like their own move into it; where a drive still goes
+/// directly, the weak edge stays beside the sound ones.
 /// `pinned`: images that stay where they are (prototypes of subclusters, marked images). Places are appended.
 ExtraPlaces insert_extra_places(const MappingInput& input, const MappingConfig& config, std::span<const int> pinned,
                                 Sights& sights, std::vector<map::Place>& places, std::vector<int>& place_of_image);

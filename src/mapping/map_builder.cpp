@@ -288,7 +288,7 @@ NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, 
   for (const Subcluster& part : parts) pinned.push_back(part.prototype);
   Sights sights(input);
   const ExtraPlaces extra = insert_extra_places(input, config, pinned, sights, map.places, place_of_image);
-  map.edges = form_edges(input, path, track, config, map.places, place_of_image, sights, extra.bridged);
+  map.edges = form_edges(input, path, track, config, map.places, place_of_image, sights);
   map.destinations = form_destinations(input, map.places, place_of_image);
   MappingNotes notes{config, threshold, cluster_of, {}, {}, extra.weak_before, extra.weak_after};
   for (const int image : extra.prototypes) notes.extra.push_back(input.images[at(image)].id);

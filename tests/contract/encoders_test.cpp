@@ -13,6 +13,7 @@
 #include "wire/graph_json.hpp"
 #include "wire/inspect_json.hpp"
 #include "wire/problem_json.hpp"
+#include "wire/route_json.hpp"
 #include "wire/tour_json.hpp"
 
 namespace homeward::wire {
@@ -61,6 +62,22 @@ TEST(Encoders, WriteMapsThatTheSchemasAccept) {
   EXPECT_THAT(schemas().problems("inspect", inspect_to_json(map, 4096)), IsEmpty());
   EXPECT_THAT(schemas().problems("graph", graph_to_json(map, MapId("house"), kLayout)), IsEmpty());
   EXPECT_THAT(schemas().problems("graph", json::parse(export_graph(map, kLayout, ExportFormat::kJson))), IsEmpty());
+}
+
+TEST(Encoders, WriteRoutesThatTheSchemasAccept) {
+  const RouteView way{{PlaceId("p1"), PlaceId("p2")}, 4.5,  1.5,
+                      map::LengthSource::kOdometry,   3.75, {{PlaceId("p1"), PlaceId("p2")}}};
+  const RouteView other{
+      {PlaceId("p1"), PlaceId("p3"), PlaceId("p2")}, 6.0, 6.0, map::LengthSource::kTourTime, 15.0, {}};
+  const json routes = routes_to_json({way, other});
+  EXPECT_THAT(schemas().problems("route", routes), IsEmpty());
+  EXPECT_EQ(routes["others"][0], json::parse(R"({"places":["p1","p3","p2"],"cost_m":6.0,"length_m":6.0,
+    "length_from":"tour_time","time_s":15.0,"weak":[]})"));
+  EXPECT_EQ(routes["weak"], json::parse(R"([{"from":"p1","to":"p2"}])"));
+  const json none =
+      no_route_to_json("Blocked.", true, {{"blocked", PlaceId("p1"), PlaceId("p2")}, {"avoided", {}, PlaceId("p3")}});
+  EXPECT_THAT(schemas().problems("no_route", none), IsEmpty());
+  EXPECT_TRUE(none["obstacles"][1]["from"].is_null());
 }
 
 TEST(Encoders, TellEverythingOfAMap) {

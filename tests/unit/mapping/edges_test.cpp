@@ -82,11 +82,11 @@ struct TwoPlaces {
     Sights sights(tour.input());
     return insert_extra_places(tour.input(), config, pinned, sights, places, place_of_image);
   }
-  std::vector<map::Edge> edges(const std::set<PlacePair>& bridged = {}) {
+  std::vector<map::Edge> edges() {
     Sights sights(tour.input());
     const TourPath path(tour.input());
     const TourTrack track(tour.images, tour.tour_of, tour.pairs, path.metric(), 1.0, config.track);
-    return form_edges(tour.input(), path, track, config, places, place_of_image, sights, bridged);
+    return form_edges(tour.input(), path, track, config, places, place_of_image, sights);
   }
 };
 
@@ -115,7 +115,7 @@ TEST(ExtraPlaces, TakeTheImageThatBothEndsSeeBest) {
   EXPECT_EQ(two.places[2].members, std::vector<ImageId>{two.image(4)});
   EXPECT_EQ(two.places[0].members.size(), 4U);
   EXPECT_EQ(two.place_of_image, (std::vector<int>{0, 0, 0, 0, 2, 1, 1, 1, 1, 1}));
-  const std::vector<map::Edge> edges = two.edges(extra.bridged);
+  const std::vector<map::Edge> edges = two.edges();
   ASSERT_EQ(edges.size(), 4U);
   for (const map::Edge& edge : edges) EXPECT_FALSE(edge.weak);
 }
@@ -150,7 +150,7 @@ TEST(ExtraPlaces, StayOutWhereTheyDoNotHelpAndTheWayStaysWeak) {
   EXPECT_TRUE(extra.prototypes.empty());
   EXPECT_EQ(extra.weak_before, 1);
   EXPECT_EQ(extra.weak_after, 1);
-  const std::vector<map::Edge> edges = two.edges(extra.bridged);
+  const std::vector<map::Edge> edges = two.edges();
   ASSERT_EQ(edges.size(), 2U);
   EXPECT_TRUE(edges[0].weak && edges[1].weak);
 }
