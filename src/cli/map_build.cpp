@@ -80,7 +80,7 @@ Status write_report(const Options& options, const pipeline::BuiltMap& built, con
 void tell_of_weak_edges(const mapping::MappingNotes& notes) {
   if (notes.weak_before == 0) return;
   std::cout << notes.weak_before << " pairs of neighbouring places hardly see each other: " << notes.extra.size()
-            << " extra places put between them, " << notes.weak_after << " weak edges left\n";
+            << " extra places put between them, " << notes.weak_after << " pairs left without a sound way\n";
 }
 
 Status build(const Options& options) {

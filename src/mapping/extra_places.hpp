@@ -12,7 +12,7 @@ namespace homeward::mapping {
 struct ExtraPlaces {
   std::vector<int> prototypes;  // images that became places of their own, in tour order of the ways they mend
   int weak_before = 0;          // pairs of places with a transition whose edge would be weak
-  int weak_after = 0;           // of these, edges that are still weak where no chain of sound ones stands for them
+  int weak_after = 0;           // of these, pairs that no chain of sound edges over extra places joins
 };
 
 /// Puts tour images as places of their own wherever a tour went from one place to another and the edge would be weak.

@@ -66,7 +66,7 @@ struct MappingNotes {
   std::vector<TrackVerdict> way;  // of the way driven on each of the map's hypotheses
   std::vector<ImageId> extra;     // prototypes of places that were put in where an edge would have been weak
   int weak_before = 0;            // pairs of places whose edge would be weak without them
-  int weak_after = 0;             // weak edges that no sound way over extra places stands for
+  int weak_after = 0;             // of these, pairs that extra places do not join by sound edges either
 };
 
 /// A map with how it came about.
