@@ -39,6 +39,8 @@ std::vector<planning::Way> failed_ways(const std::vector<PlaceId>& path, std::in
 bool Driving::begin_detour(const Unit& found, const std::string& reason) {
   RobotUnit& unit = *found;
   if (unit.detours >= kMostDetours || !may_go_on(unit, std::chrono::steady_clock::now())) return false;
+  if (*unit.belief->place == unit.mission->place)
+    return false;  // at the destination's place no way is left to go round
   const auto ways = failed_ways(unit.mission->path, unit.mission->path_index, *unit.belief->place);
   if (ways.empty()) return false;
   unit.closed.insert(unit.closed.end(), ways.begin(), ways.end());
