@@ -46,11 +46,11 @@ struct Edge {
   std::optional<double> turn_rad;     // prototype heading of `to` minus that of `from`
   double length_m = 1.0;              // rough; how rough, `length_from` says
   LengthSource length_from = LengthSource::kUnknown;
-  double confidence = 0.0;            // that the bearing is right within 15 degrees
-  int inliers = 0;                    // features that both prototypes see and that one motion explains
-  bool weak = false;                  // homing along it is likely to fail
-  bool blocked = false;               // by a person or because driving failed
-  std::string by = "method";          // "method" or "person"
+  double confidence = 0.0;    // that the bearing is right within 15 degrees
+  int inliers = 0;            // features that both prototypes see and that one motion explains
+  bool weak = false;          // homing along it is likely to fail
+  bool blocked = false;       // by a person or because driving failed
+  std::string by = "method";  // "method" or "person"
 };
 
 /// Dempster-Shafer masses over {true, false, unknown}; they sum to 1.
