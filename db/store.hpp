@@ -127,7 +127,7 @@ class Store {
   virtual Status remove_robot(const RobotId& id) = 0;
   /// Errors: kNotFound (the robot).
   virtual Result<wire::MissionView> add_mission(wire::MissionView mission) = 0;
-  /// State, reason, epoch, seq and path_index. Errors: kNotFound.
+  /// State, reason, epoch, seq, revision, path and path_index. Errors: kNotFound.
   virtual Status update_mission(const wire::MissionView& mission) = 0;
   /// The newest first, at most `limit`.
   virtual Result<std::vector<wire::MissionView>> missions(const RobotId& robot, int limit = 100) = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "db/sqlite/map_file_contents.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <span>
 
 #include "db/sqlite/map_file_digest.hpp"
+#include "db/sqlite/map_file_schema.hpp"
 #include "wire/appearance_blob.hpp"
 #include "wire/camera_json.hpp"
 
@@ -114,11 +116,20 @@ void get_places(SQLite::Database& database, ContentDigest& digest, map::Topologi
   }
 }
 
+/// Files of version 2 do not say where lengths come from: metres where every image has odometry, else images.
+map::LengthSource old_length_source(const map::TopologicalMap& map, const map::Edge& edge) {
+  if (edge.by == "person") return map::LengthSource::kUnknown;
+  const bool metric = std::all_of(map.images.begin(), map.images.end(),
+                                  [](const map::MapImage& image) { return image.odometry.has_value(); });
+  return metric ? map::LengthSource::kOdometry : map::LengthSource::kTourImages;
+}
+
 void get_edges(SQLite::Database& database, ContentDigest& digest, map::TopologicalMap& map) {
-  DigestedRows select(database,
-                      "SELECT from_place, to_place, bearing_rad, turn_rad, length_m, confidence, weak, blocked, by "
-                      "FROM edges ORDER BY position",
-                      digest);
+  const bool tells_source = database.execAndGet("PRAGMA user_version").getInt() >= kFirstVersionWithLengthSource;
+  const std::string sql =
+      std::string("SELECT from_place, to_place, bearing_rad, turn_rad, length_m, confidence, weak, blocked, by") +
+      (tells_source ? ", length_from, inliers" : "") + " FROM edges ORDER BY position";
+  DigestedRows select(database, sql.c_str(), digest);
   while (select.step()) {
     map::Edge edge;
     edge.from = PlaceId(select.column(0).getString());
@@ -130,6 +141,16 @@ void get_edges(SQLite::Database& database, ContentDigest& digest, map::Topologic
     edge.weak = select.column(6).getInt() != 0;
     edge.blocked = select.column(7).getInt() != 0;
     edge.by = select.column(8).getString();
+    if (!tells_source) {
+      edge.length_from = old_length_source(map, edge);
+    } else {
+      const int source = select.column(9).getInt();
+      if (source < 0 || source > static_cast<int>(map::LengthSource::kTourImages)) {
+        refuse("An edge has a length from an unknown source.", "edges");
+      }
+      edge.length_from = static_cast<map::LengthSource>(source);
+      edge.inliers = select.column(10).getInt();
+    }
     map.edges.push_back(std::move(edge));
   }
 }

@@ -117,7 +117,7 @@ void put_places(SQLite::Database& database, const map::TopologicalMap& map) {
 }
 
 void put_edges(SQLite::Database& database, const map::TopologicalMap& map) {
-  SQLite::Statement insert(database, "INSERT INTO edges VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  SQLite::Statement insert(database, "INSERT INTO edges VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   std::int64_t position = 0;
   for (const map::Edge& edge : map.edges) {
     insert.bind(1, position++);
@@ -130,6 +130,8 @@ void put_edges(SQLite::Database& database, const map::TopologicalMap& map) {
     insert.bind(8, edge.weak ? 1 : 0);
     insert.bind(9, edge.blocked ? 1 : 0);
     insert.bind(10, edge.by);
+    insert.bind(11, static_cast<int>(edge.length_from));
+    insert.bind(12, edge.inliers);
     insert.exec();
     insert.reset();
   }

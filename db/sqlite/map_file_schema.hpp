@@ -7,9 +7,11 @@ namespace homeward::db {
 inline constexpr int kMapApplicationId = 0x48574D50;
 /// user_version of the map file. A released schema is never edited; a newer file is refused.
 inline constexpr int kMapFileVersion = 3;
-/// Version 2 is the same without the checksum, which is required from version 3 on.
+/// Version 2 is without the checksum, and its edges do not say what their length was taken from and how much both ends
+/// see.
 inline constexpr int kOldestMapFileVersion = 2;
 inline constexpr int kFirstVersionWithChecksum = 3;
+inline constexpr int kFirstVersionWithLengthSource = 3;
 
 inline constexpr const char* kSelectChecksum = "SELECT value FROM meta WHERE key = 'checksum'";
 inline constexpr const char* kInsertChecksum = "INSERT INTO meta(key, value) VALUES ('checksum', ?)";
@@ -30,7 +32,8 @@ CREATE TABLE place_appearances (
 CREATE TABLE edges (
   position INTEGER PRIMARY KEY, from_place TEXT NOT NULL REFERENCES places(id),
   to_place TEXT NOT NULL REFERENCES places(id), bearing_rad REAL, turn_rad REAL, length_m REAL NOT NULL,
-  confidence REAL NOT NULL, weak INTEGER NOT NULL, blocked INTEGER NOT NULL, by TEXT NOT NULL) STRICT;
+  confidence REAL NOT NULL, weak INTEGER NOT NULL, blocked INTEGER NOT NULL, by TEXT NOT NULL,
+  length_from INTEGER NOT NULL, inliers INTEGER NOT NULL) STRICT;
 CREATE TABLE hypotheses (
   position INTEGER PRIMARY KEY, prototype_a TEXT NOT NULL, prototype_b TEXT NOT NULL, similarity REAL NOT NULL,
   before_true REAL NOT NULL, before_false REAL NOT NULL, before_unknown REAL NOT NULL,

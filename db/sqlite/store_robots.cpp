@@ -124,9 +124,13 @@ Result<wire::MissionView> SqliteStore::add_mission(wire::MissionView mission) {
 
 Status SqliteStore::update_mission(const wire::MissionView& mission) {
   return database_.work([&](SQLite::Database& database) {
-    if (execute(database, "UPDATE missions SET state = ?, reason = ?, epoch = ?, seq = ?, path_index = ? WHERE id = ?",
+    json path = json::array();
+    for (const PlaceId& place : mission.path) path.push_back(place.str());
+    if (execute(database,
+                "UPDATE missions SET state = ?, reason = ?, epoch = ?, seq = ?, revision = ?, path = ?, "
+                "path_index = ? WHERE id = ?",
                 std::string(wire::mission_state_name(mission.state)), mission.reason, mission.epoch, mission.seq,
-                mission.path_index, mission.id) == 0) {
+                mission.revision, path.dump(), mission.path_index, mission.id) == 0) {
       no_such_mission(mission.id);
     }
   });

@@ -79,7 +79,11 @@ class Driving : public LinkListener {
   void begin_looking(const Unit& unit);
 
   void heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello);
-  void heard_status(RobotUnit& unit, wire::AgentStatus status);
+  void heard_status(const Unit& unit, wire::AgentStatus status);
+  // Another way after the present one failed. begin_detour, with the unit locked: false where the mission has to end.
+  bool begin_detour(const Unit& unit, const std::string& reason);
+  Result<Plan> plan_detour(const Unit& unit, const MissionId& mission);
+  void send_detour(const Unit& unit, const MissionId& mission, const std::string& reason);
   void heard_refusal(RobotUnit& unit, const wire::MissionRefused& refusal);
   void welcome(const Unit& unit, const std::shared_ptr<AgentLink>& link);
   void look(const Unit& unit);

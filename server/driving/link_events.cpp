@@ -25,7 +25,7 @@ void Driving::heard(const std::shared_ptr<AgentLink>& link, wire::AgentMessage m
     unit.waiting_frame = unit.frame;
     begin_looking(*found);
   } else if (auto* status = std::get_if<wire::AgentStatus>(&message)) {
-    heard_status(unit, std::move(*status));
+    heard_status(*found, std::move(*status));
   } else if (auto* refusal = std::get_if<wire::MissionRefused>(&message)) {
     heard_refusal(unit, *refusal);
   } else if (auto* stopped = std::get_if<wire::Stopped>(&message)) {
@@ -68,11 +68,16 @@ void Driving::welcome(const Unit& unit, const std::shared_ptr<AgentLink>& link) 
   tell(*unit);
 }
 
-void Driving::heard_status(RobotUnit& unit, wire::AgentStatus status) {
+void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
+  RobotUnit& unit = *found;
   unit.status_at = std::chrono::steady_clock::now();
   unit.status = std::move(status);
   const wire::AgentStatus& now = *unit.status;
-  if (unit.under_way && now.mission == unit.mission->id) {
+  // Until the robot takes up another way it goes on telling of the one that failed.
+  const bool of_failed_way =
+      unit.looking_for_detour || (unit.detours > 0 && unit.mission->state == wire::MissionState::kAccepted &&
+                                  now.state == wire::DriveState::kFailed);
+  if (unit.under_way && now.mission == unit.mission->id && !of_failed_way) {
     wire::MissionView& mission = *unit.mission;
     const std::int64_t last = static_cast<std::int64_t>(mission.path.size()) - 1;
     const std::int64_t index = std::clamp<std::int64_t>(now.path_index, 0, std::max<std::int64_t>(0, last));
@@ -83,7 +88,9 @@ void Driving::heard_status(RobotUnit& unit, wire::AgentStatus status) {
         end_mission(unit, wire::MissionState::kArrived, "");
         break;
       case wire::DriveState::kFailed:
-        end_mission(unit, wire::MissionState::kFailed, now.reason.value_or("the robot cannot go on"));
+        if (!begin_detour(found, now.reason.value_or("The robot cannot go on."))) {
+          end_mission(unit, wire::MissionState::kFailed, now.reason.value_or("the robot cannot go on"));
+        }
         break;
       case wire::DriveState::kStopped:
         end_mission(unit, wire::MissionState::kStopped, now.reason.value_or("the robot stopped"));

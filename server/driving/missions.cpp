@@ -11,14 +11,10 @@
 namespace homeward::server {
 namespace {
 
-constexpr std::int64_t kPermitMs = 1500;
-// So slow that braking at 1 m/s^2 ends within half a second of a link that falls silent.
-constexpr double kTopSpeedMps = 0.4;
 // A permit goes only to an agent that was heard within this time; it tells its status four times a second.
 constexpr std::chrono::milliseconds kHeardWithin{1000};
 constexpr std::chrono::seconds kSilentTooLong{4};
 constexpr std::chrono::seconds kTakeUpWithin{10};
-constexpr std::chrono::seconds kBeliefFresh{5};
 
 std::string where_of(const RobotUnit& unit) { return "robots/" + unit.id.str(); }
 
@@ -120,6 +116,9 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
   planned->order.speed_limit_mps = std::min(kTopSpeedMps, unit.hello.max_speed_mps);
   unit.mission = mission;
   unit.under_way = true;
+  unit.closed.clear();
+  unit.detours = 0;
+  unit.looking_for_detour = false;
   unit.mission_at = now;
   unit.link->send(planned->order);
   spdlog::info("robot {} mission {} to {} over {} places, by {}", id.str(), mission.id.str(), mission.place.str(),
@@ -145,6 +144,7 @@ Result<wire::MissionView> Driving::mission(const RobotId& id, const MissionId& m
 
 void Driving::end_mission(RobotUnit& unit, wire::MissionState state, const std::string& reason) {
   unit.under_way = false;
+  unit.looking_for_detour = false;
   if (!unit.mission) return;
   unit.mission->state = state;
   if (!reason.empty()) unit.mission->reason = reason;
@@ -187,7 +187,7 @@ void Driving::tick(SteadyTime now) {
       unit.link->close(kClosePolicy, "nothing was heard for too long");
       continue;
     }
-    if (!unit.under_way || !unit.online()) continue;
+    if (!unit.under_way || !unit.online() || unit.looking_for_detour) continue;
     if (unit.mission->state == wire::MissionState::kAccepted && now - unit.mission_at > kTakeUpWithin) {
       stop_robot(unit, "", "the robot did not take up the mission", "server");
       tell(unit);

@@ -7,12 +7,18 @@
 #include <optional>
 
 #include "pipeline/belief_tracker.hpp"
+#include "planning/route.hpp"
 #include "server/driving/agent_link.hpp"
 #include "wire/robot_json.hpp"
 
 namespace homeward::server {
 
 using SteadyTime = std::chrono::steady_clock::time_point;
+
+constexpr std::chrono::seconds kBeliefFresh{5};  // an older belief is none
+constexpr std::int64_t kPermitMs = 1500;
+// So slow that braking at 1 m/s^2 ends within half a second of a link that falls silent.
+constexpr double kTopSpeedMps = 0.4;
 
 /// The right to drive.
 struct Lease {
@@ -57,8 +63,16 @@ struct RobotUnit {
   std::optional<wire::MissionView> mission;
   bool under_way = false;  // `mission` is accepted or driving: permits go out
   SteadyTime mission_at;   // when it was sent
+  // Another way after a part of the present one failed; of this mission alone.
+  std::vector<planning::Way> closed;
+  int detours = 0;
+  bool looking_for_detour = false;  // no permit goes out until the new way is sent
 
   [[nodiscard]] bool online() const { return link != nullptr && welcomed; }
+  /// The belief is of now and names a place.
+  [[nodiscard]] bool knows_where(SteadyTime now) const {
+    return belief && !belief->lost && belief->place && now - belief_at <= kBeliefFresh;
+  }
 };
 
 }  // namespace homeward::server

@@ -5,8 +5,8 @@
 
 #include "map/layout.hpp"
 #include "map/lookup.hpp"
-#include "planning/route.hpp"
 #include "server/http/json_body.hpp"
+#include "server/services/route_answer.hpp"
 #include "wire/graph_json.hpp"
 #include "wire/json_write.hpp"
 
@@ -126,22 +126,6 @@ Response history(MapService& maps, const Request& request) {
   return json_response(200, {{"edits", list}});
 }
 
-Response route(MapService& maps, const Request& request) {
-  const auto from = request.query.find("from");
-  const auto to = request.query.find("to");
-  if (from == request.query.end() || to == request.query.end()) {
-    return problem({ErrorCode::kInvalidInput, "A route needs from=PLACE and to=PLACE.", "query"});
-  }
-  const auto loaded = maps.load(map_in(request));
-  if (!loaded) return problem_of(loaded);
-  planning::RouteRequest asked;
-  asked.from = PlaceId(from->second);
-  asked.to = PlaceId(to->second);
-  const auto found = planning::plan_route((*loaded)->map, asked);
-  if (!found) return problem_of(found);
-  return json_response(200, {{"places", wire::ids_to_json(found->places)}, {"cost_m", found->cost_m}});
-}
-
 Response remove_map(BuildJobs& jobs, db::Store& store, const Request& request) {
   if (jobs.building(map_in(request))) {
     return problem(
@@ -212,7 +196,7 @@ void add_map_routes(Router& router, MapService& maps, BuildJobs& jobs, db::Store
   add(
       "POST", "/import", "installer", [m](Request& request) { return import_map(*m, request); }, Lane::kHeavy,
       kMaxMapBody);
-  add("GET", "/{map}/route", "viewer", [m](Request& request) { return route(*m, request); });
+  add("GET", "/{map}/route", "viewer", [m](Request& request) { return answer_route(*m, map_in(request), request); });
   add(
       "POST", "/{map}/localise", "viewer",
       [m](Request& request) {

@@ -96,6 +96,13 @@ void tell_notes(const pipeline::BuildNotes& notes) {
   for (const Error& warning : notes.warnings) tell({warning.code, "Warning: " + warning.message, warning.where});
 }
 
+/// Where a robot is likely to fail, and what was done about it.
+void tell_of_weak_edges(const mapping::MappingNotes& notes) {
+  if (notes.weak_before == 0) return;
+  std::cout << notes.weak_before << " pairs of neighbouring places hardly see each other: " << notes.extra.size()
+            << " extra places put between them, " << notes.weak_after << " pairs left without a sound way\n";
+}
+
 Status build(const Options& options) {
   const auto tour = agent::TourFolder::open(options.tour);
   if (!tour) return pass_on(tour);
@@ -127,6 +134,7 @@ Status build(const Options& options) {
   if (!options.json) {
     std::cout << map.images.size() << " pictures, " << map.places.size() << " places, " << map.edges.size()
               << " edges, " << map.destinations.size() << " destinations: " << options.out << "\n";
+    tell_of_weak_edges(built->notes.mapping);
   }
   if (!options.report.empty()) {
     const auto report = write_report(options, *built, *tour);

@@ -30,17 +30,27 @@ struct Place {
   std::vector<features::Appearance> appearances;  // the prototype's first; later: by night, ...
 };
 
+/// What an edge's length was taken from.
+enum class LengthSource {
+  kUnknown,     // nobody measured it: an edge that a person drew
+  kOdometry,    // metres
+  kTourTime,    // how long the tour took for it, at the pace at which people are guided
+  kTourImages,  // how many pictures the tour took for it
+};
+
 /// A drivable transition seen on a tour or added by a person.
 struct Edge {
   PlaceId from;
   PlaceId to;
   std::optional<double> bearing_rad;  // direction of `to` in `from`'s prototype frame
   std::optional<double> turn_rad;     // prototype heading of `to` minus that of `from`
-  double length_m = 1.0;              // from odometry when known, else in units of median tour steps
-  double confidence = 0.0;            // of the verified pose between the prototypes
-  bool weak = false;                  // homing along it is likely to fail
-  bool blocked = false;               // by a person or because driving failed
-  std::string by = "method";          // "method" or "person"
+  double length_m = 1.0;              // rough; how rough, `length_from` says
+  LengthSource length_from = LengthSource::kUnknown;
+  double confidence = 0.0;    // that the bearing is right within 15 degrees
+  int inliers = 0;            // features that both prototypes see and that one motion explains
+  bool weak = false;          // homing along it is likely to fail
+  bool blocked = false;       // by a person or because driving failed
+  std::string by = "method";  // "method" or "person"
 };
 
 /// Dempster-Shafer masses over {true, false, unknown}; they sum to 1.

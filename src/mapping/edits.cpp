@@ -46,6 +46,8 @@ void redirect(TopologicalMap& map, const PlaceId& gone, const PlaceId& kept) {
     if (edge.from != gone && edge.to != gone) continue;
     edge.bearing_rad.reset();
     edge.turn_rad.reset();
+    edge.confidence = 0.0;
+    edge.inliers = 0;
     edge.weak = true;
     if (edge.from == gone) edge.from = kept;
     if (edge.to == gone) edge.to = kept;

@@ -18,6 +18,7 @@ struct MappingConfig {
   double place_extent_images = 3.0;    // tour images that a place usually spans where the tour has no odometry
   double place_extent_m = 1.0;         // and how long it is where it has
   double weak_below_confidence = 0.2;  // an edge whose verified pose is less certain is weak
+  int extra_place_depth = 3;           // how often a way is halved by extra places where its edge is weak; 0: never
   HypothesisConfig hypotheses;
   TrackConfig track;
 };
@@ -63,6 +64,9 @@ struct MappingNotes {
   float place_distance = 0.0F;    // the visual distance up to which images make one place
   std::vector<int> cluster_of;    // of each image
   std::vector<TrackVerdict> way;  // of the way driven on each of the map's hypotheses
+  std::vector<ImageId> extra;     // prototypes of places that were put in where an edge would have been weak
+  int weak_before = 0;            // pairs of places whose edge would be weak without them
+  int weak_after = 0;             // of these, pairs that extra places do not join by sound edges either
 };
 
 /// A map with how it came about.

@@ -5,6 +5,7 @@
 
 #include "map/lookup.hpp"
 #include "wire/graph_json.hpp"
+#include "wire/inspect_json.hpp"
 #include "wire/json_write.hpp"
 
 namespace homeward::wire {
@@ -51,7 +52,8 @@ std::string graphml_keys() {
   };
   return key("label", "node", "string") + key("prototype", "node", "string") + key("images", "node", "int") +
          key("x", "node", "double") + key("y", "node", "double") + key("bearing_rad", "edge", "double") +
-         key("turn_rad", "edge", "double") + key("length_m", "edge", "double") + key("weak", "edge", "boolean") +
+         key("turn_rad", "edge", "double") + key("length_m", "edge", "double") + key("length_from", "edge", "string") +
+         key("confidence", "edge", "double") + key("inliers", "edge", "int") + key("weak", "edge", "boolean") +
          key("blocked", "edge", "boolean");
 }
 
@@ -70,8 +72,11 @@ std::string graphml(const map::TopologicalMap& map, const std::vector<Eigen::Vec
         "    <edge source=\"" + xml_escaped(edge.from.str()) + "\" target=\"" + xml_escaped(edge.to.str()) + "\">\n";
     if (edge.bearing_rad) text += data("bearing_rad", number_text(*edge.bearing_rad));
     if (edge.turn_rad) text += data("turn_rad", number_text(*edge.turn_rad));
-    text += data("length_m", number_text(edge.length_m)) + data("weak", edge.weak ? "true" : "false") +
-            data("blocked", edge.blocked ? "true" : "false") + "    </edge>\n";
+    text += data("length_m", number_text(edge.length_m)) +
+            data("length_from", std::string(length_source_name(edge.length_from))) +
+            data("confidence", number_text(edge.confidence)) + data("inliers", std::to_string(edge.inliers)) +
+            data("weak", edge.weak ? "true" : "false") + data("blocked", edge.blocked ? "true" : "false") +
+            "    </edge>\n";
   }
   return text + "  </graph>\n</graphml>\n";
 }
@@ -107,6 +112,9 @@ json geojson(const map::TopologicalMap& map, const std::vector<Eigen::Vector2d>&
                                 {"bearing_rad", or_null(edge.bearing_rad)},
                                 {"turn_rad", or_null(edge.turn_rad)},
                                 {"length_m", edge.length_m},
+                                {"length_from", length_source_name(edge.length_from)},
+                                {"confidence", edge.confidence},
+                                {"inliers", edge.inliers},
                                 {"weak", edge.weak},
                                 {"blocked", edge.blocked}}));
   }

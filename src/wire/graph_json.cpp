@@ -27,6 +27,9 @@ json edge_to_json(const map::Edge& edge) {
           {"bearing_rad", or_null(edge.bearing_rad)},
           {"turn_rad", or_null(edge.turn_rad)},
           {"length_m", edge.length_m},
+          {"length_from", length_source_name(edge.length_from)},
+          {"confidence", edge.confidence},
+          {"inliers", edge.inliers},
           {"weak", edge.weak},
           {"blocked", edge.blocked}};
 }

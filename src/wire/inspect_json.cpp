@@ -28,10 +28,19 @@ json edge_to_json(const map::Edge& edge) {
           {"to", edge.to.str()},
           {"bearing_rad", or_null(edge.bearing_rad)},
           {"turn_rad", or_null(edge.turn_rad)},
+          {"length_m", edge.length_m},
+          {"length_from", length_source_name(edge.length_from)},
+          {"confidence", edge.confidence},
+          {"inliers", edge.inliers},
           {"weak", edge.weak}};
 }
 
 }  // namespace
+
+std::string_view length_source_name(map::LengthSource source) {
+  constexpr std::array<std::string_view, 4> kNames = {"unknown", "odometry", "tour_time", "tour_images"};
+  return kNames[static_cast<std::size_t>(source)];
+}
 
 std::string_view decision_name(map::Decision decision) {
   constexpr std::array<std::string_view, 3> kNames = {"accepted", "rejected", "undecided"};

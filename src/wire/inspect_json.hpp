@@ -16,6 +16,9 @@ nlohmann::json inspect_to_json(const map::TopologicalMap& map, std::int64_t byte
 /// {prototype_a, prototype_b, masses_before, masses_after, support, plausibility, decision, by}
 nlohmann::json hypothesis_to_json(const map::Hypothesis& hypothesis);
 
+/// "unknown", "odometry", "tour_time", "tour_images".
+std::string_view length_source_name(map::LengthSource source);
+
 /// "accepted", "rejected", "undecided".
 std::string_view decision_name(map::Decision decision);
 

@@ -9,18 +9,13 @@
 namespace homeward::wire {
 namespace {
 
-/// Lengths are metres only where the tours had odometry.
-bool is_metric(const map::TopologicalMap& map) {
-  return std::all_of(map.images.begin(), map.images.end(),
-                     [](const map::MapImage& image) { return image.odometry.has_value(); });
-}
-
-std::optional<PathEdge> edge_between(const map::TopologicalMap& map, const PlaceId& from, const PlaceId& to,
-                                     bool metric) {
+std::optional<PathEdge> edge_between(const map::TopologicalMap& map, const PlaceId& from, const PlaceId& to) {
   const auto edge = std::find_if(map.edges.begin(), map.edges.end(), [&](const map::Edge& candidate) {
     return candidate.from == from && candidate.to == to;
   });
   if (edge == map.edges.end()) return std::nullopt;
+  // A robot that counts on a length needs a measured one.
+  const bool metric = edge->length_from == map::LengthSource::kOdometry;
   return PathEdge{edge->bearing_rad, edge->turn_rad, metric ? std::optional(edge->length_m) : std::nullopt, edge->weak};
 }
 
@@ -30,11 +25,10 @@ MissionOrder order_for_route(const map::TopologicalMap& map, std::span<const Pla
   MissionOrder order;
   order.revision = map.revision;
   order.feature_config_id = map.feature_config_id;
-  const bool metric = is_metric(map);
   for (std::size_t i = 0; i < route.size(); ++i) {
     const map::Place& place = *map::find_place(map, route[i]);
     PathPlace step{place.id, place.prototype, encode_appearance(place.appearances.front()), std::nullopt};
-    if (i + 1 < route.size()) step.next = edge_between(map, route[i], route[i + 1], metric);
+    if (i + 1 < route.size()) step.next = edge_between(map, route[i], route[i + 1]);
     order.path.push_back(std::move(step));
   }
   order.final_image = order.path.back().image;

@@ -81,6 +81,9 @@ class HappyPath(CliTest):
         for edge in report["edges"]:
             self.assertIn(edge["from"], places)
             self.assertIn(edge["to"], places)
+            self.assertEqual(edge["length_from"], "odometry")
+            self.assertTrue(0.0 <= edge["confidence"] <= 1.0)
+            self.assertEqual(edge["weak"], edge["confidence"] < 0.2)
         for hypothesis in report["hypotheses"]:
             self.assertLessEqual(hypothesis["support"], hypothesis["plausibility"] + 1e-9)
             self.assertIn(hypothesis["decision"], ("accepted", "rejected", "undecided"))
@@ -120,6 +123,25 @@ class HappyPath(CliTest):
         back = json.loads(self.result_of("route", "--map", "good.map", "--from", "office_1", "--to", "corridor", "--json"))
         self.assertGreater(len(there["places"]), 2)
         self.assertEqual(there["places"], back["places"][::-1])
+        self.assertEqual(there["length_from"], "odometry")
+        self.assertGreater(there["time_s"], there["length_m"] / 0.4 - 1e-6)
+
+    def test_tells_what_stands_in_the_way(self):
+        self.good_map()
+        ends = ("route", "--map", "good.map", "--from", "corridor", "--to", "office_1", "--by", "time", "--json")
+        places = json.loads(self.result_of(*ends))["places"]
+        closed = self.program.run(*ends, "--closed", places[-2], places[-1], cwd=self.folder)
+        if closed.returncode == 0:  # there is another way, round the edge
+            around = json.loads(closed.stdout)["places"]
+            self.assertNotIn((places[-2], places[-1]), list(zip(around, around[1:])))
+        middle = self.program.run(*ends, "--avoid", *places[1:-1], "--closed", places[0], places[-1], cwd=self.folder)
+        self.assertEqual(middle.returncode, 4, middle.stderr)
+        answer = json.loads(middle.stdout)
+        self.assertIsNone(answer["places"])
+        self.assertTrue(answer["connected"])
+        self.assertGreater(len(answer["obstacles"]), 0)
+        self.assertIn(answer["reason"], middle.stderr)
+        self.assertNotEqual(self.program.run(*ends, "--routes", 0, cwd=self.folder).returncode, 0)
 
     def test_homes_from_picture_to_picture(self):
         poses = self.poses()

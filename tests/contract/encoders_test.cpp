@@ -14,6 +14,7 @@
 #include "wire/graph_json.hpp"
 #include "wire/inspect_json.hpp"
 #include "wire/problem_json.hpp"
+#include "wire/route_json.hpp"
 #include "wire/tour_json.hpp"
 
 namespace homeward::wire {
@@ -64,13 +65,29 @@ TEST(Encoders, WriteMapsThatTheSchemasAccept) {
   EXPECT_THAT(schemas().problems("graph", json::parse(export_graph(map, kLayout, ExportFormat::kJson))), IsEmpty());
 }
 
+TEST(Encoders, WriteRoutesThatTheSchemasAccept) {
+  const RouteView way{{PlaceId("p1"), PlaceId("p2")}, 4.5,  1.5,
+                      map::LengthSource::kOdometry,   3.75, {{PlaceId("p1"), PlaceId("p2")}}};
+  const RouteView other{
+      {PlaceId("p1"), PlaceId("p3"), PlaceId("p2")}, 6.0, 6.0, map::LengthSource::kTourTime, 15.0, {}};
+  const json routes = routes_to_json({way, other});
+  EXPECT_THAT(schemas().problems("route", routes), IsEmpty());
+  EXPECT_EQ(routes["others"][0], json::parse(R"({"places":["p1","p3","p2"],"cost_m":6.0,"length_m":6.0,
+    "length_from":"tour_time","time_s":15.0,"weak":[]})"));
+  EXPECT_EQ(routes["weak"], json::parse(R"([{"from":"p1","to":"p2"}])"));
+  const json none =
+      no_route_to_json("Blocked.", true, {{"blocked", PlaceId("p1"), PlaceId("p2")}, {"avoided", {}, PlaceId("p3")}});
+  EXPECT_THAT(schemas().problems("no_route", none), IsEmpty());
+  EXPECT_TRUE(none["obstacles"][1]["from"].is_null());
+}
+
 TEST(Encoders, TellEverythingOfAMap) {
   const json graph = graph_to_json(sample_map(), MapId("house"), kLayout);
   EXPECT_EQ(graph["revision"], 4);
   EXPECT_EQ(graph["places"][1], json::parse(R"({"id":"p2","label":"kitchen","prototype":"tour/00002.jpg",
     "members":["tour/00002.jpg"],"features":20,"x":1.0,"y":0.75})"));
   EXPECT_EQ(graph["edges"][1], json::parse(R"({"from":"p2","to":"p1","bearing_rad":null,"turn_rad":null,"length_m":1.5,
-    "weak":true,"blocked":true})"));
+    "length_from":"unknown","confidence":0.1,"inliers":0,"weak":true,"blocked":true})"));
   EXPECT_EQ(graph["destinations"][0],
             json::parse(R"({"id":"d1","place":"p2","image":"tour/00002.jpg","label":"kitchen"})"));
   EXPECT_EQ(graph["hypotheses"][0]["masses_after"], json::parse(R"({"true":0.1,"false":0.8,"unknown":0.1})"));

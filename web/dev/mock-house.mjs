@@ -85,6 +85,9 @@ export function newGraph(map) {
       bearing_rad: 0.1 * i,
       turn_rad: 0,
       length_m: 1.2,
+      length_from: 'odometry',
+      confidence: 0.9,
+      inliers: 40,
       weak: way === 'p12-p13',
       blocked: false,
     };

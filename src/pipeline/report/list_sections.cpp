@@ -61,6 +61,16 @@ std::string look_alikes_section(const BuiltMap& built, const ReportFacts& facts)
 
 std::string weak_section(const BuiltMap& built, const ReportFacts& facts) {
   std::string html = "<section id=\"weak\">\n<h2>Weak ways</h2>\n";
+  const mapping::MappingNotes& notes = built.notes.mapping;
+  if (!notes.extra.empty()) {
+    html += "<p>" +
+            counted(static_cast<std::size_t>(notes.weak_before), "pair of neighbouring places",
+                    "pairs of neighbouring places") +
+            " hardly saw each other; " + counted(notes.extra.size(), "picture was", "pictures were") +
+            " put between them as " + (notes.extra.size() == 1 ? "a place of its own" : "places of their own") +
+            ", and " + counted(static_cast<std::size_t>(notes.weak_after), "pair is", "pairs are") +
+            " left without a sound way. A weak way beside a sound one is not driven as long as that is open.</p>\n";
+  }
   if (facts.weak_edges == 0) {
     return html +
            "<p>On every way the two ends see each other well enough to drive from one to the other by sight.</p>\n"

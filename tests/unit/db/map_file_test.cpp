@@ -71,6 +71,9 @@ TEST_F(MapFile, GivesBackWhatWasSaved) {
   EXPECT_DOUBLE_EQ(*after.edges[0].bearing_rad, 0.5);
   EXPECT_FALSE(after.edges[1].bearing_rad);
   EXPECT_TRUE(after.edges[1].weak && after.edges[1].blocked);
+  EXPECT_EQ(after.edges[0].length_from, map::LengthSource::kOdometry);
+  EXPECT_EQ(after.edges[1].length_from, map::LengthSource::kUnknown);
+  EXPECT_EQ(after.edges[0].inliers, 64);
   ASSERT_EQ(after.hypotheses.size(), 1U);
   EXPECT_EQ(after.hypotheses[0].decision, map::Decision::kRejected);
   EXPECT_DOUBLE_EQ(after.hypotheses[0].masses_after.is_false, 0.8);
@@ -110,8 +113,34 @@ TEST_F(MapFile, NamesWhatIsWrongWithAFile) {
   EXPECT_EQ(load_map(file()).error().code, ErrorCode::kCorruptFile);
 }
 
+TEST_F(MapFile, OpensFilesOfVersionTwo) {
+  map::TopologicalMap map = sample_map();
+  ASSERT_TRUE(save_map(file(), map, {}));
+  const auto make_old = [&] {
+    forget_checksum();
+    change("ALTER TABLE edges DROP COLUMN inliers; ALTER TABLE edges DROP COLUMN length_from");
+  };
+  make_old();
+  const auto old = load_map(file());
+  ASSERT_TRUE(old) << old.error().message;
+  ASSERT_EQ(old->map.edges.size(), 2U);
+  EXPECT_DOUBLE_EQ(old->map.edges[0].length_m, 1.5);
+  // One of its pictures has no odometry: its lengths counted pictures.
+  EXPECT_EQ(old->map.edges[0].length_from, map::LengthSource::kTourImages);
+  EXPECT_EQ(old->map.edges[1].length_from, map::LengthSource::kUnknown);  // drawn by a person
+  EXPECT_EQ(old->map.edges[0].inliers, 0);
+  for (map::MapImage& image : map.images) image.odometry = Pose2{};
+  ASSERT_TRUE(save_map(file(), map, {}));
+  make_old();
+  EXPECT_EQ(load_map(file())->map.edges[0].length_from, map::LengthSource::kOdometry);
+  ASSERT_TRUE(save_map(file(), old->map, {}));
+  EXPECT_EQ(load_map(file())->map.edges[0].length_from, map::LengthSource::kTourImages);
+}
+
 TEST_F(MapFile, RefusesOtherDatabasesNewerVersionsAndDanglingReferences) {
   ASSERT_TRUE(save_map(file(), sample_map(), {}));
+  change("UPDATE edges SET length_from = 9");
+  EXPECT_THAT(load_map(file()).error().message, ::testing::HasSubstr("unknown source"));
   forget_checksum();
   for (const auto& [version, what] : {std::pair("1", "Rebuild the map"), std::pair("4", "A newer Homeward wrote it")}) {
     change(std::string("PRAGMA user_version = ") + version);

@@ -177,6 +177,12 @@ TEST(ReportPage, NamesWeakStretchesAndPartsThatAreNotJoined) {
   std::string page = page_of(map);
   EXPECT_EQ(count_of(page, "drive this stretch again</td>"), 1);
   EXPECT_THAT(page, HasSubstr("1 stretch with 1 weak way"));
+  EXPECT_THAT(page, Not(HasSubstr("hardly saw each other")));
+  map.notes.mapping.extra = {map.map.images.front().id};
+  map.notes.mapping.weak_before = 2;
+  map.notes.mapping.weak_after = 1;
+  EXPECT_THAT(page_of(map), HasSubstr("2 pairs of neighbouring places hardly saw each other; 1 picture was put between "
+                                      "them as a place of its own, and 1 pair is left without a sound way."));
   map.map.edges.clear();
   page = page_of(map);
   EXPECT_THAT(page, HasSubstr("The map falls into " + std::to_string(map.map.places.size()) + " parts"));

@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "core/angles.hpp"
+#include "map/lookup.hpp"
 #include "support/ascii_map.hpp"
 
 namespace homeward::planning {
@@ -75,6 +79,151 @@ D---E
   EXPECT_FALSE(plan_route(map, {.from = PlaceId("A"), .to = PlaceId("B"), .avoid = {PlaceId("B")}}));
   // Standing on a place to avoid is no reason not to leave it.
   EXPECT_TRUE(plan_route(map, {.from = PlaceId("B"), .to = PlaceId("A"), .avoid = {PlaceId("B")}}));
+}
+
+map::Edge& edge_of(map::TopologicalMap& map, const char* from, const char* to) {
+  return *map::find_edge(map, PlaceId(from), PlaceId(to));
+}
+
+std::string why_not(const map::TopologicalMap& map, const RouteRequest& request) {
+  const auto route = plan_route(map, request);
+  if (route) return "there is a way: " + homeward::testing::spelled(route->places);
+  EXPECT_EQ(route.error().code, ErrorCode::kNoRoute);
+  return route.error().message;
+}
+
+TEST(PlanRoute, BlockingOneDirectionMakesAnEdgeOneWay) {
+  auto map = homeward::testing::ascii_map("A-B-C");
+  edge_of(map, "C", "B").blocked = true;
+  expect_route(map, "A", "C", "A B C", 2.0);
+  EXPECT_EQ(
+      why_not(map, {.from = PlaceId("C"), .to = PlaceId("A"), .avoid = {}}),
+      "There is no way from C (C) to A (A): the freest leads over the way from C (C) to B (B), which is blocked in "
+      "this direction.");
+}
+
+TEST(PlanRoute, GoesRoundClosedWays) {
+  const auto map = homeward::testing::ascii_map(R"(
+A-B-C
+|   |
+D---E
+)");
+  RouteRequest request{.from = PlaceId("A"), .to = PlaceId("C"), .avoid = {}};
+  request.closed = {{PlaceId("B"), PlaceId("C")}};
+  EXPECT_EQ(homeward::testing::spelled(plan_route(map, request)->places), "A D E C");
+  request.closed = {{PlaceId("C"), PlaceId("B")}};  // the other direction
+  EXPECT_EQ(homeward::testing::spelled(plan_route(map, request)->places), "A B C");
+  request.closed = {{PlaceId("B"), PlaceId("p9")}};
+  EXPECT_EQ(plan_route(map, request).error().where, "closed");
+}
+
+TEST(PlanRoute, NamesWhatStandsInTheWay) {
+  auto map = homeward::testing::ascii_map("A-B#C>D-E");
+  RouteRequest request{.from = PlaceId("A"), .to = PlaceId("E"), .avoid = {PlaceId("D")}};
+  request.closed = {{PlaceId("A"), PlaceId("B")}};
+  const NoRoute why = explain_no_route(map, request);
+  EXPECT_TRUE(why.connected);
+  ASSERT_EQ(why.obstacles.size(), 3U);
+  EXPECT_EQ(why.obstacles[0].kind, ObstacleKind::kClosed);
+  EXPECT_EQ(why.obstacles[1].kind, ObstacleKind::kBlocked);
+  EXPECT_EQ(why.obstacles[1].way, (Way{PlaceId("B"), PlaceId("C")}));
+  EXPECT_EQ(why.obstacles[2].kind, ObstacleKind::kAvoided);
+  EXPECT_EQ(why.obstacles[2].way.to, PlaceId("D"));
+  const std::string text = why_not(map, request);
+  EXPECT_THAT(text, HasSubstr("from A (A) to B (B), which has just failed or is closed, the way from B (B) to C (C), "
+                              "which is blocked and place D (D), which is to be avoided"));
+  const NoRoute back = explain_no_route(map, {.from = PlaceId("E"), .to = PlaceId("C"), .avoid = {}});
+  ASSERT_EQ(back.obstacles.size(), 1U);
+  EXPECT_EQ(back.obstacles[0].kind, ObstacleKind::kOneWay);
+  EXPECT_EQ(back.obstacles[0].way, (Way{PlaceId("D"), PlaceId("C")}));
+}
+
+TEST(PlanRoute, NamesTheFewestObstacles) {
+  const auto map = homeward::testing::ascii_map(R"(
+A#B#C
+x   x
+D---E
+)");
+  // Above two blocked edges, below two as well; with E to avoid the upper way has fewer.
+  const NoRoute why = explain_no_route(map, {.from = PlaceId("A"), .to = PlaceId("C"), .avoid = {PlaceId("E")}});
+  ASSERT_EQ(why.obstacles.size(), 2U);
+  EXPECT_EQ(why.obstacles[0].way, (Way{PlaceId("A"), PlaceId("B")}));
+  EXPECT_EQ(why.obstacles[1].way, (Way{PlaceId("B"), PlaceId("C")}));
+}
+
+TEST(PlanRoute, ByTimeAWeakShortcutAndTurnsCost) {
+  auto map = homeward::testing::ascii_map(R"(
+A~~B
+|  |
+C--D
+)");
+  RouteRequest request{.from = PlaceId("A"), .to = PlaceId("B"), .avoid = {}, .by = RouteCost::kTime};
+  request.travel = {.speed_mps = 0.5, .turn_radps = 1.0, .weak_speed_share = 0.5};
+  auto route = plan_route(map, request);
+  ASSERT_TRUE(route);
+  EXPECT_EQ(homeward::testing::spelled(route->places), "A B");
+  EXPECT_DOUBLE_EQ(route->length_m, 2.0);
+  EXPECT_DOUBLE_EQ(route->time_s, 8.0);
+  EXPECT_EQ(route->weak, (std::vector<Way>{{PlaceId("A"), PlaceId("B")}}));
+  request.travel.weak_speed_share = 0.25;  // 16 s against 8 s
+  route = plan_route(map, request);
+  EXPECT_EQ(homeward::testing::spelled(route->places), "A C D B");
+  EXPECT_DOUBLE_EQ(route->time_s, 8.0);
+  EXPECT_TRUE(route->weak.empty());
+  // All headings north; two quarter turns at 0.1 rad/s make the detour take 31 s longer.
+  edge_of(map, "A", "C").bearing_rad = kPi;
+  edge_of(map, "A", "C").turn_rad = 0.0;
+  edge_of(map, "C", "D").bearing_rad = -kPi / 2.0;
+  edge_of(map, "C", "D").turn_rad = 0.0;
+  edge_of(map, "D", "B").bearing_rad = 0.0;
+  edge_of(map, "D", "B").turn_rad = 0.0;
+  request.travel.turn_radps = 0.1;
+  EXPECT_EQ(homeward::testing::spelled(plan_route(map, request)->places), "A B");
+  request.closed = {{PlaceId("A"), PlaceId("B")}};
+  EXPECT_NEAR(plan_route(map, request)->time_s, 8.0 + 10.0 * kPi, 1e-9);
+  request.travel.speed_mps = 0.0;
+  EXPECT_EQ(plan_route(map, request).error().code, ErrorCode::kInvalidInput);
+}
+
+TEST(PlanRoutes, GivesTheNextBestWays) {
+  const auto map = homeward::testing::ascii_map(R"(
+A-B-C
+| | |
+D-E-F
+)");
+  const auto routes = plan_routes(map, {.from = PlaceId("A"), .to = PlaceId("F"), .avoid = {}}, 10);
+  ASSERT_TRUE(routes);
+  std::set<std::string> different;
+  for (std::size_t i = 0; i < routes->size(); ++i) {
+    const auto& places = (*routes)[i].places;
+    EXPECT_EQ(std::set<PlaceId>(places.begin(), places.end()).size(), places.size());
+    EXPECT_TRUE(different.insert(homeward::testing::spelled(places)).second);
+    if (i > 0) {
+      EXPECT_GE((*routes)[i].cost_m, (*routes)[i - 1].cost_m);
+    }
+  }
+  // Three ways of 3 edges, one of 5: all that pass no place twice.
+  EXPECT_EQ(different, (std::set<std::string>{"A B C F", "A B E F", "A D E F", "A D E B C F"}));
+  EXPECT_EQ(plan_routes(map, {.from = PlaceId("A"), .to = PlaceId("A"), .avoid = {}}, 3)->size(), 1U);
+  EXPECT_EQ(plan_routes(map, {.from = PlaceId("A"), .to = PlaceId("F"), .avoid = {}}, 0).error().where, "count");
+}
+
+TEST(PlanRoutes, NoPlaceComesTwiceWhereTurnsMakeARoundCheap) {
+  // At B the way to D turns back sharply; round over C no turn is known.
+  auto map = homeward::testing::ascii_map(R"(
+A--B-C
+   |
+   D
+)");
+  edge_of(map, "A", "B").bearing_rad = 0.0;
+  edge_of(map, "A", "B").turn_rad = 0.0;
+  edge_of(map, "B", "D").bearing_rad = kPi;
+  RouteRequest request{.from = PlaceId("A"), .to = PlaceId("D"), .avoid = {}, .by = RouteCost::kTime};
+  request.travel.turn_radps = 0.01;
+  const auto route = plan_route(map, request);
+  ASSERT_TRUE(route);
+  EXPECT_EQ(homeward::testing::spelled(route->places), "A B D");
+  EXPECT_GT(route->time_s, 300.0);
 }
 
 TEST(PlanRoute, SaysThatPartsAreNotConnected) {

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fstream>
+#include <sstream>
+
+#include "db/map_file.hpp"
+#include "server/driving/detour.hpp"
 #include "support/server_fixture.hpp"
 #include "wire/link_messages.hpp"
 
@@ -78,6 +83,30 @@ class DrivingTest : public testing::ServerTest {
     map = built_map(3);
     ASSERT_EQ(admin->put(root + "/map", {{"map", map}}).status, 200);
     destination = admin->get("/api/v1/maps/" + map + "/graph").json().at("destinations")[0].at("id");
+  }
+  /// A map like the robot's with a weak way straight from the first place to the destination, and the robot on it.
+  void add_second_way() {
+    const auto file = config.data / "second_way.hwmap";
+    const std::string bytes = admin->get("/api/v1/maps/" + map + "/export").body;
+    std::ofstream(file, std::ios::binary) << bytes;
+    auto stored = db::load_map(file);
+    ASSERT_TRUE(stored) << stored.error().message;
+    const PlaceId goal = stored->map.destinations.at(0).place;
+    for (const bool back : {false, true}) {
+      map::Edge edge;
+      edge.from = back ? goal : stored->map.places.front().id;
+      edge.to = back ? stored->map.places.front().id : goal;
+      edge.weak = true;
+      stored->map.edges.push_back(edge);
+    }
+    ASSERT_TRUE(db::save_map(file, stored->map, stored->thumbnails));
+    std::stringstream edited;
+    edited << std::ifstream(file, std::ios::binary).rdbuf();
+    const Answer imported =
+        admin->send("POST", "/api/v1/maps/import", edited.str(), {{"Content-Type", "application/vnd.sqlite3"}});
+    ASSERT_EQ(imported.status, 201) << imported.body;
+    map = imported.json().at("map").at("id");
+    ASSERT_EQ(admin->put(root + "/map", {{"map", map}}).status, 200);
   }
   std::string take_lease(testing::HttpClient& client) {
     return client.post(root + "/lease", {{"take_over", true}}).json().at("lease").at("id");
@@ -238,6 +267,82 @@ TEST_F(DrivingTest, AStopOvertakesAndALostLinkStops) {
   ASSERT_TRUE(welcome);
   EXPECT_GT(welcome->epoch, order->order.epoch) << "a reconnect begins a new epoch";
   EXPECT_FALSE(reborn.await<wire::MissionOrder>(milliseconds(400))) << "nothing moves before a person says so";
+}
+
+TEST(FailedWays, AreTheOneDrivenAndTheOneAfterIt) {
+  const std::vector<PlaceId> path = {PlaceId("p1"), PlaceId("p2"), PlaceId("p3"), PlaceId("p4")};
+  const auto way = [](const char* from, const char* to) { return planning::Way{PlaceId(from), PlaceId(to)}; };
+  using Ways = std::vector<planning::Way>;
+  EXPECT_EQ(failed_ways(path, 1, PlaceId("p1")), (Ways{way("p1", "p2"), way("p2", "p1")}));
+  EXPECT_EQ(failed_ways(path, 2, PlaceId("p9")), (Ways{way("p2", "p3"), way("p3", "p2")}));
+  EXPECT_EQ(failed_ways(path, 2, PlaceId("p3")),
+            (Ways{way("p2", "p3"), way("p3", "p2"), way("p3", "p4"), way("p4", "p3")}));
+  EXPECT_EQ(failed_ways(path, 0, PlaceId("p1")), (Ways{way("p1", "p2"), way("p2", "p1")}));
+  EXPECT_EQ(failed_ways(path, 3, PlaceId("p4")), (Ways{way("p3", "p4"), way("p4", "p3")}));
+  EXPECT_TRUE(failed_ways(path, 0, PlaceId("p9")).empty());
+  EXPECT_TRUE(failed_ways({PlaceId("p1")}, 0, PlaceId("p1")).empty());
+}
+
+TEST_F(DrivingTest, AFailedWayIsDrivenRoundAndWithoutAnotherTheMissionFails) {
+  add_robot();
+  put_on_map();
+  add_second_way();
+  FakeAgent agent;
+  ASSERT_EQ(agent.connect(app->port(), robot, token), 101);
+  const std::string lease = take_lease(*admin);
+  find_itself(agent);
+  const Answer sent = send_home(lease);
+  ASSERT_EQ(sent.status, 201) << sent.body;
+  const auto first = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(first);
+  ASSERT_GE(first->path.size(), 2U);
+  agent.status(wire::DriveState::kDriving, first, 1);
+  wait_for_state(sent.json(), "driving");
+  agent.look(1);
+  ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
+  agent.status(wire::DriveState::kFailed, first, 1);
+  const auto second = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(second) << mission_now(sent.json()).dump();
+  EXPECT_EQ(second->mission, first->mission) << "the same mission";
+  EXPECT_GT(second->order, first->order);
+  EXPECT_EQ(second->path.back().place, first->path.back().place);
+  EXPECT_NE(second->path[1].place, first->path[1].place);
+  json now = mission_now(sent.json());
+  EXPECT_EQ(now.at("state"), "accepted");
+  EXPECT_EQ(now.at("seq"), second->order.seq);
+  EXPECT_EQ(now.at("path").size(), second->path.size());
+  EXPECT_NE(now.at("reason").get<std::string>().find("another way"), std::string::npos) << now.dump();
+
+  // What it still tells of the first way changes nothing.
+  agent.status(wire::DriveState::kFailed, first, 1);
+  agent.status(wire::DriveState::kDriving, second, 1);
+  EXPECT_EQ(wait_for_state(sent.json(), "driving").at("state"), "driving");
+  EXPECT_TRUE(agent.await<wire::Permit>(milliseconds(2000)));
+  agent.look(1);
+  ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
+  agent.status(wire::DriveState::kFailed, second, 1);
+  now = wait_for_state(sent.json(), "failed");
+  EXPECT_EQ(now.at("state"), "failed");
+  EXPECT_NE(now.at("reason").get<std::string>().find("has just failed"), std::string::npos) << now.dump();
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(400)));
+}
+
+TEST_F(DrivingTest, WithoutALeaseNoOtherWayIsDriven) {
+  add_robot();
+  put_on_map();
+  FakeAgent agent;
+  ASSERT_EQ(agent.connect(app->port(), robot, token), 101);
+  const std::string lease = take_lease(*admin);
+  find_itself(agent);
+  const Answer sent = send_home(lease);
+  const auto order = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(order);
+  agent.status(wire::DriveState::kDriving, order, 1);
+  wait_for_state(sent.json(), "driving");
+  EXPECT_EQ(admin->send("DELETE", root + "/lease", json({{"lease_id", lease}}).dump()).status, 204);
+  agent.status(wire::DriveState::kFailed, order, 1);
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(600)));
+  EXPECT_EQ(mission_now(sent.json()).at("state"), "stopped");
 }
 
 TEST_F(DrivingTest, DashboardsHearEverythingInOrder) {

@@ -29,10 +29,9 @@ export function heading(journey: Journey, graph: Graph | null): string {
   return kHeadings[journey.phase](goalName(journey, graph));
 }
 
-/** Why it ended without arriving; null when there is nothing to explain. */
+/** Why it ended without arriving, or why it goes another way; null when there is nothing to explain. */
 export function reasonOf(journey: Journey): string | null {
-  const ended = journey.phase === 'refused' || journey.phase === 'stopped' || journey.phase === 'failed';
-  if (!ended) return null;
+  if (journey.phase === 'asking' || journey.phase === 'arrived') return null;
   return journey.reason ? sentence(journey.reason) : null;
 }
 

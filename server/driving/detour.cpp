@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/driving/detour.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "map/lookup.hpp"
+#include "server/driving/driving.hpp"
+#include "wire/mission_order.hpp"
+
+namespace homeward::server {
+namespace {
+
+constexpr int kMostDetours = 3;  // of one mission; then a person decides
+
+// What must hold for a robot that failed to be sent on, with the unit locked.
+bool may_go_on(const RobotUnit& unit, SteadyTime now) {
+  return unit.under_way && unit.online() && unit.lease && now < unit.lease->expires && unit.knows_where(now);
+}
+
+}  // namespace
+
+std::vector<planning::Way> failed_ways(const std::vector<PlaceId>& path, std::int64_t index, const PlaceId& here) {
+  std::vector<planning::Way> ways;
+  const auto size = static_cast<std::int64_t>(path.size());
+  const auto close = [&](std::int64_t before) {
+    const PlaceId& from = path[static_cast<std::size_t>(before)];
+    const PlaceId& to = path[static_cast<std::size_t>(before) + 1];
+    ways.push_back({from, to});
+    ways.push_back({to, from});
+  };
+  if (index > 0 && index < size) close(index - 1);
+  const auto at = std::ranges::find(path, here) - path.begin();
+  if (at >= index && at + 1 < size) close(at);
+  return ways;
+}
+
+bool Driving::begin_detour(const Unit& found, const std::string& reason) {
+  RobotUnit& unit = *found;
+  if (unit.detours >= kMostDetours || !may_go_on(unit, std::chrono::steady_clock::now())) return false;
+  if (*unit.belief->place == unit.mission->place)
+    return false;  // at the destination's place no way is left to go round
+  const auto ways = failed_ways(unit.mission->path, unit.mission->path_index, *unit.belief->place);
+  if (ways.empty()) return false;
+  unit.closed.insert(unit.closed.end(), ways.begin(), ways.end());
+  ++unit.detours;
+  unit.looking_for_detour = true;
+  // Reading the map and planning are no work for the thread of the sockets.
+  if (!heavy_.try_run([this, found, mission = unit.mission->id, reason] { send_detour(found, mission, reason); })) {
+    unit.looking_for_detour = false;
+    return false;
+  }
+  unit.mission->reason = reason + " Another way is looked for.";
+  spdlog::info("robot {} mission {} failed at place {} of its way: {}", unit.id.str(), unit.mission->id.str(),
+               unit.mission->path_index, reason);
+  keep(*unit.mission);
+  return true;
+}
+
+Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mission) {
+  Plan plan;
+  planning::RouteRequest asked;
+  {
+    const std::scoped_lock lock(unit->mutex);
+    if (!unit->looking_for_detour || !unit->mission || unit->mission->id != mission || !unit->belief ||
+        !unit->belief->place) {
+      return fail(ErrorCode::kConflict, "The mission has ended in the meantime.", "missions/" + mission.str());
+    }
+    plan.mission = *unit->mission;
+    asked.from = *unit->belief->place;
+    asked.closed = unit->closed;
+  }
+  const auto loaded = maps_.load(plan.mission.map);
+  if (!loaded) return pass_on(loaded);
+  const map::TopologicalMap& map = (*loaded)->map;
+  asked.to = plan.mission.place;
+  // Ways of a map that was edited in the meantime need not be in it any more.
+  std::erase_if(asked.closed, [&](const planning::Way& way) {
+    return map::find_place(map, way.from) == nullptr || map::find_place(map, way.to) == nullptr;
+  });
+  const auto route = planning::plan_route(map, asked);
+  if (!route) return pass_on(route);
+  const auto destination = std::ranges::find_if(map.destinations, [&](const map::Destination& candidate) {
+    return plan.mission.destination && candidate.id == *plan.mission.destination;
+  });
+  plan.order = destination != map.destinations.end() ? wire::order_for_route(map, route->places, *destination)
+                                                     : wire::order_for_route(map, route->places);
+  plan.mission.revision = map.revision;
+  plan.mission.path = route->places;
+  plan.mission.path_index = 0;
+  plan.order.mission = mission;
+  plan.order.map = plan.mission.map;
+  plan.order.valid_for_ms = kPermitMs;
+  return plan;
+}
+
+void Driving::send_detour(const Unit& found, const MissionId& mission, const std::string& reason) {
+  auto planned = plan_detour(found, mission);
+  RobotUnit& unit = *found;
+  const std::scoped_lock lock(unit.mutex);
+  if (!unit.looking_for_detour || !unit.mission || unit.mission->id != mission) return;  // a person was faster
+  unit.looking_for_detour = false;
+  const auto now = std::chrono::steady_clock::now();
+  if (!planned || !may_go_on(unit, now) || unit.map != planned->mission.map) {
+    if (unit.under_way) {
+      const std::string why = planned ? "" : " " + planned.error().message;
+      end_mission(unit, wire::MissionState::kFailed, reason + why);
+    }
+    return tell(unit);
+  }
+  planned->mission.state = wire::MissionState::kAccepted;
+  planned->mission.reason = reason + " The robot takes another way.";
+  planned->mission.epoch = unit.epoch;
+  planned->mission.seq = ++unit.seq;
+  planned->order.order = {unit.epoch, unit.seq};
+  planned->order.speed_limit_mps = std::min(kTopSpeedMps, unit.hello.max_speed_mps);
+  unit.mission = planned->mission;
+  unit.mission_at = now;
+  unit.link->send(planned->order);
+  spdlog::info("robot {} mission {} goes another way over {} places", unit.id.str(), mission.str(),
+               planned->mission.path.size());
+  keep(*unit.mission);
+  tell(unit);
+}
+
+}  // namespace homeward::server
