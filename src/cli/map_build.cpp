@@ -7,53 +7,30 @@
 #include <memory>
 
 #include "agent/files/read_file.hpp"
-#include "agent/files/tour_folder.hpp"
 #include "agent/files/write_file.hpp"
 #include "cli/command.hpp"
 #include "cli/map.hpp"
+#include "cli/map_output.hpp"
 #include "db/map_file.hpp"
+#include "map/parts.hpp"
 #include "pipeline/build_map.hpp"
-#include "pipeline/eye.hpp"
 #include "pipeline/report/report_page.hpp"
-#include "pipeline/thumbnail.hpp"
 
 namespace homeward::cli {
 namespace {
 
 struct Options {
-  std::string tour;
+  std::vector<std::string> tours;  // folders
   std::string camera;
   std::string out;
+  std::string add_to;  // map file
   std::string name;
   std::string report;  // folder
   int report_pictures = 60;
   int threads = 0;
   std::uint64_t seed = 1;
+  bool json = false;
 };
-
-/// Thumbnails of what a dashboard shows: prototypes and destinations.
-Result<db::Thumbnails> make_thumbnails(const map::TopologicalMap& map, const agent::TourFolder& tour) {
-  const auto eye = pipeline::Eye::create(map.camera, map.feature_config);
-  if (!eye) return pass_on(eye);
-  std::vector<ImageId> wanted;
-  for (const map::Place& place : map.places) wanted.push_back(place.prototype);
-  for (const map::Destination& destination : map.destinations) wanted.push_back(destination.image);
-  for (const map::Hypothesis& hypothesis : map.hypotheses) {
-    wanted.push_back(hypothesis.prototype_a);
-    wanted.push_back(hypothesis.prototype_b);
-  }
-  db::Thumbnails thumbnails;
-  for (std::size_t i = 0; i < tour.images().size(); ++i) {
-    const ImageId& id = tour.images()[i].id;
-    if (std::ranges::find(wanted, id) == wanted.end()) continue;
-    const auto picture = tour.read(i);
-    if (!picture) return pass_on(picture);
-    auto thumbnail = pipeline::make_thumbnail(*eye, *picture);
-    if (!thumbnail) return pass_on(thumbnail);
-    thumbnails.emplace(id, std::move(*thumbnail));
-  }
-  return thumbnails;
-}
 
 /// "21 November 2026", local time.
 std::string today() {
@@ -66,19 +43,24 @@ std::string today() {
   return date.substr(std::min(date.find_first_not_of(' '), date.size()));
 }
 
-Status write_report(const Options& options, const pipeline::BuiltMap& built, const agent::TourFolder& tour) {
+Status write_report(const Options& options, const pipeline::BuiltMap& built, const TourFolders& tours) {
   const pipeline::ReportOptions report{today(), options.report_pictures, options.threads, options.seed};
-  const auto page = pipeline::report_page(built, {&tour}, report);
+  const auto page = pipeline::report_page(built, tours.sources(), report);
   if (!page) return pass_on(page);
   const std::filesystem::path file = std::filesystem::path(options.report) / "report.html";
   if (Status written = agent::write_file(file, *page); !written) return written;
-  std::cout << "report: " << file.string() << "\n";
+  if (!options.json) std::cout << "report: " << file.string() << "\n";
   return {};
 }
 
 Status build(const Options& options) {
-  const auto tour = agent::TourFolder::open(options.tour);
-  if (!tour) return pass_on(tour);
+  const auto tours = TourFolders::open(options.tours);
+  if (!tours) return pass_on(tours);
+  if (!options.add_to.empty()) {
+    return add_to_map({options.add_to, options.camera, options.out, options.threads, options.seed, options.json},
+                      *tours);
+  }
+  if (options.camera.empty()) return fail(ErrorCode::kInvalidInput, "A new map needs its camera.", "--camera");
   const auto camera = agent::read_camera(options.camera);
   if (!camera) return pass_on(camera);
   if (!options.report.empty()) {  // before the work: a folder that cannot be made is not told after it
@@ -89,35 +71,46 @@ Status build(const Options& options) {
   {
     ProgressBar bar;
     const pipeline::BuildOptions build_options{options.name, options.threads, options.seed};
-    built = pipeline::build_noted_map({&*tour}, *camera, build_options, nullptr,
+    built = pipeline::build_noted_map(tours->sources(), *camera, build_options, nullptr,
                                       [&](const pipeline::BuildProgress& at) { bar.show(at.stage, at.share); });
   }
   if (!built) {
     Error error = built.error();
-    if (error.where.empty()) error.where = options.tour;
+    if (error.where.empty()) error.where = options.tours.front();
     return tl::unexpected<Error>(error);
   }
   map::TopologicalMap& map = built->map;
   map.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const auto thumbnails = make_thumbnails(map, *tour);
-  if (!thumbnails) return pass_on(thumbnails);
-  if (const Status saved = db::save_map(options.out, map, *thumbnails); !saved) return saved;
-  std::cout << map.images.size() << " pictures, " << map.places.size() << " places, " << map.edges.size() << " edges, "
-            << map.destinations.size() << " destinations: " << options.out << "\n";
-  return options.report.empty() ? Status{} : write_report(options, *built, *tour);
+  db::Thumbnails thumbnails;
+  if (Status made = add_thumbnails(map, *tours, thumbnails); !made) return made;
+  if (const Status saved = db::save_map(options.out, map, thumbnails); !saved) return saved;
+  if (options.json) {
+    std::cout << summary_json(map, options.out).dump() << "\n";
+  } else {
+    std::cout << summary(map) << ": " << options.out << "\n" << map::tell_parts(map::parts(map));
+  }
+  return options.report.empty() ? Status{} : write_report(options, *built, *tours);
 }
 
 }  // namespace
 
 void register_map_build(CLI::App& map) {
-  CLI::App* command = map.add_subcommand("build", "Build a map from the pictures of a tour");
+  CLI::App* command = map.add_subcommand("build", "Build a map from the pictures of tours, or add tours to a map");
   const auto options = std::make_shared<Options>();
-  command->add_option("--tour", options->tour, "Folder of the tour's pictures")->required();
-  command->add_option("--camera", options->camera, "camera.json")->required();
+  command->add_option("--tour", options->tours, "Folder of a tour's pictures; once for each tour")
+      ->required()
+      ->allow_extra_args(false);
+  command->add_option("--camera", options->camera, "camera.json; with --add-to only when it is not the map's camera");
   command->add_option("--out", options->out, "Map file to write")->required();
-  command->add_option("--name", options->name, "Name of the map");
-  command->add_option("--report", options->report,
-                      "Folder for report.html: one page on the map and how it came about, to read and to print");
+  auto* add_to = command->add_option("--add-to", options->add_to,
+                                     "Map file that the tours join: it keeps its places, names and decisions, and "
+                                     "stays as it is unless --out names it");
+  command->add_option("--name", options->name, "Name of the map")->excludes(add_to);
+  command->add_flag("--json", options->json, "Tell the result as one JSON object");
+  command
+      ->add_option("--report", options->report,
+                   "Folder for report.html: one page on the map and how it came about, to read and to print")
+      ->excludes(add_to);
   command
       ->add_option("--report-pictures", options->report_pictures,
                    "Loop hypotheses that the report shows in pictures, the least certain first")

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "map/lookup.hpp"
+#include "map/parts.hpp"
 #include "mapping/clustering.hpp"
 #include "mapping/dempster_shafer.hpp"
 #include "mapping/edges.hpp"
@@ -22,18 +23,12 @@ constexpr double kToursApartImages = 1e6;  // so far apart along the way are ima
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-/// "tour" of an image "tour/file".
-std::string tour_name(const ImageId& image) {
-  const std::string& id = image.str();
-  return id.substr(0, std::min(id.rfind('/'), id.size()));
-}
-
 /// Where each image lies along the tours, in images.
 std::vector<double> positions(const map::TopologicalMap& old, const GrowthInput& input) {
   std::unordered_map<std::string, int> tours;
   std::unordered_map<ImageId, double> old_positions;
   for (std::size_t i = 0; i < old.images.size(); ++i) {
-    const int tour = tours.try_emplace(tour_name(old.images[i].id), static_cast<int>(tours.size())).first->second;
+    const int tour = tours.try_emplace(map::tour_of(old.images[i].id), static_cast<int>(tours.size())).first->second;
     old_positions.emplace(old.images[i].id, static_cast<double>(i) + kToursApartImages * tour);
   }
   std::vector<double> result;
@@ -72,7 +67,8 @@ class Growth {
         pairs_(pairs),
         config_(config),
         all_{input.images, input.tour_of, input.appearances, input.marks, &pairs},
-        fresh_{std::span(input.images).first(at(input.new_images)), std::span(input.tour_of).first(at(input.new_images)),
+        fresh_{std::span(input.images).first(at(input.new_images)),
+               std::span(input.tour_of).first(at(input.new_images)),
                std::span(input.appearances).first(at(input.new_images)), input.marks, &pairs},
         path_(fresh_),
         track_(input.images, input.tour_of, pairs, path_.metric(), extent(), config.track),
@@ -108,8 +104,8 @@ class Growth {
     const DistanceFunction distance = [this](int a, int b) {
       const float visual = pairs_.distance(a, b);
       if (!std::isfinite(visual) || named_apart(a, b)) return std::numeric_limits<float>::infinity();
-      const bool excluded = !input_.is_anchor(a) && !input_.is_anchor(b) &&
-                            track_.judge(a, b).verdict == TrackVerdict::kContradicts;
+      const bool excluded =
+          !input_.is_anchor(a) && !input_.is_anchor(b) && track_.judge(a, b).verdict == TrackVerdict::kContradicts;
       return excluded ? std::numeric_limits<float>::infinity() : visual;
     };
     NearLists near(input_.images.size());
@@ -136,17 +132,19 @@ class Growth {
       const int image = parts_[at(hypotheses_[h].a)].prototype;  // the new one: anchors come last
       const int anchor = parts_[at(hypotheses_[h].b)].prototype;
       const auto old_image = old_images.find(input_.images[at(anchor)].id);
-      meetings.push_back({image, old_image == old_images.end() ? -1 : old_image->second, pairs_.relation(image, anchor)});
+      meetings.push_back(
+          {image, old_image == old_images.end() ? -1 : old_image->second, pairs_.relation(image, anchor)});
       hypothesis_of.push_back(h);
     }
     std::vector<double> trust(hypotheses_.size(), 1.0);
     const double on_old_tours = old_reliability(old_, config_.hypotheses);
     for (const std::size_t h : hypothesis_of) trust[h] = on_old_tours;
-    const bool old_metric = std::ranges::all_of(old_.images, [](const map::MapImage& i) { return i.odometry.has_value(); });
+    const bool old_metric =
+        std::ranges::all_of(old_.images, [](const map::MapImage& i) { return i.odometry.has_value(); });
     if (!old_metric || !path_.metric()) return trust;
     std::vector<int> old_tour_of;
     for (std::size_t i = 0; i < old_.images.size(); ++i) {
-      const bool goes_on = i > 0 && tour_name(old_.images[i].id) == tour_name(old_.images[i - 1].id);
+      const bool goes_on = i > 0 && map::tour_of(old_.images[i].id) == map::tour_of(old_.images[i - 1].id);
       old_tour_of.push_back(i == 0 ? 0 : old_tour_of.back() + (goes_on ? 0 : 1));
     }
     const PairTable unknown(static_cast<int>(old_.images.size()));  // the map keeps lengths and turns of odometry only
@@ -229,8 +227,7 @@ class Growth {
 
   [[nodiscard]] map::Place new_place(const std::vector<int>& images, std::int64_t number) const {
     const int marked = marked_image(images);
-    const int prototype =
-        marked >= 0 ? marked : medoid(images, [this](int a, int b) { return pairs_.distance(a, b); });
+    const int prototype = marked >= 0 ? marked : medoid(images, [this](int a, int b) { return pairs_.distance(a, b); });
     map::Place place;
     place.id = PlaceId("p" + std::to_string(number));
     if (marked >= 0) place.label = *labels_[at(marked)];

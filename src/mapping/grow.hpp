@@ -31,9 +31,9 @@ struct GrownMap {
 /// make new places; transitions that the new tours drove become edges.
 /// Looks count between old and new as far as they were right where the way could tell, in the old map and on the new
 /// tours, and as far as the two ways bear each other out (two_ways.hpp).
-/// Nothing of the old map is changed or taken away: places keep id, label, prototype, members and appearances, and never
-/// merge; edges, decisions and edits stay; an edge that a person removed does not come back. Statistics and calibration
-/// stay those of the old map. The revision rises by one.
+/// Nothing of the old map is changed or taken away: places keep id, label, prototype, members and appearances, and
+/// never merge; edges, decisions and edits stay; an edge that a person removed does not come back. Statistics and
+/// calibration stay those of the old map. The revision rises by one.
 GrownMap grow_map(const map::TopologicalMap& old, const GrowthInput& input, const PairTable& pairs,
                   const MappingConfig& config);
 

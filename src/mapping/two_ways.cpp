@@ -12,7 +12,7 @@ namespace homeward::mapping {
 namespace {
 
 constexpr double kSureSigmas = 3.0;
-constexpr double kFarExtents = 2.0;    // pairs nearer than so many places cannot tell look-alikes apart
+constexpr double kFarExtents = 2.0;  // pairs nearer than so many places cannot tell look-alikes apart
 constexpr double kTurnMargin_rad = 0.17;
 
 enum class Say { kNothing, kAgree, kContradict };
