@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -35,12 +36,17 @@ nlohmann::json result_json(const pipeline::RefinedMap& refined, const std::strin
                       {"gain", one.gain},
                       {"replaced", one.replaced}});
   }
+  nlohmann::json sure = nlohmann::json::array();
+  for (std::size_t i = 0; i < refined.sure.size(); ++i) {
+    if (!refined.sure[i].empty())
+      sure.push_back({{"image", refined.images[i].str()}, {"place", refined.sure[i].str()}});
+  }
   nlohmann::json skipped = nlohmann::json::array();
   for (const Error& error : refined.skipped) skipped.push_back(error.where);
   return {{"map", file},
           {"revision", refined.map.revision},
           {"images", refined.images.size()},
-          {"sure", refined.sure},
+          {"sure", sure},
           {"gained", gained},
           {"over_budget", refined.refinement.over_budget},
           {"skipped", skipped}};
@@ -49,7 +55,8 @@ nlohmann::json result_json(const pipeline::RefinedMap& refined, const std::strin
 void print_result(const pipeline::RefinedMap& refined, const std::string& file) {
   int replaced = 0;
   for (const mapping::GainedAppearance& one : refined.refinement.gained) replaced += one.replaced ? 1 : 0;
-  std::cout << refined.images.size() << " pictures, " << refined.sure << " at places that are certain; "
+  const auto sure = std::ranges::count_if(refined.sure, [](const PlaceId& place) { return !place.empty(); });
+  std::cout << refined.images.size() << " pictures, " << sure << " at places that are certain; "
             << refined.refinement.gained.size() << " appearances gained (" << replaced
             << " in the place of others): " << file << "\n";
   if (refined.refinement.over_budget > 0) {
@@ -123,6 +130,16 @@ void register_map_refine(CLI::App& map) {
       ->add_option("--sure", options->refine.least_probability,
                    "Calibrated probability from which a picture's place is certain")
       ->check(CLI::Range(0.5, 1.0))
+      ->capture_default_str();
+  command
+      ->add_option("--closeness", options->refine.closeness,
+                   "A picture at a place lies so much closer to its prototype than the next prototype does")
+      ->check(CLI::Range(0.1, 2.0))
+      ->capture_default_str();
+  command
+      ->add_option("--least-gain", options->refine.refine.least_gain,
+                   "Information in nats below which an appearance is not worth its bytes")
+      ->check(CLI::Range(0.01, 100.0))
       ->capture_default_str();
   command->add_option("--threads", options->refine.threads, "Threads (0: as many as the machine has)")
       ->check(CLI::Range(0, 256));

@@ -62,8 +62,9 @@ class PlaceChoice {
         constexpr std::uint64_t kSeed = 1;
         const bool itself = o == s + 1;
         const double distance =
-            itself ? distance_scale : matching::compare(*samples[s], *options[o], config.verify, kSeed).distance;
-        const double z = distance / distance_scale;
+            itself ? 0.0 : matching::compare(*samples[s], *options[o], config.verify, kSeed).distance;
+        // To be more alike than is usual within a place is no merit: a picture would speak for itself.
+        const double z = std::max(1.0, distance / distance_scale);
         const double likelihood = std::isfinite(z) ? std::pow(1.0 + z * z, -config.sensor_exponent) : 0.0;
         log_likelihood_[s][o] = std::log(std::max(config.sensor_floor, likelihood));
       }

@@ -50,13 +50,13 @@ std::int64_t kept_bytes(const features::Appearance& appearance);
 features::Appearance thinned(const features::Appearance& appearance, int most_features);
 
 /// Gives places the appearances of those sightings that bring information: an appearance gains as much as it makes the
-/// place's sightings more probable in the localiser's sensor model (log likelihood, summed); itself counts as if seen
-/// again at the distance that is usual within a place. Chosen greedily, at most `most_appearances` for a place; a full
-/// place exchanges the added appearance whose loss costs least where that gains enough (a submodular choice: Nemhauser,
-/// Wolsey, Fisher 1978). The prototype's always stays. Over all places the greatest gain goes first, until the map has
-/// grown by `spare_bytes`. Where a person merged, moved or split places, nothing is exchanged.
-/// Nothing but appearances changes. The revision rises by one where something was gained. Does not depend on `threads`.
-/// Errors: kCancelled; the map is then unchanged.
+/// place's sightings more probable in the localiser's sensor model (log likelihood, summed), none of them more than
+/// at the distance that is usual within a place: so nothing gains by explaining itself. Chosen greedily, at most
+/// `most_appearances` for a place; a full place exchanges the added appearance whose loss costs least where that gains
+/// enough (a submodular choice: Nemhauser, Wolsey, Fisher 1978). The prototype's always stays. Over all places the
+/// greatest gain goes first, until the map has grown by `spare_bytes`. Where a person merged, moved or split places,
+/// nothing is exchanged. Nothing but appearances changes. The revision rises by one where something was gained. Does
+/// not depend on `threads`. Errors: kCancelled; the map is then unchanged.
 Result<Refinement> refine_places(map::TopologicalMap& map, std::span<const Sighting> sightings,
                                  const RefineConfig& config, std::int64_t spare_bytes, int threads,
                                  const std::stop_token& stop);

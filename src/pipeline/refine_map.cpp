@@ -2,7 +2,9 @@
 #include "pipeline/refine_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <set>
 #include <utility>
@@ -22,17 +24,72 @@ namespace {
 constexpr double kFeaturesShare = 0.4;  // of the time, for the progress bar
 constexpr double kLocaliseShare = 0.4;
 
-/// The place and those that an edge joins to it, either way; ascending.
-std::set<int> surroundings(const map::PlaceGraph& graph, int place) {
-  std::set<int> result{place};
-  for (int from = 0; from < graph.size(); ++from) {
-    for (const map::Arc& arc : graph.arcs_from(from)) {
-      if (from == place) result.insert(arc.to);
-      if (arc.to == place) result.insert(from);
+/// Tells how close to a place a picture was taken, by how far features are displaced: unlike the visual distance, that
+/// does not change with the light.
+class Closeness {
+ public:
+  Closeness(const map::TopologicalMap& map, const map::PlaceGraph& graph, const std::vector<int>& asked,
+            const RefineOptions& options)
+      : map_(map), options_(options), near_(map.places.size()) {
+    for (int from = 0; from < graph.size(); ++from) {
+      for (const map::Arc& arc : graph.arcs_from(from)) {
+        near_[at(from)].insert(arc.to);
+        near_[at(arc.to)].insert(from);
+      }
+    }
+    for (int place = 0; place < graph.size(); ++place) near_[at(place)].insert(place);
+    for (const int place : asked) {
+      if (place < 0) continue;
+      for (const int beside : near_[at(place)]) measure(beside);
     }
   }
-  return result;
-}
+
+  /// The place and those that an edge joins to it, either way.
+  [[nodiscard]] const std::set<int>& near(int place) const { return near_[at(place)]; }
+
+  /// Which of a place and its neighbours the picture was taken at: where features are displaced least, and by so much
+  /// less than between that place's prototype and its nearest neighbour's (`closeness`). -1: none, or not verified.
+  [[nodiscard]] int place_of(const features::Appearance& seen, int believed) const {
+    int closest = -1;
+    float least = std::numeric_limits<float>::infinity();
+    for (const int place : near(believed)) {
+      for (const features::Appearance& known : map_.places[at(place)].appearances) {
+        const mapping::PairRelation relation = relate(seen, known);
+        if (relation.inliers < options_.fewest_inliers || relation.parallax_rad >= least) continue;
+        least = relation.parallax_rad;
+        closest = place;
+      }
+    }
+    return closest >= 0 && static_cast<double>(least) <= options_.closeness * to_neighbour_rad_.at(closest) ? closest
+                                                                                                            : -1;
+  }
+
+ private:
+  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+  [[nodiscard]] mapping::PairRelation relate(const features::Appearance& a, const features::Appearance& b) const {
+    constexpr std::uint64_t kSeed = 1;
+    return mapping::relate(a, b, options_.refine.verify, kSeed);
+  }
+
+  void measure(int place) {
+    if (to_neighbour_rad_.contains(place)) return;
+    float least = std::numeric_limits<float>::infinity();
+    for (const int beside : near(place)) {
+      if (beside == place) continue;
+      const mapping::PairRelation relation =
+          relate(map_.places[at(place)].appearances.front(), map_.places[at(beside)].appearances.front());
+      if (relation.inliers >= options_.fewest_inliers) least = std::min(least, relation.parallax_rad);
+    }
+    constexpr float kAlone_rad = 0.3F;  // one metre beside walls three metres away
+    to_neighbour_rad_[place] = std::isfinite(least) ? least : kAlone_rad;
+  }
+
+  const map::TopologicalMap& map_;
+  const RefineOptions& options_;
+  std::vector<std::set<int>> near_;        // of each place
+  std::map<int, float> to_neighbour_rad_;  // displacement to the nearest neighbour's prototype
+};
 
 /// Of each picture the place that the belief is sure of, or -1.
 std::vector<int> sure_places(const map::TopologicalMap& map, const std::vector<features::Appearance>& pictures,
@@ -74,35 +131,23 @@ Result<RefinedMap> refine_map(const map::TopologicalMap& map, const TourSource& 
   if (stop.stop_requested()) return cancelled();
 
   const map::PlaceGraph graph(map);
+  const Closeness closeness(map, graph, believed, options);
   std::vector<int> place_of(pictures.size(), -1);
   const auto verify = [&](std::size_t i) {
     if (i + 1 >= pictures.size() || believed[i] < 0 || believed[i + 1] < 0) return;
-    const std::set<int> near = surroundings(graph, believed[i]);
-    if (!near.contains(believed[i + 1])) return;  // what comes next must bear it out
-    float least = std::numeric_limits<float>::infinity();
-    int inliers = 0;
-    for (const int place : near) {
-      for (const features::Appearance& known : map.places[static_cast<std::size_t>(place)].appearances) {
-        constexpr std::uint64_t kSeed = 1;
-        const mapping::PairRelation relation = mapping::relate(pictures[i], known, options.refine.verify, kSeed);
-        if (!relation.verified() || relation.distance >= least) continue;
-        least = relation.distance;
-        inliers = relation.inliers;
-        place_of[i] = place;
-      }
-    }
-    if (inliers < options.fewest_inliers) place_of[i] = -1;
+    if (!closeness.near(believed[i]).contains(believed[i + 1])) return;  // what comes next must bear it out
+    place_of[i] = closeness.place_of(pictures[i], believed[i]);
   };
   if (!mapping::parallel_for(pictures.size(), options.threads, verify, {}, stop)) return cancelled();
 
-  RefinedMap result{map, {}, {}, std::move(looked->skipped), 0};
+  RefinedMap result{map, {}, {}, std::move(looked->skipped), {}};
   std::vector<mapping::Sighting> sightings;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     result.images.push_back(looked->tours.images[i].id);
+    result.sure.push_back(place_of[i] < 0 ? PlaceId() : map.places[static_cast<std::size_t>(place_of[i])].id);
     if (place_of[i] < 0) continue;
     sightings.push_back({place_of[i], static_cast<int>(i), &pictures[i]});
   }
-  result.sure = static_cast<int>(sightings.size());
   auto refined =
       mapping::refine_places(result.map, sightings, options.refine, options.spare_bytes, options.threads, stop);
   if (!refined) return pass_on(refined);
