@@ -150,8 +150,13 @@ class Growth {
     const PairTable unknown(static_cast<int>(old_.images.size()));  // the map keeps lengths and turns of odometry only
     const TourTrack old_way(old_.images, old_tour_of, unknown, true, extent(), config_.track);
     constexpr int kReach = 60;  // new images; further away odometry alone knows too little
-    const std::vector<double> ways = meeting_trust(meetings, track_, old_way, extent(), kReach);
-    for (std::size_t m = 0; m < meetings.size(); ++m) trust[hypothesis_of[m]] *= ways[m];
+    const std::vector<MeetingTrust> ways = meeting_trust(meetings, track_, old_way, extent(), kReach);
+    // Borne out by several, looks need no other surety: alike rooms of a building lie in different places.
+    constexpr double kBorneOut = 3.0;
+    for (std::size_t m = 0; m < meetings.size(); ++m) {
+      double& factor = trust[hypothesis_of[m]];
+      factor = (ways[m].agreed >= kBorneOut ? 1.0 : factor) * ways[m].factor();
+    }
     return trust;
   }
 

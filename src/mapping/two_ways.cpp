@@ -22,7 +22,7 @@ Say compare(const Meeting& a, const Meeting& b, const TourTrack& new_way, const 
   const TrackPrediction then = old_way.predict(a.old_image, b.old_image);
   if (!now.known || !then.known) return Say::kNothing;
   const double sigma_m = std::hypot(now.distance_sigma, then.distance_sigma);
-  if (std::max(now.distance, then.distance) < kFarExtents * extent_m || sigma_m > extent_m) return Say::kNothing;
+  if (std::max(now.distance, then.distance) < kFarExtents * extent_m) return Say::kNothing;
   const double miss_m = std::abs(now.distance - then.distance);
   if (miss_m > kFarExtents * extent_m + kSureSigmas * sigma_m) return Say::kContradict;
   if (a.seen.verified() && b.seen.verified()) {
@@ -33,18 +33,22 @@ Say compare(const Meeting& a, const Meeting& b, const TourTrack& new_way, const 
     const double miss_rad = std::abs(wrap_angle(turn_now_rad - turn_then_rad));
     if (miss_rad > kTurnMargin_rad + kSureSigmas * sigma_rad) return Say::kContradict;
   }
-  return miss_m <= extent_m + sigma_m ? Say::kAgree : Say::kNothing;
+  return sigma_m <= extent_m && miss_m <= extent_m + sigma_m ? Say::kAgree : Say::kNothing;
 }
 
 }  // namespace
 
-std::vector<double> meeting_trust(std::span<const Meeting> meetings, const TourTrack& new_way, const TourTrack& old_way,
-                                  double place_extent_m, int reach) {
+std::vector<MeetingTrust> meeting_trust(std::span<const Meeting> meetings, const TourTrack& new_way,
+                                        const TourTrack& old_way, double place_extent_m, int reach) {
   std::vector<std::size_t> by_image(meetings.size());
   std::iota(by_image.begin(), by_image.end(), std::size_t{0});
   std::ranges::stable_sort(by_image, {}, [&](std::size_t i) { return meetings[i].image; });
-  std::vector<double> agreed(meetings.size(), 0.0);
-  std::vector<double> contradicted(meetings.size(), 0.0);
+  struct Pair {
+    std::size_t a = 0;
+    std::size_t b = 0;
+    bool agree = false;
+  };
+  std::vector<Pair> pairs;
   for (std::size_t x = 0; x < by_image.size(); ++x) {
     const Meeting& a = meetings[by_image[x]];
     for (std::size_t y = x + 1; y < by_image.size(); ++y) {
@@ -52,15 +56,23 @@ std::vector<double> meeting_trust(std::span<const Meeting> meetings, const TourT
       if (b.image - a.image > reach) break;
       if (a.old_image < 0 || b.old_image < 0) continue;
       const Say say = compare(a, b, new_way, old_way, place_extent_m);
-      if (say == Say::kNothing) continue;
-      std::vector<double>& count = say == Say::kAgree ? agreed : contradicted;
-      count[by_image[x]] += 1.0;
-      count[by_image[y]] += 1.0;
+      if (say != Say::kNothing) pairs.push_back({by_image[x], by_image[y], say == Say::kAgree});
     }
   }
-  std::vector<double> trust;
-  for (std::size_t i = 0; i < meetings.size(); ++i) {
-    trust.push_back(std::max(0.0, 1.0 + agreed[i] - contradicted[i]) / (1.0 + agreed[i] + contradicted[i]));
+  constexpr int kRounds = 10;
+  constexpr double kAlone = 0.1;  // what goes with nothing hardly speaks once something speaks against it
+  std::vector<double> weight(meetings.size(), 1.0);
+  std::vector<MeetingTrust> trust;
+  for (int round = 0; round < kRounds; ++round) {
+    trust.assign(meetings.size(), {});
+    for (const Pair& pair : pairs) {
+      double MeetingTrust::*const count = pair.agree ? &MeetingTrust::agreed : &MeetingTrust::contradicted;
+      trust[pair.a].*count += weight[pair.b];
+      trust[pair.b].*count += weight[pair.a];
+    }
+    for (std::size_t i = 0; i < meetings.size(); ++i) {
+      weight[i] = (kAlone + trust[i].agreed) / (kAlone + trust[i].agreed + trust[i].contradicted);
+    }
   }
   return trust;
 }

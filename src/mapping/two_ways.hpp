@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -17,13 +18,24 @@ struct Meeting {
   PairRelation seen;  // the old image seen from the new one
 };
 
-/// How far a way that was driven before and one that is driven now bear each other out. Two meetings are both right
-/// only if the old way leads from the one's old image to the other's as the new way leads between their new images: as
-/// far away and turned as much. Gives for each meeting the factor max(0, 1 + agreed - contradicted) / (1 + agreed +
-/// contradicted) over the others at most `reach` new images away: 1 where neither way can tell, 0 where most exclude
-/// it. Only pairs that are further apart than two places, and whose ways are known better than that, have a say: inside
-/// one room, a look-alike room agrees with itself. `place_extent_m`: how large a place is.
-std::vector<double> meeting_trust(std::span<const Meeting> meetings, const TourTrack& new_way, const TourTrack& old_way,
-                                  double place_extent_m, int reach);
+/// How far the two ways bear a meeting out.
+struct MeetingTrust {
+  double agreed = 0.0;        // sum of the weights of other meetings that go with it
+  double contradicted = 0.0;  // and of those that do not
+
+  [[nodiscard]] double factor() const {
+    return std::max(0.0, 1.0 + agreed - contradicted) / (1.0 + agreed + contradicted);
+  }
+};
+
+/// Holds a way that was driven before against one that is driven now. Two meetings are both right only if the old way
+/// leads from the one's old image to the other's as the new way leads between their new images: as far away and turned
+/// as much. A meeting has the more weight in the others' count the more it is borne out itself (relaxation: Rosenfeld,
+/// Hummel, Zucker 1976), so that look-alikes, which go with nothing, do not outvote what goes together. Counted are the
+/// others at most `reach` new images away, further than two places: inside one room, a look-alike room agrees with
+/// itself. Pairs agree where both ways are known to a place, and contradict each other beyond three standard
+/// deviations. `place_extent_m`: how large a place is.
+std::vector<MeetingTrust> meeting_trust(std::span<const Meeting> meetings, const TourTrack& new_way,
+                                        const TourTrack& old_way, double place_extent_m, int reach);
 
 }  // namespace homeward::mapping
