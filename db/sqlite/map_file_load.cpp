@@ -1,295 +1,162 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <SQLiteCpp/SQLiteCpp.h>
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-#include <cmath>
+#include <cerrno>
+#include <cstring>
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <set>
 #include <span>
-#include <stdexcept>
+#include <string_view>
 
 #include "db/map_file.hpp"
+#include "db/sqlite/map_file_contents.hpp"
 #include "db/sqlite/map_file_schema.hpp"
-#include "wire/appearance_blob.hpp"
-#include "wire/camera_json.hpp"
 
 namespace homeward::db {
 namespace {
 
-using nlohmann::json;
+constexpr std::string_view kSqliteStart{"SQLite format 3\0", 16};
+constexpr off_t kMostBytes = off_t{4} << 30;
 
-/// Carries an Error through the reading functions to load_map.
-struct LoadFailure : std::runtime_error {
-  explicit LoadFailure(Error failure) : std::runtime_error(failure.message), error(std::move(failure)) {}
-  Error error;
+[[noreturn]] void refuse(ErrorCode code, std::string message) { throw LoadFailure({code, std::move(message), {}}); }
+
+[[noreturn]] void refuse_for_errno(const char* what) {
+  refuse(ErrorCode::kIo, std::string(what) + ": " + std::strerror(errno) + ".");
+}
+
+struct Descriptor {
+  explicit Descriptor(int opened) : value(opened) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (value >= 0) ::close(value);
+  }
+  int value;
 };
 
-[[noreturn]] void refuse(std::string message, std::string where = {}) {
-  throw LoadFailure({ErrorCode::kCorruptFile, std::move(message), std::move(where)});
-}
+struct SqliteFree {
+  void operator()(std::uint8_t* bytes) const { sqlite3_free(bytes); }
+};
 
-std::optional<json> optional_meta(SQLite::Database& database, const std::string& key) {
-  SQLite::Statement select(database, "SELECT value FROM meta WHERE key = ?");
-  select.bind(1, key);
-  if (!select.executeStep()) return std::nullopt;
-  return json::parse(select.getColumn(0).getString());
-}
+/// The bytes of a file, in memory that an SQLite connection may own.
+struct FileBytes {
+  std::unique_ptr<std::uint8_t, SqliteFree> bytes;
+  std::size_t count = 0;
+};
 
-json meta(SQLite::Database& database, const std::string& key) {
-  std::optional<json> found = optional_meta(database, key);
-  if (!found) refuse("The map file lacks the entry '" + key + "'.", "meta");
-  return std::move(*found);
-}
-
-void get_meta(SQLite::Database& database, map::TopologicalMap& map) {
-  map.version = meta(database, "version").get<int>();
-  map.name = meta(database, "name").get<std::string>();
-  map.revision = meta(database, "revision").get<std::int64_t>();
-  const Result<camera::CameraConfig> camera = wire::camera_from_json(meta(database, "camera"));
-  if (!camera) throw LoadFailure(camera.error());
-  map.camera = *camera;
-  const json features = meta(database, "feature_config");
-  map.feature_config.panorama_width_px = features.at("panorama_width_px").get<int>();
-  map.feature_config.elevation_max_rad = features.at("elevation_max_rad").get<double>();
-  map.feature_config.elevation_min_rad = features.at("elevation_min_rad").get<double>();
-  map.feature_config.max_sift = features.at("max_sift").get<int>();
-  map.feature_config.sift_contrast_threshold = features.at("sift_contrast_threshold").get<double>();
-  map.feature_config.sift_code_length = features.at("sift_code_length").get<int>();
-  map.feature_config.sift_windows = features.value("sift_windows", 1);  // files of before have one
-  map.feature_config.max_columns = features.at("max_columns").get<int>();
-  map.feature_config_id = meta(database, "feature_config_id").get<std::string>();
-  const json motion = meta(database, "motion");
-  map.motion.hop_spread = motion.at("hop_spread").get<double>();
-  map.motion.distance_spread = motion.at("distance_spread").get<double>();
-  map.motion.distance_scale = motion.at("distance_scale").get<double>();
-  // Files of before have none: the defaults serve.
-  if (const auto calibration = optional_meta(database, "calibration")) {
-    map.calibration.offset = calibration->at("offset").get<double>();
-    map.calibration.slope = calibration->at("slope").get<double>();
-    if (!std::isfinite(map.calibration.offset) || !(map.calibration.slope > 0.0)) {
-      refuse("The map's calibration of beliefs cannot be.", "meta");
-    }
+/// A map is read from memory: what lies beside the file (a journal) changes nothing, and nothing appears beside it.
+FileBytes read_file(const std::filesystem::path& file) {
+  const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (descriptor.value < 0) {
+    if (errno == ENOENT || errno == ENOTDIR) refuse(ErrorCode::kNotFound, "There is no map file of this name.");
+    refuse_for_errno("The map file may not be read");
   }
-  map.next_place_number = meta(database, "next_place_number").get<std::int64_t>();
-  map.next_destination_number = meta(database, "next_destination_number").get<std::int64_t>();
-  map.build_seconds = meta(database, "build_seconds").get<double>();
+  struct stat about {};
+  if (::fstat(descriptor.value, &about) != 0) refuse_for_errno("The map file cannot be read");
+  if (S_ISDIR(about.st_mode)) refuse(ErrorCode::kInvalidInput, "This is a folder and not a map file.");
+  if (!S_ISREG(about.st_mode)) refuse(ErrorCode::kInvalidInput, "This is not a plain file and so not a map file.");
+  if (about.st_size == 0) refuse(ErrorCode::kCorruptFile, "The map file is empty.");
+  if (about.st_size > kMostBytes) refuse(ErrorCode::kTooLarge, "The file is larger than a map may be (4 GiB).");
+  FileBytes read;
+  read.count = static_cast<std::size_t>(about.st_size);
+  read.bytes.reset(static_cast<std::uint8_t*>(sqlite3_malloc64(read.count)));
+  if (!read.bytes) throw std::bad_alloc();
+  std::size_t done = 0;
+  while (done < read.count) {
+    const ssize_t count = ::read(descriptor.value, read.bytes.get() + done, read.count - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) refuse_for_errno("The map file cannot be read");
+    if (count == 0) refuse(ErrorCode::kIo, "The map file became shorter while it was read; try again.");
+    done += static_cast<std::size_t>(count);
+  }
+  return read;
 }
 
-std::optional<double> optional_number(const SQLite::Column& column) {
-  return column.isNull() ? std::nullopt : std::optional(column.getDouble());
-}
-
-void get_images(SQLite::Database& database, map::TopologicalMap& map) {
-  SQLite::Statement select(
-      database, "SELECT id, t_us, odometry_x_m, odometry_y_m, odometry_theta_rad FROM images ORDER BY position");
-  while (select.executeStep()) {
-    map::MapImage image{ImageId(select.getColumn(0).getString()), {}, {}};
-    if (!select.getColumn(1).isNull()) image.t_us = select.getColumn(1).getInt64();
-    if (!select.getColumn(2).isNull()) {
-      image.odometry =
-          Pose2{select.getColumn(2).getDouble(), select.getColumn(3).getDouble(), select.getColumn(4).getDouble()};
-    }
-    map.images.push_back(std::move(image));
+void check_start(const FileBytes& read) {
+  const std::size_t known = std::min(read.count, kSqliteStart.size());
+  if (std::memcmp(read.bytes.get(), kSqliteStart.data(), known) != 0) {
+    refuse(ErrorCode::kCorruptFile, "This file is not a Homeward map.");
   }
 }
 
-features::Appearance get_appearance(const SQLite::Column& column, const std::string& where) {
-  const auto* bytes = static_cast<const std::uint8_t*>(column.getBlob());
-  const auto size = static_cast<std::size_t>(column.getBytes());
-  Result<features::Appearance> appearance = wire::decode_appearance(std::span(bytes, size), where);
-  if (!appearance) throw LoadFailure(appearance.error());
-  return std::move(*appearance);
-}
-
-void get_places(SQLite::Database& database, map::TopologicalMap& map) {
-  SQLite::Statement places(database, "SELECT id, label, prototype FROM places ORDER BY position");
-  SQLite::Statement members(database, "SELECT image FROM place_members WHERE place = ? ORDER BY position");
-  SQLite::Statement appearances(database, "SELECT appearance FROM place_appearances WHERE place = ? ORDER BY position");
-  while (places.executeStep()) {
-    map::Place place;
-    const std::string id = places.getColumn(0).getString();
-    place.id = PlaceId(id);
-    place.label = places.getColumn(1).getString();
-    place.prototype = ImageId(places.getColumn(2).getString());
-    members.reset();
-    members.bind(1, id);
-    while (members.executeStep()) place.members.emplace_back(members.getColumn(0).getString());
-    appearances.reset();
-    appearances.bind(1, id);
-    while (appearances.executeStep()) {
-      place.appearances.push_back(get_appearance(appearances.getColumn(0), "places/" + id));
-    }
-    map.places.push_back(std::move(place));
+void give_bytes(SQLite::Database& database, FileBytes read) {
+  const auto count = static_cast<sqlite3_int64>(read.count);
+  constexpr unsigned kFlags = SQLITE_DESERIALIZE_FREEONCLOSE | SQLITE_DESERIALIZE_READONLY;
+  // Takes the bytes over, also when it fails.
+  if (sqlite3_deserialize(database.getHandle(), "main", read.bytes.release(), count, count, kFlags) != SQLITE_OK) {
+    refuse(ErrorCode::kCorruptFile, "The map file cannot be opened: " + std::string(database.getErrorMsg()) + ".");
   }
 }
 
-void get_edges(SQLite::Database& database, map::TopologicalMap& map) {
-  SQLite::Statement select(
-      database,
-      "SELECT from_place, to_place, bearing_rad, turn_rad, length_m, confidence, weak, blocked, by "
-      "FROM edges ORDER BY position");
-  while (select.executeStep()) {
-    map::Edge edge;
-    edge.from = PlaceId(select.getColumn(0).getString());
-    edge.to = PlaceId(select.getColumn(1).getString());
-    edge.bearing_rad = optional_number(select.getColumn(2));
-    edge.turn_rad = optional_number(select.getColumn(3));
-    edge.length_m = select.getColumn(4).getDouble();
-    edge.confidence = select.getColumn(5).getDouble();
-    edge.weak = select.getColumn(6).getInt() != 0;
-    edge.blocked = select.getColumn(7).getInt() != 0;
-    edge.by = select.getColumn(8).getString();
-    map.edges.push_back(std::move(edge));
-  }
-}
-
-map::Masses get_masses(SQLite::Statement& select, int first_column) {
-  return {select.getColumn(first_column).getDouble(), select.getColumn(first_column + 1).getDouble(),
-          select.getColumn(first_column + 2).getDouble()};
-}
-
-void get_hypotheses(SQLite::Database& database, map::TopologicalMap& map) {
-  SQLite::Statement select(database,
-                           "SELECT prototype_a, prototype_b, similarity, before_true, before_false, before_unknown, "
-                           "after_true, after_false, after_unknown, support, plausibility, decision, by "
-                           "FROM hypotheses ORDER BY position");
-  while (select.executeStep()) {
-    map::Hypothesis hypothesis;
-    hypothesis.prototype_a = ImageId(select.getColumn(0).getString());
-    hypothesis.prototype_b = ImageId(select.getColumn(1).getString());
-    hypothesis.similarity = select.getColumn(2).getDouble();
-    hypothesis.masses_before = get_masses(select, 3);
-    hypothesis.masses_after = get_masses(select, 6);
-    hypothesis.support = select.getColumn(9).getDouble();
-    hypothesis.plausibility = select.getColumn(10).getDouble();
-    const int decision = select.getColumn(11).getInt();
-    if (decision < 0 || decision > static_cast<int>(map::Decision::kUndecided)) {
-      refuse("A hypothesis has an unknown decision.", "hypotheses");
-    }
-    hypothesis.decision = static_cast<map::Decision>(decision);
-    hypothesis.by = select.getColumn(12).getString();
-    map.hypotheses.push_back(std::move(hypothesis));
-  }
-}
-
-void get_destinations(SQLite::Database& database, map::TopologicalMap& map) {
-  SQLite::Statement select(database, "SELECT id, place, image, label, appearance FROM destinations ORDER BY position");
-  while (select.executeStep()) {
-    map::Destination destination;
-    destination.id = DestinationId(select.getColumn(0).getString());
-    destination.place = PlaceId(select.getColumn(1).getString());
-    destination.image = ImageId(select.getColumn(2).getString());
-    destination.label = select.getColumn(3).getString();
-    destination.appearance = get_appearance(select.getColumn(4), "destinations/" + destination.id.str());
-    map.destinations.push_back(std::move(destination));
-  }
-}
-
-void get_edits(SQLite::Database& database, map::TopologicalMap& map) {
-  SQLite::Statement select(
-      database, "SELECT kind, image_a, image_b, text, images_json, by, t_us, undone FROM edits ORDER BY position");
-  while (select.executeStep()) {
-    map::Edit edit;
-    const int kind = select.getColumn(0).getInt();
-    if (kind < 0 || kind > static_cast<int>(map::EditKind::kDecide)) refuse("An edit has an unknown kind.", "edits");
-    edit.kind = static_cast<map::EditKind>(kind);
-    edit.image_a = ImageId(select.getColumn(1).getString());
-    edit.image_b = ImageId(select.getColumn(2).getString());
-    edit.text = select.getColumn(3).getString();
-    for (const json& image : json::parse(select.getColumn(4).getString())) {
-      edit.images.emplace_back(image.get<std::string>());
-    }
-    edit.by = select.getColumn(5).getString();
-    edit.t_us = select.getColumn(6).getInt64();
-    edit.undone = select.getColumn(7).getInt() != 0;
-    map.edits.push_back(std::move(edit));
-  }
-}
-
-/// A map that points at places or images that it does not hold must not reach a robot.
-void check_references(const map::TopologicalMap& map) {
-  std::set<ImageId> images;
-  for (const map::MapImage& image : map.images) images.insert(image.id);
-  std::set<PlaceId> places;
-  for (const map::Place& place : map.places) {
-    places.insert(place.id);
-    const std::string where = "places/" + place.id.str();
-    if (place.members.empty()) refuse("A place has no image.", where);
-    if (place.appearances.empty()) refuse("A place has no appearance.", where);
-    for (const ImageId& member : place.members) {
-      if (!images.contains(member)) refuse("A place names an image that the map does not hold.", where);
-    }
-    if (!images.contains(place.prototype)) refuse("A place's prototype is not in the map.", where);
-  }
-  for (const map::Edge& edge : map.edges) {
-    if (!places.contains(edge.from) || !places.contains(edge.to)) {
-      refuse("An edge names a place that the map does not hold.", "edges");
-    }
-  }
-  for (const map::Destination& destination : map.destinations) {
-    if (!places.contains(destination.place)) {
-      refuse("A destination names a place that the map does not hold.", "destinations/" + destination.id.str());
-    }
-  }
-}
-
-void check_kind_and_version(SQLite::Database& database) {
+/// Returns the version.
+int check_kind_and_version(SQLite::Database& database) {
   const int application_id = database.execAndGet("PRAGMA application_id").getInt();
-  if (application_id != kMapApplicationId) refuse("This SQLite file is not a Homeward map.");
-  const int version = database.execAndGet("PRAGMA user_version").getInt();
-  if (version != kMapFileVersion) {
-    throw LoadFailure({ErrorCode::kUnsupportedFormat,
-                       "The map file has version " + std::to_string(version) + "; this program reads version " +
-                           std::to_string(kMapFileVersion) + ". Rebuild the map from the kept images.",
-                       ""});
+  if (application_id != kMapApplicationId) {
+    refuse(ErrorCode::kCorruptFile, "This SQLite file is not a Homeward map.");
   }
+  const int version = database.execAndGet("PRAGMA user_version").getInt();
+  const std::string has = "The map file has version " + std::to_string(version) + "; this program reads versions " +
+                          std::to_string(kOldestMapFileVersion) + " to " + std::to_string(kMapFileVersion) + ". ";
+  if (version > kMapFileVersion) {
+    refuse(ErrorCode::kUnsupportedFormat, has + "A newer Homeward wrote it: read it with that one.");
+  }
+  if (version < kOldestMapFileVersion) {
+    refuse(ErrorCode::kUnsupportedFormat, has + "Rebuild the map from the kept images.");
+  }
+  return version;
 }
 
-StoredMap read_database(const std::filesystem::path& file) {
-  SQLite::Database database(file.string(), SQLite::OPEN_READONLY);
-  check_kind_and_version(database);
-  // SQLite takes what is missing of its last page for zeros.
+void check_length(SQLite::Database& database, std::size_t bytes) {
   const std::int64_t pages = database.execAndGet("PRAGMA page_count").getInt64();
   const std::int64_t whole_bytes = pages * database.execAndGet("PRAGMA page_size").getInt64();
-  const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(file));
-  if (bytes < whole_bytes) refuse("The map file ends early: copy it again.");
-  StoredMap stored;
-  get_meta(database, stored.map);
-  get_images(database, stored.map);
-  get_places(database, stored.map);
-  get_edges(database, stored.map);
-  get_hypotheses(database, stored.map);
-  get_destinations(database, stored.map);
-  get_edits(database, stored.map);
-  check_references(stored.map);
-  std::int64_t thumbnail_bytes = 0;
-  SQLite::Statement thumbnails(database, "SELECT image, jpeg FROM thumbnails ORDER BY image");
-  while (thumbnails.executeStep()) {
-    const SQLite::Column jpeg = thumbnails.getColumn(1);
-    const auto* first = static_cast<const std::uint8_t*>(jpeg.getBlob());
-    thumbnail_bytes += jpeg.getBytes();
-    stored.thumbnails.emplace(ImageId(thumbnails.getColumn(0).getString()),
-                              std::vector<std::uint8_t>(first, first + jpeg.getBytes()));
+  if (static_cast<std::int64_t>(bytes) < whole_bytes) {
+    refuse(ErrorCode::kCorruptFile, "The map file ends early: copy it again.");
   }
-  stored.bytes = bytes - thumbnail_bytes;
-  return stored;
+}
+
+/// What the file says its content has; files of before the version that brought it have none.
+void check_checksum(SQLite::Database& database, int version, const std::string& found) {
+  SQLite::Statement select(database, kSelectChecksum);
+  if (select.executeStep()) {
+    if (select.getColumn(0).getString() == found) return;
+  } else if (version < kFirstVersionWithChecksum) {
+    return;
+  }
+  refuse(ErrorCode::kCorruptFile,
+         "The map file is damaged: its content does not have its checksum. Copy it again, or build the map again.");
+}
+
+StoredMap read_map(const std::filesystem::path& file) {
+  FileBytes read = read_file(file);
+  const std::size_t bytes = read.count;
+  check_start(read);
+  SQLite::Database database(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  give_bytes(database, std::move(read));
+  const int version = check_kind_and_version(database);
+  check_length(database, bytes);
+  MapContents contents = read_contents(database);
+  check_checksum(database, version, contents.checksum);
+  contents.stored.bytes = static_cast<std::int64_t>(bytes) - contents.stored.bytes;
+  return std::move(contents.stored);
 }
 
 }  // namespace
 
 Result<StoredMap> load_map(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored)) {
-    return fail(ErrorCode::kNotFound, "There is no map file of this name.", file.string());
-  }
   try {
-    return read_database(file);
+    return read_map(file);
   } catch (LoadFailure& failure) {
     Error error = std::move(failure.error);
     error.where = error.where.empty() ? file.string() : file.string() + ": " + error.where;
     return tl::unexpected<Error>(std::move(error));
+  } catch (const nlohmann::json::exception&) {
+    return fail(ErrorCode::kCorruptFile, "The map file is damaged: an entry of it cannot be understood.",
+                file.string());
   } catch (const std::exception& failure) {
-    return fail(ErrorCode::kCorruptFile, std::string("The map file cannot be read: ") + failure.what() + ".",
+    return fail(ErrorCode::kCorruptFile, std::string("The map file is damaged: ") + failure.what() + ".",
                 file.string());
   }
 }

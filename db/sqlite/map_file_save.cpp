@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fcntl.h>
+#include <sqlite3.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <system_error>
 
 #include "db/map_file.hpp"
+#include "db/sqlite/map_file_contents.hpp"
 #include "db/sqlite/map_file_schema.hpp"
 #include "wire/appearance_blob.hpp"
 #include "wire/camera_json.hpp"
@@ -194,11 +201,10 @@ void put_thumbnails(SQLite::Database& database, const Thumbnails& thumbnails) {
   }
 }
 
-void write_database(const std::filesystem::path& file, const map::TopologicalMap& map, const Thumbnails& thumbnails) {
-  SQLite::Database database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+/// All of it in memory: a build that is killed leaves no journal behind.
+void fill_database(SQLite::Database& database, const map::TopologicalMap& map, const Thumbnails& thumbnails) {
   database.exec(
       "PRAGMA page_size = 1024");  // an appearance's last page is half empty: of 4096 bytes that is 2 kB a place
-  database.exec("PRAGMA synchronous = FULL");
   database.exec("PRAGMA foreign_keys = ON");
   SQLite::Transaction transaction(database);
   database.exec(kMapFileSchema);
@@ -212,7 +218,79 @@ void write_database(const std::filesystem::path& file, const map::TopologicalMap
   put_destinations(database, map);
   put_edits(database, map);
   put_thumbnails(database, thumbnails);
+  SQLite::Statement checksum(database, kInsertChecksum);
+  checksum.bind(1, read_contents(database).checksum);
+  checksum.exec();
   transaction.commit();
+}
+
+[[noreturn]] void throw_errno(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+/// The unfinished file beside a map. It has one name for all who write this map, so that what a killed program left is
+/// taken over and not added to; a lock on it makes them wait for each other.
+class PartFile {
+ public:
+  explicit PartFile(std::filesystem::path path) : path_(std::move(path)) {
+    while (!open_locked()) {
+    }
+    if (::ftruncate(descriptor_, 0) != 0) throw_errno("emptying the unfinished file");
+  }
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+  ~PartFile() {
+    if (!renamed_) ::unlink(path_.c_str());
+    ::close(descriptor_);
+  }
+
+  void write(std::span<const std::uint8_t> bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) throw_errno("writing");
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    if (::fsync(descriptor_) != 0) throw_errno("bringing it to the disk");
+  }
+
+  void rename_to(const std::filesystem::path& file) {
+    if (::rename(path_.c_str(), file.c_str()) != 0) throw_errno("putting it in place");
+    renamed_ = true;
+  }
+
+ private:
+  /// False when the one who had the lock before has renamed or removed the file meanwhile.
+  bool open_locked() {
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
+    if (descriptor_ < 0) throw_errno("making the unfinished file");
+    while (::flock(descriptor_, LOCK_EX) != 0) {
+      if (errno == EINTR) continue;
+      if (errno == ENOLCK || errno == EOPNOTSUPP) break;  // a file system without locks: then without
+      ::close(descriptor_);
+      throw_errno("locking the unfinished file");
+    }
+    struct stat held {};
+    struct stat named {};
+    const bool same = ::fstat(descriptor_, &held) == 0 && ::stat(path_.c_str(), &named) == 0 &&
+                      held.st_ino == named.st_ino && held.st_dev == named.st_dev;
+    if (!same) ::close(descriptor_);
+    return same;
+  }
+
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  bool renamed_ = false;
+};
+
+void write_file(const std::filesystem::path& file, SQLite::Database& database) {
+  sqlite3_int64 count = 0;
+  const std::unique_ptr<unsigned char, decltype(&sqlite3_free)> bytes(
+      sqlite3_serialize(database.getHandle(), "main", &count, 0), &sqlite3_free);
+  if (!bytes) throw std::bad_alloc();
+  std::filesystem::path part = file;
+  part += ".part";
+  PartFile unfinished(part);
+  unfinished.write({bytes.get(), static_cast<std::size_t>(count)});
+  unfinished.rename_to(file);
 }
 
 /// A rename is on the disk only when its folder is.
@@ -229,15 +307,11 @@ bool flush_folder(const std::filesystem::path& folder) {
 Status save_map(const std::filesystem::path& file, const map::TopologicalMap& map, const Thumbnails& thumbnails) {
   std::filesystem::path folder = file.parent_path();
   if (folder.empty()) folder = ".";
-  std::filesystem::path part = file;
-  part += ".part-" + std::to_string(::getpid());
-  std::error_code ignored;
-  std::filesystem::remove(part, ignored);
   try {
-    write_database(part, map, thumbnails);
-    std::filesystem::rename(part, file);
+    SQLite::Database database(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    fill_database(database, map, thumbnails);
+    write_file(file, database);
   } catch (const std::exception& failure) {
-    std::filesystem::remove(part, ignored);
     return fail(ErrorCode::kIo, std::string("The map could not be written: ") + failure.what() + ".", file.string());
   }
   if (!flush_folder(folder)) {

@@ -6,7 +6,13 @@ namespace homeward::db {
 /// "HWMP" in SQLite's application_id field: what makes an SQLite file a Homeward map.
 inline constexpr int kMapApplicationId = 0x48574D50;
 /// user_version of the map file. A released schema is never edited; a newer file is refused.
-inline constexpr int kMapFileVersion = 2;
+inline constexpr int kMapFileVersion = 3;
+/// Version 2 is the same without the checksum, which is required from version 3 on.
+inline constexpr int kOldestMapFileVersion = 2;
+inline constexpr int kFirstVersionWithChecksum = 3;
+
+inline constexpr const char* kSelectChecksum = "SELECT value FROM meta WHERE key = 'checksum'";
+inline constexpr const char* kInsertChecksum = "INSERT INTO meta(key, value) VALUES ('checksum', ?)";
 
 inline constexpr const char* kMapFileSchema = R"sql(
 CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT;

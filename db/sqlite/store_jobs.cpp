@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
 #include "db/secrets.hpp"
 #include "db/sqlite/durable_file.hpp"
 #include "db/sqlite/sqlite_store.hpp"
@@ -24,6 +26,8 @@ wire::JobView job_of(SQLite::Statement& row) {
     job.error = Error{known != nullptr ? known->code : ErrorCode::kInternal, text(row, 7), text(row, 8)};
   }
   job.created_us = integer(row, 9);
+  job.skipped = integer(row, 10);
+  job.notes = nlohmann::json::parse(text(row, 11)).get<std::vector<std::string>>();
   return job;
 }
 
@@ -44,6 +48,11 @@ ErrorColumns error_columns(const wire::JobView& job) {
   return {std::string(wire::error_name(job.error->code)), job.error->message, job.error->where};
 }
 
+/// A file name in a note may be no UTF-8.
+std::string notes_text(const wire::JobView& job) {
+  return nlohmann::json(job.notes).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 }  // namespace
 
 Result<wire::JobView> SqliteStore::add_job(wire::JobView job) {
@@ -53,9 +62,9 @@ Result<wire::JobView> SqliteStore::add_job(wire::JobView job) {
     }
     if (job.id.empty()) job.id = JobId(random_id());
     const ErrorColumns error = error_columns(job);
-    execute(database, "INSERT INTO jobs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", job.id, job.kind, job.map,
+    execute(database, "INSERT INTO jobs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", job.id, job.kind, job.map,
             std::string(wire::job_state_name(job.state)), job.stage, job.share, error.code, error.message, error.where,
-            job.created_us);
+            job.created_us, job.skipped, notes_text(job));
     return job;
   });
 }
@@ -64,10 +73,10 @@ Status SqliteStore::update_job(const wire::JobView& job) {
   return database_.work([&](SQLite::Database& database) {
     const ErrorColumns error = error_columns(job);
     if (execute(database,
-                "UPDATE jobs SET state = ?, stage = ?, share = ?, error_code = ?, error_message = ?, error_where = ? "
-                "WHERE id = ?",
+                "UPDATE jobs SET state = ?, stage = ?, share = ?, error_code = ?, error_message = ?, error_where = ?, "
+                "skipped = ?, notes = ? WHERE id = ?",
                 std::string(wire::job_state_name(job.state)), job.stage, job.share, error.code, error.message,
-                error.where, job.id) == 0) {
+                error.where, job.skipped, notes_text(job), job.id) == 0) {
       refuse(ErrorCode::kNotFound, "There is no job with this id.", "jobs/" + job.id.str());
     }
   });

@@ -257,14 +257,19 @@ Result<db::MapRecord> BuildJobs::build(wire::JobView& job, const std::stop_token
   options.name = record->name;
   options.threads = threads_;
   auto built =
-      pipeline::build_map(sources, tours->camera, options, previous ? &previous->map : nullptr, progress, stop);
+      pipeline::build_noted_map(sources, tours->camera, options, previous ? &previous->map : nullptr, progress, stop);
   if (!built) return pass_on(built);
+  const std::vector<std::string> notes = pipeline::notes_in_words(built->notes);
+  job.skipped = static_cast<std::int64_t>(built->notes.skipped.size());
+  for (const std::string& note : notes) spdlog::warn("job {}: {}", job.id.str(), note);
   job.stage = "thumbnails";
   job.share = kBuildShare;
   tell(job);
-  const auto thumbnails = make_thumbnails(*built, *tours, stop);
+  const auto thumbnails = make_thumbnails(built->map, *tours, stop);
   if (!thumbnails) return pass_on(thumbnails);
-  return maps_.keep_build(job.map, std::move(*built), *thumbnails);
+  auto kept = maps_.keep_build(job.map, std::move(built->map), *thumbnails);
+  if (kept) job.notes = notes;  // they are about a map that is there
+  return kept;
 }
 
 void BuildJobs::finish(wire::JobView& job, const Result<db::MapRecord>& result) {

@@ -9,6 +9,7 @@
 #include "db/map_file.hpp"
 #include "map/parts.hpp"
 #include "pipeline/grow_map.hpp"
+#include "wire/build_json.hpp"
 
 namespace homeward::cli {
 namespace {
@@ -61,11 +62,9 @@ Status add_to_map(const AddToOptions& options, const TourFolders& tours) {
   if (const Status saved = db::save_map(options.out, map, stored->thumbnails); !saved) return saved;
   tell_skipped(added->skipped);
   if (options.json) {
-    nlohmann::json result = summary_json(map, options.out);
+    nlohmann::json result = wire::build_to_json({options.out, {}, added->skipped, {}}, map);
     result["added"] = counts_json(*added);
-    result["skipped"] = nlohmann::json::array();
-    for (const Error& error : added->skipped) result["skipped"].push_back(error.where);
-    std::cout << result.dump() << "\n";
+    print_json(result);
   } else {
     std::cout << counts_text(added->grown.added) << summary(map) << ": " << options.out << "\n"
               << map::tell_parts(map::parts(map));

@@ -15,6 +15,7 @@
 #include "map/parts.hpp"
 #include "pipeline/build_map.hpp"
 #include "pipeline/report/report_page.hpp"
+#include "wire/build_json.hpp"
 
 namespace homeward::cli {
 namespace {
@@ -43,14 +44,28 @@ std::string today() {
   return date.substr(std::min(date.find_first_not_of(' '), date.size()));
 }
 
-Status write_report(const Options& options, const pipeline::BuiltMap& built, const TourFolders& tours) {
+/// Returns the file.
+Result<std::string> write_report(const Options& options, const pipeline::BuiltMap& built, const TourFolders& tours) {
   const pipeline::ReportOptions report{today(), options.report_pictures, options.threads, options.seed};
   const auto page = pipeline::report_page(built, tours.sources(), report);
   if (!page) return pass_on(page);
   const std::filesystem::path file = std::filesystem::path(options.report) / "report.html";
-  if (Status written = agent::write_file(file, *page); !written) return written;
-  if (!options.json) std::cout << "report: " << file.string() << "\n";
-  return {};
+  if (const Status written = agent::write_file(file, *page); !written) return pass_on(written);
+  return file.string();
+}
+
+void tell_notes(const pipeline::BuildNotes& notes) {
+  for (const Error& skipped : notes.skipped) {
+    tell({skipped.code, "A picture was left out. " + skipped.message, skipped.where});
+  }
+  if (!notes.skipped.empty()) {
+    const std::size_t all = notes.skipped.size() + notes.appearances.size();
+    tell({ErrorCode::kInvalidInput,
+          std::to_string(notes.skipped.size()) + " of " + std::to_string(all) +
+              " pictures were left out; the map is made of the others.",
+          {}});
+  }
+  for (const Error& warning : notes.warnings) tell({warning.code, "Warning: " + warning.message, warning.where});
 }
 
 Status build(const Options& options) {
@@ -84,12 +99,19 @@ Status build(const Options& options) {
   db::Thumbnails thumbnails;
   if (Status made = add_thumbnails(map, *tours, thumbnails); !made) return made;
   if (const Status saved = db::save_map(options.out, map, thumbnails); !saved) return saved;
-  if (options.json) {
-    std::cout << summary_json(map, options.out).dump() << "\n";
-  } else {
+  wire::BuildView view{options.out, {}, built->notes.skipped, built->notes.warnings};
+  tell_notes(built->notes);
+  if (!options.json) {
     std::cout << summary(map) << ": " << options.out << "\n" << map::tell_parts(map::parts(map));
   }
-  return options.report.empty() ? Status{} : write_report(options, *built, *tours);
+  if (!options.report.empty()) {
+    const auto report = write_report(options, *built, *tours);
+    if (!report) return pass_on(report);
+    view.report = *report;
+    if (!options.json) std::cout << "report: " << *report << "\n";
+  }
+  if (options.json) print_json(wire::build_to_json(view, map));
+  return {};
 }
 
 }  // namespace
@@ -106,7 +128,7 @@ void register_map_build(CLI::App& map) {
                                      "Map file that the tours join: it keeps its places, names and decisions, and "
                                      "stays as it is unless --out names it");
   command->add_option("--name", options->name, "Name of the map")->excludes(add_to);
-  command->add_flag("--json", options->json, "Tell the result as one JSON object");
+  command->add_flag("--json", options->json, "Print one JSON object, with the pictures left out and why");
   command
       ->add_option("--report", options->report,
                    "Folder for report.html: one page on the map and how it came about, to read and to print")
@@ -119,6 +141,9 @@ void register_map_build(CLI::App& map) {
   command->add_option("--threads", options->threads, "Threads (0: as many as the machine has)")
       ->check(CLI::Range(0, 256));
   command->add_option("--seed", options->seed, "Seed of everything random");
+  command->footer(
+      "Pictures that cannot be read are left out and named on standard error. A tour whose pictures all show one view, "
+      "are out of order or come from two cameras is refused.");
   run_on(*command, [options] { return build(*options); });
 }
 

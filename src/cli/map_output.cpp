@@ -63,24 +63,12 @@ std::string summary(const map::TopologicalMap& map) {
          std::to_string(map.edges.size()) + " edges, " + std::to_string(map.destinations.size()) + " destinations";
 }
 
-nlohmann::json summary_json(const map::TopologicalMap& map, const std::string& file) {
-  nlohmann::json components = nlohmann::json::array();
-  for (const map::MapPart& part : map::parts(map)) {
-    nlohmann::json places = nlohmann::json::array();
-    for (const PlaceId& place : part.places) places.push_back(place.str());
-    components.push_back({{"places", places}, {"tours", part.tours}});
-  }
-  return {{"map", file},
-          {"revision", map.revision},
-          {"images", map.images.size()},
-          {"places", map.places.size()},
-          {"edges", map.edges.size()},
-          {"destinations", map.destinations.size()},
-          {"components", components}};
+void print_json(const nlohmann::json& value) {
+  std::cout << value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
 }
 
 void tell_skipped(const std::vector<Error>& skipped) {
-  for (const Error& error : skipped) tell({error.code, "Left out: " + error.message, error.where});
+  for (const Error& error : skipped) tell({error.code, "A picture was left out. " + error.message, error.where});
 }
 
 }  // namespace homeward::cli

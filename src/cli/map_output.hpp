@@ -32,8 +32,8 @@ Status add_thumbnails(const map::TopologicalMap& map, const TourFolders& tours, 
 /// "300 pictures, 57 places, ..."
 std::string summary(const map::TopologicalMap& map);
 
-/// The same numbers with the parts that the map falls into.
-nlohmann::json summary_json(const map::TopologicalMap& map, const std::string& file);
+/// One JSON object on standard output; file names that are no UTF-8 are made readable.
+void print_json(const nlohmann::json& value);
 
 /// Tells on stderr which pictures were left out and why.
 void tell_skipped(const std::vector<Error>& skipped);

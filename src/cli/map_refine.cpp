@@ -94,7 +94,7 @@ Status refine(const Options& options) {
   if (const Status saved = db::save_map(file, refined->map, stored->thumbnails); !saved) return saved;
   tell_skipped(refined->skipped);
   if (options.json) {
-    std::cout << result_json(*refined, file).dump() << "\n";
+    print_json(result_json(*refined, file));
   } else {
     print_result(*refined, file);
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <optional>
 #include <unordered_set>
 
@@ -12,11 +11,12 @@
 #include "mapping/parallel.hpp"
 #include "pipeline/eye.hpp"
 #include "pipeline/learn_calibration.hpp"
+#include "pipeline/picture_frame.hpp"
+#include "pipeline/tour_check.hpp"
 
 namespace homeward::pipeline {
 namespace {
 
-constexpr int kFewestImages = 3;
 constexpr int kFewFeatures = 20;         // a picture with fewer shows no texture
 constexpr double kTooManyBlank = 0.5;    // share of such pictures that makes a tour useless
 constexpr double kFeaturesShare = 0.35;  // of the time of a build, for the progress bar
@@ -34,6 +34,44 @@ struct Pictures {
   std::vector<Where> where;
   std::vector<mapping::MarkedImage> marks;
 };
+
+/// Takes out the pictures that have a trouble; returns those troubles. A mark goes with its picture.
+std::vector<Error> leave_out(Pictures& pictures, std::vector<features::Appearance>& appearances,
+                             const std::vector<std::optional<Error>>& troubles) {
+  std::vector<Error> skipped;
+  std::vector<int> now_at(troubles.size(), -1);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < troubles.size(); ++i) {
+    if (troubles[i]) {
+      skipped.push_back(*troubles[i]);
+      continue;
+    }
+    now_at[i] = static_cast<int>(kept);
+    if (kept != i) {
+      pictures.images[kept] = std::move(pictures.images[i]);
+      pictures.tour_of[kept] = pictures.tour_of[i];
+      pictures.where[kept] = pictures.where[i];
+      appearances[kept] = std::move(appearances[i]);
+    }
+    ++kept;
+  }
+  std::vector<mapping::MarkedImage> marks;
+  for (mapping::MarkedImage& mark : pictures.marks) {
+    const auto was_at = static_cast<std::size_t>(mark.image);
+    if (now_at[was_at] >= 0) {
+      marks.push_back({now_at[was_at], std::move(mark.label)});
+      continue;
+    }
+    const auto error = std::ranges::find(skipped, troubles[was_at]->where, &Error::where);
+    error->message += " Its destination \"" + mark.label + "\" is left out with it.";
+  }
+  pictures.images.resize(kept);
+  pictures.tour_of.resize(kept);
+  pictures.where.resize(kept);
+  pictures.marks = std::move(marks);
+  appearances.resize(kept);
+  return skipped;
+}
 
 Result<Pictures> gather(const std::vector<const TourSource*>& tours) {
   Pictures all;
@@ -65,43 +103,50 @@ Result<Pictures> gather(const std::vector<const TourSource*>& tours) {
   return all;
 }
 
-/// The first failure in picture order, whichever thread met it.
-class FirstFailure {
- public:
-  void offer(std::size_t index, const Error& error) {
-    const std::scoped_lock lock(mutex_);
-    if (failure_ && failure_->first <= index) return;
-    failure_ = std::pair(index, error);
-  }
-  [[nodiscard]] const std::optional<std::pair<std::size_t, Error>>& get() const { return failure_; }
-
- private:
-  std::mutex mutex_;
-  std::optional<std::pair<std::size_t, Error>> failure_;
+/// The pictures that can be read, looked at, and what is to be said about the others.
+struct SeenPictures {
+  Pictures pictures;
+  std::vector<features::Appearance> appearances;
+  std::vector<Error> skipped;
 };
 
-Result<std::vector<features::Appearance>> look_at_all(const Pictures& pictures, const Eye& eye, int threads,
-                                                      const std::function<void(double)>& progress,
-                                                      const std::stop_token& stop) {
-  std::vector<features::Appearance> appearances(pictures.images.size());
-  FirstFailure failure;
+Result<SeenPictures> look_at_all(Pictures all, const Eye& eye, int threads, const std::function<void(double)>& progress,
+                                 const std::stop_token& stop) {
+  const std::size_t count = all.images.size();
+  const FrameSampler sampler(eye.camera());
+  std::vector<PictureSize> sizes(count);
+  std::vector<PictureFrame> frames(count);
+  std::vector<std::optional<Error>> troubles(count);
+  SeenPictures seen;
+  seen.appearances.resize(count);
   const auto look = [&](std::size_t i) {
-    const auto picture = pictures.where[i].tour->read(pictures.where[i].index);
-    if (!picture) return failure.offer(i, picture.error());
-    auto seen = eye.look(*picture);
-    if (seen) {
-      appearances[i] = std::move(*seen);
+    const auto picture = all.where[i].tour->read(all.where[i].index);
+    if (!picture) {
+      troubles[i] = picture.error();
+      return;
+    }
+    sizes[i] = {picture->width_px, picture->height_px};
+    auto appearance = eye.look(*picture);
+    if (appearance) {
+      seen.appearances[i] = std::move(*appearance);
+      frames[i] = sampler.sample(*picture);
     } else {
-      failure.offer(i, {seen.error().code, seen.error().message, pictures.images[i].id.str()});
+      troubles[i] = appearance.error();
     }
   };
-  const auto report = [&](std::size_t done) {
-    progress(static_cast<double>(done) / static_cast<double>(pictures.images.size()));
-  };
-  const bool finished = mapping::parallel_for(pictures.images.size(), threads, look, report, stop);
-  if (failure.get()) return tl::unexpected<Error>(failure.get()->second);
-  if (!finished) return fail(ErrorCode::kCancelled, "The build was cancelled.");
-  return appearances;
+  const auto report = [&](std::size_t done) { progress(static_cast<double>(done) / static_cast<double>(count)); };
+  if (!mapping::parallel_for(count, threads, look, report, stop)) {
+    return fail(ErrorCode::kCancelled, "The build was cancelled.");
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (troubles[i]) troubles[i]->where = all.images[i].id.str();
+  }
+  if (const Status sized = check_sizes(all.images, sizes, eye.camera().config()); !sized) return pass_on(sized);
+  if (const Status one = check_one_camera(all.images, frames); !one) return pass_on(one);
+  seen.skipped = leave_out(all, seen.appearances, troubles);
+  if (const Status enough = check_left(seen.skipped, all.images.size()); !enough) return pass_on(enough);
+  seen.pictures = std::move(all);
+  return seen;
 }
 
 Status check_texture(const Pictures& pictures, const std::vector<features::Appearance>& appearances) {
@@ -120,7 +165,23 @@ Status check_texture(const Pictures& pictures, const std::vector<features::Appea
               first_blank);
 }
 
+std::string with_place(const Error& error) {
+  return error.where.empty() ? error.message : error.message + " (" + error.where + ")";
+}
+
 }  // namespace
+
+std::vector<std::string> notes_in_words(const BuildNotes& notes) {
+  std::vector<std::string> words;
+  if (!notes.skipped.empty()) {
+    const std::size_t all = notes.skipped.size() + notes.appearances.size();
+    words.push_back(std::to_string(notes.skipped.size()) + " of " + std::to_string(all) +
+                    " pictures cannot be read and " + (notes.skipped.size() == 1 ? "is" : "are") +
+                    " left out. The first: " + with_place(notes.skipped.front()));
+  }
+  for (const Error& warning : notes.warnings) words.push_back(with_place(warning));
+  return words;
+}
 
 Result<map::TopologicalMap> build_map(const std::vector<const TourSource*>& tours, const camera::CameraConfig& camera,
                                       const BuildOptions& options, const map::TopologicalMap* previous,
@@ -133,9 +194,9 @@ Result<map::TopologicalMap> build_map(const std::vector<const TourSource*>& tour
 Result<BuiltMap> build_noted_map(const std::vector<const TourSource*>& tours, const camera::CameraConfig& camera,
                                  const BuildOptions& options, const map::TopologicalMap* previous,
                                  const ProgressSink& progress, std::stop_token stop) {
-  const auto pictures = gather(tours);
-  if (!pictures) return pass_on(pictures);
-  const std::size_t count = pictures->images.size();
+  auto gathered = gather(tours);
+  if (!gathered) return pass_on(gathered);
+  const std::size_t count = gathered->images.size();
   if (count == 0) return fail(ErrorCode::kEmptyInput, "The tour has no pictures.");
   if (count < kFewestImages) {
     return fail(ErrorCode::kTooFewImages, "The tour has " + std::to_string(count) + " picture" +
@@ -152,13 +213,18 @@ Result<BuiltMap> build_noted_map(const std::vector<const TourSource*>& tours, co
       if (progress) progress({name, begin + share * done});
     };
   };
-  auto appearances = look_at_all(*pictures, *eye, options.threads, stage("features", 0.0, kFeaturesShare), stop);
-  if (!appearances) return pass_on(appearances);
+  auto seen = look_at_all(std::move(*gathered), *eye, options.threads, stage("features", 0.0, kFeaturesShare), stop);
+  if (!seen) return pass_on(seen);
+  const Pictures* pictures = &seen->pictures;
+  std::vector<features::Appearance>* appearances = &seen->appearances;
   if (const Status textured = check_texture(*pictures, *appearances); !textured) return pass_on(textured);
 
+  if (const Status moved = check_motion(pictures->images, *appearances, options.seed); !moved) return pass_on(moved);
   auto pairs = mapping::compare_all(*appearances, pictures->tour_of, {}, options.seed, options.threads,
                                     stage("compare", kFeaturesShare, kCompareShare), stop);
   if (!pairs) return pass_on(pairs);
+  auto warnings = check_order(pictures->images, pictures->tour_of, *pairs);
+  if (!warnings) return pass_on(warnings);
 
   stage("cluster", kFeaturesShare + kCompareShare, 0.0)(0.0);
   const mapping::MappingInput input{pictures->images, pictures->tour_of, *appearances, pictures->marks, &*pairs};
@@ -175,7 +241,8 @@ Result<BuiltMap> build_noted_map(const std::vector<const TourSource*>& tours, co
   map.calibration = *calibration;
   stage("places", 1.0, 0.0)(0.0);
   return BuiltMap{std::move(made.map),
-                  {pictures->tour_of, std::move(*appearances), std::move(*pairs), std::move(made.notes), {}}};
+                  {pictures->tour_of, std::move(*appearances), std::move(*pairs), std::move(made.notes),
+                   std::move(seen->skipped), std::move(*warnings)}};
 }
 
 }  // namespace homeward::pipeline

@@ -36,8 +36,13 @@ struct BuildNotes {
   std::vector<features::Appearance> appearances;
   mapping::PairTable pairs{0};
   mapping::MappingNotes mapping;
-  std::vector<Error> skipped;  // pictures that the map does without, and why
+  std::vector<Error> skipped;   // pictures that the map does without, and why; each names its picture
+  std::vector<Error> warnings;  // what is odd about the tour and yet no reason to refuse it; each names a picture
 };
+
+/// What a person should know of a build: one sentence on the pictures left out, with the first of them, and each
+/// warning. Empty when there is nothing to say.
+std::vector<std::string> notes_in_words(const BuildNotes& notes);
 
 /// A map with all that a report on it tells.
 struct BuiltMap {
@@ -47,8 +52,9 @@ struct BuiltMap {
 
 /// Builds the map of one or more tours with the same camera. Same input, same map, whatever the number of threads.
 /// `previous`: a map whose ids, labels, destinations and edits outlive the rebuild, or null.
-/// Errors: kEmptyInput, kTooFewImages (under 3), kTooFewFeatures (names the share of pictures without texture),
-/// kWrongImageSize, kCancelled, those of TourSource::read; each names the picture.
+/// Pictures that cannot be read are left out and noted.
+/// Errors: kEmptyInput, kTooFewImages (under 3 that can be read), kTooFewFeatures (names the share of pictures without
+/// texture), kWrongImageSize, kCancelled, that of TourSource::read when no picture can be read; each names a picture.
 Result<map::TopologicalMap> build_map(const std::vector<const TourSource*>& tours, const camera::CameraConfig& camera,
                                       const BuildOptions& options, const map::TopologicalMap* previous = nullptr,
                                       const ProgressSink& progress = {}, std::stop_token stop = {});

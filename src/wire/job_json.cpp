@@ -29,6 +29,8 @@ nlohmann::json job_to_json(const JobView& job) {
                           {"state", job_state_name(job.state)},
                           {"progress", {{"stage", job.stage}, {"share", finite_or_null(job.share)}}},
                           {"error", nullptr},
+                          {"skipped", job.skipped},
+                          {"notes", job.notes},
                           {"created_us", job.created_us}};
   if (job.error) value["error"] = problem_to_json(*job.error);
   return value;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/ids.hpp"
 #include "core/result.hpp"
@@ -29,6 +31,8 @@ struct JobView {
   double share = 0.0;  // of the whole work done, in [0,1]
   std::optional<Error> error;
   TimeUs created_us = 0;
+  std::int64_t skipped = 0;        // pictures that cannot be read and that the map does without
+  std::vector<std::string> notes;  // what a person should know of a build that is done, in whole sentences
 };
 
 nlohmann::json job_to_json(const JobView& job);

@@ -116,7 +116,8 @@ class Grow(CliTest):
         done = self.run_program(*self.add("--json"))
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("00002.jpg", done.stderr)
-        self.assertEqual(len(json.loads(done.stdout)["skipped"]), 1)
+        skipped, = json.loads(done.stdout)["skipped"]
+        self.assertEqual(skipped["image"].split("/")[-1], "00002.jpg")
 
     def test_maps_that_cannot_grow(self):
         self.second_tour()

@@ -7,6 +7,7 @@
 #include "contract/codecs.hpp"
 #include "contract/schema_library.hpp"
 #include "support/sample_map.hpp"
+#include "wire/build_json.hpp"
 #include "wire/error_table.hpp"
 #include "wire/event_json.hpp"
 #include "wire/graph_export.hpp"
@@ -80,7 +81,8 @@ TEST(Encoders, TellEverythingOfAMap) {
 }
 
 TEST(Encoders, WriteEventsThatTheSchemaAccepts) {
-  JobView job{JobId("j1"), "build", MapId("house"), JobState::kFailed, "features", 0.5, {}, 12};
+  JobView job{JobId("j1"), "build", MapId("house"),       JobState::kFailed, "features", 0.5, {},
+              12,          2,       {"2 of 40 pictures."}};
   job.error = Error{ErrorCode::kTooFewFeatures, "The pictures are black.", "t1"};
   const MapInfoView map{MapId("house"), "House", MapState::kBuilding, 0, 0, 3, {TourId("t1")}, {}};
   RobotView unseen;
@@ -100,7 +102,7 @@ TEST(Encoders, NameEveryStateAsTheSchemasDo) {
     EXPECT_THAT(schemas().problems("mission", mission_to_json(mission)), IsEmpty());
     EXPECT_EQ(mission_state(mission_state_name(mission.state)), mission.state);
   }
-  JobView job{JobId("j1"), "build", MapId("house"), JobState::kQueued, "", 0.0, {}, 12};
+  JobView job{JobId("j1"), "build", MapId("house"), JobState::kQueued, "", 0.0, {}, 12, 0, {}};
   for (int state = 0; state <= static_cast<int>(JobState::kCancelled); ++state) {
     job.state = static_cast<JobState>(state);
     EXPECT_THAT(schemas().problems("job", job_to_json(job)), IsEmpty());
@@ -114,6 +116,20 @@ TEST(Encoders, NameEveryStateAsTheSchemasDo) {
   for (const ErrorRow& row : error_table()) {
     EXPECT_THAT(schemas().problems("problem", problem_to_json(Error{row.code, "Why.", "here"})), IsEmpty());
   }
+}
+
+TEST(Encoders, TellWhatABuildMade) {
+  BuildView build{"house.map", {}, {}, {}};
+  EXPECT_THAT(schemas().problems("build", build_to_json(build, sample_map())), IsEmpty());
+  build = {"house.map",
+           "report/report.html",
+           {{ErrorCode::kTruncatedImage, "The JPEG ends before its last row.", "tour/00003.jpg"}},
+           {{ErrorCode::kInvalidInput, "The tour jumps.", "tour/00012.jpg"}}};
+  const json written = build_to_json(build, sample_map());
+  EXPECT_THAT(schemas().problems("build", written), IsEmpty());
+  EXPECT_EQ(written["images"], 3);
+  EXPECT_EQ(written["skipped"][0]["code"], "truncated_image");
+  EXPECT_EQ(written["warnings"][0]["image"], "tour/00012.jpg");
 }
 
 TEST(Encoders, KeepTheSecretOfALeaseToItsHolder) {

@@ -217,6 +217,8 @@ export class House {
       state: 'running',
       progress: { stage: 'comparing pictures', share: 0 },
       error: null,
+      skipped: 0,
+      notes: [],
       created_us: Date.now() * 1000,
     };
     this.jobs.push(job);

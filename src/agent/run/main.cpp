@@ -111,9 +111,10 @@ Status upload(const UploadCommand& options) {
     told = tenths;
     std::fprintf(stderr, "uploading: %d %%\n", tenths * 10);
   };
-  const auto id = agent::upload_tour(server, options.upload, progress);
-  if (!id) return pass_on(id);
-  std::cout << *id << "\n";
+  const auto tour = agent::upload_tour(server, options.upload, progress);
+  if (!tour) return pass_on(tour);
+  for (const Error& skipped : tour->skipped) std::cerr << "homeward-agent: Left out: " << skipped.message << "\n";
+  std::cout << tour->id << "\n";
   return {};
 }
 

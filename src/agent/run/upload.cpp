@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/run/upload.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -35,6 +36,12 @@ Result<json> call(RestClient& server, const std::string& method, const std::stri
   json value = json::parse(answer->body, nullptr, false);
   if (value.is_discarded()) return fail(ErrorCode::kIo, "The server's answer is no JSON.", path);
   return value;
+}
+
+/// Is it the picture that is wrong, and not the way to the server?
+bool unreadable(const Error& error) {
+  return error.code == ErrorCode::kUnsupportedImage || error.code == ErrorCode::kTruncatedImage ||
+         error.code == ErrorCode::kImageTooLarge;
 }
 
 /// An open tour of this name to carry on with, or a new one.
@@ -80,8 +87,8 @@ Status put_picture(RestClient& server, const std::string& tour, std::size_t numb
 
 }  // namespace
 
-Result<std::string> upload_tour(RestClient& server, const UploadOptions& options,
-                                const std::function<void(double)>& progress) {
+Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& options,
+                                 const std::function<void(double)>& progress) {
   const auto tour = TourFolder::open(options.folder);
   if (!tour) return pass_on(tour);
   const std::filesystem::path folder(options.folder);
@@ -92,18 +99,34 @@ Result<std::string> upload_tour(RestClient& server, const UploadOptions& options
   if (!id) return pass_on(id);
   const auto files = pictures_in(options.folder);
   if (!files) return pass_on(files);
+  UploadedTour uploaded{*id, {}};
+  std::size_t kept = 0;  // the server numbers without gaps
   for (std::size_t i = 0; i < files->size(); ++i) {
-    if (const Status put = put_picture(server, *id, i, (*files)[i], tour->images()[i]); !put) return pass_on(put);
+    const Status put = put_picture(server, *id, kept, (*files)[i], tour->images()[i]);
+    if (put) {
+      ++kept;
+    } else if (unreadable(put.error())) {
+      uploaded.skipped.push_back(put.error());
+    } else {
+      return pass_on(put);
+    }
     progress(static_cast<double>(i + 1) / static_cast<double>(files->size()));
   }
+  if (kept == 0) return tl::unexpected<Error>(uploaded.skipped.front());
   json marks = {{"marks", json::array()}};
-  for (const pipeline::TourMark& mark : tour->marks())
-    marks["marks"].push_back({{"image", mark.image}, {"label", mark.label}});
+  for (const pipeline::TourMark& mark : tour->marks()) {
+    const auto error = std::ranges::find(uploaded.skipped, (folder / mark.image).string(), &Error::where);
+    if (error == uploaded.skipped.end()) {
+      marks["marks"].push_back({{"image", mark.image}, {"label", mark.label}});
+    } else {
+      error->message += " Its destination \"" + mark.label + "\" is left out with it.";
+    }
+  }
   if (const auto put = call(server, "PUT", "/api/v1/tours/" + *id + "/marks", &marks); !put) return pass_on(put);
   const json nothing = json::object();
   if (const auto done = call(server, "POST", "/api/v1/tours/" + *id + "/complete", &nothing); !done)
     return pass_on(done);
-  return *id;
+  return uploaded;
 }
 
 }  // namespace homeward::agent

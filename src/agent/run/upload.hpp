@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "agent/link/rest_client.hpp"
 
@@ -14,10 +15,15 @@ struct UploadOptions {
   std::string name;
 };
 
+struct UploadedTour {
+  std::string id;
+  std::vector<Error> skipped;  // pictures that the server cannot read; the tour is made of the others
+};
+
 /// Brings a folder's tour to a server: pictures, times, odometry and marks. A tour of the same name that is still open
-/// is carried on with. Returns the tour's id. Errors: those of TourFolder and read_camera, kIo, and what the server
-/// refuses.
-Result<std::string> upload_tour(RestClient& server, const UploadOptions& options,
-                                const std::function<void(double)>& progress);
+/// is carried on with. Errors: those of TourFolder and read_camera, kIo, and what the server refuses but for single
+/// pictures that it cannot read.
+Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& options,
+                                 const std::function<void(double)>& progress);
 
 }  // namespace homeward::agent

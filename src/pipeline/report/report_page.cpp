@@ -81,6 +81,9 @@ std::string to_do(const BuiltMap& built, const ReportFacts& facts) {
     add("<a href=\"#skipped\">" + counted(built.notes.skipped.size(), "picture was", "pictures were") +
         " left out</a>.");
   }
+  for (const Error& warning : built.notes.warnings) {
+    add(escape_html(warning.message) + " <span class=\"soft\">(" + escape_html(warning.where) + ")</span>");
+  }
   if (items.empty()) items = "<li class=\"good\">Nothing to do: the map is in one piece and no way is weak.</li>\n";
   return "<h2>What to do</h2>\n<ul class=\"todo\">\n" + items + "</ul>\n</section>\n";
 }

@@ -73,6 +73,14 @@ TEST(WriteFile, WritesWholeFilesOverOlderOnes) {
   EXPECT_EQ(folder.count(), 1);  // nothing unfinished lies about
 }
 
+TEST(WriteFile, TakesOverWhatAKilledProgramLeft) {
+  const ScratchFolder folder;
+  folder.put("a.txt.unfinished", std::string(100, 'x'));
+  ASSERT_TRUE(write_file(folder.path() / "a.txt", "new"));
+  EXPECT_EQ(folder.text("a.txt"), "new");
+  EXPECT_EQ(folder.count(), 1);
+}
+
 TEST(WriteFile, LeavesNothingHalfWrittenWhenTheDiskIsFull) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_file(folder.path() / "a.txt", "old"));

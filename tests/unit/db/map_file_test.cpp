@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <fstream>
+#include <random>
+#include <thread>
 
 #include "support/sample_map.hpp"
 #include "wire/appearance_blob.hpp"
@@ -25,6 +28,14 @@ class MapFile : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
   [[nodiscard]] std::filesystem::path file() const { return folder_ / "house.hwmap"; }
+  void change(const std::string& sql) const { SQLite::Database(file().string(), SQLite::OPEN_READWRITE).exec(sql); }
+  /// Turns the file into one of the version before checksums, so that its rows may be changed.
+  void forget_checksum() const { change("PRAGMA user_version = 2; DELETE FROM meta WHERE key = 'checksum'"); }
+  [[nodiscard]] std::string content() const {
+    std::ifstream stream(file(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  }
+  void put(const std::string& bytes) const { std::ofstream(file(), std::ios::binary) << bytes; }
 
  private:
   std::filesystem::path folder_;
@@ -101,9 +112,14 @@ TEST_F(MapFile, NamesWhatIsWrongWithAFile) {
 
 TEST_F(MapFile, RefusesOtherDatabasesNewerVersionsAndDanglingReferences) {
   ASSERT_TRUE(save_map(file(), sample_map(), {}));
-  const auto change = [&](const char* sql) { SQLite::Database(file().string(), SQLite::OPEN_READWRITE).exec(sql); };
-  change("PRAGMA user_version = 1");
-  EXPECT_EQ(load_map(file()).error().code, ErrorCode::kUnsupportedFormat);
+  forget_checksum();
+  for (const auto& [version, what] : {std::pair("1", "Rebuild the map"), std::pair("4", "A newer Homeward wrote it")}) {
+    change(std::string("PRAGMA user_version = ") + version);
+    const auto refused = load_map(file());
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kUnsupportedFormat);
+    EXPECT_THAT(refused.error().message, ::testing::HasSubstr(what));
+  }
   change("PRAGMA user_version = 2; PRAGMA application_id = 1");
   EXPECT_EQ(load_map(file()).error().code, ErrorCode::kCorruptFile);
   change("PRAGMA application_id = 1213680976; DELETE FROM place_members WHERE place = 'p1'");
@@ -114,7 +130,7 @@ TEST_F(MapFile, ReadsFilesFromBeforeBeliefsWereCalibrated) {
   map::TopologicalMap map = sample_map();
   map.calibration = {0.25, 0.75};
   ASSERT_TRUE(save_map(file(), map, {}));
-  const auto change = [&](const char* sql) { SQLite::Database(file().string(), SQLite::OPEN_READWRITE).exec(sql); };
+  forget_checksum();
   change("UPDATE meta SET value = '{\"offset\": 0, \"slope\": -1}' WHERE key = 'calibration'");
   EXPECT_EQ(load_map(file()).error().code, ErrorCode::kCorruptFile);
   change("DELETE FROM meta WHERE key = 'calibration'");
@@ -124,10 +140,125 @@ TEST_F(MapFile, ReadsFilesFromBeforeBeliefsWereCalibrated) {
   EXPECT_EQ(stored->map.calibration.slope, map::BeliefCalibration{}.slope);
 }
 
-TEST_F(MapFile, RefusesATruncatedFile) {
+/// Everything that a file says, as the bytes of a file that is made of it.
+std::string said_by(const StoredMap& stored, const std::filesystem::path& scratch) {
+  EXPECT_TRUE(save_map(scratch, stored.map, stored.thumbnails));
+  std::ifstream stream(scratch, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+TEST_F(MapFile, TheSameMapIsTheSameFileByteForByte) {
   ASSERT_TRUE(save_map(file(), sample_map(), {}));
-  std::filesystem::resize_file(file(), std::filesystem::file_size(file()) / 2);
-  EXPECT_EQ(load_map(file()).error().code, ErrorCode::kCorruptFile);
+  const std::string first = content();
+  ASSERT_TRUE(save_map(file(), sample_map(), {}));
+  EXPECT_EQ(content(), first);
+  EXPECT_EQ(said_by(*load_map(file()), file()), first);
+}
+
+TEST_F(MapFile, ReadsFilesFromBeforeChecksumsButNoneThatLostIt) {
+  ASSERT_TRUE(save_map(file(), sample_map(), {}));
+  change("DELETE FROM meta WHERE key = 'checksum'");
+  EXPECT_THAT(load_map(file()).error().message, ::testing::HasSubstr("checksum"));
+  change("PRAGMA user_version = 2");
+  EXPECT_TRUE(load_map(file()));
+}
+
+TEST_F(MapFile, RefusesContentThatWasChanged) {
+  for (const char* sql : {"UPDATE places SET label = 'cellar' WHERE id = 'p2'", "UPDATE edges SET bearing_rad = 0.6",
+                          "DELETE FROM hypotheses", "UPDATE meta SET value = '7' WHERE key = 'revision'",
+                          "INSERT INTO thumbnails VALUES ('tour/00002.jpg', x'FFD8')"}) {
+    ASSERT_TRUE(save_map(file(), sample_map(), {}));
+    change(sql);
+    const auto refused = load_map(file());
+    ASSERT_FALSE(refused) << sql;
+    EXPECT_EQ(refused.error().code, ErrorCode::kCorruptFile);
+    EXPECT_THAT(refused.error().message, ::testing::HasSubstr("checksum")) << sql;
+    EXPECT_EQ(refused.error().where, file().string());
+  }
+}
+
+TEST_F(MapFile, AFlippedBitIsRefusedOrChangesNothingThatIsRead) {
+  ASSERT_TRUE(save_map(file(), sample_map(), {{sample_map().images[0].id, {1, 2, 3}}}));
+  const std::string good = content();
+  std::mt19937_64 random(5);
+  int refused = 0;
+  constexpr int kFlips = 2000;
+  for (int i = 0; i < kFlips; ++i) {
+    std::string bytes = good;
+    const std::size_t at = random() % bytes.size();
+    bytes[at] = static_cast<char>(bytes[at] ^ (1 << (random() % 8)));
+    put(bytes);
+    const auto loaded = load_map(file());
+    if (loaded) {
+      EXPECT_EQ(said_by(*loaded, file().parent_path() / "again"), good) << "byte " << at;
+      continue;
+    }
+    ++refused;
+    EXPECT_TRUE(loaded.error().code == ErrorCode::kCorruptFile || loaded.error().code == ErrorCode::kUnsupportedFormat)
+        << "byte " << at << ": " << loaded.error().message;
+    EXPECT_THAT(loaded.error().where, ::testing::HasSubstr(file().string()));
+  }
+  EXPECT_GT(refused, kFlips / 4);  // the rest fell on what no reader looks at: the unused ends of pages
+}
+
+TEST_F(MapFile, RefusesAFileThatWasCutShortAtAnyLength) {
+  ASSERT_TRUE(save_map(file(), sample_map(), {}));
+  const std::string good = content();
+  for (std::size_t length = 0; length < good.size(); length += length < 200 || good.size() - length < 200 ? 1 : 97) {
+    put(good.substr(0, length));
+    const auto refused = load_map(file());
+    ASSERT_FALSE(refused) << length;
+    EXPECT_EQ(refused.error().code, ErrorCode::kCorruptFile) << length;
+    EXPECT_EQ(refused.error().where, file().string());
+  }
+}
+
+TEST_F(MapFile, FoldersAndFilesThatMayNotBeReadAreNamedAsSuch) {
+  std::filesystem::create_directory(file());
+  EXPECT_EQ(load_map(file()).error().code, ErrorCode::kInvalidInput);
+  EXPECT_THAT(load_map(file()).error().message, ::testing::HasSubstr("folder"));
+  EXPECT_EQ(load_map("/dev/null").error().code, ErrorCode::kInvalidInput);
+  std::filesystem::remove(file());
+  ASSERT_TRUE(save_map(file(), sample_map(), {}));
+  std::filesystem::permissions(file(), std::filesystem::perms::none);
+  if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
+  EXPECT_EQ(load_map(file()).error().code, ErrorCode::kIo);
+  EXPECT_THAT(load_map(file()).error().message, ::testing::HasSubstr("Permission denied"));
+}
+
+TEST_F(MapFile, ReadingLooksAtNothingBesideTheFile) {
+  ASSERT_TRUE(save_map(file(), sample_map(), {}));
+  const std::string good = content();
+  std::ofstream(file().string() + "-journal") << "left by some other program";
+  std::ofstream(file().string() + "-wal") << "left by some other program";
+  EXPECT_TRUE(load_map(file()));
+  EXPECT_EQ(content(), good);
+}
+
+TEST_F(MapFile, WhatAKilledProgramLeftIsTakenOverAndNotAddedTo) {
+  std::ofstream(file().string() + ".part") << std::string(1 << 20, 'x');
+  ASSERT_TRUE(save_map(file(), sample_map(), {}));
+  EXPECT_TRUE(load_map(file()));
+  const auto entries = std::filesystem::directory_iterator(file().parent_path());
+  EXPECT_EQ(std::distance(begin(entries), end(entries)), 1);
+}
+
+TEST_F(MapFile, ManyWritersAtOnceLeaveOneWholeMap) {
+  std::vector<std::jthread> writers;
+  writers.reserve(4);
+  std::atomic<int> failed = 0;
+  for (int writer = 0; writer < 4; ++writer) {
+    writers.emplace_back([&, writer] {
+      map::TopologicalMap map = sample_map();
+      map.revision = 10 + writer;
+      for (int i = 0; i < 10; ++i) failed += save_map(file(), map, {}) ? 0 : 1;
+    });
+  }
+  writers.clear();
+  EXPECT_EQ(failed, 0);
+  EXPECT_GE(load_map(file())->map.revision, 10);
+  const auto entries = std::filesystem::directory_iterator(file().parent_path());
+  EXPECT_EQ(std::distance(begin(entries), end(entries)), 1);
 }
 
 }  // namespace

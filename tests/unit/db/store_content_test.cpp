@@ -154,6 +154,12 @@ TEST_F(StoreContent, JobsThatAreNotOverAreFoundAfterARestart) {
   EXPECT_EQ(store().job(failed.id)->error->code, ErrorCode::kTooFewImages);
   EXPECT_EQ(store().job(failed.id)->error->where, "tours/1");
   EXPECT_EQ(store().jobs()->size(), 2U);
+  failed.skipped = 2;
+  failed.notes = {"2 of 40 pictures cannot be read.", "The tour jumps."};
+  ASSERT_TRUE(store().update_job(failed));
+  EXPECT_EQ(store().job(failed.id)->skipped, 2);
+  EXPECT_EQ(store().job(failed.id)->notes, failed.notes);
+  EXPECT_TRUE(store().job(open_job.id)->notes.empty());
   job.map = MapId("none");
   EXPECT_EQ(store().add_job(job).error().code, ErrorCode::kNotFound);
 }

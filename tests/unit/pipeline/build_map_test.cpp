@@ -155,7 +155,7 @@ TEST(BuildMap, BlackPicturesAreNamed) {
   EXPECT_NE(map.error().message.find("80 %"), std::string::npos) << map.error().message;
 }
 
-TEST(BuildMap, ABadPictureIsNamed) {
+TEST(BuildMap, PicturesOfAnotherSizeAreNamed) {
   MemoryTour size("size");
   drive(size, the_camera(), 3, 0.5);
   size.add(Image(100, 50, 3));
@@ -163,14 +163,86 @@ TEST(BuildMap, ABadPictureIsNamed) {
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().code, ErrorCode::kWrongImageSize);
   EXPECT_EQ(wrong.error().where, "size/1003.png");
-  MemoryTour broken("broken");
-  drive(broken, the_camera(), 1, 0.5);
-  broken.add_broken(ErrorCode::kTruncatedImage);
-  broken.add_broken(ErrorCode::kIo);
-  const auto cut = build_map({&broken}, camera_config(), options(2));
-  ASSERT_FALSE(cut);
-  EXPECT_EQ(cut.error().code, ErrorCode::kTruncatedImage);  // the first of the tour, whichever was met first
-  EXPECT_EQ(cut.error().where, "broken/1001.png");
+  EXPECT_NE(wrong.error().message.find("1 of 4"), std::string::npos) << wrong.error().message;
+  size.add(Image(100, 50, 3));
+  const auto from_there = build_map({&size}, camera_config(), options(2));
+  ASSERT_FALSE(from_there);
+  EXPECT_EQ(from_there.error().message.rfind("From this picture on", 0), 0U) << from_there.error().message;
+  EXPECT_EQ(from_there.error().where, "size/1003.png");
+}
+
+TEST(BuildMap, WhatCannotBeReadIsLeftOutAndNoted) {
+  MemoryTour tour("broken");
+  MemoryTour good("broken");
+  drive(good, the_camera(), 6, 0.6);
+  for (std::size_t i = 0; i < 6; ++i) {
+    tour.add_broken(i % 2 == 0 ? ErrorCode::kTruncatedImage : ErrorCode::kIo);
+    tour.add(*good.read(i));
+  }
+  tour.mark("1002.png", "bath");  // cannot be read
+  tour.mark("1003.png", "bed");
+  const auto built = build_noted_map({&tour}, camera_config(), options(2));
+  ASSERT_TRUE(built) << built.error().message;
+  EXPECT_EQ(built->map.images.size(), 6U);
+  EXPECT_EQ(built->map.images[1].id.str(), "broken/1003.png");
+  ASSERT_EQ(built->map.destinations.size(), 1U);
+  EXPECT_EQ(built->map.destinations[0].image.str(), "broken/1003.png");
+  ASSERT_EQ(built->notes.skipped.size(), 6U);
+  EXPECT_EQ(built->notes.skipped[1].where, "broken/1002.png");
+  EXPECT_EQ(built->notes.skipped[1].code, ErrorCode::kIo);
+  EXPECT_NE(built->notes.skipped[1].message.find("bath"), std::string::npos) << built->notes.skipped[1].message;
+  const auto words = notes_in_words(built->notes);
+  ASSERT_EQ(words.size(), 1U);
+  EXPECT_EQ(words[0].rfind("6 of 12 pictures", 0), 0U) << words[0];
+  // The map is that of the pictures that are left.
+  MemoryTour left("broken");
+  for (std::size_t i = 0; i < 6; ++i) left.add(*good.read(i));
+  left.mark("1001.png", "bed");
+  const auto alone = build_map({&left}, camera_config(), options(1));
+  ASSERT_TRUE(alone);
+  ASSERT_EQ(alone->places.size(), built->map.places.size());
+  for (std::size_t i = 0; i < alone->places.size(); ++i) {
+    EXPECT_EQ(alone->places[i].members.size(), built->map.places[i].members.size());
+  }
+  ASSERT_EQ(alone->edges.size(), built->map.edges.size());
+  for (std::size_t i = 0; i < alone->edges.size(); ++i) {
+    EXPECT_EQ(alone->edges[i].bearing_rad, built->map.edges[i].bearing_rad);
+  }
+}
+
+TEST(BuildMap, TooFewThatCanBeReadAreNoTour) {
+  MemoryTour tour("broken");
+  drive(tour, the_camera(), 2, 0.5);
+  tour.add_broken(ErrorCode::kTruncatedImage);
+  tour.add_broken(ErrorCode::kIo);
+  const auto two = build_map({&tour}, camera_config(), options(2));
+  ASSERT_FALSE(two);
+  EXPECT_EQ(two.error().code, ErrorCode::kTooFewImages);
+  EXPECT_EQ(two.error().where, "broken/1002.png");
+  MemoryTour none("none");
+  for (int i = 0; i < 4; ++i) none.add_broken(i == 0 ? ErrorCode::kUnsupportedImage : ErrorCode::kIo);
+  const auto nothing = build_map({&none}, camera_config(), options(2));
+  ASSERT_FALSE(nothing);
+  EXPECT_EQ(nothing.error().code, ErrorCode::kUnsupportedImage);
+  EXPECT_EQ(nothing.error().where, "none/1000.png");
+  EXPECT_NE(nothing.error().message.find("None of the 4"), std::string::npos) << nothing.error().message;
+}
+
+TEST(BuildMap, ACameraThatStandsStillMakesNoMap) {
+  MemoryTour still("still");
+  const Image picture = homeward::testing::painted_picture(homeward::testing::painted_corridor(), {}, the_camera());
+  for (int i = 0; i < 5; ++i) {
+    Image noisy = picture;
+    for (std::size_t k = static_cast<std::size_t>(i); k < noisy.data.size(); k += 7) noisy.data[k] ^= 3;
+    still.add(std::move(noisy));
+  }
+  const auto map = build_map({&still}, camera_config(), options(1));
+  ASSERT_FALSE(map);
+  EXPECT_EQ(map.error().code, ErrorCode::kTooFewImages);
+  EXPECT_NE(map.error().message.find("stood still"), std::string::npos) << map.error().message;
+  // Standing for a while is no harm.
+  drive(still, the_camera(), 4, 0.6);
+  EXPECT_TRUE(build_map({&still}, camera_config(), options(1)));
 }
 
 TEST(BuildMap, WrongMarksDoubleImagesAndBadCamerasAreRefused) {

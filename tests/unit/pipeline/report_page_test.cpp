@@ -140,6 +140,7 @@ TEST(ReportPage, EscapesWhatPeopleAndFilesAreCalled) {
   map.map.destinations[0].label = nasty;
   map.map.feature_config_id = nasty;
   map.notes.skipped.push_back({ErrorCode::kIo, nasty, nasty});
+  map.notes.warnings.push_back({ErrorCode::kInvalidInput, nasty, nasty});
   const std::string page = page_of(map);
   EXPECT_THAT(page, Not(HasSubstr("<script")));
   EXPECT_THAT(page,

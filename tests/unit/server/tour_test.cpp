@@ -130,6 +130,37 @@ TEST_F(TourTest, AMapIsBuiltAskedAndEdited) {
   EXPECT_EQ(admin->get(root).status, 404);
 }
 
+TEST_F(TourTest, ABuildDoesWithoutPicturesThatWereDamagedAndSaysSo) {
+  const std::string tour = complete_tour(3);
+  const auto damage = [&](int number) {
+    const auto file = config.data / "tours" / tour / (std::to_string(number) + ".jpg");
+    ASSERT_TRUE(std::filesystem::exists(file));
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  };
+  damage(1);
+  damage(8);  // "home"
+  const json begun = admin->post("/api/v1/maps", {{"name", "damaged"}, {"tours", {tour}}}).json();
+  EXPECT_EQ(begun.at("job").at("skipped"), 0);
+  const json done = wait_for_job(begun.at("job").at("id"));
+  ASSERT_EQ(done.at("state"), "done") << done.dump();
+  EXPECT_EQ(done.at("skipped"), 2);
+  ASSERT_EQ(done.at("notes").size(), 1U);
+  EXPECT_NE(done.at("notes")[0].get<std::string>().find("2 of 9 pictures"), std::string::npos) << done.dump();
+  const std::string map = "/api/v1/maps/" + begun.at("map").at("id").get<std::string>();
+  EXPECT_EQ(admin->get(map).json().at("images"), 7);
+  EXPECT_TRUE(admin->get(map + "/graph").json().at("destinations").empty());
+  restart();
+  EXPECT_EQ(admin->get("/api/v1/jobs/" + done.at("id").get<std::string>()).json(), done);
+  for (int number = 0; number < 9; ++number) {
+    if (number != 1 && number != 8) damage(number);
+  }
+  const json again = admin->post(map + "/builds").json();
+  const json failed = wait_for_job(again.at("job").at("id"));
+  EXPECT_EQ(failed.at("state"), "failed");
+  EXPECT_NE(failed.at("error").at("detail").get<std::string>().find("None of the 9 pictures"), std::string::npos);
+  EXPECT_EQ(admin->get(map).json().at("images"), 7) << "the map of before is still there";
+}
+
 TEST_F(TourTest, ABuildIsCancelledOrOutlivesARestart) {
   const std::string tour = complete_tour(6);
   const json first = admin->post("/api/v1/maps", {{"name", "a"}, {"tours", {tour}}}).json();

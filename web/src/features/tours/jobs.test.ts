@@ -10,6 +10,8 @@ const job = (id: string, created_us: number, part: Partial<Job> = {}): Job => ({
   state: 'running',
   progress: { stage: 'compare', share: 0.5 },
   error: null,
+  skipped: 0,
+  notes: [],
   created_us,
   ...part,
 });

@@ -28,11 +28,13 @@ export function stageWords(job: Job): string {
   return kStages[stage] ?? sentence(stage).replace(/\.$/, '');
 }
 
-/** How the building of a map goes, or why it ended without one. */
+/** How the building of a map goes, why it ended without one, or what is to be known of the one that it made. */
 export function BuildProgress({ map, mayCancel }: { map: MapInfo; mayCancel: boolean }) {
   const job = newestJob(connection.value.house?.jobs ?? [], map.id);
   const { busy, problem, run } = useCommand();
-  if (!job || job.state === 'done') return null;
+  if (!job) return null;
+  if (job.state === 'done')
+    return job.notes.length > 0 ? <Notice tone="warn">{job.notes.join(' ')}</Notice> : null;
   if (job.state === 'failed')
     return (
       <Notice tone="bad">

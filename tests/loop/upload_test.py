@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""A tour with pictures that cannot be read, from the robot's folder over the server to a map that says what it lacks.
+
+usage: upload_test.py BIN_FOLDER WEB_FOLDER
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "deploy"))
+from rest_client import Server  # noqa: E402
+
+BIN = pathlib.Path(sys.argv[1]).resolve()
+WEB = pathlib.Path(sys.argv[2]).resolve()
+PORT = 18474
+
+
+class Upload(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="homeward-upload-")
+        self.addCleanup(folder.cleanup)
+        self.data = pathlib.Path(folder.name)
+        self.tour = self.data / "tour"
+        subprocess.run([BIN / "homeward", "simulate", "tour", "--world", "offices:1", "--rooms", "corridor,office_1", "--step-m",
+                        "1", "--marks", "--camera", "equirectangular", "--out", self.tour], check=True, stdout=subprocess.DEVNULL)
+        self.server = Server(f"http://127.0.0.1:{PORT}")
+        with open(self.data / "server.log", "ab") as log:
+            process = subprocess.Popen([BIN / "homeward-server", "--data", self.data / "server", "--listen", f"127.0.0.1:{PORT}",
+                                        "--web", WEB, "--print-setup-file", self.data / "setup-link"],
+                                       stdout=log, stderr=subprocess.STDOUT)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        self.server.wait_until_up(process)
+        token = (self.data / "setup-link").read_text().strip().split("token=")[-1]
+        login = {"name": "anna", "password": "correct horse battery"}
+        self.server.call("POST", "/api/v1/setup", {"token": token, **login})
+        self.server.call("POST", "/api/v1/login", login)
+        self.token = self.data / "token"
+        self.token.touch(mode=0o600)
+        self.token.write_text(self.server.call("POST", "/api/v1/robots", {"name": "Chair"})["token"])
+
+    def upload(self, name):
+        return subprocess.run([BIN / "homeward-agent", "upload", "--server", self.server.address, "--token-file", self.token,
+                               "--tour", self.tour, "--name", name], capture_output=True, text=True, timeout=120)
+
+    def test_the_rest_is_used(self):
+        pictures = sorted(self.tour.glob("*.jpg"))
+        lost = json.loads((self.tour / "tour.json").read_text())["marks"][0]
+        broken = [self.tour / lost["image"], pictures[4], pictures[7]]
+        broken[0].write_bytes(b"")
+        broken[1].write_text("This is no picture.")
+        broken[2].write_bytes(broken[2].read_bytes()[:2000])
+        done = self.upload("damaged")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for picture in broken:
+            self.assertIn(picture.name, done.stderr)
+        self.assertIn(f'destination "{lost["label"]}"', done.stderr)
+        tour = done.stdout.strip()
+        left = len(pictures) - len(set(broken))
+        self.assertEqual(self.server.call("GET", f"/api/v1/tours/{tour}")["images"], left)
+        # A picture that the server's own disk damages afterwards.
+        stored = sorted((self.data / "server" / "tours" / tour).iterdir())[1]
+        stored.write_bytes(stored.read_bytes()[:1000])
+        job = self.server.call("POST", "/api/v1/maps", {"name": "damaged", "tours": [tour]})["job"]
+        while job["state"] in ("queued", "running"):
+            time.sleep(0.2)
+            job = self.server.call("GET", f"/api/v1/jobs/{job['id']}")
+        self.assertEqual((job["state"], job["skipped"]), ("done", 1), job)
+        self.assertIn(f"1 of {left} pictures", job["notes"][0])
+        self.assertEqual(self.server.call("GET", f"/api/v1/maps/{job['map']}")["images"], left - 1)
+
+    def test_nothing_that_can_be_read(self):
+        for picture in self.tour.glob("*.jpg"):
+            picture.write_bytes(b"")
+        done = self.upload("nothing")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("00000.jpg", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
