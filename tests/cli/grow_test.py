@@ -32,7 +32,7 @@ class Grow(CliTest):
 
     def content(self, name):
         database = sqlite3.connect(self.folder / name)
-        rows = [line for line in database.iterdump() if "'build_seconds'" not in line]
+        rows = [line for line in database.iterdump() if not any(key in line for key in ("'build_seconds'", "'checksum'"))]
         database.close()
         return rows
 
@@ -124,9 +124,6 @@ class Grow(CliTest):
         self.assert_refused(3, ["good.map"], *self.add())
         self.good_map()
         self.assert_refused(4, ["another kind of camera"], *self.add("--camera", self.mirror()))
-        self.change("good.map", "UPDATE meta SET value = '\"hw1-old\"' WHERE key = 'feature_config_id'")
-        self.assert_refused(4, ["hw1-old", "rebuild"], *self.add())
-        self.good_map()
         self.change("good.map", "PRAGMA user_version = 99")
         self.assert_refused(2, ["version 99"], *self.add())
         (self.folder / "good.map").write_text("This is no map.\n" * 100)
