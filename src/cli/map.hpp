@@ -8,5 +8,6 @@ namespace homeward::cli {
 void register_map_build(CLI::App& map);
 void register_map_inspect(CLI::App& map);
 void register_map_export(CLI::App& map);
+void register_map_refine(CLI::App& map);
 
 }  // namespace homeward::cli

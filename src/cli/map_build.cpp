@@ -6,27 +6,26 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "agent/files/read_file.hpp"
-#include "agent/files/tour_folder.hpp"
 #include "agent/files/write_file.hpp"
 #include "cli/command.hpp"
 #include "cli/map.hpp"
+#include "cli/map_output.hpp"
 #include "db/map_file.hpp"
+#include "map/parts.hpp"
 #include "pipeline/build_map.hpp"
-#include "pipeline/eye.hpp"
 #include "pipeline/report/report_page.hpp"
-#include "pipeline/thumbnail.hpp"
 #include "wire/build_json.hpp"
 
 namespace homeward::cli {
 namespace {
 
 struct Options {
-  std::string tour;
+  std::vector<std::string> tours;  // folders
   std::string camera;
   std::string out;
+  std::string add_to;  // map file
   std::string name;
   std::string report;  // folder
   int report_pictures = 60;
@@ -34,31 +33,6 @@ struct Options {
   std::uint64_t seed = 1;
   bool json = false;
 };
-
-/// Thumbnails of what a dashboard shows: prototypes and destinations.
-Result<db::Thumbnails> make_thumbnails(const map::TopologicalMap& map, const agent::TourFolder& tour) {
-  const auto eye = pipeline::Eye::create(map.camera, map.feature_config);
-  if (!eye) return pass_on(eye);
-  std::vector<ImageId> wanted;
-  for (const map::Place& place : map.places) wanted.push_back(place.prototype);
-  for (const map::Destination& destination : map.destinations) wanted.push_back(destination.image);
-  for (const map::Hypothesis& hypothesis : map.hypotheses) {
-    wanted.push_back(hypothesis.prototype_a);
-    wanted.push_back(hypothesis.prototype_b);
-  }
-  std::ranges::sort(wanted);
-  db::Thumbnails thumbnails;
-  for (std::size_t i = 0; i < tour.images().size(); ++i) {
-    const ImageId& id = tour.images()[i].id;
-    if (!std::ranges::binary_search(wanted, id)) continue;
-    const auto picture = tour.read(i);
-    if (!picture) return pass_on(picture);
-    auto thumbnail = pipeline::make_thumbnail(*eye, *picture);
-    if (!thumbnail) return pass_on(thumbnail);
-    thumbnails.emplace(id, std::move(*thumbnail));
-  }
-  return thumbnails;
-}
 
 /// "21 November 2026", local time.
 std::string today() {
@@ -72,10 +46,9 @@ std::string today() {
 }
 
 /// Returns the file.
-Result<std::string> write_report(const Options& options, const pipeline::BuiltMap& built,
-                                 const agent::TourFolder& tour) {
+Result<std::string> write_report(const Options& options, const pipeline::BuiltMap& built, const TourFolders& tours) {
   const pipeline::ReportOptions report{today(), options.report_pictures, options.threads, options.seed};
-  const auto page = pipeline::report_page(built, {&tour}, report);
+  const auto page = pipeline::report_page(built, tours.sources(), report);
   if (!page) return pass_on(page);
   const std::filesystem::path file = std::filesystem::path(options.report) / "report.html";
   if (const Status written = agent::write_file(file, *page); !written) return pass_on(written);
@@ -104,8 +77,13 @@ void tell_of_weak_edges(const mapping::MappingNotes& notes) {
 }
 
 Status build(const Options& options) {
-  const auto tour = agent::TourFolder::open(options.tour);
-  if (!tour) return pass_on(tour);
+  const auto tours = TourFolders::open(options.tours);
+  if (!tours) return pass_on(tours);
+  if (!options.add_to.empty()) {
+    return add_to_map({options.add_to, options.camera, options.out, options.threads, options.seed, options.json},
+                      *tours);
+  }
+  if (options.camera.empty()) return fail(ErrorCode::kInvalidInput, "A new map needs its camera.", "--camera");
   const auto camera = agent::read_camera(options.camera);
   if (!camera) return pass_on(camera);
   if (!options.report.empty()) {  // before the work: a folder that cannot be made is not told after it
@@ -116,49 +94,54 @@ Status build(const Options& options) {
   {
     ProgressBar bar;
     const pipeline::BuildOptions build_options{options.name, options.threads, options.seed};
-    built = pipeline::build_noted_map({&*tour}, *camera, build_options, nullptr,
+    built = pipeline::build_noted_map(tours->sources(), *camera, build_options, nullptr,
                                       [&](const pipeline::BuildProgress& at) { bar.show(at.stage, at.share); });
   }
   if (!built) {
     Error error = built.error();
-    if (error.where.empty()) error.where = options.tour;
+    if (error.where.empty()) error.where = options.tours.front();
     return tl::unexpected<Error>(error);
   }
   map::TopologicalMap& map = built->map;
   map.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const auto thumbnails = make_thumbnails(map, *tour);
-  if (!thumbnails) return pass_on(thumbnails);
-  if (const Status saved = db::save_map(options.out, map, *thumbnails); !saved) return saved;
+  db::Thumbnails thumbnails;
+  if (Status made = add_thumbnails(map, *tours, thumbnails); !made) return made;
+  if (const Status saved = db::save_map(options.out, map, thumbnails); !saved) return saved;
   wire::BuildView view{options.out, {}, built->notes.skipped, built->notes.warnings};
   tell_notes(built->notes);
   if (!options.json) {
-    std::cout << map.images.size() << " pictures, " << map.places.size() << " places, " << map.edges.size()
-              << " edges, " << map.destinations.size() << " destinations: " << options.out << "\n";
+    std::cout << summary(map) << ": " << options.out << "\n" << map::tell_parts(map::parts(map));
     tell_of_weak_edges(built->notes.mapping);
   }
   if (!options.report.empty()) {
-    const auto report = write_report(options, *built, *tour);
+    const auto report = write_report(options, *built, *tours);
     if (!report) return pass_on(report);
     view.report = *report;
     if (!options.json) std::cout << "report: " << *report << "\n";
   }
-  if (options.json) {
-    std::cout << wire::build_to_json(view, map).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
-  }
+  if (options.json) print_json(wire::build_to_json(view, map));
   return {};
 }
 
 }  // namespace
 
 void register_map_build(CLI::App& map) {
-  CLI::App* command = map.add_subcommand("build", "Build a map from the pictures of a tour");
+  CLI::App* command = map.add_subcommand("build", "Build a map from the pictures of tours, or add tours to a map");
   const auto options = std::make_shared<Options>();
-  command->add_option("--tour", options->tour, "Folder of the tour's pictures")->required();
-  command->add_option("--camera", options->camera, "camera.json")->required();
+  command->add_option("--tour", options->tours, "Folder of a tour's pictures; once for each tour")
+      ->required()
+      ->allow_extra_args(false);
+  command->add_option("--camera", options->camera, "camera.json; with --add-to only when it is not the map's camera");
   command->add_option("--out", options->out, "Map file to write")->required();
-  command->add_option("--name", options->name, "Name of the map");
-  command->add_option("--report", options->report,
-                      "Folder for report.html: one page on the map and how it came about, to read and to print");
+  auto* add_to = command->add_option("--add-to", options->add_to,
+                                     "Map file that the tours join: it keeps its places, names and decisions, and "
+                                     "stays as it is unless --out names it");
+  command->add_option("--name", options->name, "Name of the map")->excludes(add_to);
+  command->add_flag("--json", options->json, "Print one JSON object, with the pictures left out and why");
+  command
+      ->add_option("--report", options->report,
+                   "Folder for report.html: one page on the map and how it came about, to read and to print")
+      ->excludes(add_to);
   command
       ->add_option("--report-pictures", options->report_pictures,
                    "Loop hypotheses that the report shows in pictures, the least certain first")
@@ -167,7 +150,6 @@ void register_map_build(CLI::App& map) {
   command->add_option("--threads", options->threads, "Threads (0: as many as the machine has)")
       ->check(CLI::Range(0, 256));
   command->add_option("--seed", options->seed, "Seed of everything random");
-  command->add_flag("--json", options->json, "Print one JSON object, with the pictures left out and why");
   command->footer(
       "Pictures that cannot be read are left out and named on standard error. A tour whose pictures all show one view, "
       "are out of order or come from two cameras is refused.");

@@ -6,6 +6,7 @@
 #include "cli/command.hpp"
 #include "cli/map.hpp"
 #include "db/map_file.hpp"
+#include "map/parts.hpp"
 #include "wire/inspect_json.hpp"
 
 namespace homeward::cli {
@@ -20,14 +21,18 @@ void print_summary(const db::StoredMap& stored) {
   const map::TopologicalMap& map = stored.map;
   int accepted = 0;
   for (const map::Hypothesis& h : map.hypotheses) accepted += h.decision == map::Decision::kAccepted ? 1 : 0;
+  std::size_t appearances = 0;
+  for (const map::Place& place : map.places) appearances += place.appearances.size();
   int weak = 0;
   for (const map::Edge& edge : map.edges) weak += edge.weak ? 1 : 0;
   std::cout << "revision      " << map.revision << "\npictures      " << map.images.size() << "\nplaces        "
-            << map.places.size() << "\nedges         " << map.edges.size() << " (" << weak << " weak)\nloops closed  "
-            << accepted << " of " << map.hypotheses.size() << " hypotheses\nbytes         " << stored.bytes << "\n";
+            << map.places.size() << " (" << appearances << " appearances)\nedges         " << map.edges.size() << " ("
+            << weak << " weak)\nloops closed  " << accepted << " of " << map.hypotheses.size()
+            << " hypotheses\nbytes         " << stored.bytes << "\n";
   for (const map::Destination& d : map.destinations) {
     std::cout << "destination   " << d.id.str() << " " << d.label << " at " << d.place.str() << "\n";
   }
+  std::cout << map::tell_parts(map::parts(map));
 }
 
 Status inspect(const Options& options) {

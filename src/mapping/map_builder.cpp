@@ -80,19 +80,6 @@ void add_look_alikes(std::vector<LoopHypothesis>& hypotheses, std::span<const Su
   std::ranges::stable_sort(hypotheses, {}, [](const LoopHypothesis& h) { return std::pair(h.a, h.b); });
 }
 
-/// Distances between images that certainly show one place: a place extent or less of one tour apart.
-UsualDistances usual_distances(const MappingInput& input, const TourPath& path, const MappingConfig& config) {
-  const double extent = path.metric() ? config.place_extent_m : config.place_extent_images;
-  std::vector<float> distances;
-  for (int i = 0; i < static_cast<int>(input.images.size()); ++i) {
-    for (int j = i + 1; j < static_cast<int>(input.images.size()); ++j) {
-      if (input.tour_of[at(i)] != input.tour_of[at(j)] || path.length(i, j) > extent * (1.0 + 1e-9)) break;
-      distances.push_back(input.pairs->distance(i, j));
-    }
-  }
-  return UsualDistances(std::move(distances));
-}
-
 std::vector<double> positions_of_evidence(const MappingInput& input) {
   std::vector<double> positions;
   for (std::size_t i = 0; i < input.images.size(); ++i) {
@@ -239,6 +226,18 @@ float place_distance_threshold(const MappingInput& input, const TourPath& path, 
     if (std::isfinite(*middle)) return *middle;
   }
   return 0.0F;
+}
+
+UsualDistances usual_distances(const MappingInput& input, const TourPath& path, const MappingConfig& config) {
+  const double extent = path.metric() ? config.place_extent_m : config.place_extent_images;
+  std::vector<float> distances;
+  for (int i = 0; i < static_cast<int>(input.images.size()); ++i) {
+    for (int j = i + 1; j < static_cast<int>(input.images.size()); ++j) {
+      if (input.tour_of[at(i)] != input.tour_of[at(j)] || path.length(i, j) > extent * (1.0 + 1e-9)) break;
+      distances.push_back(input.pairs->distance(i, j));
+    }
+  }
+  return UsualDistances(std::move(distances));
 }
 
 map::TopologicalMap make_map(const MappingInput& input, const MappingConfig& config,

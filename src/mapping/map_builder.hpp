@@ -10,6 +10,7 @@
 #include "map/topological_map.hpp"
 #include "mapping/hypotheses.hpp"
 #include "mapping/pair_table.hpp"
+#include "mapping/similarity.hpp"
 #include "mapping/track.hpp"
 
 namespace homeward::mapping {
@@ -57,6 +58,9 @@ class TourPath {
 /// The visual distance up to which images make one place: what is usual between tour images one place extent apart.
 /// Goedemé 2007 §4.2.3: the place definition is a constant visual distance; which one comes from the tour itself.
 float place_distance_threshold(const MappingInput& input, const TourPath& path, const MappingConfig& config);
+
+/// Distances between images that certainly show one place: a place extent or less of one tour apart.
+UsualDistances usual_distances(const MappingInput& input, const TourPath& path, const MappingConfig& config);
 
 /// What the builder found out on its way and the map does not keep: for a report.
 struct MappingNotes {

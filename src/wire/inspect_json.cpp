@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "map/parts.hpp"
 #include "wire/json_write.hpp"
 
 namespace homeward::wire {
@@ -20,7 +21,8 @@ json place_to_json(const map::Place& place) {
           {"label", place.label},
           {"prototype", place.prototype.str()},
           {"members", ids_to_json(place.members)},
-          {"features", features}};
+          {"features", features},
+          {"appearances", place.appearances.size()}};
 }
 
 json edge_to_json(const map::Edge& edge) {
@@ -34,6 +36,8 @@ json edge_to_json(const map::Edge& edge) {
           {"inliers", edge.inliers},
           {"weak", edge.weak}};
 }
+
+json part_to_json(const map::MapPart& part) { return {{"places", ids_to_json(part.places)}, {"tours", part.tours}}; }
 
 }  // namespace
 
@@ -60,10 +64,12 @@ json hypothesis_to_json(const map::Hypothesis& hypothesis) {
 
 json inspect_to_json(const map::TopologicalMap& map, std::int64_t bytes) {
   json value = {{"images", map.images.size()}, {"bytes", bytes},         {"build_seconds", map.build_seconds},
-                {"places", json::array()},     {"edges", json::array()}, {"hypotheses", json::array()}};
+                {"places", json::array()},     {"edges", json::array()}, {"hypotheses", json::array()},
+                {"components", json::array()}};
   for (const map::Place& place : map.places) value["places"].push_back(place_to_json(place));
   for (const map::Edge& edge : map.edges) value["edges"].push_back(edge_to_json(edge));
   for (const map::Hypothesis& h : map.hypotheses) value["hypotheses"].push_back(hypothesis_to_json(h));
+  for (const map::MapPart& part : map::parts(map)) value["components"].push_back(part_to_json(part));
   return value;
 }
 

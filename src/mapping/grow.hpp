@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "map/topological_map.hpp"
+#include "mapping/growth_input.hpp"
+#include "mapping/map_builder.hpp"
+#include "mapping/pair_table.hpp"
+
+namespace homeward::mapping {
+
+/// What tours brought to a map.
+struct GrowthCounts {
+  int images = 0;
+  int joined_images = 0;  // of them, at places that the map had
+  int joined_places = 0;  // places that the map had and that gained images
+  int places = 0;         // new ones
+  int appearances = 0;    // one for each new place
+  int edges = 0;          // directed
+  int destinations = 0;
+  int hypotheses = 0;
+};
+
+struct GrownMap {
+  map::TopologicalMap map;
+  GrowthCounts added;
+};
+
+/// Joins new tours to a map by the machinery that makes maps (Goedemé 2006 §3.3-3.6): complete linkage over new images
+/// and the old places' appearances, subclusters by tour order, a hypothesis for each pair in one cluster, evidence from
+/// its neighbours and from the ways driven, decision by support. New images that show an old place join it, the others
+/// make new places; transitions that the new tours drove become edges.
+/// Looks count between old and new as far as they were right where the way could tell, in the old map and on the new
+/// tours, and as far as the two ways bear each other out (two_ways.hpp).
+/// Nothing of the old map is changed or taken away: places keep id, label, prototype, members and appearances, and
+/// never merge; edges, decisions and edits stay; an edge that a person removed does not come back. Statistics and
+/// calibration stay those of the old map. The revision rises by one.
+GrownMap grow_map(const map::TopologicalMap& old, const GrowthInput& input, const PairTable& pairs,
+                  const MappingConfig& config);
+
+}  // namespace homeward::mapping

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping/grow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "map/lookup.hpp"
+#include "map/parts.hpp"
+#include "mapping/edits.hpp"
+#include "support/corridor_tour.hpp"
+
+namespace homeward::mapping {
+namespace {
+
+using homeward::testing::corridor_tour;
+using homeward::testing::CorridorTour;
+using homeward::testing::walk;
+
+/// The map of a corridor of 12 m, and what becomes of it when it is driven again.
+class Grow : public ::testing::Test {
+ protected:
+  void SetUp() override { map_ = make_map(old_.input(), {}, nullptr); }
+
+  /// A new tour with pictures at these positions.
+  static NewTours tour_at(const std::vector<double>& position_m, const std::string& name = "new") {
+    NewTours tours;
+    for (std::size_t i = 0; i < position_m.size(); ++i) {
+      tours.images.push_back({ImageId(name + "/" + std::to_string(1000 + i) + ".jpg"), std::nullopt, std::nullopt});
+      tours.tour_of.push_back(0);
+      tours.appearances.push_back(testing::random_appearance(3, static_cast<unsigned>(500 + i)));
+    }
+    return tours;
+  }
+
+  [[nodiscard]] GrownMap grow(const std::vector<double>& position_m, std::vector<MarkedImage> marks = {}) const {
+    NewTours tours = tour_at(position_m);
+    tours.marks = std::move(marks);
+    const GrowthInput input = growth_input(map_, std::move(tours)).value();
+    std::vector<double> all_m = position_m;
+    for (int image = input.new_images; image < static_cast<int>(input.images.size()); ++image) {
+      all_m.push_back(position_of(input.images[static_cast<std::size_t>(image)].id));
+    }
+    PairTable pairs = corridor_tour(all_m, {static_cast<int>(all_m.size())}).pairs;
+    for (int b = input.new_images; b < pairs.images(); ++b) {
+      for (int a = input.new_images; a < b; ++a) pairs.set(a, b, {});
+    }
+    return grow_map(map_, input, pairs, {});
+  }
+
+  [[nodiscard]] double position_of(const ImageId& old_image) const {
+    return old_.position_m[static_cast<std::size_t>(map::image_indices(map_).at(old_image))];
+  }
+  [[nodiscard]] ImageId image(int index) const { return old_.images[static_cast<std::size_t>(index)].id; }
+  void edit(map::EditKind kind, int a, int b, const std::string& text = {}) {
+    map::Edit edit;
+    edit.kind = kind;
+    edit.image_a = image(a);
+    if (b >= 0) edit.image_b = image(b);
+    edit.text = text;
+    edit.by = "anna";
+    const Status applied = apply_edit(map_, edit);
+    ASSERT_TRUE(applied) << applied.error().message;
+  }
+
+  /// Whatever comes, the map has all that it had.
+  void expect_kept(const map::TopologicalMap& grown) const {
+    ASSERT_GE(grown.places.size(), map_.places.size());
+    for (std::size_t p = 0; p < map_.places.size(); ++p) {
+      const map::Place& before = map_.places[p];
+      const map::Place& after = grown.places[p];
+      EXPECT_EQ(after.id, before.id);
+      EXPECT_EQ(after.prototype, before.prototype);
+      ASSERT_GE(after.members.size(), before.members.size());
+      EXPECT_TRUE(std::ranges::equal(before.members, std::span(after.members).first(before.members.size())));
+      ASSERT_EQ(after.appearances.size(), before.appearances.size());
+      EXPECT_EQ(after.appearances[0].sift.descriptors, before.appearances[0].sift.descriptors);
+    }
+    ASSERT_GE(grown.edges.size(), map_.edges.size());
+    for (std::size_t e = 0; e < map_.edges.size(); ++e) {
+      EXPECT_EQ(grown.edges[e].from, map_.edges[e].from);
+      EXPECT_EQ(grown.edges[e].to, map_.edges[e].to);
+      EXPECT_EQ(grown.edges[e].length_m, map_.edges[e].length_m);
+      EXPECT_EQ(grown.edges[e].blocked, map_.edges[e].blocked);
+    }
+    EXPECT_EQ(grown.edits.size(), map_.edits.size());
+    EXPECT_EQ(grown.revision, map_.revision + 1);
+    std::set<PlaceId> ids;
+    for (const map::Place& place : grown.places) EXPECT_TRUE(ids.insert(place.id).second) << place.id.str();
+  }
+
+  CorridorTour old_ = corridor_tour(walk(30, false), {30});
+  map::TopologicalMap map_;
+};
+
+std::vector<double> stretch(double from_m, double to_m) {
+  std::vector<double> position_m;
+  for (double x_m = from_m; x_m < to_m; x_m += 0.4) position_m.push_back(x_m);
+  return position_m;
+}
+
+TEST_F(Grow, TheSameWayAgainJoinsThePlacesThatAreThere) {
+  const std::vector<double> position_m = stretch(0.1, 11.7);
+  const GrownMap grown = grow(position_m);
+  expect_kept(grown.map);
+  EXPECT_EQ(grown.added.images, static_cast<int>(position_m.size()));
+  EXPECT_GE(grown.added.joined_images, 24) << "of " << position_m.size();
+  EXPECT_EQ(grown.map.images.size(), 30 + position_m.size());
+  EXPECT_EQ(grown.map.places.size(), map_.places.size() + static_cast<std::size_t>(grown.added.places));
+  const auto index = map::image_indices(grown.map);
+  std::size_t held = 0;
+  for (std::size_t p = 0; p < grown.map.places.size(); ++p) {
+    held += grown.map.places[p].members.size();
+    if (p >= map_.places.size()) continue;
+    for (const ImageId& member : grown.map.places[p].members) {
+      const auto i = static_cast<std::size_t>(index.at(member));
+      const double at_m = i < 30 ? old_.position_m[i] : position_m[i - 30];
+      EXPECT_LT(std::abs(at_m - position_of(grown.map.places[p].prototype)), 2.0);
+    }
+  }
+  EXPECT_EQ(held, grown.map.images.size());
+  EXPECT_EQ(map::parts(grown.map).size(), 1U);
+  EXPECT_GT(grown.added.hypotheses, 0);
+}
+
+TEST_F(Grow, ANewStretchBecomesNewPlacesBehindTheOldOnes) {
+  const GrownMap grown = grow(stretch(6.0, 20.0));
+  expect_kept(grown.map);
+  EXPECT_GE(grown.added.joined_images, 8);
+  EXPECT_GE(grown.added.places, 4);
+  EXPECT_EQ(grown.added.appearances, grown.added.places);
+  EXPECT_GE(grown.added.edges, 2 * grown.added.places);
+  EXPECT_EQ(grown.map.places[map_.places.size()].id.str(), "p" + std::to_string(map_.next_place_number));
+  EXPECT_EQ(grown.map.next_place_number, map_.next_place_number + grown.added.places);
+  EXPECT_EQ(map::parts(grown.map).size(), 1U);
+  EXPECT_EQ(map::tell_parts(map::parts(grown.map)), "");
+}
+
+TEST_F(Grow, ATourElsewhereStaysAPartOfItsOwnAndThatIsTold) {
+  const GrownMap grown = grow(stretch(100.0, 110.0));
+  expect_kept(grown.map);
+  EXPECT_EQ(grown.added.joined_images, 0);
+  const std::vector<map::MapPart> parts = map::parts(grown.map);
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(parts[0].tours, std::vector<std::string>{"t0"});
+  EXPECT_EQ(parts[1].tours, std::vector<std::string>{"new"});
+  EXPECT_EQ(parts[0].places.size(), map_.places.size());
+  const std::string told = map::tell_parts(parts);
+  EXPECT_NE(told.find("2 parts"), std::string::npos) << told;
+  EXPECT_NE(told.find("of new"), std::string::npos) << told;
+  EXPECT_NE(told.find("Drive a tour that passes through both"), std::string::npos) << told;
+}
+
+TEST_F(Grow, APersonsWordStands) {
+  edit(map::EditKind::kRename, 0, -1, "kitchen");
+  const map::Edge removed = map_.edges[2];
+  const auto middle_of = [&](const PlaceId& id) { return map::find_place(map_, id)->prototype; };
+  map::Edit remove;
+  remove.kind = map::EditKind::kRemoveEdge;
+  remove.image_a = middle_of(removed.from);
+  remove.image_b = middle_of(removed.to);
+  ASSERT_TRUE(apply_edit(map_, remove));
+  map::Edit block;
+  block.kind = map::EditKind::kBlockEdge;
+  block.image_a = middle_of(map_.edges[0].from);
+  block.image_b = middle_of(map_.edges[0].to);
+  block.text = "true";
+  ASSERT_TRUE(apply_edit(map_, block));
+  const GrownMap grown = grow(stretch(0.0, 11.7));
+  expect_kept(grown.map);
+  EXPECT_EQ(grown.map.places[0].label, "kitchen");
+  EXPECT_EQ(map::find_edge(grown.map, removed.from, removed.to), nullptr);
+  EXPECT_EQ(map::find_edge(grown.map, removed.to, removed.from), nullptr);
+  EXPECT_TRUE(grown.map.edges[0].blocked);
+}
+
+TEST_F(Grow, MarksNameWhatHasNoNameAndNeverRename) {
+  edit(map::EditKind::kRename, 0, -1, "kitchen");
+  const std::vector<double> position_m = stretch(0.0, 11.7);
+  const GrownMap grown = grow(position_m, {{0, "bath"}, {15, "table"}});
+  expect_kept(grown.map);
+  EXPECT_EQ(grown.map.places[0].label, "kitchen");
+  const map::Place* bath = map::find_place_of(grown.map, ImageId("new/1000.jpg"));
+  ASSERT_NE(bath, nullptr);
+  EXPECT_NE(bath->id, grown.map.places[0].id);  // another name is another place
+  EXPECT_EQ(bath->label, "bath");
+  EXPECT_EQ(grown.added.destinations, 2);
+  EXPECT_EQ(map::find_place_of(grown.map, ImageId("new/1015.jpg"))->label, "table");
+}
+
+TEST_F(Grow, WhereLooksWereWrongBeforeTheyJoinNothing) {
+  map::Hypothesis wrong;
+  wrong.prototype_a = image(0);
+  wrong.prototype_b = image(20);
+  wrong.similarity = 1.0;
+  wrong.masses_before = wrong.masses_after = {0.0, 0.99, 0.01};
+  wrong.decision = map::Decision::kRejected;
+  for (int i = 0; i < 20; ++i) map_.hypotheses.push_back(wrong);
+  const GrownMap grown = grow(stretch(0.1, 11.7));
+  expect_kept(grown.map);
+  EXPECT_EQ(grown.added.joined_images, 0);
+  EXPECT_EQ(map::parts(grown.map).size(), 2U);
+}
+
+TEST_F(Grow, ImagesAreAddedOnce) {
+  NewTours again = tour_at({0.0, 0.4, 0.8});
+  again.images[1].id = image(3);
+  const auto known = growth_input(map_, again);
+  ASSERT_FALSE(known);
+  EXPECT_EQ(known.error().code, ErrorCode::kInvalidInput);
+  EXPECT_EQ(known.error().where, image(3).str());
+  again.images[1].id = again.images[0].id;
+  const auto twice = growth_input(map_, again);
+  ASSERT_FALSE(twice);
+  EXPECT_EQ(twice.error().where, "new/1000.jpg");
+}
+
+}  // namespace
+}  // namespace homeward::mapping
