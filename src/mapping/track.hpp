@@ -59,6 +59,9 @@ class TourTrack {
   /// Standard deviation of one verified turn, measured on the tours: turns of two steps against those of both.
   [[nodiscard]] double turn_sigma_rad() const { return turn_sigma_rad_; }
 
+  /// How large a place is, in the way's own unit.
+  [[nodiscard]] double place_extent() const { return place_extent_; }
+
  private:
   struct Step {
     Pose2 motion;

@@ -183,9 +183,10 @@ Judgement judge(const SeenTour& tour, const map::TopologicalMap& map) {
   for (const map::Hypothesis& hypothesis : map.hypotheses) {
     if (hypothesis.decision != map::Decision::kAccepted) continue;
     ++result.accepted;
-    right += distance_m(tour.truth[index.at(hypothesis.prototype_a)], tour.truth[index.at(hypothesis.prototype_b)]) <= 3.0
-                 ? 1
-                 : 0;
+    right +=
+        distance_m(tour.truth[index.at(hypothesis.prototype_a)], tour.truth[index.at(hypothesis.prototype_b)]) <= 3.0
+            ? 1
+            : 0;
   }
   if (result.accepted > 0) result.accepted_right = static_cast<double>(right) / result.accepted;
   return result;
@@ -205,25 +206,34 @@ void explain(const fs::path& folder, const SeenTour& tour, const mapping::NotedM
            << tour.truth[i].theta_rad << '\n';
   }
   std::ofstream pairs(folder / "pairs.csv");
-  pairs << "a,b,true_m,distance,inliers,turn_rad,direction_rad,parallax_rad,confidence\n";
+  pairs << "a,b,true_m,distance,inliers,turn_rad,direction_rad,parallax_rad,confidence,way,way_distance,way_sigma,"
+           "way_turn_rad\n";
+  const mapping::MappingConfig config;
+  const bool metric = tour.images.front().odometry.has_value();
+  const mapping::TourTrack track(tour.images, tour.tour_of, tour.pairs, metric,
+                                 metric ? config.place_extent_m : config.place_extent_images, config.track);
   for (int b = 0; b < tour.pairs.images(); ++b) {
     for (const int a : tour.pairs.partners(b)) {
       if (a > b) break;
       const mapping::PairRelation relation = tour.pairs.relation(a, b);
       pairs << a << ',' << b << ','
             << distance_m(tour.truth[static_cast<std::size_t>(a)], tour.truth[static_cast<std::size_t>(b)]) << ','
-            << relation.distance << ',' << relation.inliers << ',' << relation.turn_rad << ','
-            << relation.direction_rad << ',' << relation.parallax_rad << ',' << relation.confidence << '\n';
+            << relation.distance << ',' << relation.inliers << ',' << relation.turn_rad << ',' << relation.direction_rad
+            << ',' << relation.parallax_rad << ',' << relation.confidence << ','
+            << static_cast<int>(track.judge(a, b).verdict) << ',' << track.predict(a, b).distance << ','
+            << track.predict(a, b).distance_sigma << ',' << track.predict(a, b).turn_rad << '\n';
     }
   }
   std::ofstream hypotheses(folder / "hypotheses.csv");
-  hypotheses << "a,b,true_m,similarity,before_true,before_false,after_true,after_false,decision,by\n";
-  for (const map::Hypothesis& h : made.map.hypotheses) {
+  hypotheses << "a,b,way,true_m,similarity,before_true,before_false,after_true,after_false,decision,by\n";
+  for (std::size_t i = 0; i < made.map.hypotheses.size(); ++i) {
+    const map::Hypothesis& h = made.map.hypotheses[i];
     const std::size_t a = index.at(h.prototype_a);
     const std::size_t b = index.at(h.prototype_b);
-    hypotheses << a << ',' << b << ',' << distance_m(tour.truth[a], tour.truth[b]) << ',' << h.similarity << ','
-               << h.masses_before.is_true << ',' << h.masses_before.is_false << ',' << h.masses_after.is_true << ','
-               << h.masses_after.is_false << ',' << static_cast<int>(h.decision) << ',' << h.by << '\n';
+    hypotheses << a << ',' << b << ',' << static_cast<int>(made.notes.way[i]) << ','
+               << distance_m(tour.truth[a], tour.truth[b]) << ',' << h.similarity << ',' << h.masses_before.is_true
+               << ',' << h.masses_before.is_false << ',' << h.masses_after.is_true << ',' << h.masses_after.is_false
+               << ',' << static_cast<int>(h.decision) << ',' << h.by << '\n';
   }
 }
 
@@ -235,6 +245,17 @@ struct Variant {
 std::vector<Variant> variants(bool ablation) {
   std::vector<Variant> result{{"all", {}}};
   if (!ablation) return result;
+  for (const double f : {1.2, 1.34, 1.5, 1.67, 2.0}) {
+    Variant v{"extent" + std::to_string(f), {}};
+    v.config.place_extent_m *= f;
+    v.config.place_extent_images *= f;
+    result.push_back(v);
+  }
+  for (const double f : {0.7, 0.6, 0.5}) {
+    Variant v{"accept" + std::to_string(f), {}};
+    v.config.hypotheses.accept_support = f;
+    result.push_back(v);
+  }
   return result;
 }
 
