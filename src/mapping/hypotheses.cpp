@@ -175,6 +175,7 @@ std::vector<int> merge_accepted(int subclusters, std::span<LoopHypothesis> hypot
     const bool x_by_person = x->by != "method";
     const bool y_by_person = y->by != "method";
     if (x_by_person != y_by_person) return x_by_person;
+    if (x->across != y->across) return y->across;
     return support(x->after) > support(y->after);
   });
   Groups groups(subclusters);

@@ -31,6 +31,7 @@ struct LoopHypothesis {
   map::Masses after;
   map::Decision decision = map::Decision::kUndecided;
   std::string by = "method";
+  bool across = false;  // the two lie in different clusters
   WayEvidence way;
   double reliability = 1.0;  // how far looks can be trusted here: the visual masses are discounted by it
 };
@@ -58,9 +59,9 @@ double weigh_way(std::span<LoopHypothesis> hypotheses, const WayFunction& way, c
 void collect_evidence(std::span<LoopHypothesis> hypotheses, std::span<const Subcluster> subclusters,
                       std::span<const double> position_of, const HypothesisConfig& config);
 
-/// The place of each subcluster, numbered by first subcluster: the union of accepted pairs, best supported first. A
-/// pair that would bring two subclusters together which a rejected hypothesis or `apart` keeps apart is not merged; its
-/// hypothesis becomes undecided.
+/// The place of each subcluster, numbered by first subcluster: the union of accepted pairs, those within a cluster
+/// before those across, best supported first. A pair that would bring two subclusters together which a rejected
+/// hypothesis or `apart` keeps apart is not merged; its hypothesis becomes undecided.
 std::vector<int> merge_accepted(int subclusters, std::span<LoopHypothesis> hypotheses,
                                 const std::function<bool(int, int)>& apart);
 

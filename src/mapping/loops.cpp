@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mapping/dempster_shafer.hpp"
+
 namespace homeward::mapping {
 namespace {
 
@@ -34,26 +36,37 @@ NearLists near_lists(const PairTable& pairs, const DistanceFunction& distance) {
   return near;
 }
 
-/// Pairs of subclusters that look like one place but lie in different clusters because the way driven excludes it. They
-/// are kept as hypotheses: a person sees what looks alike and why it stays apart.
-void add_look_alikes(std::vector<LoopHypothesis>& hypotheses, std::span<const Subcluster> subclusters,
-                     const MappingInput& input, const TourTrack& track, float threshold,
-                     const SimilarityFunction& similarity) {
+/// Pairs of subclusters in different clusters that look like one place. Clusters are cut somewhere, and two passes are
+/// not cut at the same spots: of those beside each other on one pass, the one most like the other counts. And what
+/// looks alike but is excluded by the way driven: a person sees what it is and why it stays apart.
+void add_across_clusters(std::vector<LoopHypothesis>& hypotheses, std::span<const Subcluster> subclusters,
+                         const MappingInput& input, const TourTrack& track, float threshold,
+                         const SimilarityFunction& similarity, const HypothesisConfig& config) {
   std::vector<int> represented(input.images.size(), -1);  // the subcluster that an image is the prototype of
   for (std::size_t s = 0; s < subclusters.size(); ++s) represented[at(subclusters[s].prototype)] = static_cast<int>(s);
-  for (std::size_t a = 0; a < subclusters.size(); ++a) {
-    const int image_a = subclusters[a].prototype;
+  const int count = static_cast<int>(subclusters.size());
+  const auto far = [&](int a, int b) {
+    return input.pairs->distance(subclusters[at(a)].prototype, subclusters[at(b)].prototype);
+  };
+  /// Whether b is no less like a than those before and after it on the tour.
+  const auto most_like = [&](int a, int b) {
+    return (b == 0 || b - 1 == a || far(a, b) <= far(a, b - 1)) &&
+           (b + 1 == count || b + 1 == a || far(a, b) <= far(a, b + 1));
+  };
+  for (int a = 0; a < count; ++a) {
+    const int image_a = subclusters[at(a)].prototype;
     for (const int image_b : input.pairs->partners(image_a)) {
       const int b = represented[at(image_b)];
-      if (b <= static_cast<int>(a) || subclusters[a].cluster == subclusters[at(b)].cluster ||
-          input.pairs->distance(image_a, image_b) > threshold) {
-        continue;
-      }
-      if (track.judge(image_a, image_b).verdict != TrackVerdict::kContradicts) continue;
+      if (b <= a || subclusters[at(a)].cluster == subclusters[at(b)].cluster || far(a, b) > threshold) continue;
+      const bool excluded = track.judge(image_a, image_b).verdict == TrackVerdict::kContradicts;
+      // The next one on the way is another place because clustering said so.
+      if (!excluded && (b == a + 1 || !(most_like(a, b) || most_like(b, a)))) continue;
       LoopHypothesis hypothesis;
-      hypothesis.a = static_cast<int>(a);
+      hypothesis.a = a;
       hypothesis.b = b;
-      hypothesis.similarity = similarity(hypothesis.a, hypothesis.b);
+      hypothesis.across = true;
+      hypothesis.similarity = similarity(a, b);
+      hypothesis.before = hypothesis.after = evidence(hypothesis.similarity, config.own_weight);
       hypotheses.push_back(hypothesis);
     }
   }
@@ -127,15 +140,24 @@ ClosedLoops close_loops(const MappingInput& input, const MappingConfig& config, 
   };
   std::vector<LoopHypothesis>& hypotheses = result.hypotheses;
   hypotheses = formulate_hypotheses(parts, similarity, config.hypotheses);
-  add_look_alikes(hypotheses, parts, input, track, threshold, similarity);
+  add_across_clusters(hypotheses, parts, input, track, threshold, similarity, config.hypotheses);
   const auto way = [&](int a, int b) { return track.judge(parts[at(a)].prototype, parts[at(b)].prototype); };
   weigh_way(hypotheses, way, config.hypotheses);
   apply_decisions(hypotheses, parts, input, previous);
   collect_evidence(hypotheses, parts, positions_of_evidence(input), config.hypotheses);
+  // What one place may not hold, whatever speaks for it: two marks, two stretches that follow each other on the tour,
+  // images that look too different to be one place.
+  const float widest = config.widest_place * threshold;
   const auto apart = [&](int a, int b) {
     const std::string* label_a = labels[at(parts[at(a)].prototype)];
     const std::string* label_b = labels[at(parts[at(b)].prototype)];
-    return label_a != nullptr && label_b != nullptr && *label_a != *label_b;
+    if (label_a != nullptr && label_b != nullptr && *label_a != *label_b) return true;
+    if (parts[at(a)].cluster == parts[at(b)].cluster) return false;
+    const int last = parts[at(std::min(a, b))].images.back();
+    if (std::abs(a - b) == 1 && input.tour_of[at(last)] == input.tour_of[at(last + 1)]) return true;
+    return std::ranges::any_of(parts[at(a)].images, [&](int x) {
+      return std::ranges::any_of(parts[at(b)].images, [&](int y) { return distance(x, y) > widest; });
+    });
   };
   result.place_of_part = merge_accepted(static_cast<int>(parts.size()), hypotheses, apart);
   return result;

@@ -245,15 +245,18 @@ struct Variant {
 std::vector<Variant> variants(bool ablation) {
   std::vector<Variant> result{{"all", {}}};
   if (!ablation) return result;
-  for (const double f : {1.2, 1.34, 1.5, 1.67, 2.0}) {
-    Variant v{"extent" + std::to_string(f), {}};
-    v.config.place_extent_m *= f;
-    v.config.place_extent_images *= f;
-    result.push_back(v);
+  for (const double f : {1.2, 1.34, 1.5}) {
+    for (const float w : {0.0F, 1.5F, 2.0F}) {
+      Variant v{"extent" + std::to_string(f) + "w" + std::to_string(w), {}};
+      v.config.place_extent_m *= f;
+      v.config.place_extent_images *= f;
+      v.config.widest_place = w;
+      result.push_back(v);
+    }
   }
-  for (const double f : {0.7, 0.6, 0.5}) {
-    Variant v{"accept" + std::to_string(f), {}};
-    v.config.hypotheses.accept_support = f;
+  for (const float w : {0.0F, 2.0F}) {
+    Variant v{"widest" + std::to_string(w), {}};
+    v.config.widest_place = w;
     result.push_back(v);
   }
   return result;
