@@ -16,7 +16,8 @@ struct TrackConfig {
   double odometry_turn_sigma_rad = 0.05;      // of one step whose turn only odometry knows
   double most_turn_conflict_rad = 0.35;       // between picture and odometry; beyond, the robot was carried or moved
   double odometry_length_sigma = 0.1;         // of one step, as a share of its length
-  double picture_length_sigma = 0.35;         // the same where lengths are only known from parallax
+  double picture_length_sigma = 0.35;         // the same where lengths are only known from parallax, at most
+  double least_length_sigma = 0.1;            // and at least, however well the tour's own loops fit
   double least_typical_parallax_rad = 0.005;  // between tour neighbours; below, parallax does not tell lengths
   double sure_sigmas = 3.0;
   double least_turn_margin_rad = 0.17;  // a verified turn may miss the prediction by so much and 3 sigma
@@ -59,6 +60,10 @@ class TourTrack {
   /// Standard deviation of one verified turn, measured on the tours: turns of two steps against those of both.
   [[nodiscard]] double turn_sigma_rad() const { return turn_sigma_rad_; }
 
+  /// Standard deviation of the length of one step where lengths are only known from pictures, as a share of it:
+  /// measured on the tour's own short loops.
+  [[nodiscard]] double length_sigma() const { return length_sigma_; }
+
   /// How large a place is, in the way's own unit.
   [[nodiscard]] double place_extent() const { return place_extent_; }
 
@@ -79,6 +84,7 @@ class TourTrack {
     double turn_variance_y = 0.0;
     double turn_variance_r2 = 0.0;  // sum v (x^2 + y^2)
   };
+  void measure_lengths(std::span<const int> tour_of);
   [[nodiscard]] Step step(std::span<const map::MapImage> images, int i, double typical_parallax_rad) const;
 
   const PairTable& pairs_;
@@ -86,6 +92,7 @@ class TourTrack {
   double place_extent_;
   TrackConfig config_;
   double turn_sigma_rad_ = 0.0;
+  double length_sigma_ = 0.0;
   std::vector<Point> points_;
 };
 
