@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 
+#include "mapping/closed_loops.hpp"
 #include "mapping/dempster_shafer.hpp"
 
 namespace homeward::mapping {
@@ -17,12 +20,12 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 /// D, but infinite between two images that carry different marks (each stands for a place of its own) and between two
 /// that the way driven keeps apart. Valid as long as its parameters are.
 DistanceFunction clustering_distance(const MappingInput& input, const std::vector<const std::string*>& labels,
-                                     const TourTrack& track) {
-  return [&input, &labels, &track](int a, int b) {
+                                     const TourTrack& track, bool ask_way) {
+  return [&input, &labels, &track, ask_way](int a, int b) {
     const bool marks_differ = labels[at(a)] != nullptr && labels[at(b)] != nullptr && *labels[at(a)] != *labels[at(b)];
     const float distance = input.pairs->distance(a, b);
     const bool apart =
-        marks_differ || (std::isfinite(distance) && track.judge(a, b).verdict == TrackVerdict::kContradicts);
+        marks_differ || (ask_way && std::isfinite(distance) && track.judge(a, b).verdict == TrackVerdict::kContradicts);
     return apart ? std::numeric_limits<float>::infinity() : distance;
   };
 }
@@ -122,12 +125,116 @@ SamePlaceScale same_place_scale(const MappingInput& input, const TourTrack& trac
   return {std::move(same), std::move(beside)};
 }
 
+/// All that decides on hypotheses.
+class Judgement {
+ public:
+  Judgement(const MappingInput& input, const MappingConfig& config, const TourTrack& track,
+            std::span<const Subcluster> parts, const map::TopologicalMap* previous, std::function<bool(int, int)> apart)
+      : input_(input),
+        config_(config),
+        track_(track),
+        parts_(parts),
+        previous_(previous),
+        apart_(std::move(apart)),
+        positions_(positions_of_evidence(input)) {}
+
+  /// Weighs, decides and merges; what closed loops then exclude is taken back, and what they tell is weighed in turn.
+  std::vector<int> decide(std::vector<LoopHypothesis>& hypotheses) const;
+
+ private:
+  std::vector<int> decide_by(std::vector<LoopHypothesis>& hypotheses, std::span<const WayEvidence> way) const;
+  /// What the way says once loops are closed; false if that is nothing new.
+  bool reconsider(std::vector<LoopHypothesis>& hypotheses, std::vector<WayEvidence>& way) const;
+  [[nodiscard]] int prototype(int part) const { return parts_[at(part)].prototype; }
+
+  const MappingInput& input_;
+  const MappingConfig& config_;
+  const TourTrack& track_;
+  std::span<const Subcluster> parts_;
+  const map::TopologicalMap* previous_;
+  std::function<bool(int, int)> apart_;
+  std::vector<double> positions_;
+};
+
+std::vector<int> Judgement::decide_by(std::vector<LoopHypothesis>& hypotheses, std::span<const WayEvidence> way) const {
+  std::vector<LoopHypothesis> told;  // why loops were believed that are taken back
+  for (LoopHypothesis& hypothesis : hypotheses) {
+    if (hypothesis.taken_back) told.push_back(hypothesis);
+    hypothesis.before = hypothesis.after = evidence(hypothesis.similarity, config_.hypotheses.own_weight);
+    hypothesis.reliability = 1.0;
+  }
+  std::map<std::pair<int, int>, WayEvidence> evidence_of;
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) evidence_of[{hypotheses[h].a, hypotheses[h].b}] = way[h];
+  weigh_way(
+      hypotheses,
+      [&](int a, int b) {
+        return evidence_of.at({a, b});
+      },
+      config_.hypotheses);
+  apply_decisions(hypotheses, parts_, input_, previous_);
+  collect_evidence(hypotheses, parts_, positions_, config_.hypotheses);
+  std::vector<int> place_of_part = merge_accepted(static_cast<int>(parts_.size()), hypotheses, apart_);
+  auto next = told.begin();
+  for (LoopHypothesis& hypothesis : hypotheses) {
+    if (!hypothesis.taken_back) continue;
+    hypothesis.before = next->before;
+    hypothesis.after = next->after;
+    ++next;
+  }
+  return place_of_part;
+}
+
+bool Judgement::reconsider(std::vector<LoopHypothesis>& hypotheses, std::vector<WayEvidence>& way) const {
+  bool news = false;
+  if (config_.sources.take_back) {
+    for (const std::size_t h : take_back(hypotheses, parts_, *input_.pairs, track_, config_.hypotheses)) {
+      LoopHypothesis& hypothesis = hypotheses[h];
+      hypothesis.taken_back = true;
+      hypothesis.after = combine(hypothesis.after, evidence(0.0, config_.hypotheses.contradicting_way_mass));
+      hypothesis.decision = map::Decision::kRejected;
+      way[h] = {TrackVerdict::kContradicts, 0.0};
+      news = true;
+    }
+  }
+  if (!config_.sources.closed_way) return news;
+  const WayWithLoops with_loops = close_way(hypotheses, parts_, *input_.pairs, track_, config_.hypotheses);
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+    const LoopHypothesis& hypothesis = hypotheses[h];
+    if (hypothesis.taken_back || way[h].verdict == TrackVerdict::kContradicts) continue;
+    const int a = prototype(hypothesis.a);
+    const int b = prototype(hypothesis.b);
+    // A loop that was closed is judged by the others.
+    const int tie = with_loops.tie_of[h];
+    const TrackPrediction predicted = tie >= 0 ? with_loops.without[at(tie)].prediction : with_loops.way.predict(a, b);
+    const WayEvidence evidence = track_.judge(a, b, predicted);
+    const bool more = evidence.verdict == TrackVerdict::kContradicts ||
+                      (evidence.verdict == TrackVerdict::kAgrees && evidence.sharpness > way[h].sharpness);
+    if (!more) continue;
+    news = news || evidence.verdict != way[h].verdict;
+    way[h] = evidence;
+  }
+  return news;
+}
+
+std::vector<int> Judgement::decide(std::vector<LoopHypothesis>& hypotheses) const {
+  std::vector<WayEvidence> way(hypotheses.size());
+  for (std::size_t h = 0; h < hypotheses.size() && config_.sources.way; ++h) {
+    way[h] = track_.judge(prototype(hypotheses[h].a), prototype(hypotheses[h].b));
+  }
+  std::vector<int> place_of_part = decide_by(hypotheses, way);
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds && config_.sources.way && reconsider(hypotheses, way); ++round) {
+    place_of_part = decide_by(hypotheses, way);
+  }
+  return place_of_part;
+}
+
 }  // namespace
 
 ClosedLoops close_loops(const MappingInput& input, const MappingConfig& config, const TourTrack& track,
                         const std::vector<const std::string*>& labels, float threshold,
                         const map::TopologicalMap* previous) {
-  const DistanceFunction distance = clustering_distance(input, labels, track);
+  const DistanceFunction distance = clustering_distance(input, labels, track, config.sources.way);
   const SamePlaceScale scale = same_place_scale(input, track, track.place_extent());
   ClosedLoops result;
   result.cluster_of = complete_linkage(near_lists(*input.pairs, distance), threshold);
@@ -138,13 +245,10 @@ ClosedLoops close_loops(const MappingInput& input, const MappingConfig& config, 
   const auto similarity = [&](int a, int b) {
     return scale.similarity(input.pairs->distance(parts[at(a)].prototype, parts[at(b)].prototype));
   };
-  std::vector<LoopHypothesis>& hypotheses = result.hypotheses;
-  hypotheses = formulate_hypotheses(parts, similarity, config.hypotheses);
-  add_across_clusters(hypotheses, parts, input, track, threshold, similarity, config.hypotheses);
-  const auto way = [&](int a, int b) { return track.judge(parts[at(a)].prototype, parts[at(b)].prototype); };
-  weigh_way(hypotheses, way, config.hypotheses);
-  apply_decisions(hypotheses, parts, input, previous);
-  collect_evidence(hypotheses, parts, positions_of_evidence(input), config.hypotheses);
+  result.hypotheses = formulate_hypotheses(parts, similarity, config.hypotheses);
+  if (config.sources.across) {
+    add_across_clusters(result.hypotheses, parts, input, track, threshold, similarity, config.hypotheses);
+  }
   // What one place may not hold, whatever speaks for it: two marks, two stretches that follow each other on the tour,
   // images that look too different to be one place.
   const float widest = config.widest_place * threshold;
@@ -159,7 +263,7 @@ ClosedLoops close_loops(const MappingInput& input, const MappingConfig& config, 
       return std::ranges::any_of(parts[at(b)].images, [&](int y) { return distance(x, y) > widest; });
     });
   };
-  result.place_of_part = merge_accepted(static_cast<int>(parts.size()), hypotheses, apart);
+  result.place_of_part = Judgement(input, config, track, parts, previous, apart).decide(result.hypotheses);
   return result;
 }
 

@@ -14,11 +14,22 @@
 
 namespace homeward::mapping {
 
+/// Sources of evidence, all in use; for measuring what each of them adds.
+struct EvidenceSources {
+  bool neighbours = true;    // hypotheses near one along both passes speak for or against it
+  bool way = true;           // the way driven agrees or contradicts
+  bool own_accuracy = true;  // how exactly the way is known is measured on short loops, not assumed
+  bool across = true;        // hypotheses between clusters, not only within them
+  bool closed_way = true;    // loops that were closed make the way more certain
+  bool take_back = true;     // a loop that the others exclude is taken back
+};
+
 struct MappingConfig {
   double place_extent_images = 3.0;    // tour images that a place usually spans where the tour has no odometry
   double place_extent_m = 1.0;         // and how long it is where it has
   float widest_place = 1.5F;           // images of one place differ by at most so many usual distances of one extent
   double weak_below_confidence = 0.2;  // an edge whose verified pose is less certain is weak
+  EvidenceSources sources;
   HypothesisConfig hypotheses;
   TrackConfig track;
 };

@@ -99,7 +99,19 @@ TourTrack::TourTrack(std::span<const map::MapImage> images, std::span<const int>
     to.turn_variance_y += taken.turn_variance * to.pose.y_m;
     to.turn_variance_r2 += taken.turn_variance * (square(to.pose.x_m) + square(to.pose.y_m));
   }
+  measure_distances(tour_of);
   if (!metric) measure_lengths(tour_of);
+}
+
+void TourTrack::measure_distances(std::span<const int> tour_of) {
+  constexpr double kShortest = 0.1;  // of a place extent: turning on the spot tells nothing
+  std::vector<double> per_unit;
+  for (int i = 0; i + 1 < images(); ++i) {
+    if (tour_of[at(i)] != tour_of[at(i + 1)] || pairs_.relation(i, i + 1).inliers < config_.fewest_inliers) continue;
+    const double length = predict(i, i + 1).distance;
+    if (length > kShortest * place_extent_) per_unit.push_back(static_cast<double>(pairs_.distance(i, i + 1)) / length);
+  }
+  distance_per_unit_ = per_unit.empty() ? 1.0 : std::max(1e-6, quantile(per_unit, 0.5));
 }
 
 void TourTrack::measure_lengths(std::span<const int> tour_of) {
@@ -107,25 +119,18 @@ void TourTrack::measure_lengths(std::span<const int> tour_of) {
   constexpr int kNeighbours = 12;
   constexpr int kShortLoop = 40;
   constexpr std::size_t kFewest = 20;
-  std::vector<double> one_step;  // D of tour neighbours
   const int count = static_cast<int>(points_.size());
-  for (int i = 0; i + 1 < count; ++i) {
-    if (tour_of[at(i)] == tour_of[at(i + 1)] && pairs_.relation(i, i + 1).inliers >= config_.fewest_inliers) {
-      one_step.push_back(static_cast<double>(pairs_.distance(i, i + 1)));
-    }
-  }
-  const double alike = quantile(one_step, 0.5);
   std::vector<LoopMiss> misses;
   for (int a = 0; a < count; ++a) {
     for (const int b : pairs_.partners(a)) {
       if (b <= a + kNeighbours || b > a + kShortLoop || tour_of[at(a)] != tour_of[at(b)]) continue;
       const PairRelation seen = pairs_.relation(a, b);
-      if (seen.inliers < config_.fewest_inliers || static_cast<double>(seen.distance) > alike) continue;
+      if (seen.inliers < config_.fewest_inliers || apart(static_cast<double>(seen.distance)) > 1.0) continue;
       const double variance = points_[at(b)].length_variance - points_[at(a)].length_variance;
       if (!predict(a, b).known || !(variance > 0.0)) continue;
-      // Where b lies by the way and where it is seen: D grows with the distance, and one step has a usual D.
+      // Where b lies by the way and where it is seen.
       const Pose2 reckoned = inverse(points_[at(a)].pose) * points_[at(b)].pose;
-      const double seen_steps = static_cast<double>(seen.distance) / alike;
+      const double seen_steps = apart(static_cast<double>(seen.distance));
       const double direction_rad = static_cast<double>(seen.direction_rad);
       const double squared = square(reckoned.x_m - seen_steps * std::cos(direction_rad)) +
                              square(reckoned.y_m - seen_steps * std::sin(direction_rad));
@@ -171,28 +176,41 @@ TourTrack::Step TourTrack::step(std::span<const map::MapImage> images, int i, do
   return result;
 }
 
-TrackPrediction TourTrack::predict(int a, int b) const {
+bool TourTrack::joined(int a, int b) const { return points_[at(a)].breaks == points_[at(b)].breaks; }
+
+double TourTrack::length_variance(int a, int b) const {
+  return std::abs(points_[at(b)].length_variance - points_[at(a)].length_variance);
+}
+
+double TourTrack::turn_variance(int a, int b) const {
+  return std::abs(points_[at(b)].turn_variance - points_[at(a)].turn_variance);
+}
+
+double TourTrack::lever_variance(int a, int b) const {
   const Point& from = points_[at(std::min(a, b))];
   const Point& to = points_[at(std::max(a, b))];
-  TrackPrediction result;
-  if (from.breaks != to.breaks) return result;
-  result.known = true;
-  result.distance = std::hypot(to.pose.x_m - from.pose.x_m, to.pose.y_m - from.pose.y_m);
-  const double sum = to.turn_variance - from.turn_variance;
-  const double lever = (square(to.pose.x_m) + square(to.pose.y_m)) * sum -
+  const double lever = (square(to.pose.x_m) + square(to.pose.y_m)) * (to.turn_variance - from.turn_variance) -
                        2.0 * to.pose.x_m * (to.turn_variance_x - from.turn_variance_x) -
                        2.0 * to.pose.y_m * (to.turn_variance_y - from.turn_variance_y) +
                        (to.turn_variance_r2 - from.turn_variance_r2);
-  result.distance_sigma = std::sqrt(std::max(0.0, lever) + to.length_variance - from.length_variance);
-  const double turn_rad = wrap_angle(to.pose.theta_rad - from.pose.theta_rad);
-  result.turn_rad = a <= b ? turn_rad : wrap_angle(-turn_rad);
-  result.turn_sigma_rad = std::sqrt(sum);
+  return std::max(0.0, lever);
+}
+
+TrackPrediction TourTrack::predict(int a, int b) const {
+  TrackPrediction result;
+  if (!joined(a, b)) return result;
+  const Pose2& from = pose(a);
+  const Pose2& to = pose(b);
+  result.known = true;
+  result.distance = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+  result.distance_sigma = std::sqrt(lever_variance(a, b) + length_variance(a, b));
+  result.turn_rad = wrap_angle(to.theta_rad - from.theta_rad);
+  result.turn_sigma_rad = std::sqrt(turn_variance(a, b));
   return result;
 }
 
-WayEvidence TourTrack::judge(int a, int b) const {
+WayEvidence TourTrack::judge(int a, int b, const TrackPrediction& predicted) const {
   if (a == b) return {TrackVerdict::kAgrees, 1.0};
-  const TrackPrediction predicted = predict(a, b);
   if (!predicted.known) return {};
   const double beyond = predicted.distance - kFarthestExtents * place_extent_;
   if (beyond > config_.sure_sigmas * predicted.distance_sigma) return {TrackVerdict::kContradicts, 0.0};

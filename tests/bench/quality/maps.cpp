@@ -254,11 +254,17 @@ std::vector<Variant> variants(bool ablation) {
       result.push_back(v);
     }
   }
-  for (const float w : {0.0F, 2.0F}) {
-    Variant v{"widest" + std::to_string(w), {}};
-    v.config.widest_place = w;
-    result.push_back(v);
-  }
+  const auto without = [&](const char* name, bool mapping::EvidenceSources::*source) {
+    Variant variant{name, {}};
+    variant.config.sources.*source = false;
+    result.push_back(variant);
+  };
+  without("no neighbours", &mapping::EvidenceSources::neighbours);
+  without("no way", &mapping::EvidenceSources::way);
+  without("no own accuracy", &mapping::EvidenceSources::own_accuracy);
+  without("not across clusters", &mapping::EvidenceSources::across);
+  without("no closed way", &mapping::EvidenceSources::closed_way);
+  without("nothing taken back", &mapping::EvidenceSources::take_back);
   return result;
 }
 
@@ -296,10 +302,13 @@ int main(int argc, char** argv) {
         const mapping::NotedMap made = mapping::make_noted_map(
             {tour.images, tour.tour_of, tour.appearances, {}, &tour.pairs}, variant.config, nullptr);
         const Judgement j = judge(tour, made.map);
-        { const bool metric = tour.images.front().odometry.has_value();
-  const mapping::TourTrack track(tour.images, tour.tour_of, tour.pairs, metric,
-                                 metric ? variant.config.place_extent_m : variant.config.place_extent_images, variant.config.track);
-          std::cout << track.length_sigma() << " "; }
+        {
+          const bool metric = tour.images.front().odometry.has_value();
+          const mapping::TourTrack track(tour.images, tour.tour_of, tour.pairs, metric,
+                                         metric ? variant.config.place_extent_m : variant.config.place_extent_images,
+                                         variant.config.track);
+          std::cout << track.length_sigma() << " ";
+        }
         std::cout << name << ',' << variant.name << ',' << j.images << ',' << j.places << ',' << j.false_merges << ','
                   << j.mixed_rooms << ',' << j.spread_p95 << ',' << j.accepted << ',' << j.accepted_right << ','
                   << j.revisits << ',' << j.loop_recall << '\n'
