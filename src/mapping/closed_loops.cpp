@@ -11,7 +11,8 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-/// The run that each tie belongs to, numbered by first tie: ties not more than `reach` images apart, over both passes.
+/// The run that each tie belongs to, numbered by first tie: ties not more than `reach` images apart, over both passes,
+/// and about as far on one pass as on the other, whichever way it was driven.
 std::vector<int> runs_of(std::span<const LoopTie> ties, double reach) {
   std::vector<int> run(ties.size());
   std::iota(run.begin(), run.end(), 0);
@@ -22,7 +23,9 @@ std::vector<int> runs_of(std::span<const LoopTie> ties, double reach) {
   // In the order of a, so that only those shortly before need a look.
   for (std::size_t t = 0; t < ties.size(); ++t) {
     for (std::size_t u = t; u-- > 0 && ties[t].a - ties[u].a <= reach;) {
-      if (ties[t].a - ties[u].a + std::abs(ties[t].b - ties[u].b) > reach) continue;
+      const int on_a = ties[t].a - ties[u].a;
+      const int on_b = std::abs(ties[t].b - ties[u].b);
+      if (on_a + on_b > reach || std::abs(on_a - on_b) > reach / 3.0) continue;
       const int one = first_of(static_cast<int>(t));
       const int other = first_of(static_cast<int>(u));
       run[at(std::max(one, other))] = std::min(one, other);
@@ -30,6 +33,49 @@ std::vector<int> runs_of(std::span<const LoopTie> ties, double reach) {
   }
   for (std::size_t t = 0; t < ties.size(); ++t) run[t] = first_of(static_cast<int>(t));
   return run;
+}
+
+/// Ties of the stretch of the tour that least fits where it was recognised, as if it had never been: those that miss by
+/// more than `sure_sigmas`. Empty where all fit.
+std::vector<std::size_t> worst_stretch(const WayWithLoops& closed, std::span<const LoopHypothesis> hypotheses,
+                                       double sure_sigmas) {
+  std::vector<std::size_t> worst;
+  double worst_miss = sure_sigmas;
+  const auto within = [](int image, const std::pair<int, int>& stretch) {
+    return image >= stretch.first && image <= stretch.second;
+  };
+  for (std::size_t begin = 0; begin < closed.ties.size();) {
+    std::size_t end = begin;
+    std::pair<int, int> on_a{closed.ties[begin].a, closed.ties[begin].a};
+    std::pair<int, int> on_b{closed.ties[begin].b, closed.ties[begin].b};
+    for (; end < closed.ties.size() && closed.ties[end].group == closed.ties[begin].group; ++end) {
+      on_a = {std::min(on_a.first, closed.ties[end].a), std::max(on_a.second, closed.ties[end].a)};
+      on_b = {std::min(on_b.first, closed.ties[end].b), std::max(on_b.second, closed.ties[end].b)};
+    }
+    for (const auto& stretch : {on_a, on_b}) {
+      std::vector<std::size_t> of_stretch;
+      for (std::size_t t = 0; t < closed.ties.size(); ++t) {
+        if (hypotheses[closed.hypothesis_of[t]].by != "method") continue;
+        if (within(closed.ties[t].a, stretch) || within(closed.ties[t].b, stretch)) of_stretch.push_back(t);
+      }
+      const std::vector<ClosedWay::Without> without = closed.way.without(of_stretch);
+      std::vector<double> misses;  // of the run
+      std::vector<std::size_t> missing;
+      for (std::size_t i = 0; i < of_stretch.size(); ++i) {
+        if (!without[i].prediction.known) continue;
+        if (of_stretch[i] >= begin && of_stretch[i] < end) misses.push_back(without[i].miss_sigmas);
+        if (without[i].miss_sigmas > sure_sigmas) missing.push_back(of_stretch[i]);
+      }
+      if (misses.empty()) continue;
+      const auto middle = misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2);
+      std::nth_element(misses.begin(), middle, misses.end());
+      if (*middle <= worst_miss) continue;
+      worst_miss = *middle;
+      worst = missing;
+    }
+    begin = end;
+  }
+  return worst;
 }
 
 }  // namespace
@@ -74,35 +120,16 @@ WayWithLoops close_way(std::span<const LoopHypothesis> hypotheses, std::span<con
 
 std::vector<std::size_t> take_back(std::span<const LoopHypothesis> hypotheses, std::span<const Subcluster> subclusters,
                                    const PairTable& pairs, const TourTrack& track, const HypothesisConfig& config) {
-  constexpr int kMostRuns = 50;
+  constexpr int kMostRounds = 50;
   std::vector<LoopHypothesis> left(hypotheses.begin(), hypotheses.end());
   std::vector<std::size_t> gone;
-  for (int round = 0; round < kMostRuns; ++round) {
+  for (int round = 0; round < kMostRounds; ++round) {
     const WayWithLoops closed = close_way(left, subclusters, pairs, track, config);
-    double worst = track.sure_sigmas();
-    std::pair<std::size_t, std::size_t> worst_run{0, 0};
-    for (std::size_t begin = 0; begin < closed.ties.size();) {
-      std::size_t end = begin;
-      std::vector<double> misses;
-      bool by_person = false;
-      for (; end < closed.ties.size() && closed.ties[end].group == closed.ties[begin].group; ++end) {
-        by_person = by_person || left[closed.hypothesis_of[end]].by != "method";
-        if (closed.without[end].prediction.known) misses.push_back(closed.without[end].miss_sigmas);
-      }
-      if (!misses.empty() && !by_person) {
-        const auto middle = misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2);
-        std::nth_element(misses.begin(), middle, misses.end());
-        if (*middle > worst) {
-          worst = *middle;
-          worst_run = {begin, end};
-        }
-      }
-      begin = end;
-    }
-    if (worst_run.first == worst_run.second) break;
-    for (std::size_t t = worst_run.first; t < worst_run.second; ++t) {
-      left[closed.hypothesis_of[t]].decision = map::Decision::kRejected;
-      gone.push_back(closed.hypothesis_of[t]);
+    const std::vector<std::size_t> worst = worst_stretch(closed, left, track.sure_sigmas());
+    if (worst.empty()) break;
+    for (const std::size_t tie : worst) {
+      left[closed.hypothesis_of[tie]].decision = map::Decision::kRejected;
+      gone.push_back(closed.hypothesis_of[tie]);
     }
   }
   std::ranges::sort(gone);

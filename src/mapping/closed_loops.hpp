@@ -25,9 +25,11 @@ struct WayWithLoops {
 WayWithLoops close_way(std::span<const LoopHypothesis> hypotheses, std::span<const Subcluster> subclusters,
                        const PairTable& pairs, const TourTrack& track, const HypothesisConfig& config);
 
-/// Accepted hypotheses that the way with all other runs of loops excludes, by their indices, ascending. Whole runs, the
-/// worst first, each with those before it gone: a false run makes right ones look wrong, but less than they do it. A
-/// person's decision is never taken back.
+/// Accepted hypotheses that the way and the other loops exclude, by their indices, ascending. Asked is for each stretch
+/// of the tour that a run of them recognises: where would it lie, had it never been recognised? One run alone does not
+/// do: where a stretch is taken for a wrong place, it mostly is by every earlier pass of that place, and these runs
+/// agree. The worst stretch first, each with those before it gone: a false run makes right ones look wrong, but less
+/// than they do it. A person's decision is never taken back.
 std::vector<std::size_t> take_back(std::span<const LoopHypothesis> hypotheses, std::span<const Subcluster> subclusters,
                                    const PairTable& pairs, const TourTrack& track, const HypothesisConfig& config);
 

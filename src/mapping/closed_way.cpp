@@ -156,57 +156,63 @@ TrackPrediction ClosedWay::predict(int a, int b) const {
   return result;
 }
 
-std::vector<ClosedWay::Without> ClosedWay::without_own_group() const {
+std::vector<ClosedWay::Without> ClosedWay::without(std::span<const std::size_t> ties) const {
   const Parts& p = *parts_;
-  std::vector<Without> result(p.ties.size());
-  for (std::size_t begin = 0; begin < p.ties.size();) {
+  std::vector<Without> result(ties.size());
+  std::vector<std::size_t> asked;  // positions in `ties`
+  for (std::size_t i = 0; i < ties.size(); ++i) {
+    if (p.used[ties[i]] != 0) asked.push_back(i);
+  }
+  const auto size = static_cast<Eigen::Index>(asked.size());
+  if (size == 0) return result;
+  // Taking the weights W of these out of the network: residuals r become (I - C W)^-1 r, their covariance C
+  // (I - C W)^-1 C (Woodbury's identity).
+  Eigen::MatrixXd covariance(size, size);
+  Eigen::VectorXd weight(size);
+  Eigen::MatrixXd seen(size, 2);  // where b lies from a, by the tie
+  Eigen::MatrixXd residual(size, 2);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const LoopTie& tie = p.ties[ties[asked[static_cast<std::size_t>(i)]]];
+    const Eigen::VectorXd response = p.positions.response(tie.a, tie.b);
+    for (Eigen::Index j = 0; j < size; ++j) {
+      const LoopTie& other = p.ties[ties[asked[static_cast<std::size_t>(j)]]];
+      covariance(j, i) = response[other.b] - response[other.a];
+    }
+    weight[i] = 1.0 / (tie.sigma * tie.sigma);
+    const double c = std::cos(p.heading_rad[tie.a]);
+    const double s = std::sin(p.heading_rad[tie.a]);
+    seen.row(i) << c * tie.x - s * tie.y, s * tie.x + c * tie.y;
+    residual.row(i) << seen(i, 0) - (p.x[tie.b] - p.x[tie.a]), seen(i, 1) - (p.y[tie.b] - p.y[tie.a]);
+  }
+  const Eigen::MatrixXd out = Eigen::MatrixXd::Identity(size, size) - covariance * weight.asDiagonal();
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(out);
+  if (!lu.isInvertible()) return result;
+  const Eigen::MatrixXd residual_without = lu.solve(residual);
+  const Eigen::MatrixXd covariance_without = lu.solve(covariance);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const std::size_t index = asked[static_cast<std::size_t>(i)];
+    const LoopTie& tie = p.ties[ties[index]];
+    const double variance = std::max(0.0, covariance_without(i, i)) + p.track->lever_variance(tie.a, tie.b) / 2.0;
+    Without& without = result[index];
+    without.prediction.known = true;
+    without.prediction.distance = (seen.row(i) - residual_without.row(i)).norm();
+    without.prediction.distance_sigma = std::sqrt(2.0 * variance);
+    without.prediction.turn_rad = wrap_angle(p.heading_rad[tie.b] - p.heading_rad[tie.a]);
+    without.prediction.turn_sigma_rad = std::sqrt(p.turns.variance(tie.a, tie.b));
+    without.miss_sigmas = residual_without.row(i).norm() / std::sqrt(2.0 * (variance + tie.sigma * tie.sigma));
+  }
+  return result;
+}
+
+std::vector<ClosedWay::Without> ClosedWay::without_own_group() const {
+  const std::vector<LoopTie>& ties = parts_->ties;
+  std::vector<Without> result;
+  for (std::size_t begin = 0; begin < ties.size();) {
     std::vector<std::size_t> group;
-    std::size_t end = begin;
-    for (; end < p.ties.size() && p.ties[end].group == p.ties[begin].group; ++end) {
-      if (p.used[end] != 0) group.push_back(end);
-    }
-    begin = end;
-    const auto size = static_cast<Eigen::Index>(group.size());
-    if (size == 0) continue;
-    // Taking the group's weights W out of the network: residuals r become (I - C W)^-1 r, their covariance C
-    // (I - C W)^-1 C (Woodbury's identity).
-    Eigen::MatrixXd covariance(size, size);
-    Eigen::VectorXd weight(size);
-    Eigen::MatrixXd residual(size, 2);
-    for (Eigen::Index i = 0; i < size; ++i) {
-      const LoopTie& tie = p.ties[group[static_cast<std::size_t>(i)]];
-      const Eigen::VectorXd response = p.positions.response(tie.a, tie.b);
-      for (Eigen::Index j = 0; j < size; ++j) {
-        const LoopTie& other = p.ties[group[static_cast<std::size_t>(j)]];
-        covariance(j, i) = response[other.b] - response[other.a];
-      }
-      weight[i] = 1.0 / (tie.sigma * tie.sigma);
-      const double c = std::cos(p.heading_rad[tie.a]);
-      const double s = std::sin(p.heading_rad[tie.a]);
-      residual(i, 0) = c * tie.x - s * tie.y - (p.x[tie.b] - p.x[tie.a]);
-      residual(i, 1) = s * tie.x + c * tie.y - (p.y[tie.b] - p.y[tie.a]);
-    }
-    const Eigen::MatrixXd out = Eigen::MatrixXd::Identity(size, size) - covariance * weight.asDiagonal();
-    const Eigen::FullPivLU<Eigen::MatrixXd> lu(out);
-    if (!lu.isInvertible()) continue;
-    const Eigen::MatrixXd residual_without = lu.solve(residual);
-    const Eigen::MatrixXd covariance_without = lu.solve(covariance);
-    for (Eigen::Index i = 0; i < size; ++i) {
-      const std::size_t index = group[static_cast<std::size_t>(i)];
-      const LoopTie& tie = p.ties[index];
-      const double c = std::cos(p.heading_rad[tie.a]);
-      const double s = std::sin(p.heading_rad[tie.a]);
-      const double dx = c * tie.x - s * tie.y - residual_without(i, 0);
-      const double dy = s * tie.x + c * tie.y - residual_without(i, 1);
-      const double variance = std::max(0.0, covariance_without(i, i)) + p.track->lever_variance(tie.a, tie.b) / 2.0;
-      Without& without = result[index];
-      without.prediction.known = true;
-      without.prediction.distance = std::hypot(dx, dy);
-      without.prediction.distance_sigma = std::sqrt(2.0 * variance);
-      without.prediction.turn_rad = wrap_angle(p.heading_rad[tie.b] - p.heading_rad[tie.a]);
-      without.prediction.turn_sigma_rad = std::sqrt(p.turns.variance(tie.a, tie.b));
-      without.miss_sigmas = residual_without.row(i).norm() / std::sqrt(2.0 * (variance + tie.sigma * tie.sigma));
-    }
+    for (std::size_t t = begin; t < ties.size() && ties[t].group == ties[begin].group; ++t) group.push_back(t);
+    begin += group.size();
+    const std::vector<Without> of_group = without(group);
+    result.insert(result.end(), of_group.begin(), of_group.end());
   }
   return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -35,11 +36,14 @@ class ClosedWay {
   /// Image `b` seen from image `a` by the way and all closed loops.
   [[nodiscard]] TrackPrediction predict(int a, int b) const;
 
-  /// What way and loops of all other groups say about each tie, in the order of the ties.
+  /// What the way and all loops but these say about each of these.
   struct Without {
     TrackPrediction prediction;
     double miss_sigmas = 0.0;  // how far the tie is from that, in standard deviations of the difference
   };
+  [[nodiscard]] std::vector<Without> without(std::span<const std::size_t> ties) const;
+
+  /// What the way and the loops of all other groups say about each tie, in the order of the ties.
   [[nodiscard]] std::vector<Without> without_own_group() const;
 
  private:

@@ -32,8 +32,8 @@ struct LoopHypothesis {
   map::Decision decision = map::Decision::kUndecided;
   std::string by = "method";
   bool across = false;  // the two lie in different clusters
-  // It was accepted until the other loops that were closed excluded it. `before` and `after` then tell what spoke for
-  // it, and that with the contradiction.
+  // It was accepted until the other loops that were closed excluded it. `before` then tells what spoke for it,
+  // `after` the contradiction.
   bool taken_back = false;
   WayEvidence way;
   double reliability = 1.0;  // how far looks can be trusted here: the visual masses are discounted by it

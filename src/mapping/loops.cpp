@@ -106,7 +106,8 @@ void apply_decisions(std::vector<LoopHypothesis>& hypotheses, std::span<const Su
 
 /// Learnt between tour neighbours, whose distance the way driven knows well: up to one place extent is one place, from
 /// 1.5 to 3 is beside it.
-SamePlaceScale same_place_scale(const MappingInput& input, const TourTrack& track, double extent) {
+SamePlaceScale same_place_scale(const MappingInput& input, const TourTrack& track, bool ask_beside) {
+  const double extent = track.place_extent();
   constexpr int kNeighbours = 12;
   constexpr double kBesideFrom = 1.5;
   constexpr double kBesideTo = 3.0;
@@ -119,7 +120,8 @@ SamePlaceScale same_place_scale(const MappingInput& input, const TourTrack& trac
       if (!way.known) break;
       const float distance = input.pairs->distance(i, j);
       if (way.distance <= extent * (1.0 + 1e-9)) same.push_back(distance);
-      if (way.distance >= kBesideFrom * extent && way.distance <= kBesideTo * extent) beside.push_back(distance);
+      if (ask_beside && way.distance >= kBesideFrom * extent && way.distance <= kBesideTo * extent)
+        beside.push_back(distance);
     }
   }
   return {std::move(same), std::move(beside)};
@@ -172,7 +174,9 @@ std::vector<int> Judgement::decide_by(std::vector<LoopHypothesis>& hypotheses, s
       },
       config_.hypotheses);
   apply_decisions(hypotheses, parts_, input_, previous_);
-  collect_evidence(hypotheses, parts_, positions_, config_.hypotheses);
+  HypothesisConfig asked = config_.hypotheses;
+  if (!config_.sources.neighbours) asked.neighbour_threshold_images = 0.0;
+  collect_evidence(hypotheses, parts_, positions_, asked);
   std::vector<int> place_of_part = merge_accepted(static_cast<int>(parts_.size()), hypotheses, apart_);
   auto next = told.begin();
   for (LoopHypothesis& hypothesis : hypotheses) {
@@ -190,7 +194,8 @@ bool Judgement::reconsider(std::vector<LoopHypothesis>& hypotheses, std::vector<
     for (const std::size_t h : take_back(hypotheses, parts_, *input_.pairs, track_, config_.hypotheses)) {
       LoopHypothesis& hypothesis = hypotheses[h];
       hypothesis.taken_back = true;
-      hypothesis.after = combine(hypothesis.after, evidence(0.0, config_.hypotheses.contradicting_way_mass));
+      // What excludes overrules, as it does from the beginning where the way alone knows enough.
+      hypothesis.after = evidence(0.0, config_.hypotheses.contradicting_way_mass);
       hypothesis.decision = map::Decision::kRejected;
       way[h] = {TrackVerdict::kContradicts, 0.0};
       news = true;
@@ -235,7 +240,7 @@ ClosedLoops close_loops(const MappingInput& input, const MappingConfig& config, 
                         const std::vector<const std::string*>& labels, float threshold,
                         const map::TopologicalMap* previous) {
   const DistanceFunction distance = clustering_distance(input, labels, track, config.sources.way);
-  const SamePlaceScale scale = same_place_scale(input, track, track.place_extent());
+  const SamePlaceScale scale = same_place_scale(input, track, config.sources.beside);
   ClosedLoops result;
   result.cluster_of = complete_linkage(near_lists(*input.pairs, distance), threshold);
   std::vector<int> marked;

@@ -272,9 +272,10 @@ NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, 
   map.places = form_places(input, parts, place_of_part, labels);
   map.edges = form_edges(input, path, track, config, map.places, place_of_image);
   map.destinations = form_destinations(input, map.places, place_of_image);
-  MappingNotes notes{config, threshold, cluster_of, {}};
+  MappingNotes notes{config, threshold, cluster_of, {}, {}};
   for (const LoopHypothesis& hypothesis : hypotheses) {
     notes.way.push_back(hypothesis.way.verdict);
+    notes.taken_back.push_back(hypothesis.taken_back ? 1 : 0);
     map::Hypothesis kept;
     kept.prototype_a = input.images[at(parts[at(hypothesis.a)].prototype)].id;
     kept.prototype_b = input.images[at(parts[at(hypothesis.b)].prototype)].id;

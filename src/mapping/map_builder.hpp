@@ -16,12 +16,12 @@ namespace homeward::mapping {
 
 /// Sources of evidence, all in use; for measuring what each of them adds.
 struct EvidenceSources {
-  bool neighbours = true;    // hypotheses near one along both passes speak for or against it
-  bool way = true;           // the way driven agrees or contradicts
-  bool own_accuracy = true;  // how exactly the way is known is measured on short loops, not assumed
-  bool across = true;        // hypotheses between clusters, not only within them
-  bool closed_way = true;    // loops that were closed make the way more certain
-  bool take_back = true;     // a loop that the others exclude is taken back
+  bool neighbours = true;  // hypotheses near one along both passes speak for or against it
+  bool way = true;         // the way driven agrees or contradicts
+  bool beside = true;      // looks are held against the place beside, not against one place's own spread alone
+  bool across = true;      // hypotheses between clusters, not only within them
+  bool closed_way = true;  // loops that were closed make the way more certain
+  bool take_back = true;   // a loop that the others exclude is taken back
 };
 
 struct MappingConfig {
@@ -75,6 +75,7 @@ struct MappingNotes {
   float place_distance = 0.0F;    // the visual distance up to which images make one place
   std::vector<int> cluster_of;    // of each image
   std::vector<TrackVerdict> way;  // of the way driven on each of the map's hypotheses
+  std::vector<char> taken_back;   // 1 for those accepted until other loops excluded them
 };
 
 /// A map with how it came about.

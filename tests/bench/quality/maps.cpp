@@ -261,10 +261,13 @@ std::vector<Variant> variants(bool ablation) {
   };
   without("no neighbours", &mapping::EvidenceSources::neighbours);
   without("no way", &mapping::EvidenceSources::way);
-  without("no own accuracy", &mapping::EvidenceSources::own_accuracy);
+  without("not against the place beside", &mapping::EvidenceSources::beside);
   without("not across clusters", &mapping::EvidenceSources::across);
   without("no closed way", &mapping::EvidenceSources::closed_way);
   without("nothing taken back", &mapping::EvidenceSources::take_back);
+  Variant assumed{"accuracy of the way assumed", {}};
+  assumed.config.track.least_length_sigma = assumed.config.track.picture_length_sigma;
+  result.push_back(assumed);
   return result;
 }
 
@@ -289,8 +292,8 @@ int main(int argc, char** argv) {
   using namespace homeward;
   try {
     if (!cache.empty()) fs::create_directories(cache);
-    std::cout << "tour,evidence,images,places,false_merges,mixed_rooms,spread_p95,accepted,accepted_right,revisits,"
-                 "loop_recall\n";
+    std::cout << "tour,evidence,images,places,false_merges,mixed_rooms,spread_p95,accepted,accepted_right,taken_back,"
+                 "revisits,loop_recall\n";
     for (const std::string& folder : folders) {
       SeenTour tour = see(folder, cache, threads);
       if (without_odometry) {
@@ -301,17 +304,11 @@ int main(int argc, char** argv) {
       for (const Variant& variant : variants(ablation)) {
         const mapping::NotedMap made = mapping::make_noted_map(
             {tour.images, tour.tour_of, tour.appearances, {}, &tour.pairs}, variant.config, nullptr);
-        const Judgement j = judge(tour, made.map);
-        {
-          const bool metric = tour.images.front().odometry.has_value();
-          const mapping::TourTrack track(tour.images, tour.tour_of, tour.pairs, metric,
-                                         metric ? variant.config.place_extent_m : variant.config.place_extent_images,
-                                         variant.config.track);
-          std::cout << track.length_sigma() << " ";
-        }
+        Judgement j = judge(tour, made.map);
+        j.taken_back = static_cast<int>(std::ranges::count(made.notes.taken_back, 1));
         std::cout << name << ',' << variant.name << ',' << j.images << ',' << j.places << ',' << j.false_merges << ','
                   << j.mixed_rooms << ',' << j.spread_p95 << ',' << j.accepted << ',' << j.accepted_right << ','
-                  << j.revisits << ',' << j.loop_recall << '\n'
+                  << j.taken_back << ',' << j.revisits << ',' << j.loop_recall << '\n'
                   << std::flush;
         if (first && !notes.empty()) explain(fs::path(notes) / name, tour, made);
         first = false;
