@@ -26,8 +26,8 @@ struct EvidenceSources {
 
 struct MappingConfig {
   double place_extent_images = 3.0;    // tour images that a place usually spans where the tour has no odometry
-  double place_extent_m = 1.0;         // and how long it is where it has
-  float widest_place = 1.5F;           // images of one place differ by at most so many usual distances of one extent
+  double place_extent_m = 1.2;         // and how long it is where it has
+  float widest_place = 2.0F;           // images of one place differ by at most so many usual distances of one extent
   double weak_below_confidence = 0.2;  // an edge whose verified pose is less certain is weak
   EvidenceSources sources;
   HypothesisConfig hypotheses;

@@ -2,9 +2,11 @@
 // What does each source of evidence add to a map? Tours with true poses, once with all of it and then without each
 // source in turn, as CSV. What was seen and compared is kept in --cache, so that only the first run takes its time.
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <random>
 #include <set>
 
 #include "agent/files/tour_folder.hpp"
@@ -105,6 +107,49 @@ SeenTour see(const fs::path& folder, const fs::path& cache, int threads) {
   tour.pairs = or_die(mapping::compare_all(tour.appearances, tour.tour_of, {}, kSeed, threads, {}, {}));
   if (!cache.empty()) keep(file, tour);
   return tour;
+}
+
+/// The images of a tour by these indices, which need not be in the tour's order: a copy may follow another. Images of
+/// different copies have nothing in common.
+SeenTour chosen(const SeenTour& tour, const std::vector<std::vector<int>>& copies) {
+  SeenTour result;
+  std::size_t count = 0;
+  for (const auto& copy : copies) count += copy.size();
+  result.pairs = mapping::PairTable(static_cast<int>(count));
+  for (std::size_t c = 0; c < copies.size(); ++c) {
+    const int first = static_cast<int>(result.images.size());
+    std::vector<int> place_of(tour.images.size(), -1);
+    for (const int image : copies[c]) {
+      const auto from = static_cast<std::size_t>(image);
+      const int to = static_cast<int>(result.images.size());
+      place_of[from] = to;
+      map::MapImage kept = tour.images[from];
+      if (c > 0) kept.id = ImageId(kept.id.str() + "-" + std::to_string(c));
+      result.images.push_back(std::move(kept));
+      result.truth.push_back(tour.truth[from]);
+      result.truth.back().x_m += 1000.0 * static_cast<double>(c);
+      if (!tour.rooms.empty()) result.rooms.push_back(tour.rooms[from]);
+      result.tour_of.push_back(0);
+      result.appearances.push_back(tour.appearances[from]);
+      for (const int partner : tour.pairs.partners(image)) {
+        const int earlier = place_of[static_cast<std::size_t>(partner)];
+        if (earlier >= first && earlier < to) result.pairs.set(earlier, to, tour.pairs.relation(partner, image));
+      }
+    }
+  }
+  return result;
+}
+
+/// With this share of the images left out, and as often as is asked for, one after the other.
+SeenTour changed(const SeenTour& tour, double left_out, int copies) {
+  std::mt19937 random(1);
+  std::vector<std::vector<int>> kept(static_cast<std::size_t>(copies));
+  for (auto& copy : kept) {
+    for (int i = 0; i < static_cast<int>(tour.images.size()); ++i) {
+      if (static_cast<double>(random() % 1000) >= 1000.0 * left_out) copy.push_back(i);
+    }
+  }
+  return chosen(tour, kept);
 }
 
 /// As the developers' judge of maps counts them: a false merge is a place wider than 4 m, a revisit a pair of images
@@ -245,15 +290,6 @@ struct Variant {
 std::vector<Variant> variants(bool ablation) {
   std::vector<Variant> result{{"all", {}}};
   if (!ablation) return result;
-  for (const double f : {1.34}) {
-    for (const float w : {1.5F, 2.0F}) {
-      Variant v{"extent" + std::to_string(f) + "w" + std::to_string(w), {}};
-      v.config.place_extent_m *= f;
-      v.config.place_extent_images *= f;
-      v.config.widest_place = w;
-      result.push_back(v);
-    }
-  }
   const auto without = [&](const char* name, bool mapping::EvidenceSources::*source) {
     Variant variant{name, {}};
     variant.config.sources.*source = false;
@@ -267,6 +303,16 @@ std::vector<Variant> variants(bool ablation) {
   without("nothing taken back", &mapping::EvidenceSources::take_back);
   Variant assumed{"accuracy of the way assumed", {}};
   assumed.config.track.least_length_sigma = assumed.config.track.picture_length_sigma;
+  result.push_back(assumed);
+  assumed.name += ", no closed way";
+  assumed.config.sources.closed_way = false;
+  result.push_back(assumed);
+  assumed.name = "accuracy of the way assumed, nothing taken back";
+  assumed.config.sources = {};
+  assumed.config.sources.take_back = false;
+  result.push_back(assumed);
+  assumed.name = "accuracy of the way assumed, neither";
+  assumed.config.sources.closed_way = false;
   result.push_back(assumed);
   return result;
 }
@@ -288,27 +334,36 @@ int main(int argc, char** argv) {
   program.add_option("--threads", threads, "How many threads");
   program.add_flag("--ablation", ablation, "Without each source of evidence in turn, too");
   program.add_flag("--without-odometry", without_odometry, "Leave it out where a tour has it");
+  double left_out = 0.0;
+  int copies = 1;
+  program.add_option("--leave-out", left_out, "Share of the images to leave out: steps that differ in length")
+      ->check(CLI::Range(0.0, 0.9));
+  program.add_option("--copies", copies, "The tour so often, one after the other, to measure time")
+      ->check(CLI::Range(1, 1000));
   CLI11_PARSE(program, argc, argv);
   using namespace homeward;
   try {
     if (!cache.empty()) fs::create_directories(cache);
     std::cout << "tour,evidence,images,places,false_merges,mixed_rooms,spread_p95,accepted,accepted_right,taken_back,"
-                 "revisits,loop_recall\n";
+                 "revisits,loop_recall,seconds\n";
     for (const std::string& folder : folders) {
       SeenTour tour = see(folder, cache, threads);
+      if (left_out > 0.0 || copies > 1) tour = changed(tour, left_out, copies);
       if (without_odometry) {
         for (map::MapImage& image : tour.images) image.odometry.reset();
       }
       const std::string name = fs::path(folder).filename().string();
       bool first = true;
       for (const Variant& variant : variants(ablation)) {
+        const auto begin = std::chrono::steady_clock::now();
         const mapping::NotedMap made = mapping::make_noted_map(
             {tour.images, tour.tour_of, tour.appearances, {}, &tour.pairs}, variant.config, nullptr);
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
         Judgement j = judge(tour, made.map);
         j.taken_back = static_cast<int>(std::ranges::count(made.notes.taken_back, 1));
         std::cout << name << ',' << variant.name << ',' << j.images << ',' << j.places << ',' << j.false_merges << ','
                   << j.mixed_rooms << ',' << j.spread_p95 << ',' << j.accepted << ',' << j.accepted_right << ','
-                  << j.taken_back << ',' << j.revisits << ',' << j.loop_recall << '\n'
+                  << j.taken_back << ',' << j.revisits << ',' << j.loop_recall << ',' << took.count() << '\n'
                   << std::flush;
         if (first && !notes.empty()) explain(fs::path(notes) / name, tour, made);
         first = false;
