@@ -35,6 +35,32 @@ std::vector<int> runs_of(std::span<const LoopTie> ties, double reach) {
   return run;
 }
 
+/// What is known of each tie had its later stretch of the tour never been recognised, there or anywhere: where one run
+/// is false, those of the same stretch along other passes mostly are false with it.
+std::vector<ClosedWay::Without> without_own_stretch(const ClosedWay& way, std::span<const LoopTie> ties) {
+  std::vector<ClosedWay::Without> result;
+  for (std::size_t begin = 0; begin < ties.size();) {
+    std::size_t end = begin;
+    int first = ties[begin].b;
+    int last = ties[begin].b;
+    for (; end < ties.size() && ties[end].group == ties[begin].group; ++end) {
+      first = std::min(first, ties[end].b);
+      last = std::max(last, ties[end].b);
+    }
+    const auto within = [&](int image) { return image >= first && image <= last; };
+    std::vector<std::size_t> of_stretch;
+    for (std::size_t t = 0; t < ties.size(); ++t) {
+      if (within(ties[t].a) || within(ties[t].b)) of_stretch.push_back(t);
+    }
+    const std::vector<ClosedWay::Without> without = way.without(of_stretch);
+    for (std::size_t i = 0; i < of_stretch.size(); ++i) {
+      if (of_stretch[i] >= begin && of_stretch[i] < end) result.push_back(without[i]);
+    }
+    begin = end;
+  }
+  return result;
+}
+
 /// Ties of the stretch of the tour that least fits where it was recognised, as if it had never been: those that miss by
 /// more than `sure_sigmas`. Empty where all fit.
 std::vector<std::size_t> worst_stretch(const WayWithLoops& closed, std::span<const LoopHypothesis> hypotheses,
@@ -87,6 +113,8 @@ WayWithLoops close_way(std::span<const LoopHypothesis> hypotheses, std::span<con
   std::vector<std::pair<LoopTie, std::size_t>> found;
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
     if (hypotheses[h].decision != map::Decision::kAccepted) continue;
+    // What looks alone decided in a building where they cannot be trusted does not bend the way.
+    if (hypotheses[h].by == "method" && hypotheses[h].reliability < config.tie_reliability) continue;
     LoopTie tie;
     tie.a = subclusters[at(hypotheses[h].a)].prototype;
     tie.b = subclusters[at(hypotheses[h].b)].prototype;
@@ -114,7 +142,7 @@ WayWithLoops close_way(std::span<const LoopHypothesis> hypotheses, std::span<con
     ties.push_back(tie);
   }
   ClosedWay way(track, ties);
-  std::vector<ClosedWay::Without> without = way.without_own_group();
+  std::vector<ClosedWay::Without> without = without_own_stretch(way, ties);
   return {std::move(way), std::move(tie_of), std::move(hypothesis_of), std::move(ties), std::move(without)};
 }
 

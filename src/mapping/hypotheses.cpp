@@ -111,19 +111,21 @@ double weigh_way(std::span<LoopHypothesis> hypotheses, const WayFunction& way, c
   for (LoopHypothesis& hypothesis : hypotheses) {
     hypothesis.way = way(hypothesis.a, hypothesis.b);
     if (hypothesis.way.verdict == TrackVerdict::kUnknown) continue;
-    decided += hypothesis.similarity;
-    if (hypothesis.way.verdict == TrackVerdict::kAgrees) agreed += hypothesis.similarity;
+    const bool agrees = hypothesis.way.verdict == TrackVerdict::kAgrees;
+    const double weight = hypothesis.similarity * (agrees ? hypothesis.way.sharpness : 1.0);
+    decided += weight;
+    if (agrees) agreed += weight;
   }
   const double contradicted = decided - agreed;
   const double reliability =
       std::max(0.0, config.looks_trusted + agreed - contradicted) / (config.looks_trusted + decided);
   for (LoopHypothesis& hypothesis : hypotheses) {
-    if (hypothesis.way.verdict == TrackVerdict::kUnknown) {
-      hypothesis.reliability = reliability;
-      hypothesis.before = evidence(hypothesis.similarity, config.own_weight * reliability);
-    } else if (hypothesis.way.verdict == TrackVerdict::kAgrees) {
-      hypothesis.before =
-          combine(hypothesis.before, evidence(1.0, config.agreeing_way_mass * hypothesis.way.sharpness));
+    if (hypothesis.way.verdict != TrackVerdict::kContradicts) {
+      // As much of the decision as the way leaves to looks, they have to be worth trusting for.
+      const double sharpness = hypothesis.way.verdict == TrackVerdict::kAgrees ? hypothesis.way.sharpness : 0.0;
+      hypothesis.reliability = sharpness + (1.0 - sharpness) * reliability;
+      hypothesis.before = combine(evidence(hypothesis.similarity, config.own_weight * hypothesis.reliability),
+                                  evidence(1.0, config.agreeing_way_mass * sharpness));
     } else {
       hypothesis.before = evidence(0.0, config.contradicting_way_mass);
     }

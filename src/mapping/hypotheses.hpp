@@ -19,6 +19,7 @@ struct HypothesisConfig {
   double reject_plausibility = 0.4;
   double agreeing_way_mass = 0.95;       // at most, for a hypothesis that the way driven agrees with
   double looks_trusted = 1.0;            // as if looks had been right so often before the first was held to the way
+  double tie_reliability = 0.7;          // from which on an accepted loop makes the way more certain
   double contradicting_way_mass = 0.99;  // against one that it excludes
 };
 
@@ -52,9 +53,10 @@ std::vector<LoopHypothesis> formulate_hypotheses(std::span<const Subcluster> sub
 /// Weighs in the way driven. A hypothesis that it excludes is rejected whatever it looks like, and says nothing to
 /// others; one that it agrees with gains mass. Where it cannot tell, looks count as far as they were right where it
 /// could: the visual masses of such hypotheses are discounted (Shafer 1976, ch. 11) by (agreements - contradictions) /
-/// (agreements + contradictions), weighted by s_V, at least 0. The difference, not the share of agreements: those lie
-/// mostly a short way apart, where agreeing is easy. In a building of look-alike rooms looks alone then decide nothing,
-/// and pairs without other evidence stay apart. Returns that factor; 1 where the way decides nothing.
+/// (agreements + contradictions), weighted by s_V and by how sharply the way agrees, at least 0; where it agrees
+/// without telling much, the rest is discounted alike. The difference, not the share of agreements: those lie mostly a
+/// short way apart, where agreeing is easy. In a building of look-alike rooms looks alone then decide nothing, and
+/// pairs without other evidence stay apart. Returns that factor; 1 where the way decides nothing.
 double weigh_way(std::span<LoopHypothesis> hypotheses, const WayFunction& way, const HypothesisConfig& config);
 
 /// Combines each hypothesis with the initial masses of its neighbours, in the order of the list, and decides.

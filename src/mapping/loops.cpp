@@ -147,6 +147,7 @@ class Judgement {
   std::vector<int> decide_by(std::vector<LoopHypothesis>& hypotheses, std::span<const WayEvidence> way) const;
   /// What the way says once loops are closed; false if that is nothing new.
   bool reconsider(std::vector<LoopHypothesis>& hypotheses, std::vector<WayEvidence>& way) const;
+  void exclude(LoopHypothesis& hypothesis) const;
   [[nodiscard]] int prototype(int part) const { return parts_[at(part)].prototype; }
 
   const MappingInput& input_;
@@ -188,15 +189,19 @@ std::vector<int> Judgement::decide_by(std::vector<LoopHypothesis>& hypotheses, s
   return place_of_part;
 }
 
+void Judgement::exclude(LoopHypothesis& hypothesis) const {
+  hypothesis.taken_back = true;
+  // What excludes overrules, as it does from the beginning where the way alone knows enough.
+  hypothesis.after = evidence(0.0, config_.hypotheses.contradicting_way_mass);
+  hypothesis.decision = map::Decision::kRejected;
+}
+
 bool Judgement::reconsider(std::vector<LoopHypothesis>& hypotheses, std::vector<WayEvidence>& way) const {
+  constexpr double kNews = 0.05;  // less sharpness than that changes nothing
   bool news = false;
   if (config_.sources.take_back) {
     for (const std::size_t h : take_back(hypotheses, parts_, *input_.pairs, track_, config_.hypotheses)) {
-      LoopHypothesis& hypothesis = hypotheses[h];
-      hypothesis.taken_back = true;
-      // What excludes overrules, as it does from the beginning where the way alone knows enough.
-      hypothesis.after = evidence(0.0, config_.hypotheses.contradicting_way_mass);
-      hypothesis.decision = map::Decision::kRejected;
+      exclude(hypotheses[h]);
       way[h] = {TrackVerdict::kContradicts, 0.0};
       news = true;
     }
@@ -204,7 +209,7 @@ bool Judgement::reconsider(std::vector<LoopHypothesis>& hypotheses, std::vector<
   if (!config_.sources.closed_way) return news;
   const WayWithLoops with_loops = close_way(hypotheses, parts_, *input_.pairs, track_, config_.hypotheses);
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
-    const LoopHypothesis& hypothesis = hypotheses[h];
+    LoopHypothesis& hypothesis = hypotheses[h];
     if (hypothesis.taken_back || way[h].verdict == TrackVerdict::kContradicts) continue;
     const int a = prototype(hypothesis.a);
     const int b = prototype(hypothesis.b);
@@ -215,8 +220,12 @@ bool Judgement::reconsider(std::vector<LoopHypothesis>& hypotheses, std::vector<
     const bool more = evidence.verdict == TrackVerdict::kContradicts ||
                       (evidence.verdict == TrackVerdict::kAgrees && evidence.sharpness > way[h].sharpness);
     if (!more) continue;
-    news = news || evidence.verdict != way[h].verdict;
+    news = news || evidence.verdict != way[h].verdict || evidence.sharpness > way[h].sharpness + kNews;
     way[h] = evidence;
+    if (evidence.verdict == TrackVerdict::kContradicts && hypothesis.by == "method" &&
+        hypothesis.decision == map::Decision::kAccepted) {
+      exclude(hypothesis);
+    }
   }
   return news;
 }
@@ -227,7 +236,7 @@ std::vector<int> Judgement::decide(std::vector<LoopHypothesis>& hypotheses) cons
     way[h] = track_.judge(prototype(hypotheses[h].a), prototype(hypotheses[h].b));
   }
   std::vector<int> place_of_part = decide_by(hypotheses, way);
-  constexpr int kRounds = 3;
+  constexpr int kRounds = 5;
   for (int round = 0; round < kRounds && config_.sources.way && reconsider(hypotheses, way); ++round) {
     place_of_part = decide_by(hypotheses, way);
   }
