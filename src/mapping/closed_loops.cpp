@@ -113,8 +113,6 @@ WayWithLoops close_way(std::span<const LoopHypothesis> hypotheses, std::span<con
   std::vector<std::pair<LoopTie, std::size_t>> found;
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
     if (hypotheses[h].decision != map::Decision::kAccepted) continue;
-    // What looks alone decided in a building where they cannot be trusted does not bend the way.
-    if (hypotheses[h].by == "method" && hypotheses[h].reliability < config.tie_reliability) continue;
     LoopTie tie;
     tie.a = subclusters[at(hypotheses[h].a)].prototype;
     tie.b = subclusters[at(hypotheses[h].b)].prototype;

@@ -161,6 +161,11 @@ void collect_evidence(std::span<LoopHypothesis> hypotheses, std::span<const Subc
     }
     if (hypothesis.by != "method") continue;
     hypothesis.decision = excluded ? map::Decision::kRejected : decide(hypothesis.after, config);
+    // Where looks cannot be trusted, many of them that agree cannot either: what deceives one deceives its neighbours.
+    const bool looks_alone = hypothesis.reliability < config.least_reliability;
+    if (looks_alone && hypothesis.decision == map::Decision::kAccepted) {
+      hypothesis.decision = map::Decision::kUndecided;
+    }
   }
 }
 

@@ -19,7 +19,7 @@ struct HypothesisConfig {
   double reject_plausibility = 0.4;
   double agreeing_way_mass = 0.95;       // at most, for a hypothesis that the way driven agrees with
   double looks_trusted = 1.0;            // as if looks had been right so often before the first was held to the way
-  double tie_reliability = 0.7;          // from which on an accepted loop makes the way more certain
+  double least_reliability = 0.7;        // below, a hypothesis is not accepted
   double contradicting_way_mass = 0.99;  // against one that it excludes
 };
 
