@@ -78,7 +78,7 @@ struct ClosedWay::Parts {
   void fit_headings();
   void fit_positions();
   /// Variance of where b lies from a for the headings between them.
-  [[nodiscard]] double lever(int a, int b) const;
+  [[nodiscard]] double lever(int a, int b, double turn_variance) const;
 };
 
 void ClosedWay::Parts::fit_headings() {
@@ -127,10 +127,10 @@ void ClosedWay::Parts::fit_positions() {
   y = positions.solve(right_y);
 }
 
-double ClosedWay::Parts::lever(int a, int b) const {
+double ClosedWay::Parts::lever(int a, int b, double turn_variance) const {
   // As much of the open way's as is left of the uncertainty of the turn between them.
   const double open = track->turn_variance(a, b);
-  return open > 0.0 ? track->lever_variance(a, b) * std::min(1.0, turns.variance(a, b) / open) : 0.0;
+  return open > 0.0 ? track->lever_variance(a, b) * std::min(1.0, turn_variance / open) : 0.0;
 }
 
 ClosedWay::ClosedWay(const TourTrack& track, std::vector<LoopTie> ties)
@@ -150,9 +150,10 @@ TrackPrediction ClosedWay::predict(int a, int b) const {
   if (!p.track->joined(a, b)) return result;
   result.known = true;
   result.distance = std::hypot(p.x[b] - p.x[a], p.y[b] - p.y[a]);
-  result.distance_sigma = std::sqrt(2.0 * p.positions.variance(a, b) + p.lever(a, b));
+  const double turn_variance = p.turns.variance(a, b);
+  result.distance_sigma = std::sqrt(2.0 * p.positions.variance(a, b) + p.lever(a, b, turn_variance));
   result.turn_rad = wrap_angle(p.heading_rad[b] - p.heading_rad[a]);
-  result.turn_sigma_rad = std::sqrt(p.turns.variance(a, b));
+  result.turn_sigma_rad = std::sqrt(turn_variance);
   return result;
 }
 
@@ -198,7 +199,7 @@ std::vector<ClosedWay::Without> ClosedWay::without(std::span<const std::size_t> 
     without.prediction.distance = (seen.row(i) - residual_without.row(i)).norm();
     without.prediction.distance_sigma = std::sqrt(2.0 * variance);
     without.prediction.turn_rad = wrap_angle(p.heading_rad[tie.b] - p.heading_rad[tie.a]);
-    without.prediction.turn_sigma_rad = std::sqrt(p.turns.variance(tie.a, tie.b));
+    without.prediction.turn_sigma_rad = std::sqrt(p.track->turn_variance(tie.a, tie.b));  // as if no loop were closed
     without.miss_sigmas = residual_without.row(i).norm() / std::sqrt(2.0 * (variance + tie.sigma * tie.sigma));
   }
   return result;

@@ -6,9 +6,10 @@ usage: office_orders.py --work DIR [--bin DIR] [--orders N] [--first N] [--world
 
 Order n is the nth shuffle of the eight rooms, the first of them entered again at the end. Tours are rendered into DIR,
 and what was seen and compared is kept there: the first run takes about a minute for each order, later ones a second.
-Each tour is built with its odometry and, as if it had none, without. --tour adds tours with true poses. --ablation: also
-without each source of evidence. Prints a table, and ends with 1 when any place is wider than 4 m or holds two offices with
-all the evidence, or the loop recall of an order with odometry is below 0.8.
+Each tour is built with its odometry, as if it had none, and so with every seventh picture or so missing: steps of
+different lengths that nothing tells. --tour adds tours with true poses. --ablation: also without each source of evidence.
+Prints tables, and ends with 1 when any place is wider than 4 m or holds two offices with all the evidence, or the loop
+recall of an order is below 0.8.
 """
 
 import argparse
@@ -78,16 +79,16 @@ def main():
     options.work.mkdir(parents=True, exist_ok=True)
     for tour in options.tour:
         table(f"{tour}", judge(options, [tour]))
-    if options.orders == 0:
-        return 0
     tours = [render(options, options.first + i) for i in range(options.orders)]
-    with_odometry = judge(options, tours)
-    table("offices, with odometry", with_odometry)
-    without = judge(options, tours, "--without-odometry")
-    table("offices, pictures alone", without)
-    bad = [row["tour"] for row in with_odometry + without
-           if row["evidence"] == "all" and int(row["false_merges"]) + int(row["mixed_rooms"]) > 0]
-    bad += [row["tour"] for row in with_odometry if row["evidence"] == "all" and float(row["loop_recall"]) < WANTED_RECALL]
+    if not tours:
+        return 0
+    bad = []
+    for title, how in (("with odometry", []), ("pictures alone", ["--without-odometry"]),
+                       ("pictures alone, 15 % of them missing", ["--without-odometry", "--leave-out", "0.15"])):
+        rows = judge(options, tours, *how)
+        table(f"offices, {title}", rows)
+        bad += [f"{row['tour']} ({title})" for row in rows if row["evidence"] == "all" and
+                (int(row["false_merges"]) + int(row["mixed_rooms"]) > 0 or float(row["loop_recall"]) < WANTED_RECALL)]
     if bad:
         print("does not hold:", ", ".join(bad))
     return 1 if bad else 0
