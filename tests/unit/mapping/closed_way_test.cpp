@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "core/angles.hpp"
 #include "mapping/closed_loops.hpp"
@@ -68,6 +69,54 @@ Corridor corridor(int length, int times) {
     }
   }
   return result;
+}
+
+double measured_length_sigma(const Corridor& tour) {
+  return TourTrack(tour.images, tour.tour_of, tour.pairs, false, 3.0, {}).length_sigma();
+}
+
+TEST(LengthAccuracy, IsMeasuredOnShortLoops) {
+  EXPECT_EQ(measured_length_sigma(corridor(60, 1)), TrackConfig().picture_length_sigma);  // no loop, nothing known
+  const Corridor even = corridor(10, 6);
+  EXPECT_LT(measured_length_sigma(even), 0.15);
+  // Most of the pairs that look like one spot are 5 to 8 steps apart: they do not hide the loops.
+  Corridor deceiving = even;
+  int loops = 0;
+  int alike = 0;
+  for (int a = 0; a < deceiving.pairs.images(); ++a) {
+    for (int b = a + 13; b < deceiving.pairs.images() && b <= a + 40; ++b) {
+      const Pose2 between =
+          inverse(deceiving.truth[static_cast<std::size_t>(a)]) * deceiving.truth[static_cast<std::size_t>(b)];
+      const double apart = std::hypot(between.x_m, between.y_m);
+      loops += apart <= 1.0 ? 1 : 0;
+      if (apart < 5.0 || apart > 8.0) continue;
+      ++alike;
+      deceiving.pairs.set(a, b, seen({}, {0.1, 0.1, between.theta_rad}));
+    }
+  }
+  EXPECT_GT(alike, loops);
+  EXPECT_LT(measured_length_sigma(deceiving), 0.15);
+}
+
+TEST(LengthAccuracy, StepsThatDifferAreLessExact) {
+  std::mt19937 random(3);  // three of ten pictures are missing
+  const Corridor full = corridor(15, 8);
+  Corridor uneven;
+  for (std::size_t i = 0; i < full.truth.size(); ++i) {
+    if (random() % 10 < 3) continue;
+    uneven.truth.push_back(full.truth[i]);
+    uneven.images.push_back(full.images[i]);
+    uneven.tour_of.push_back(0);
+  }
+  uneven.pairs = PairTable(static_cast<int>(uneven.truth.size()));
+  for (std::size_t b = 0; b < uneven.truth.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      const Pose2 between = inverse(uneven.truth[a]) * uneven.truth[b];
+      if (std::hypot(between.x_m, between.y_m) > 3.0) continue;
+      uneven.pairs.set(static_cast<int>(a), static_cast<int>(b), seen(uneven.truth[a], uneven.truth[b]));
+    }
+  }
+  EXPECT_GT(measured_length_sigma(uneven), measured_length_sigma(full) + 0.05);
 }
 
 LoopTie tie(const Corridor& tour, int a, int b, int group) {
