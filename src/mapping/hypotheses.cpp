@@ -111,19 +111,21 @@ double weigh_way(std::span<LoopHypothesis> hypotheses, const WayFunction& way, c
   for (LoopHypothesis& hypothesis : hypotheses) {
     hypothesis.way = way(hypothesis.a, hypothesis.b);
     if (hypothesis.way.verdict == TrackVerdict::kUnknown) continue;
-    decided += hypothesis.similarity;
-    if (hypothesis.way.verdict == TrackVerdict::kAgrees) agreed += hypothesis.similarity;
+    const bool agrees = hypothesis.way.verdict == TrackVerdict::kAgrees;
+    const double weight = hypothesis.similarity * (agrees ? hypothesis.way.sharpness : 1.0);
+    decided += weight;
+    if (agrees) agreed += weight;
   }
   const double contradicted = decided - agreed;
   const double reliability =
       std::max(0.0, config.looks_trusted + agreed - contradicted) / (config.looks_trusted + decided);
   for (LoopHypothesis& hypothesis : hypotheses) {
-    if (hypothesis.way.verdict == TrackVerdict::kUnknown) {
-      hypothesis.reliability = reliability;
-      hypothesis.before = evidence(hypothesis.similarity, config.own_weight * reliability);
-    } else if (hypothesis.way.verdict == TrackVerdict::kAgrees) {
-      hypothesis.before =
-          combine(hypothesis.before, evidence(1.0, config.agreeing_way_mass * hypothesis.way.sharpness));
+    if (hypothesis.way.verdict != TrackVerdict::kContradicts) {
+      // As much of the decision as the way leaves to looks, they have to be worth trusting for.
+      const double sharpness = hypothesis.way.verdict == TrackVerdict::kAgrees ? hypothesis.way.sharpness : 0.0;
+      hypothesis.reliability = sharpness + (1.0 - sharpness) * reliability;
+      hypothesis.before = combine(evidence(hypothesis.similarity, config.own_weight * hypothesis.reliability),
+                                  evidence(1.0, config.agreeing_way_mass * sharpness));
     } else {
       hypothesis.before = evidence(0.0, config.contradicting_way_mass);
     }
@@ -159,6 +161,11 @@ void collect_evidence(std::span<LoopHypothesis> hypotheses, std::span<const Subc
     }
     if (hypothesis.by != "method") continue;
     hypothesis.decision = excluded ? map::Decision::kRejected : decide(hypothesis.after, config);
+    // Where looks cannot be trusted, many of them that agree cannot either: what deceives one deceives its neighbours.
+    const bool looks_alone = hypothesis.reliability < config.least_reliability;
+    if (looks_alone && hypothesis.decision == map::Decision::kAccepted) {
+      hypothesis.decision = map::Decision::kUndecided;
+    }
   }
 }
 
@@ -175,6 +182,7 @@ std::vector<int> merge_accepted(int subclusters, std::span<LoopHypothesis> hypot
     const bool x_by_person = x->by != "method";
     const bool y_by_person = y->by != "method";
     if (x_by_person != y_by_person) return x_by_person;
+    if (x->across != y->across) return y->across;
     return support(x->after) > support(y->after);
   });
   Groups groups(subclusters);

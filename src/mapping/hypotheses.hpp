@@ -19,6 +19,7 @@ struct HypothesisConfig {
   double reject_plausibility = 0.4;
   double agreeing_way_mass = 0.95;       // at most, for a hypothesis that the way driven agrees with
   double looks_trusted = 1.0;            // as if looks had been right so often before the first was held to the way
+  double least_reliability = 0.7;        // below, a hypothesis is not accepted
   double contradicting_way_mass = 0.99;  // against one that it excludes
 };
 
@@ -31,6 +32,10 @@ struct LoopHypothesis {
   map::Masses after;
   map::Decision decision = map::Decision::kUndecided;
   std::string by = "method";
+  bool across = false;  // the two lie in different clusters
+  // It was accepted until the other loops that were closed excluded it. `before` then tells what spoke for it,
+  // `after` the contradiction.
+  bool taken_back = false;
   WayEvidence way;
   double reliability = 1.0;  // how far looks can be trusted here: the visual masses are discounted by it
 };
@@ -48,9 +53,10 @@ std::vector<LoopHypothesis> formulate_hypotheses(std::span<const Subcluster> sub
 /// Weighs in the way driven. A hypothesis that it excludes is rejected whatever it looks like, and says nothing to
 /// others; one that it agrees with gains mass. Where it cannot tell, looks count as far as they were right where it
 /// could: the visual masses of such hypotheses are discounted (Shafer 1976, ch. 11) by (agreements - contradictions) /
-/// (agreements + contradictions), weighted by s_V, at least 0. The difference, not the share of agreements: those lie
-/// mostly a short way apart, where agreeing is easy. In a building of look-alike rooms looks alone then decide nothing,
-/// and pairs without other evidence stay apart. Returns that factor; 1 where the way decides nothing.
+/// (agreements + contradictions), weighted by s_V and by how sharply the way agrees, at least 0; where it agrees
+/// without telling much, the rest is discounted alike. The difference, not the share of agreements: those lie mostly a
+/// short way apart, where agreeing is easy. In a building of look-alike rooms looks alone then decide nothing, and
+/// pairs without other evidence stay apart. Returns that factor; 1 where the way decides nothing.
 double weigh_way(std::span<LoopHypothesis> hypotheses, const WayFunction& way, const HypothesisConfig& config);
 
 /// Combines each hypothesis with the initial masses of its neighbours, in the order of the list, and decides.
@@ -58,9 +64,9 @@ double weigh_way(std::span<LoopHypothesis> hypotheses, const WayFunction& way, c
 void collect_evidence(std::span<LoopHypothesis> hypotheses, std::span<const Subcluster> subclusters,
                       std::span<const double> position_of, const HypothesisConfig& config);
 
-/// The place of each subcluster, numbered by first subcluster: the union of accepted pairs, best supported first. A
-/// pair that would bring two subclusters together which a rejected hypothesis or `apart` keeps apart is not merged; its
-/// hypothesis becomes undecided.
+/// The place of each subcluster, numbered by first subcluster: the union of accepted pairs, those within a cluster
+/// before those across, best supported first. A pair that would bring two subclusters together which a rejected
+/// hypothesis or `apart` keeps apart is not merged; its hypothesis becomes undecided.
 std::vector<int> merge_accepted(int subclusters, std::span<LoopHypothesis> hypotheses,
                                 const std::function<bool(int, int)>& apart);
 

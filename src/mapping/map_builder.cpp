@@ -15,13 +15,12 @@
 #include "mapping/edits.hpp"
 #include "mapping/extra_places.hpp"
 #include "mapping/identity.hpp"
+#include "mapping/loops.hpp"
 #include "mapping/similarity.hpp"
 #include "mapping/subclusters.hpp"
 
 namespace homeward::mapping {
 namespace {
-
-constexpr double kToursApartImages = 1e6;  // so far apart along the way are images of different tours
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
@@ -30,82 +29,6 @@ std::vector<const std::string*> labels_by_image(const MappingInput& input) {
   std::vector<const std::string*> labels(input.images.size(), nullptr);
   for (const MarkedImage& mark : input.marks) labels[at(mark.image)] = &mark.label;
   return labels;
-}
-
-/// D, but infinite between two images that carry different marks (each stands for a place of its own) and between two
-/// that the way driven keeps apart. Valid as long as its parameters are.
-DistanceFunction clustering_distance(const MappingInput& input, const std::vector<const std::string*>& labels,
-                                     const TourTrack& track) {
-  return [&input, &labels, &track](int a, int b) {
-    const bool marks_differ = labels[at(a)] != nullptr && labels[at(b)] != nullptr && *labels[at(a)] != *labels[at(b)];
-    const float distance = input.pairs->distance(a, b);
-    const bool apart =
-        marks_differ || (std::isfinite(distance) && track.judge(a, b).verdict == TrackVerdict::kContradicts);
-    return apart ? std::numeric_limits<float>::infinity() : distance;
-  };
-}
-
-/// What images have to say to each other, by `distance`.
-NearLists near_lists(const PairTable& pairs, const DistanceFunction& distance) {
-  NearLists near(at(pairs.images()));
-  for (int a = 0; a < pairs.images(); ++a) {
-    for (const int b : pairs.partners(a)) near[at(a)].push_back({b, distance(std::min(a, b), std::max(a, b))});
-  }
-  return near;
-}
-
-/// Pairs of subclusters that look like one place but lie in different clusters because the way driven excludes it. They
-/// are kept as hypotheses: a person sees what looks alike and why it stays apart.
-void add_look_alikes(std::vector<LoopHypothesis>& hypotheses, std::span<const Subcluster> subclusters,
-                     const MappingInput& input, const TourTrack& track, float threshold,
-                     const SimilarityFunction& similarity) {
-  std::vector<int> represented(input.images.size(), -1);  // the subcluster that an image is the prototype of
-  for (std::size_t s = 0; s < subclusters.size(); ++s) represented[at(subclusters[s].prototype)] = static_cast<int>(s);
-  for (std::size_t a = 0; a < subclusters.size(); ++a) {
-    const int image_a = subclusters[a].prototype;
-    for (const int image_b : input.pairs->partners(image_a)) {
-      const int b = represented[at(image_b)];
-      if (b <= static_cast<int>(a) || subclusters[a].cluster == subclusters[at(b)].cluster ||
-          input.pairs->distance(image_a, image_b) > threshold) {
-        continue;
-      }
-      if (track.judge(image_a, image_b).verdict != TrackVerdict::kContradicts) continue;
-      LoopHypothesis hypothesis;
-      hypothesis.a = static_cast<int>(a);
-      hypothesis.b = b;
-      hypothesis.similarity = similarity(hypothesis.a, hypothesis.b);
-      hypotheses.push_back(hypothesis);
-    }
-  }
-  std::ranges::stable_sort(hypotheses, {}, [](const LoopHypothesis& h) { return std::pair(h.a, h.b); });
-}
-
-std::vector<double> positions_of_evidence(const MappingInput& input) {
-  std::vector<double> positions;
-  for (std::size_t i = 0; i < input.images.size(); ++i) {
-    positions.push_back(static_cast<double>(i) + kToursApartImages * input.tour_of[i]);
-  }
-  return positions;
-}
-
-/// A person's decisions on hypotheses, keyed to images, hold for the pair of subclusters that hold these images.
-void apply_decisions(std::vector<LoopHypothesis>& hypotheses, std::span<const Subcluster> subclusters,
-                     const MappingInput& input, const map::TopologicalMap* previous) {
-  if (previous == nullptr) return;
-  const auto holds = [&](int subcluster, const ImageId& id) {
-    return std::ranges::any_of(subclusters[at(subcluster)].images,
-                               [&](int image) { return input.images[at(image)].id == id; });
-  };
-  for (const map::Edit& edit : previous->edits) {
-    if (edit.kind != map::EditKind::kDecide || edit.undone) continue;
-    for (LoopHypothesis& hypothesis : hypotheses) {
-      const bool concerned = (holds(hypothesis.a, edit.image_a) && holds(hypothesis.b, edit.image_b)) ||
-                             (holds(hypothesis.a, edit.image_b) && holds(hypothesis.b, edit.image_a));
-      if (!concerned) continue;
-      hypothesis.decision = edit.text == "accept" ? map::Decision::kAccepted : map::Decision::kRejected;
-      hypothesis.by = "person";
-    }
-  }
 }
 
 /// Places from subclusters: members, prototype (a marked image if there is one, else the new medoid), appearance,
@@ -251,30 +174,10 @@ NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, 
   const std::vector<const std::string*> labels = labels_by_image(input);
   const TourTrack track(input.images, input.tour_of, *input.pairs, path.metric(),
                         path.metric() ? config.place_extent_m : config.place_extent_images, config.track);
-  const DistanceFunction distance = clustering_distance(input, labels, track);
   const float threshold = place_distance_threshold(input, path, config);
   const UsualDistances usual = usual_distances(input, path, config);
-
-  const std::vector<int> cluster_of = complete_linkage(near_lists(*input.pairs, distance), threshold);
-  std::vector<int> marked;
-  for (const MarkedImage& mark : input.marks) marked.push_back(mark.image);
-  const std::vector<Subcluster> parts = subclusters(cluster_of, input.tour_of, marked, distance);
-
-  const auto similarity = [&](int a, int b) {
-    return usual.share_at_least(input.pairs->distance(parts[at(a)].prototype, parts[at(b)].prototype));
-  };
-  std::vector<LoopHypothesis> hypotheses = formulate_hypotheses(parts, similarity, config.hypotheses);
-  add_look_alikes(hypotheses, parts, input, track, threshold, similarity);
-  const auto way = [&](int a, int b) { return track.judge(parts[at(a)].prototype, parts[at(b)].prototype); };
-  weigh_way(hypotheses, way, config.hypotheses);
-  apply_decisions(hypotheses, parts, input, previous);
-  collect_evidence(hypotheses, parts, positions_of_evidence(input), config.hypotheses);
-  const auto apart = [&](int a, int b) {
-    const std::string* label_a = labels[at(parts[at(a)].prototype)];
-    const std::string* label_b = labels[at(parts[at(b)].prototype)];
-    return label_a != nullptr && label_b != nullptr && *label_a != *label_b;
-  };
-  const std::vector<int> place_of_part = merge_accepted(static_cast<int>(parts.size()), hypotheses, apart);
+  const auto [cluster_of, parts, hypotheses, place_of_part] =
+      close_loops(input, config, track, labels, threshold, previous);
 
   std::vector<int> place_of_image(at(images), 0);
   for (std::size_t part = 0; part < parts.size(); ++part) {
@@ -283,16 +186,18 @@ NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, 
   map::TopologicalMap map;
   map.images.assign(input.images.begin(), input.images.end());
   map.places = form_places(input, parts, place_of_part, labels);
-  std::vector<int> pinned = marked;
+  std::vector<int> pinned;
+  for (const MarkedImage& mark : input.marks) pinned.push_back(mark.image);
   for (const Subcluster& part : parts) pinned.push_back(part.prototype);
   Sights sights(input);
   const ExtraPlaces extra = insert_extra_places(input, config, pinned, sights, map.places, place_of_image);
   map.edges = form_edges(input, path, track, config, map.places, place_of_image, sights);
   map.destinations = form_destinations(input, map.places, place_of_image);
-  MappingNotes notes{config, threshold, cluster_of, {}, {}, extra.weak_before, extra.weak_after};
+  MappingNotes notes{config, threshold, cluster_of, {}, {}, {}, extra.weak_before, extra.weak_after};
   for (const int image : extra.prototypes) notes.extra.push_back(input.images[at(image)].id);
   for (const LoopHypothesis& hypothesis : hypotheses) {
     notes.way.push_back(hypothesis.way.verdict);
+    notes.taken_back.push_back(hypothesis.taken_back ? 1 : 0);
     map::Hypothesis kept;
     kept.prototype_a = input.images[at(parts[at(hypothesis.a)].prototype)].id;
     kept.prototype_b = input.images[at(parts[at(hypothesis.b)].prototype)].id;

@@ -15,11 +15,23 @@
 
 namespace homeward::mapping {
 
+/// Sources of evidence, all in use; for measuring what each of them adds.
+struct EvidenceSources {
+  bool neighbours = true;  // hypotheses near one along both passes speak for or against it
+  bool way = true;         // the way driven agrees or contradicts
+  bool beside = true;      // looks are held against the place beside, not against one place's own spread alone
+  bool across = true;      // hypotheses between clusters, not only within them
+  bool closed_way = true;  // loops that were closed make the way more certain
+  bool take_back = true;   // a loop that the others exclude is taken back
+};
+
 struct MappingConfig {
   double place_extent_images = 3.0;    // tour images that a place usually spans where the tour has no odometry
-  double place_extent_m = 1.0;         // and how long it is where it has
+  double place_extent_m = 1.2;         // and how long it is where it has
+  float widest_place = 2.0F;           // images of one place differ by at most so many usual distances of one extent
   double weak_below_confidence = 0.2;  // an edge whose verified pose is less certain is weak
   int extra_place_depth = 3;           // how often a way is halved by extra places where its edge is weak; 0: never
+  EvidenceSources sources;
   HypothesisConfig hypotheses;
   TrackConfig track;
 };
@@ -68,6 +80,7 @@ struct MappingNotes {
   float place_distance = 0.0F;    // the visual distance up to which images make one place
   std::vector<int> cluster_of;    // of each image
   std::vector<TrackVerdict> way;  // of the way driven on each of the map's hypotheses
+  std::vector<char> taken_back;   // 1 for those accepted until other loops excluded them
   std::vector<ImageId> extra;     // prototypes of places that were put in where an edge would have been weak
   int weak_before = 0;            // pairs of places whose edge would be weak without them
   int weak_after = 0;             // of these, pairs that extra places do not join by sound edges either

@@ -23,4 +23,13 @@ float UsualDistances::quantile(double q) const {
   return sorted_[static_cast<std::size_t>(std::lround(std::clamp(q, 0.0, 1.0) * last))];
 }
 
+double SamePlaceScale::similarity(float distance) const {
+  if (!std::isfinite(distance)) return 0.0;
+  const double same = same_.share_at_least(distance);
+  if (beside_.empty()) return same;
+  // Strictly more alike, so that a distance of 0 speaks for the same place alone.
+  const double beside = 1.0 - beside_.share_at_least(distance);
+  return same + beside > 0.0 ? same / (same + beside) : 0.5;
+}
+
 }  // namespace homeward::mapping

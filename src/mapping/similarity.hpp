@@ -25,4 +25,23 @@ class UsualDistances {
   std::vector<float> sorted_;
 };
 
+/// How much more a visual distance D speaks for one place than for the place next to it, learnt on the tour itself: the
+/// share of pairs of one place that are at least as different, against the share of pairs a little further apart that
+/// are at least as alike. The papers divide D by its spread within a place (2006 eq. 6). That, like the share of the
+/// places' own distances alone, gives half of the true pairs less than 0.5 and so speaks against them.
+class SamePlaceScale {
+ public:
+  /// D of image pairs that certainly show one place, and of pairs that certainly lie next to each other but do not.
+  SamePlaceScale(std::vector<float> same, std::vector<float> beside)
+      : same_(std::move(same)), beside_(std::move(beside)) {}
+
+  /// s_V in [0,1]: 1 for 0, 0.5 where both are as likely, 0 for the largest. Without pairs beside: the share of the
+  /// places' own distances that are at least as large.
+  [[nodiscard]] double similarity(float distance) const;
+
+ private:
+  UsualDistances same_;
+  UsualDistances beside_;
+};
+
 }  // namespace homeward::mapping

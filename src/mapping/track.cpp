@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/angles.hpp"
 
@@ -22,6 +23,45 @@ double quantile(std::vector<double>& values, double q) {
 constexpr double kFarthestExtents = 1.5;
 
 double square(double x) { return x * x; }
+
+/// How far a loop is from closing.
+struct LoopMiss {
+  double squared = 0.0;
+  double variance = 0.0;  // that is expected, in both directions together
+  double reach = 0.0;     // as far as the way between could lead, roughly
+};
+
+/// By how much the expected standard deviations are to be multiplied, 1/16 to 1, so that the misses are most likely:
+/// each comes from a loop, with a normal distribution, or from two places that look alike, somewhere within reach. The
+/// share of loops is estimated with it, so that most pairs may be look-alikes.
+double scale_of_misses(const std::vector<LoopMiss>& misses) {
+  constexpr int kScales = 13;
+  constexpr int kRounds = 12;
+  double best_scale = 1.0;
+  double best = -std::numeric_limits<double>::infinity();
+  for (int s = 0; s < kScales; ++s) {
+    const double scale = std::pow(2.0, -s / 3.0);
+    double loops = 0.5;
+    double likelihood = 0.0;
+    for (int round = 0; round < kRounds; ++round) {
+      likelihood = 0.0;
+      double expected = 0.0;
+      for (const LoopMiss& miss : misses) {
+        const double variance = square(scale) * miss.variance;
+        const double closes = loops * std::exp(-miss.squared / variance) / (kPi * variance);
+        const double elsewhere = (1.0 - loops) / (kPi * miss.reach * miss.reach);
+        likelihood += std::log(closes + elsewhere);
+        expected += closes / (closes + elsewhere);
+      }
+      loops = std::clamp(expected / static_cast<double>(misses.size()), 0.01, 0.99);
+    }
+    if (likelihood > best) {
+      best = likelihood;
+      best_scale = scale;
+    }
+  }
+  return best_scale;
+}
 
 }  // namespace
 
@@ -43,6 +83,7 @@ TourTrack::TourTrack(std::span<const map::MapImage> images, std::span<const int>
                                          static_cast<double>(both.turn_rad))));
   }
   turn_sigma_rad_ = std::max(config.least_turn_sigma_rad, quantile(misses, 0.9));
+  length_sigma_ = metric ? config.odometry_length_sigma : config.picture_length_sigma;
   const double typical_parallax_rad = quantile(parallaxes, 0.5);
   for (int i = 0; i + 1 < count; ++i) {
     const Point& from = points_[at(i)];
@@ -58,6 +99,52 @@ TourTrack::TourTrack(std::span<const map::MapImage> images, std::span<const int>
     to.turn_variance_y += taken.turn_variance * to.pose.y_m;
     to.turn_variance_r2 += taken.turn_variance * (square(to.pose.x_m) + square(to.pose.y_m));
   }
+  measure_distances(tour_of);
+  if (!metric) measure_lengths(tour_of);
+}
+
+void TourTrack::measure_distances(std::span<const int> tour_of) {
+  constexpr double kShortest = 0.1;  // of a place extent: turning on the spot tells nothing
+  std::vector<double> per_unit;
+  for (int i = 0; i + 1 < images(); ++i) {
+    if (tour_of[at(i)] != tour_of[at(i + 1)] || pairs_.relation(i, i + 1).inliers < config_.fewest_inliers) continue;
+    const double length = predict(i, i + 1).distance;
+    if (length > kShortest * place_extent_) per_unit.push_back(static_cast<double>(pairs_.distance(i, i + 1)) / length);
+  }
+  distance_per_unit_ = per_unit.empty() ? 1.0 : std::max(1e-6, quantile(per_unit, 0.5));
+}
+
+void TourTrack::measure_lengths(std::span<const int> tour_of) {
+  // Images a short loop apart that look like one spot: how far the way reckoned between them is from closing.
+  constexpr int kNeighbours = 12;
+  constexpr int kShortLoop = 40;
+  constexpr std::size_t kFewest = 20;
+  const int count = static_cast<int>(points_.size());
+  std::vector<LoopMiss> misses;
+  for (int a = 0; a < count; ++a) {
+    for (const int b : pairs_.partners(a)) {
+      if (b <= a + kNeighbours || b > a + kShortLoop || tour_of[at(a)] != tour_of[at(b)]) continue;
+      const PairRelation seen = pairs_.relation(a, b);
+      if (seen.inliers < config_.fewest_inliers || apart(static_cast<double>(seen.distance)) > 1.0) continue;
+      const double variance = points_[at(b)].length_variance - points_[at(a)].length_variance;
+      if (!predict(a, b).known || !(variance > 0.0)) continue;
+      // Where b lies by the way and where it is seen.
+      const Pose2 reckoned = inverse(points_[at(a)].pose) * points_[at(b)].pose;
+      const double seen_steps = apart(static_cast<double>(seen.distance));
+      const double direction_rad = static_cast<double>(seen.direction_rad);
+      const double squared = square(reckoned.x_m - seen_steps * std::cos(direction_rad)) +
+                             square(reckoned.y_m - seen_steps * std::sin(direction_rad));
+      misses.push_back({squared, variance, variance / square(length_sigma_)});
+    }
+  }
+  if (misses.size() < kFewest) return;
+  // Short loops fit better than long ones: some reserve.
+  constexpr double kReserve = 1.5;
+  const double share = kReserve * scale_of_misses(misses);
+  const double measured = std::clamp(share * length_sigma_, config_.least_length_sigma, length_sigma_);
+  const double factor = square(measured / length_sigma_);
+  for (Point& point : points_) point.length_variance *= factor;
+  length_sigma_ = measured;
 }
 
 TourTrack::Step TourTrack::step(std::span<const map::MapImage> images, int i, double typical_parallax_rad) const {
@@ -75,7 +162,7 @@ TourTrack::Step TourTrack::step(std::span<const map::MapImage> images, int i, do
     const Pose2 turned{0.0, 0.0, by_picture ? conflict_rad / 2.0 : 0.0};
     result.motion = turned * Pose2{driven.x_m, driven.y_m, 0.0};
     result.motion.theta_rad = turn_rad;
-    result.length_variance = square(config_.odometry_length_sigma * std::hypot(driven.x_m, driven.y_m));
+    result.length_variance = square(length_sigma_ * std::hypot(driven.x_m, driven.y_m));
     result.turn_variance = square(by_picture ? turn_sigma_rad_ : config_.odometry_turn_sigma_rad);
     return result;
   }
@@ -84,33 +171,46 @@ TourTrack::Step TourTrack::step(std::span<const map::MapImage> images, int i, do
   const double length = std::min(1.0, 2.0 * static_cast<double>(seen.parallax_rad) / typical_parallax_rad);
   const double direction_rad = static_cast<double>(seen.direction_rad);
   result.motion = {length * std::cos(direction_rad), length * std::sin(direction_rad), seen_turn_rad};
-  result.length_variance = square(config_.picture_length_sigma * length);
+  result.length_variance = square(length_sigma_ * length);
   result.turn_variance = square(turn_sigma_rad_);
   return result;
 }
 
-TrackPrediction TourTrack::predict(int a, int b) const {
+bool TourTrack::joined(int a, int b) const { return points_[at(a)].breaks == points_[at(b)].breaks; }
+
+double TourTrack::length_variance(int a, int b) const {
+  return std::abs(points_[at(b)].length_variance - points_[at(a)].length_variance);
+}
+
+double TourTrack::turn_variance(int a, int b) const {
+  return std::abs(points_[at(b)].turn_variance - points_[at(a)].turn_variance);
+}
+
+double TourTrack::lever_variance(int a, int b) const {
   const Point& from = points_[at(std::min(a, b))];
   const Point& to = points_[at(std::max(a, b))];
-  TrackPrediction result;
-  if (from.breaks != to.breaks) return result;
-  result.known = true;
-  result.distance = std::hypot(to.pose.x_m - from.pose.x_m, to.pose.y_m - from.pose.y_m);
-  const double sum = to.turn_variance - from.turn_variance;
-  const double lever = (square(to.pose.x_m) + square(to.pose.y_m)) * sum -
+  const double lever = (square(to.pose.x_m) + square(to.pose.y_m)) * (to.turn_variance - from.turn_variance) -
                        2.0 * to.pose.x_m * (to.turn_variance_x - from.turn_variance_x) -
                        2.0 * to.pose.y_m * (to.turn_variance_y - from.turn_variance_y) +
                        (to.turn_variance_r2 - from.turn_variance_r2);
-  result.distance_sigma = std::sqrt(std::max(0.0, lever) + to.length_variance - from.length_variance);
-  const double turn_rad = wrap_angle(to.pose.theta_rad - from.pose.theta_rad);
-  result.turn_rad = a <= b ? turn_rad : wrap_angle(-turn_rad);
-  result.turn_sigma_rad = std::sqrt(sum);
+  return std::max(0.0, lever);
+}
+
+TrackPrediction TourTrack::predict(int a, int b) const {
+  TrackPrediction result;
+  if (!joined(a, b)) return result;
+  const Pose2& from = pose(a);
+  const Pose2& to = pose(b);
+  result.known = true;
+  result.distance = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+  result.distance_sigma = std::sqrt(lever_variance(a, b) + length_variance(a, b));
+  result.turn_rad = wrap_angle(to.theta_rad - from.theta_rad);
+  result.turn_sigma_rad = std::sqrt(turn_variance(a, b));
   return result;
 }
 
-WayEvidence TourTrack::judge(int a, int b) const {
+WayEvidence TourTrack::judge(int a, int b, const TrackPrediction& predicted) const {
   if (a == b) return {TrackVerdict::kAgrees, 1.0};
-  const TrackPrediction predicted = predict(a, b);
   if (!predicted.known) return {};
   const double beyond = predicted.distance - kFarthestExtents * place_extent_;
   if (beyond > config_.sure_sigmas * predicted.distance_sigma) return {TrackVerdict::kContradicts, 0.0};

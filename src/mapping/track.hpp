@@ -16,7 +16,8 @@ struct TrackConfig {
   double odometry_turn_sigma_rad = 0.05;      // of one step whose turn only odometry knows
   double most_turn_conflict_rad = 0.35;       // between picture and odometry; beyond, the robot was carried or moved
   double odometry_length_sigma = 0.1;         // of one step, as a share of its length
-  double picture_length_sigma = 0.35;         // the same where lengths are only known from parallax
+  double picture_length_sigma = 0.35;         // the same where lengths are only known from parallax, at most
+  double least_length_sigma = 0.1;            // and at least, however well the tour's own loops fit
   double least_typical_parallax_rad = 0.005;  // between tour neighbours; below, parallax does not tell lengths
   double sure_sigmas = 3.0;
   double least_turn_margin_rad = 0.17;  // a verified turn may miss the prediction by so much and 3 sigma
@@ -54,10 +55,36 @@ class TourTrack {
   [[nodiscard]] TrackPrediction predict(int a, int b) const;
 
   /// Whether the way allows that a and b are one place, given the verified turn between them where there is one.
-  [[nodiscard]] WayEvidence judge(int a, int b) const;
+  [[nodiscard]] WayEvidence judge(int a, int b) const { return judge(a, b, predict(a, b)); }
+
+  /// The same by a prediction that knows more than the way alone.
+  [[nodiscard]] WayEvidence judge(int a, int b, const TrackPrediction& predicted) const;
+
+  [[nodiscard]] int images() const { return static_cast<int>(points_.size()); }
+  /// Where image i lies on the way reckoned; only differences between joined images mean something.
+  [[nodiscard]] const Pose2& pose(int i) const { return points_[static_cast<std::size_t>(i)].pose; }
+  /// Whether the way between two images is known without a break.
+  [[nodiscard]] bool joined(int a, int b) const;
+  /// What the lengths of the steps between two images contribute to the variance of their distance, what their turns
+  /// do, and the variance of the turn itself.
+  [[nodiscard]] double length_variance(int a, int b) const;
+  [[nodiscard]] double lever_variance(int a, int b) const;
+  [[nodiscard]] double turn_variance(int a, int b) const;
+
+  /// Distance in the way's own unit of two images that differ by this D: between tour neighbours both are known.
+  [[nodiscard]] double apart(double visual_distance) const { return visual_distance / distance_per_unit_; }
 
   /// Standard deviation of one verified turn, measured on the tours: turns of two steps against those of both.
   [[nodiscard]] double turn_sigma_rad() const { return turn_sigma_rad_; }
+
+  /// Standard deviation of the length of one step where lengths are only known from pictures, as a share of it:
+  /// measured on the tour's own short loops.
+  [[nodiscard]] double length_sigma() const { return length_sigma_; }
+
+  [[nodiscard]] double sure_sigmas() const { return config_.sure_sigmas; }
+
+  /// How large a place is, in the way's own unit.
+  [[nodiscard]] double place_extent() const { return place_extent_; }
 
  private:
   struct Step {
@@ -76,6 +103,8 @@ class TourTrack {
     double turn_variance_y = 0.0;
     double turn_variance_r2 = 0.0;  // sum v (x^2 + y^2)
   };
+  void measure_distances(std::span<const int> tour_of);
+  void measure_lengths(std::span<const int> tour_of);
   [[nodiscard]] Step step(std::span<const map::MapImage> images, int i, double typical_parallax_rad) const;
 
   const PairTable& pairs_;
@@ -83,6 +112,8 @@ class TourTrack {
   double place_extent_;
   TrackConfig config_;
   double turn_sigma_rad_ = 0.0;
+  double length_sigma_ = 0.0;
+  double distance_per_unit_ = 1.0;  // D
   std::vector<Point> points_;
 };
 

@@ -33,6 +33,10 @@ std::string reason(const BuiltMap& built, const ReportFacts& facts, int index) {
   const mapping::HypothesisConfig& config = built.notes.mapping.config.hypotheses;
   if (h.by != "method") return "A person decided this.";
   const auto way = way_of(built, index);
+  const std::vector<char>& taken_back = built.notes.mapping.taken_back;
+  if (taken_back.size() == built.map.hypotheses.size() && taken_back[at(index)] != 0) {
+    return "It was accepted at first. The other loops that were closed lead elsewhere: taken back, two places.";
+  }
   if (h.decision == map::Decision::kRejected && way == mapping::TrackVerdict::kContradicts) {
     return "They look alike, but the way driven between them leads elsewhere: two places.";
   }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mapping/clustering.hpp"
+#include "mapping/hypotheses.hpp"
+#include "mapping/map_builder.hpp"
+#include "mapping/similarity.hpp"
+#include "mapping/subclusters.hpp"
+#include "mapping/track.hpp"
+
+namespace homeward::mapping {
+
+/// Which images make one place, and every loop that was weighed on the way to it.
+struct ClosedLoops {
+  std::vector<int> cluster_of;  // of each image
+  std::vector<Subcluster> parts;
+  std::vector<LoopHypothesis> hypotheses;  // in the order of their prototypes
+  std::vector<int> place_of_part;
+};
+
+/// Clusters, subclusters, hypotheses, evidence and decisions. labels: of each image, null where it has none; two that
+/// differ never share a place. threshold: the visual distance up to which images make one place. `previous`, or null:
+/// the decisions of people on its hypotheses hold.
+ClosedLoops close_loops(const MappingInput& input, const MappingConfig& config, const TourTrack& track,
+                        const std::vector<const std::string*>& labels, float threshold,
+                        const map::TopologicalMap* previous);
+
+}  // namespace homeward::mapping
