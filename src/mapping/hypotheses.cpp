@@ -163,7 +163,7 @@ void collect_evidence(std::span<LoopHypothesis> hypotheses, std::span<const Subc
     hypothesis.decision = excluded ? map::Decision::kRejected : decide(hypothesis.after, config);
     // Where looks cannot be trusted, many of them that agree cannot either: what deceives one deceives its neighbours.
     const bool looks_alone = hypothesis.reliability < config.least_reliability;
-    if (looks_alone && hypothesis.decision == map::Decision::kAccepted) {
+    if ((looks_alone || !hypothesis.meets) && hypothesis.decision == map::Decision::kAccepted) {
       hypothesis.decision = map::Decision::kUndecided;
     }
   }

@@ -33,6 +33,7 @@ struct LoopHypothesis {
   map::Decision decision = map::Decision::kUndecided;
   std::string by = "method";
   bool across = false;  // the two lie in different clusters
+  bool meets = true;    // some picture of one shares as many features with one of the other as pictures of one spot do
   // It was accepted until the other loops that were closed excluded it. `before` then tells what spoke for it,
   // `after` the contradiction.
   bool taken_back = false;

@@ -17,15 +17,17 @@ constexpr double kToursApartImages = 1e6;  // so far apart along the way are ima
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-/// D, but infinite between two images that carry different marks (each stands for a place of its own) and between two
-/// that the way driven keeps apart. Valid as long as its parameters are.
-DistanceFunction clustering_distance(const MappingInput& input, const std::vector<const std::string*>& labels,
-                                     const TourTrack& track, bool ask_way) {
-  return [&input, &labels, &track, ask_way](int a, int b) {
+/// D, but infinite between two images that carry different marks (each stands for a place of its own), that have hardly
+/// anything in common, or that the way driven keeps apart. Valid as long as its parameters are.
+DistanceFunction clustering_distance(const MappingInput& input, const MappingConfig& config,
+                                     const std::vector<const std::string*>& labels, const TourTrack& track) {
+  return [&input, &config, &labels, &track](int a, int b) {
     const bool marks_differ = labels[at(a)] != nullptr && labels[at(b)] != nullptr && *labels[at(a)] != *labels[at(b)];
-    const float distance = input.pairs->distance(a, b);
+    const PairRelation relation = a == b ? PairRelation{0.0F, 1, 1.0F} : input.pairs->relation(a, b);
+    const float distance = relation.distance;
     const bool apart =
-        marks_differ || (ask_way && std::isfinite(distance) && track.judge(a, b).verdict == TrackVerdict::kContradicts);
+        marks_differ || relation.match_share < config.least_place_share ||
+        (config.sources.way && std::isfinite(distance) && track.judge(a, b).verdict == TrackVerdict::kContradicts);
     return apart ? std::numeric_limits<float>::infinity() : distance;
   };
 }
@@ -248,7 +250,7 @@ std::vector<int> Judgement::decide(std::vector<LoopHypothesis>& hypotheses) cons
 ClosedLoops close_loops(const MappingInput& input, const MappingConfig& config, const TourTrack& track,
                         const std::vector<const std::string*>& labels, float threshold,
                         const map::TopologicalMap* previous) {
-  const DistanceFunction distance = clustering_distance(input, labels, track, config.sources.way);
+  const DistanceFunction distance = clustering_distance(input, config, labels, track);
   const SamePlaceScale scale = same_place_scale(input, track, config.sources.beside);
   ClosedLoops result;
   result.cluster_of = complete_linkage(near_lists(*input.pairs, distance), threshold);
@@ -262,6 +264,13 @@ ClosedLoops close_loops(const MappingInput& input, const MappingConfig& config, 
   result.hypotheses = formulate_hypotheses(parts, similarity, config.hypotheses);
   if (config.sources.across) {
     add_across_clusters(result.hypotheses, parts, input, track, threshold, similarity, config.hypotheses);
+  }
+  for (LoopHypothesis& hypothesis : result.hypotheses) {
+    hypothesis.meets = std::ranges::any_of(parts[at(hypothesis.a)].images, [&](int x) {
+      return std::ranges::any_of(parts[at(hypothesis.b)].images, [&](int y) {
+        return input.pairs->relation(x, y).match_share >= config.least_meeting_share;
+      });
+    });
   }
   // What one place may not hold, whatever speaks for it: two marks, two stretches that follow each other on the tour,
   // images that look too different to be one place.

@@ -29,6 +29,8 @@ struct MappingConfig {
   double place_extent_images = 3.0;    // tour images that a place usually spans where the tour has no odometry
   double place_extent_m = 1.2;         // and how long it is where it has
   float widest_place = 2.0F;           // images of one place differ by at most so many usual distances of one extent
+  float least_place_share = 0.06F;     // of their features that two images of one place have in common, see README
+  float least_meeting_share = 0.15F;   // of two passes, that some pair of images has in common where they meet
   double weak_below_confidence = 0.2;  // an edge whose verified pose is less certain is weak
   int extra_place_depth = 3;           // how often a way is halved by extra places where its edge is weak; 0: never
   EvidenceSources sources;

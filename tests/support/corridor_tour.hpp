@@ -46,6 +46,7 @@ inline CorridorTour corridor_tour(const std::vector<double>& position_m, const s
       relation.distance =
           static_cast<float>(0.5 * apart_m + 0.01 + 0.001 * std::fmod(7.0 * static_cast<double>(a + 3 * b), 11.0));
       relation.inliers = 60;
+      relation.match_share = static_cast<float>(0.44 * std::exp(-0.55 * apart_m));  // as in rendered rooms
       relation.confidence = 0.95F;
       relation.parallax_rad = static_cast<float>(std::atan(apart_m / 3.0));  // walls 3 m away
       relation.direction_rad = position_m[b] >= position_m[a] ? 0.0F : 3.14F;

@@ -150,6 +150,7 @@ Rooms three_rooms(bool odometry) {
       PairRelation relation;
       relation.distance = static_cast<float>(0.5 * apart_m + 0.01 + 0.001 * ((7 * a + 3 * b) % 11));
       relation.inliers = 60;
+      relation.match_share = static_cast<float>(0.44 * std::exp(-0.55 * apart_m));
       relation.confidence = 0.95F;
       relation.direction_rad = static_cast<float>(std::atan2(between.y_m, between.x_m));
       relation.turn_rad = static_cast<float>(between.theta_rad);

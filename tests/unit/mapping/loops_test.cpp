@@ -71,6 +71,55 @@ TEST(CloseLoops, JoinsAcrossClustersWhatLinkageParted) {
   for (const map::Place& place : with.places) EXPECT_LE(place.members.size(), 10U);
 }
 
+/// There and back along a corridor, of whose features no two pictures of the two ways share more than this.
+CorridorTour hardly_met(float share) {
+  CorridorTour tour = corridor_tour(walk(30, true), {60});
+  for (int a = 0; a < 30; ++a) {
+    for (int b = 30; b < 60; ++b) {
+      PairRelation relation = tour.pairs.relation(a, b);
+      if (!relation.verified()) continue;
+      relation.match_share = std::min(relation.match_share, share);
+      tour.pairs.set(a, b, relation);
+    }
+  }
+  return tour;
+}
+
+TEST(CloseLoops, LeavesOpenWhatSharesTooLittleToBeOneSpot) {
+  MappingConfig config;
+  const map::TopologicalMap met = make_map(hardly_met(1.0F).input(), config, nullptr);
+  const CorridorTour tour = hardly_met(0.9F * config.least_meeting_share);
+  const map::TopologicalMap open = make_map(tour.input(), config, nullptr);
+  EXPECT_GT(joined(met, hardly_met(1.0F), 30), 20);
+  EXPECT_LE(joined(open, tour, 30), 4);  // where it turns round they follow each other
+  ASSERT_GT(open.hypotheses.size(), 5U);
+  for (const map::Hypothesis& hypothesis : open.hypotheses) {
+    EXPECT_NE(hypothesis.decision, map::Decision::kAccepted);
+  }
+  // A person may know better.
+  map::TopologicalMap decided = open;
+  map::Edit edit;
+  edit.kind = map::EditKind::kDecide;
+  edit.image_a = open.hypotheses.front().prototype_a;
+  edit.image_b = open.hypotheses.front().prototype_b;
+  edit.text = "accept";
+  decided.edits.push_back(edit);
+  EXPECT_GT(joined(make_map(tour.input(), config, &decided), tour, 30), joined(open, tour, 30));
+}
+
+TEST(CloseLoops, StopsFarApartArePlacesOfTheirOwn) {
+  CorridorTour tour = corridor_tour(walk(30, false), {30});
+  for (int b = 1; b < 30; ++b) {
+    for (int a = 0; a < b; ++a) {
+      PairRelation relation = tour.pairs.relation(a, b);
+      if (!relation.verified()) continue;
+      relation.match_share = 0.9F * MappingConfig().least_place_share;
+      tour.pairs.set(a, b, relation);
+    }
+  }
+  EXPECT_EQ(make_map(tour.input(), {}, nullptr).places.size(), 30U);
+}
+
 constexpr int kLength = 30;
 
 /// Four times along a corridor, turning at its ends, in steps of which pictures tell no more than that they are steps.
@@ -101,6 +150,7 @@ CorridorTour moved_poster() {
       PairRelation relation;
       relation.distance = static_cast<float>(0.2 * apart + 0.005 + 0.0005 * ((7 * a + 3 * b) % 11));
       relation.inliers = 60;
+      relation.match_share = static_cast<float>(0.44 * std::exp(-0.55 * apart));
       relation.confidence = 0.95F;
       relation.direction_rad = static_cast<float>(std::atan2(between.y_m, between.x_m));
       relation.turn_rad = static_cast<float>(between.theta_rad);

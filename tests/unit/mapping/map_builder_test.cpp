@@ -88,6 +88,7 @@ TEST(MapBuilder, ALonelyLikenessIsNotALoop) {
   PairRelation alike;
   alike.distance = 0.02F;  // two doors of one kind, 12 m apart, and nothing around them is alike
   alike.inliers = 40;
+  alike.match_share = 0.3F;
   tour.pairs.set(5, 35, alike);
   const map::TopologicalMap map = make_map(tour.input(), {}, nullptr);
   expect_whole(map, tour);
