@@ -193,11 +193,13 @@ NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, 
   const ExtraPlaces extra = insert_extra_places(input, config, pinned, sights, map.places, place_of_image);
   map.edges = form_edges(input, path, track, config, map.places, place_of_image, sights);
   map.destinations = form_destinations(input, map.places, place_of_image);
-  MappingNotes notes{config, threshold, cluster_of, {}, {}, {}, extra.weak_before, extra.weak_after};
+  MappingNotes notes{config, threshold, cluster_of, {}, {}, {}, {}, {}, extra.weak_before, extra.weak_after};
   for (const int image : extra.prototypes) notes.extra.push_back(input.images[at(image)].id);
   for (const LoopHypothesis& hypothesis : hypotheses) {
     notes.way.push_back(hypothesis.way.verdict);
     notes.taken_back.push_back(hypothesis.taken_back ? 1 : 0);
+    notes.meets.push_back(hypothesis.meets ? 1 : 0);
+    notes.reliability.push_back(hypothesis.reliability);
     map::Hypothesis kept;
     kept.prototype_a = input.images[at(parts[at(hypothesis.a)].prototype)].id;
     kept.prototype_b = input.images[at(parts[at(hypothesis.b)].prototype)].id;

@@ -79,13 +79,15 @@ UsualDistances usual_distances(const MappingInput& input, const TourPath& path, 
 /// What the builder found out on its way and the map does not keep: for a report.
 struct MappingNotes {
   MappingConfig config;
-  float place_distance = 0.0F;    // the visual distance up to which images make one place
-  std::vector<int> cluster_of;    // of each image
-  std::vector<TrackVerdict> way;  // of the way driven on each of the map's hypotheses
-  std::vector<char> taken_back;   // 1 for those accepted until other loops excluded them
-  std::vector<ImageId> extra;     // prototypes of places that were put in where an edge would have been weak
-  int weak_before = 0;            // pairs of places whose edge would be weak without them
-  int weak_after = 0;             // of these, pairs that extra places do not join by sound edges either
+  float place_distance = 0.0F;      // the visual distance up to which images make one place
+  std::vector<int> cluster_of;      // of each image
+  std::vector<TrackVerdict> way;    // of the way driven on each of the map's hypotheses
+  std::vector<char> taken_back;     // 1 for those accepted until other loops excluded them
+  std::vector<char> meets;          // 0 for those whose pictures share too little to have been taken at one spot
+  std::vector<double> reliability;  // how far looks could be trusted for each of them
+  std::vector<ImageId> extra;       // prototypes of places that were put in where an edge would have been weak
+  int weak_before = 0;              // pairs of places whose edge would be weak without them
+  int weak_after = 0;               // of these, pairs that extra places do not join by sound edges either
 };
 
 /// A map with how it came about.

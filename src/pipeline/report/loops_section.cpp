@@ -27,6 +27,19 @@ std::string way_text(const std::optional<mapping::TrackVerdict>& way) {
   return *way == mapping::TrackVerdict::kContradicts ? "contradicts" : "cannot tell";
 }
 
+/// What keeps a hypothesis open that has support enough.
+std::string obstacle(const BuiltMap& built, int index) {
+  const mapping::MappingNotes& notes = built.notes.mapping;
+  if (notes.meets.size() == built.map.hypotheses.size() && notes.meets[at(index)] == 0) {
+    return "their pictures share too few features to have been taken at one spot";
+  }
+  if (notes.reliability.size() == built.map.hypotheses.size() &&
+      notes.reliability[at(index)] < notes.config.hypotheses.least_reliability) {
+    return "looks were wrong too often on this tour to be trusted";
+  }
+  return "one place of both would join places that are kept apart";
+}
+
 /// Why it was decided so, in a sentence.
 std::string reason(const BuiltMap& built, const ReportFacts& facts, int index) {
   const map::Hypothesis& h = built.map.hypotheses[at(index)];
@@ -51,8 +64,7 @@ std::string reason(const BuiltMap& built, const ReportFacts& facts, int index) {
       break;
     case map::Decision::kUndecided:
       text = h.support > config.accept_support
-                 ? "Support " + number(h.support, 2) +
-                       " would do, but one place of both would join places that are kept apart."
+                 ? "Support " + number(h.support, 2) + " would do, but " + obstacle(built, index) + "."
                  : "Support " + number(h.support, 2) + " is not above " + number(config.accept_support, 2) +
                        " and plausibility " + number(h.plausibility, 2) + " not below " +
                        number(config.reject_plausibility, 2) +

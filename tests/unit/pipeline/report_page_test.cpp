@@ -50,6 +50,9 @@ BuiltMap with_hypotheses(int count) {
   BuiltMap map = built();
   map.map.hypotheses.clear();
   map.notes.mapping.way.clear();
+  map.notes.mapping.meets.clear();
+  map.notes.mapping.reliability.clear();
+  map.notes.mapping.taken_back.clear();
   for (int i = 0; i < count; ++i) {
     map::Hypothesis hypothesis;
     hypothesis.prototype_a = map.map.images[static_cast<std::size_t>(i % 5)].id;
@@ -121,6 +124,18 @@ TEST(ReportPage, AHypothesisHasItsMassesItsDecisionAndWhy) {
   EXPECT_THAT(page, HasSubstr("kept apart until somebody knows better."));
   EXPECT_THAT(page, HasSubstr("way driven: not told"));
   EXPECT_THAT(page, HasSubstr("Look at 1 undecided loop<"));
+}
+
+TEST(ReportPage, TellsWhatKeepsAHypothesisWithSupportEnoughOpen) {
+  BuiltMap map = with_hypotheses(1);
+  map.map.hypotheses[0].decision = map::Decision::kUndecided;
+  map.notes.mapping.meets = {1};
+  map.notes.mapping.reliability = {1.0};
+  EXPECT_THAT(page_of(map), HasSubstr("Support 0.81 would do, but one place of both would join places"));
+  map.notes.mapping.reliability = {0.1};
+  EXPECT_THAT(page_of(map), HasSubstr("Support 0.81 would do, but looks were wrong too often"));
+  map.notes.mapping.meets = {0};
+  EXPECT_THAT(page_of(map), HasSubstr("Support 0.81 would do, but their pictures share too few features"));
 }
 
 TEST(ReportPage, ShowsTheLeastCertainHypothesesAndSaysSo) {
