@@ -30,8 +30,9 @@ std::vector<int> without_rounds(const std::vector<int>& chain, const Roads& road
   for (const int edge : chain) {
     const auto known = leaves_at.find(roads.from(edge));
     if (known != leaves_at.end()) {
-      for (std::size_t i = known->second; i < straight.size(); ++i) leaves_at.erase(roads.from(straight[i]));
-      straight.resize(known->second);
+      const std::size_t kept = known->second;  // what is erased next may hold it
+      for (std::size_t i = kept; i < straight.size(); ++i) leaves_at.erase(roads.from(straight[i]));
+      straight.resize(kept);
     }
     leaves_at[roads.from(edge)] = straight.size();
     straight.push_back(edge);
