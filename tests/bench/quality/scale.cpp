@@ -26,8 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-std::vector<features::Appearance> look_at(const fs::path& folder) {
-  const camera::CameraConfig config = or_die(agent::read_camera(folder / "camera.json"));
+std::vector<features::Appearance> look_at(const fs::path& folder, const camera::CameraConfig& config) {
   const auto eye = or_die(pipeline::Eye::create(config, usual_features(config)));
   std::vector<features::Appearance> tour;
   for (const auto& [file, pose] : read_poses(folder / "poses.csv")) {
@@ -122,7 +121,7 @@ struct Measured {
 /// One size of tour. `look`: what decoding and features take for one picture, on one thread; every picture of a real
 /// tour costs it once.
 Measured measure(const std::vector<features::Appearance>& tour, std::size_t images, int threads, bool only_candidates,
-                 const Stage& look, const fs::path& file) {
+                 const Stage& look, const camera::CameraConfig& camera, const fs::path& file) {
   const auto appearances = strung_together(tour, images);
   const std::vector<int> tour_of(images, 0);
   StageClock clock;
@@ -146,6 +145,7 @@ Measured measure(const std::vector<features::Appearance>& tour, std::size_t imag
   }
   map::TopologicalMap map = mapping::make_map({names, tour_of, appearances, {}, &table}, {}, nullptr);
   const Stage made = clock.lap();
+  map.camera = camera;
   map.calibration =
       or_die(pipeline::learn_calibration(map, appearances, tour_of, threads, Teller(images, "calibration"), {}));
   const Stage calibrated = clock.lap();
@@ -208,7 +208,8 @@ int main(int argc, char** argv) {
   try {
     cv::setNumThreads(1);
     homeward::StageClock clock;
-    const auto tour = homeward::look_at(folder);
+    const auto camera = homeward::or_die(homeward::agent::read_camera(std::filesystem::path(folder) / "camera.json"));
+    const auto tour = homeward::look_at(folder, camera);
     homeward::Stage look = clock.lap();
     look.wall_s /= static_cast<double>(tour.size());
     look.cpu_s /= static_cast<double>(tour.size());
@@ -219,7 +220,7 @@ int main(int argc, char** argv) {
                  "peak_mib\n";
     std::vector<homeward::Measured> measured;
     for (const std::size_t images : sizes) {
-      measured.push_back(homeward::measure(tour, images, threads, only_candidates, look, file));
+      measured.push_back(homeward::measure(tour, images, threads, only_candidates, look, camera, file));
     }
     if (measured.size() > 1) {
       std::cerr << "exponent of time " << homeward::exponent(measured, &homeward::Measured::wall_s)
