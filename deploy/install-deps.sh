@@ -22,6 +22,7 @@ packages=(
   libopencv-contrib-dev
   libturbojpeg0-dev
   libopengv-dev
+  libceres-dev
   libsqlite3-dev
   libsqlitecpp-dev
   nlohmann-json3-dev

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/driving/follow.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -38,6 +39,46 @@ void expect_onwards(FollowState& state, const VisualPath& path, int from) {
                                        across_m * across_m * across * across.transpose(),
                                    wrap_angle(track.heading_rad() + edge->turn_rad.value_or(0.0)));
   }
+}
+
+/// How far the view homed to is, as the map's edges and other pictures say.
+std::optional<homing::DistancePrior> distance_known(const ViewTrack& track, const Eigen::Vector2d& here) {
+  if (!track.known()) return std::nullopt;
+  const double distance_m = std::max(0.1, (track.position_m() - here).norm());
+  return homing::DistancePrior{distance_m, std::clamp(track.doubt_m() / distance_m, 0.1, 0.8)};
+}
+
+/// The view homed to through its local map; false where the picture says nothing of it.
+bool home_to(FollowState& state, const VisualPath& path, const features::Appearance& seen, const Pose2& odometry,
+             const FollowConfig& config, std::uint64_t seed, FollowResult& result) {
+  const auto index = static_cast<std::size_t>(state.index);
+  if (state.visual_index != state.index) {
+    homing::VisualHomingConfig visual = config.visual;
+    visual.first = config.homing;
+    visual.prior_odds = config.path_odds;
+    visual.begin_confidence = config.believe;
+    state.visual = homing::VisualHoming(visual);
+    state.visual_index = state.index;
+  }
+  ViewTrack& track = state.tracks[index];
+  const auto answer =
+      state.visual.update(seen, path.views[index], odometry, distance_known(track, position(odometry)), seed);
+  state.measured = answer && answer->target_m;
+  if (!answer || answer->vector.confidence < config.believe) {
+    state.measured = false;
+    return false;
+  }
+  if (state.measured) {
+    const Eigen::Rotation2Dd turned(odometry.theta_rad);
+    track.settle(position(odometry) + turned * *answer->target_m, turned * answer->covariance_m2 * turned.inverse(),
+                 odometry.theta_rad + answer->vector.turn_rad);
+  } else if (!track.observe(odometry, answer->vector, config.track)) {
+    return false;
+  }
+  result.vector = answer->vector;
+  const int fewer = std::min(seen.size(), path.views[index].size());
+  state.alike = static_cast<double>(answer->vector.inliers) / std::max(1, fewer);
+  return true;
 }
 
 /// Whether a view on the way is done with: reached, or the robot is level with it on the way to the next.
@@ -80,7 +121,14 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
   const Eigen::Vector2d here = position(odometry);
   const int first = state.index;
   int clearest = -1;
-  for (int index = first; index <= std::min(last, first + config.look_ahead); ++index) {
+  if (home_to(state, path, seen, odometry, config, seed, result)) {
+    result.answered = true;
+    state.blind_m = 0.0;
+    if (is_sure(*result.vector, config)) clearest = first;
+    expect_onwards(state, path, first);
+    if (first == last) state.heading_left_rad = result.vector->turn_rad;
+  }
+  for (int index = first + 1; index <= std::min(last, first + config.look_ahead); ++index) {
     auto vector = homing::home_vector(seen, path.views[static_cast<std::size_t>(index)], config.homing, seed);
     if (!vector) continue;
     vector->confidence = with_odds(vector->confidence, config.path_odds);
@@ -88,7 +136,7 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
     ViewTrack& track = state.tracks[static_cast<std::size_t>(index)];
     // Views further on are seen from afar, and wrong answers agree with each other there: only clear ones move them.
     // Others may still say that the way is recognised.
-    if (index != first && !is_sure(*vector, config)) {
+    if (!is_sure(*vector, config)) {
       if (!track.known() || !track.agrees(odometry, *vector, config.track)) continue;
       result.answered = true;
       state.blind_m = 0.0;
@@ -97,12 +145,7 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
     if (!track.observe(odometry, *vector, config.track)) continue;
     result.answered = true;
     state.blind_m = 0.0;
-    if (index == first) {
-      result.vector = *vector;
-      const int fewer = std::min(seen.size(), path.views[static_cast<std::size_t>(index)].size());
-      state.alike = static_cast<double>(vector->inliers) / std::max(1, fewer);
-    }
-    if (is_sure(*vector, config) && clearest < 0) clearest = index;
+    if (clearest < 0) clearest = index;
     expect_onwards(state, path, index);
     if (index == last) state.heading_left_rad = vector->turn_rad;
   }
@@ -119,7 +162,8 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
     state.behind = behind ? state.behind + 1 : 0;
     const bool coincides =
         result.vector->median_parallax_rad < config.homing.arrived_parallax_rad && state.alike > config.alike_share;
-    result.at_end = coincides || (state.behind >= 2 && distance_m < config.nearby_m);
+    result.at_end = state.measured ? distance_m < config.reached_m
+                                   : coincides || (state.behind >= 2 && distance_m < config.nearby_m);
   }
   return result;
 }

@@ -9,6 +9,7 @@
 #include "core/pose2.hpp"
 #include "features/appearance.hpp"
 #include "homing/home_vector.hpp"
+#include "homing/visual_homing.hpp"
 #include "wire/link_messages.hpp"
 
 namespace homeward::agent {
@@ -21,6 +22,7 @@ struct VisualPath {
 
 struct FollowConfig {
   homing::HomingConfig homing;
+  homing::VisualHomingConfig visual;
   ViewTrackConfig track;
   double pass_m = 0.5;     // a view on the way is passed within this distance
   double abreast_m = 1.1;  // or when the robot is level with it within this one
@@ -31,6 +33,7 @@ struct FollowConfig {
   double believe = 0.5;       // below that an answer says nothing
   int look_ahead = 3;         // views tried beyond the present one
   double blind_m = 1.6;       // so far the robot drives on by odometry when no view answers
+  double reached_m = 0.03;    // the destination's view is reached within this distance, where it is measured
   double nearby_m = 1.0;      // the destination's view counts as reached or left behind only when it must be so near
   double alike_share = 0.35;  // of the features that agree where two views coincide
 };
@@ -41,6 +44,9 @@ struct FollowState {
   std::vector<ViewTrack> tracks;  // one for each view
   Pose2 odometry;                 // at the latest picture
   double blind_m = 0.0;           // driven since the last answer that was believed
+  homing::VisualHoming visual;    // to the view homed to
+  int visual_index = -1;          // which one that is
+  bool measured = false;          // the latest picture says in metres where the view homed to is
   double heading_left_rad = 0.0;  // from the heading at `odometry` to that of the destination's view
   int behind = 0;                 // answers in a row that say that the destination's view lies behind
   double alike = 0.0;             // share of the features that agree with the view homed to, at the latest picture

@@ -62,6 +62,26 @@ Motion slowed_by_silence(const Motion& wanted, const DrivingState& state, const 
   return {std::clamp(wanted.speed_mps, -speed_mps, speed_mps), std::clamp(wanted.turn_radps, -turn_radps, turn_radps)};
 }
 
+constexpr double kFinal_m = 0.35;  // so near, the destination is driven to straight, backwards where it lies behind
+
+/// The last bit of the way: turning towards the destination, or away from it where it lies behind, then straight.
+Motion approach(const Eigen::Vector2d& goal_m, const Body& body) {
+  constexpr double kSlowest_mps = 0.05;
+  constexpr double kGain_per_s = 0.7;
+  constexpr double kAhead_rad = 0.25;  // driven only with the destination that much ahead or behind
+  const double ahead_rad = std::atan2(goal_m.y(), goal_m.x());
+  const bool behind = std::abs(ahead_rad) > 0.5 * kPi;
+  const double off_rad = behind ? wrap_angle(ahead_rad + kPi) : ahead_rad;
+  Motion motion;
+  motion.turn_radps = std::clamp(1.5 * off_rad, -0.6, 0.6);
+  motion.turn_radps = std::clamp(motion.turn_radps, -body.max_turn_radps, body.max_turn_radps);
+  if (std::abs(off_rad) < kAhead_rad) {
+    const double speed_mps = std::max(kSlowest_mps, kGain_per_s * goal_m.norm());
+    motion.speed_mps = behind ? -std::min(speed_mps, 0.1) : std::min(speed_mps, 0.2);
+  }
+  return motion;
+}
+
 Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& config,
              const std::vector<Eigen::Vector2d>& points_m) {
   const bool last_view = state.follow.index + 1 == static_cast<int>(state.mission->path.views.size());
@@ -82,10 +102,11 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   if (last_view) {
     // The destination is approached so slowly that one picture's way is a fraction of the tolerance. How near it is, is
     // known roughly; its direction is known well, so that is driven until it lies abeam.
+    if (state.follow.measured && goal_m->norm() < kFinal_m) return approach(*goal_m, config.body);
     const bool alike = state.follow.alike > 0.25;
     speed_mps = std::min(speed_mps, std::max(alike ? 0.12 : 0.18, 0.6 * goal_m->norm()));
     constexpr double kLeastAim_m = 0.4;
-    if (state.seen.vector && goal_m->norm() < kLeastAim_m) {
+    if (!state.follow.measured && state.seen.vector && goal_m->norm() < kLeastAim_m) {
       const double bearing_rad = state.seen.vector->bearing_rad;
       aim_m = kLeastAim_m * Eigen::Vector2d(std::cos(bearing_rad), std::sin(bearing_rad));
     }

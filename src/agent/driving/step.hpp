@@ -33,7 +33,7 @@ struct DrivingConfig {
   Milliseconds blind_ms = 4000;          // nothing recognised for so long: the mission fails
   Milliseconds stuck_ms = 20'000;        // no way gained for so long: the mission fails
   double turn_gain = 1.8;                // turn rate for each radian towards the carrot
-  double dock_within_rad = 0.06;         // heading at the end
+  double dock_within_rad = 0.02;         // heading at the end
 };
 
 /// What is new since the last step. Pictures and sweeps carry the time at which they were taken, by the sensors' clock:

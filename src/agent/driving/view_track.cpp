@@ -90,6 +90,14 @@ bool ViewTrack::observe(const Pose2& robot, const homing::HomeVector& answer, co
   return true;
 }
 
+void ViewTrack::settle(const Eigen::Vector2d& position_m, const Eigen::Matrix2d& covariance_m2, double heading_rad) {
+  known_ = true;
+  contradictions_ = 0;
+  position_m_ = position_m;
+  covariance_m2_ = covariance_m2;
+  heading_rad_ = wrap_angle(heading_rad);
+}
+
 void ViewTrack::measure(const Eigen::Vector2d& axis, double off_m, double doubt_m) {
   const double variance = axis.dot(covariance_m2_ * axis) + doubt_m * doubt_m;
   const Eigen::Vector2d gain = covariance_m2_ * axis / variance;

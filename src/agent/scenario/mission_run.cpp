@@ -185,6 +185,27 @@ class Drive {
 
 }  // namespace
 
+Result<MissionResult> drive_order(SimulatedRobot& robot, const pipeline::Eye& eye, const wire::MissionOrder& order,
+                                  const MissionPlan& plan, const DrivingConfig& config,
+                                  const ScenarioListener& listener) {
+  Drive drive(robot, eye, plan, config, listener);
+  if (const Status driven = drive.run(order); !driven) return pass_on(driven);
+  MissionResult result;
+  result.arrived = drive.state().drive == wire::DriveState::kArrived;
+  result.stops = drive.stops();
+  result.duration_s = drive.elapsed_s();
+  result.vectors_per_s = drive.vectors() / std::max(kCycle_s, drive.elapsed_s());
+  return result;
+}
+
+void judge(const sim::Vehicle& vehicle, const Pose2& target, MissionResult& result) {
+  result.final_error_m = std::hypot(vehicle.pose().x_m - target.x_m, vehicle.pose().y_m - target.y_m);
+  result.final_error_rad = std::abs(wrap_angle(vehicle.pose().theta_rad - target.theta_rad));
+  result.path_m = vehicle.path_m();
+  result.min_clearance_m = vehicle.min_clearance_m();
+  result.collisions = vehicle.collisions();
+}
+
 Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, const sim::RobotProfile& profile,
                                   const ScenarioListener& listener) {
   const sim::World& world = taught.world->world();
@@ -212,10 +233,6 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
   if (!eye) return pass_on(eye);
 
   MissionResult result;
-  result.from = plan.from;
-  result.to = plan.to;
-  result.shortest_m = sim::length_m(
-      sim::shortest_way(world.drivable, {start.x_m, start.y_m}, {target->second.x_m, target->second.y_m}));
   const auto place = find_place(taught, *robot);
   if (!place) return pass_on(place);
   if (!*place) {
@@ -228,20 +245,16 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
       DrivingConfig config;
       config.body = body_of(profile);
       config.feature_config_id = taught.map->feature_config_id;
-      Drive drive(*robot, *eye, plan, config, listener);
-      if (const Status driven = drive.run(*order); !driven) return pass_on(driven);
-      result.arrived = drive.state().drive == wire::DriveState::kArrived;
-      result.stops = drive.stops();
-      result.duration_s = drive.elapsed_s();
-      result.vectors_per_s = drive.vectors() / std::max(kCycle_s, drive.elapsed_s());
+      auto driven = drive_order(*robot, *eye, *order, plan, config, listener);
+      if (!driven) return pass_on(driven);
+      result = std::move(*driven);
     }
   }
-  const sim::Vehicle& vehicle = robot->vehicle();
-  result.final_error_m = std::hypot(vehicle.pose().x_m - target->second.x_m, vehicle.pose().y_m - target->second.y_m);
-  result.final_error_rad = std::abs(wrap_angle(vehicle.pose().theta_rad - target->second.theta_rad));
-  result.path_m = vehicle.path_m();
-  result.min_clearance_m = vehicle.min_clearance_m();
-  result.collisions = vehicle.collisions();
+  result.from = plan.from;
+  result.to = plan.to;
+  result.shortest_m = sim::length_m(
+      sim::shortest_way(world.drivable, {start.x_m, start.y_m}, {target->second.x_m, target->second.y_m}));
+  judge(robot->vehicle(), target->second, result);
   return result;
 }
 

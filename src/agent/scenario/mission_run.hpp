@@ -4,9 +4,13 @@
 #include <cstdint>
 #include <string>
 
+#include "agent/drivers/simulated_robot.hpp"
+#include "agent/driving/step.hpp"
 #include "agent/scenario/scenario_run.hpp"
 #include "agent/scenario/taught_world.hpp"
+#include "pipeline/eye.hpp"
 #include "sim/motion.hpp"
+#include "wire/link_messages.hpp"
 
 namespace homeward::agent {
 
@@ -19,6 +23,15 @@ struct MissionPlan {
   std::vector<wire::ScenarioFault> faults;
   std::uint64_t seed = 1;
 };
+
+/// Drives one order in simulated time with the agent's own heart, until it stands; how it went, but for the truth
+/// about where it came to (see judge). Of the plan, the faults count.
+Result<MissionResult> drive_order(SimulatedRobot& robot, const pipeline::Eye& eye, const wire::MissionOrder& order,
+                                  const MissionPlan& plan, const DrivingConfig& config,
+                                  const ScenarioListener& listener);
+
+/// Fills in what only the world knows: errors to the target's true pose, way, clearance, collisions.
+void judge(const sim::Vehicle& vehicle, const Pose2& target, MissionResult& result);
 
 /// Drives one mission in simulated time, with localiser and planner in the server's place.
 Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, const sim::RobotProfile& profile,

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "homing/visual_homing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "matching/verify.hpp"
+
+namespace homeward::homing {
+namespace {
+
+Eigen::Vector3d bearing(const features::FeatureSet& set, int index) {
+  return set.bearings.row(index).transpose().cast<double>().normalized();
+}
+
+std::vector<Sighting> sightings_of(const features::Appearance& current, const features::Appearance& target,
+                                   const std::vector<matching::Match>& matches) {
+  std::vector<Sighting> result;
+  for (const matching::Match& match : matches) {
+    if (match.kind != matching::FeatureKind::kSift) continue;
+    result.push_back({match.target, bearing(target.sift, match.target), bearing(current.sift, match.current)});
+  }
+  return result;
+}
+
+double log_odds(double probability) {
+  const double p = std::clamp(probability, 1e-4, 1.0 - 1e-4);
+  return std::log(p / (1.0 - p));
+}
+
+double probability(double odds_log) { return 1.0 / (1.0 + std::exp(-odds_log)); }
+
+/// The probability that a bearing with this spread is right within 15 degrees.
+double within_bound(double spread_rad) {
+  constexpr double kBound_rad = 15.0 * kPi / 180.0;
+  return std::erf(kBound_rad / (std::sqrt(2.0) * std::max(spread_rad, 1e-3)));
+}
+
+}  // namespace
+
+TargetSeen VisualHoming::answer(const LocalPose& pose, const HomeVector* fresh, int matches) const {
+  TargetSeen seen;
+  const Pose2 target = inverse(pose.target_from_robot);
+  seen.target_m = Eigen::Vector2d(target.x_m, target.y_m);
+  // p = -R(-theta) t: its covariance is that of t, turned, and what the heading's doubt adds across.
+  const double c = std::cos(pose.target_from_robot.theta_rad);
+  const double s = std::sin(pose.target_from_robot.theta_rad);
+  Eigen::Matrix<double, 2, 3> moved;
+  moved << -c, -s, target.y_m, s, -c, -target.x_m;
+  seen.covariance_m2 = moved * pose.covariance * moved.transpose();
+  seen.known = map_.features();
+  seen.vector.bearing_rad = std::atan2(target.y_m, target.x_m);
+  seen.vector.turn_rad = target.theta_rad;
+  const double distance_m = seen.target_m->norm();
+  seen.vector.nearness = distance_m / first_distance_;
+  seen.vector.matches = matches;
+  seen.vector.inliers = pose.inliers;
+  seen.vector.median_parallax_rad =
+      fresh != nullptr ? fresh->median_parallax_rad : distance_m / config_.metres_per_parallax;
+  const Eigen::Vector2d across(-std::sin(seen.vector.bearing_rad), std::cos(seen.vector.bearing_rad));
+  const double spread_rad = std::sqrt(across.dot(seen.covariance_m2 * across)) / std::max(distance_m, 1e-3);
+  seen.vector.confidence = probability(log_odds_) * within_bound(spread_rad);
+  return seen;
+}
+
+Result<TargetSeen> VisualHoming::update(const features::Appearance& current, const features::Appearance& target,
+                                        const std::optional<Pose2>& odometry, const std::optional<DistancePrior>& prior,
+                                        std::uint64_t seed) {
+  matching::VerifyConfig verify_config;
+  verify_config.min_inliers = config_.first.min_inliers;
+  std::vector<Sighting> all;
+  if (!map_.empty()) {
+    // The map first: it knows more than two views do, above all close to the target, where these say nothing.
+    all = sightings_of(current, target,
+                       matching::match_both_kinds(current, target, verify_config.match, verify_config.columns));
+    const auto pose = map_.pose_of(all, map_.expected(odometry), seed);
+    if (pose) {
+      misses_ = 0;
+      LocalPose best = *pose;
+      if (map_.wants(pose->target_from_robot)) {
+        const std::vector<Sighting> agreeing = map_.agreeing(all, pose->target_from_robot);
+        if (const auto refined = map_.add(agreeing, odometry, pose->target_from_robot)) {
+          best = *refined;
+          constexpr double kOddsOfAgreeing = 0.7;  // natural logarithm
+          constexpr double kMostOdds = 5.0;
+          log_odds_ = std::min(kMostOdds, log_odds_ + kOddsOfAgreeing);
+        }
+      } else {
+        best.covariance += map_.last_covariance();
+      }
+      return answer(best, nullptr, static_cast<int>(all.size()));
+    }
+    if (++misses_ < config_.patience) {
+      return fail(ErrorCode::kTooLittleSupport,
+                  "The picture does not agree with what is known of the target's features.");
+    }
+    map_ = LocalMap(config_.map);
+  }
+  const auto verified = matching::verify(current, target, verify_config, seed);
+  if (!verified) return pass_on(verified);
+  HomeVector vector;
+  vector.bearing_rad = verified->pose.motion.direction_rad;
+  vector.turn_rad = verified->pose.motion.turn_rad;
+  vector.median_parallax_rad = verified->pose.median_parallax_rad;
+  vector.matches = static_cast<int>(verified->matches.size());
+  vector.inliers = static_cast<int>(verified->pose.inliers.size());
+  log_odds_ = log_odds(verified->pose.confidence) + std::log(config_.prior_odds);
+  vector.confidence = probability(log_odds_);
+  TargetSeen seen;
+  seen.vector = vector;
+  if (vector.confidence < config_.begin_confidence) return seen;
+  std::vector<matching::Match> inliers;
+  for (const int inlier : verified->pose.inliers)
+    inliers.push_back(verified->matches[static_cast<std::size_t>(inlier)]);
+  const std::vector<Sighting> sightings = sightings_of(current, target, inliers);
+  const double guess_m = std::clamp(config_.metres_per_parallax * vector.median_parallax_rad, 0.05, 6.0);
+  const DistancePrior distance = prior.value_or(DistancePrior{guess_m, 0.7});
+  first_distance_ = distance.distance_m;
+  const Pose2 target_in_robot{distance.distance_m * std::cos(vector.bearing_rad),
+                              distance.distance_m * std::sin(vector.bearing_rad), vector.turn_rad};
+  if (static_cast<int>(sightings.size()) < config_.map.fewest) return seen;
+  const auto pose = map_.begin(sightings, odometry, {inverse(target_in_robot), distance.spread});
+  misses_ = 0;
+  if (!pose) return seen;
+  TargetSeen first = answer(*pose, &vector, vector.matches);
+  first.vector.inliers = vector.inliers;
+  first.began = true;
+  return first;
+}
+
+}  // namespace homeward::homing

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Homing to one view, again and again: targets at random in a world, starts some metres off with the target's spot in
+// sight, any headings. The agent's own heart drives; the world judges. One JSON line for each, then a summary.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "agent/drivers/usual_cameras.hpp"
+#include "agent/files/world_folder.hpp"
+#include "agent/scenario/mission_run.hpp"
+#include "core/angles.hpp"
+#include "sim/floor.hpp"
+#include "wire/appearance_blob.hpp"
+
+namespace {
+
+using namespace homeward;
+using nlohmann::json;
+
+template <typename T>
+T or_die(Result<T> result) {
+  if (!result) {
+    std::cerr << "homeward_bench_homing: " << result.error().message << "\n";
+    std::exit(1);
+  }
+  return std::move(*result);
+}
+
+bool in_sight(const sim::FloorGrid& drivable, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  constexpr int kSteps = 200;
+  for (int i = 0; i <= kSteps; ++i) {
+    if (!sim::is_set(drivable, a + (b - a) * (static_cast<double>(i) / kSteps))) return false;
+  }
+  return true;
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::ranges::sort(values);
+  return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string world_name = "house:1";
+  std::string light_name = "day";
+  std::string model = "hyperbolic_mirror";
+  std::string robot_name = "disc";
+  int starts = 100;
+  double distance_m = 3.0;
+  std::uint64_t seed = 1;
+  int only = -1;
+  bool trace = false;
+  CLI::App app("Homing to single views from random starts");
+  app.add_option("--world", world_name);
+  app.add_option("--light", light_name, "of the start; the target is seen by day");
+  app.add_option("--camera", model);
+  app.add_option("--robot", robot_name);
+  app.add_option("--starts", starts);
+  app.add_option("--distance", distance_m);
+  app.add_option("--seed", seed);
+  app.add_option("--only", only, "one start alone");
+  app.add_flag("--trace", trace, "each cycle on standard error");
+  CLI11_PARSE(app, argc, argv);
+
+  sim::LitWorld world(or_die(agent::load_world(world_name)));
+  const auto light = or_die(agent::light_named(light_name));
+  const auto day = or_die(agent::light_named("day"));
+  agent::prepare_light(world, day);
+  agent::prepare_light(world, light);
+  const camera::CameraConfig camera_config = agent::usual_camera(model).value();
+  const auto camera = or_die(camera::Camera::create(camera_config));
+  const auto features = pipeline::suited_feature_config(*camera);
+  const auto eye = or_die(pipeline::Eye::create(camera_config, features));
+  const sim::Renderer renderer(world, day, camera);
+  const sim::RobotProfile profile = robot_name == "chair" ? sim::chair_profile() : sim::disc_profile();
+
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> angle(-kPi, kPi);
+  const sim::FloorGrid& drivable = world.world().drivable;
+  std::vector<double> errors_m;
+  std::vector<double> headings_rad;
+  int arrived = 0;
+  int collisions = 0;
+  for (int i = 0; i < starts; ++i) {
+    Pose2 target;
+    Pose2 start;
+    for (;;) {
+      const Eigen::Vector2d at_m = sim::random_free_point(drivable, random);
+      const double way_rad = angle(random);
+      const Eigen::Vector2d from_m = at_m - distance_m * Eigen::Vector2d(std::cos(way_rad), std::sin(way_rad));
+      target = {at_m.x(), at_m.y(), angle(random)};
+      start = {from_m.x(), from_m.y(), angle(random)};
+      if (in_sight(drivable, from_m, at_m)) break;
+    }
+    const std::uint64_t own_seed = random();
+    if (only >= 0 && i != only) continue;
+    agent::SimulatedRobotConfig config;
+    config.camera = camera_config;
+    config.light = light;
+    config.profile = profile;
+    config.seed = own_seed;
+    auto robot = or_die(agent::SimulatedRobot::create(world, config, start));
+    wire::MissionOrder order;
+    order.mission = MissionId("homing");
+    order.order = {1, 1};
+    order.map = MapId("none");
+    order.feature_config_id = features::feature_config_id(features);
+    order.valid_for_ms = 1500;
+    order.speed_limit_mps = 0.45;
+    order.final_image = ImageId("target");
+    order.final_appearance =
+        wire::encode_appearance(or_die(eye.look(renderer.render(target, {}, own_seed + 1))));
+    order.dock = true;
+    agent::DrivingConfig driving;
+    driving.body = agent::body_of(profile);
+    driving.feature_config_id = order.feature_config_id;
+    agent::ScenarioListener listener;
+    if (trace) {
+      listener.cycled = [&](const agent::CycleTrace& now) {
+        const Eigen::Vector2d off = Eigen::Rotation2Dd(-now.pose.theta_rad) *
+                                    Eigen::Vector2d(target.x_m - now.pose.x_m, target.y_m - now.pose.y_m);
+        std::fprintf(stderr, "%5.1f true %6.3f %6.3f goal %6.3f %6.3f conf %.2f inl %3d par %.3f v %.2f w %5.2f %s\n",
+                     now.t_s, off.x(), off.y(), now.goal_x_m, now.goal_y_m, now.confidence, now.inliers,
+                     now.parallax_rad, now.speed_mps, now.turn_radps, now.state.c_str());
+      };
+    }
+    auto result = or_die(agent::drive_order(robot, eye, order, {}, driving, listener));
+    agent::judge(robot.vehicle(), target, result);
+    arrived += result.arrived ? 1 : 0;
+    collisions += result.collisions;
+    errors_m.push_back(result.final_error_m);
+    headings_rad.push_back(result.final_error_rad);
+    const json line = {{"start", i},
+                       {"arrived", result.arrived},
+                       {"final_error_m", result.final_error_m},
+                       {"final_error_rad", result.final_error_rad},
+                       {"duration_s", result.duration_s},
+                       {"collisions", result.collisions},
+                       {"stop", result.stops.empty() ? "" : result.stops.back().reason}};
+    std::cout << line.dump() << std::endl;
+  }
+  const auto within = [&](double limit_m) {
+    return static_cast<double>(std::ranges::count_if(errors_m, [&](double e) { return e <= limit_m; })) /
+           static_cast<double>(errors_m.size());
+  };
+  const json summary = {{"starts", errors_m.size()},
+                        {"arrived", arrived},
+                        {"collisions", collisions},
+                        {"median_m", quantile(errors_m, 0.5)},
+                        {"p95_m", quantile(errors_m, 0.95)},
+                        {"within_0.3", within(0.3)},
+                        {"heading_median_deg", degrees(quantile(headings_rad, 0.5))},
+                        {"heading_p95_deg", degrees(quantile(headings_rad, 0.95))}};
+  std::cout << summary.dump() << std::endl;
+  return 0;
+}
