@@ -54,6 +54,7 @@ class LocalMap {
 
   [[nodiscard]] bool empty() const { return keyframes_.empty(); }
   [[nodiscard]] int features() const { return static_cast<int>(features_.size()); }
+  [[nodiscard]] double inlier_rad() const { return config_.inlier_rad; }
   [[nodiscard]] int keyframes() const { return static_cast<int>(keyframes_.size()); }
 
   /// Starts with two views: the target and the present one. The refined pose of this one; nothing, and an empty map,

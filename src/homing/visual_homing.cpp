@@ -63,9 +63,56 @@ TargetSeen VisualHoming::answer(const LocalPose& pose, const HomeVector* fresh, 
   return seen;
 }
 
+std::optional<Pose2> VisualHoming::expected(const std::optional<Pose2>& odometry) const {
+  if (!latest_) return std::nullopt;
+  if (!odometry || !latest_odometry_) return latest_->target_from_robot;
+  return latest_->target_from_robot * (inverse(*latest_odometry_) * *odometry);
+}
+
+void VisualHoming::keep(const LocalPose& pose, const std::optional<Pose2>& odometry) {
+  latest_ = pose;
+  latest_odometry_ = odometry;
+}
+
+Result<TargetSeen> VisualHoming::track(const tracking::TrackingFrame& frame, const std::optional<Pose2>& odometry,
+                                       std::uint64_t seed) {
+  const auto guess = expected(odometry);
+  if (!guess || map_.empty()) {
+    wants_features_ = true;
+    return fail(ErrorCode::kTooLittleSupport, "The target is not known yet.");
+  }
+  const std::vector<Sighting> found = tracks_.follow(frame, map_, *guess);
+  const auto pose = map_.pose_of(found, guess, seed);
+  ++tracked_for_;
+  if (!pose) {
+    wants_features_ = true;
+    return fail(ErrorCode::kTooLittleSupport, "Too few of the target's features can be tracked.");
+  }
+  const std::vector<Sighting> held = tracks_.settle(map_, pose->target_from_robot);
+  LocalPose best = *pose;
+  best.covariance += map_.last_covariance();
+  best.inliers = static_cast<int>(held.size());
+  keep(best, odometry);
+  wants_features_ =
+      tracked_for_ + 1 >= config_.recognise_every || static_cast<int>(held.size()) < config_.fewest_tracked;
+  TargetSeen seen = answer(best, nullptr, static_cast<int>(found.size()));
+  seen.tracks = tracks_.counts();
+  return seen;
+}
+
 Result<TargetSeen> VisualHoming::update(const features::Appearance& current, const features::Appearance& target,
                                         const std::optional<Pose2>& odometry, const std::optional<DistancePrior>& prior,
-                                        std::uint64_t seed) {
+                                        const tracking::TrackingFrame& frame, std::uint64_t seed) {
+  auto seen = recognise(current, target, odometry, prior, frame, seed);
+  tracked_for_ = 0;
+  wants_features_ = !seen || !seen->target_m || config_.recognise_every <= 1;
+  return seen;
+}
+
+Result<TargetSeen> VisualHoming::recognise(const features::Appearance& current, const features::Appearance& target,
+                                           const std::optional<Pose2>& odometry,
+                                           const std::optional<DistancePrior>& prior,
+                                           const tracking::TrackingFrame& frame, std::uint64_t seed) {
   matching::VerifyConfig verify_config;
   verify_config.min_inliers = config_.first.min_inliers;
   std::vector<Sighting> all;
@@ -73,7 +120,8 @@ Result<TargetSeen> VisualHoming::update(const features::Appearance& current, con
     // The map first: it knows more than two views do, above all close to the target, where these say nothing.
     all = sightings_of(current, target,
                        matching::match_both_kinds(current, target, verify_config.match, verify_config.columns));
-    const auto pose = map_.pose_of(all, map_.expected(odometry), seed);
+    std::vector<int> inliers;
+    const auto pose = map_.pose_of(all, expected(odometry), seed, &inliers);
     if (pose) {
       misses_ = 0;
       LocalPose best = *pose;
@@ -88,13 +136,21 @@ Result<TargetSeen> VisualHoming::update(const features::Appearance& current, con
       } else {
         best.covariance += map_.last_covariance();
       }
-      return answer(best, nullptr, static_cast<int>(all.size()));
+      std::vector<Sighting> agreeing;
+      for (const int inlier : inliers) agreeing.push_back(all[static_cast<std::size_t>(inlier)]);
+      if (frame.has_value()) tracks_.anchor(frame, agreeing);
+      keep(best, odometry);
+      TargetSeen seen = answer(best, nullptr, static_cast<int>(all.size()));
+      seen.tracks = tracks_.counts();
+      return seen;
     }
     if (++misses_ < config_.patience) {
       return fail(ErrorCode::kTooLittleSupport,
                   "The picture does not agree with what is known of the target's features.");
     }
     map_ = LocalMap(config_.map);
+    tracks_ = FeatureTracks(config_.tracks);
+    latest_.reset();
   }
   const auto verified = matching::verify(current, target, verify_config, seed);
   if (!verified) return pass_on(verified);
@@ -122,8 +178,11 @@ Result<TargetSeen> VisualHoming::update(const features::Appearance& current, con
   const auto pose = map_.begin(sightings, odometry, {inverse(target_in_robot), distance.spread});
   misses_ = 0;
   if (!pose) return seen;
+  if (frame.has_value()) tracks_.anchor(frame, sightings);
+  keep(*pose, odometry);
   TargetSeen first = answer(*pose, &vector, vector.matches);
   first.vector.inliers = vector.inliers;
+  first.tracks = tracks_.counts();
   first.began = true;
   return first;
 }

@@ -8,6 +8,7 @@
 
 #include "core/pose2.hpp"
 #include "features/appearance.hpp"
+#include "homing/feature_tracks.hpp"
 #include "homing/home_vector.hpp"
 #include "homing/local_map.hpp"
 
@@ -15,11 +16,14 @@ namespace homeward::homing {
 
 struct VisualHomingConfig {
   HomingConfig first;              // of the home vector that begins
+  int recognise_every = 3;         // pictures: of so many at least one is recognised anew
+  int fewest_tracked = 12;         // with fewer the next picture is recognised
   double begin_confidence = 0.5;   // of it; less certain ones begin nothing
   double prior_odds = 1.0;         // its odds are multiplied by these: what is known beside the pictures
   double metres_per_parallax = 4;  // first guess of the distance where nothing else is known
   int patience = 4;                // pictures in a row that may contradict before it begins anew
   LocalMapConfig map;
+  FeatureTracksConfig tracks;
 };
 
 /// How far a target may be, as is known beside the pictures.
@@ -34,6 +38,7 @@ struct TargetSeen {
   std::optional<Eigen::Vector2d> target_m;                      // in the robot frame; metres where odometry is known
   Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Identity();  // of it, robot frame
   int known = 0;                                                // features of the local map
+  TrackCounts tracks;                                           // in the latest picture
   bool began = false;                                           // the local map is new
 };
 
@@ -43,24 +48,42 @@ struct TargetSeen {
 class VisualHoming {
  public:
   VisualHoming() = default;
-  explicit VisualHoming(const VisualHomingConfig& config) : config_(config), map_(config.map) {}
+  explicit VisualHoming(const VisualHomingConfig& config) : config_(config), map_(config.map), tracks_(config.tracks) {}
 
-  /// One more picture. `target`: always the same. Errors: those of home_vector, where neither the map nor two views
-  /// alone say where the target is.
+  /// One more picture, recognised anew. `target`: always the same. `frame`: the picture itself, for `track` to go on
+  /// from. Errors: those of home_vector, where neither the map nor two views alone say where the target is.
   Result<TargetSeen> update(const features::Appearance& current, const features::Appearance& target,
                             const std::optional<Pose2>& odometry, const std::optional<DistancePrior>& prior,
-                            std::uint64_t seed);
+                            const tracking::TrackingFrame& frame, std::uint64_t seed);
+
+  /// One more picture through the features tracked from the one before: some three times as fast as recognising it.
+  /// Errors: kTooLittleSupport, before the first `update` that found the target too.
+  Result<TargetSeen> track(const tracking::TrackingFrame& frame, const std::optional<Pose2>& odometry,
+                           std::uint64_t seed);
+
+  /// Whether the next picture is better recognised than tracked.
+  [[nodiscard]] bool wants_features() const { return wants_features_; }
 
   [[nodiscard]] const LocalMap& map() const { return map_; }
 
  private:
   [[nodiscard]] TargetSeen answer(const LocalPose& pose, const HomeVector* fresh, int matches) const;
+  [[nodiscard]] std::optional<Pose2> expected(const std::optional<Pose2>& odometry) const;
+  void keep(const LocalPose& pose, const std::optional<Pose2>& odometry);
+  Result<TargetSeen> recognise(const features::Appearance& current, const features::Appearance& target,
+                               const std::optional<Pose2>& odometry, const std::optional<DistancePrior>& prior,
+                               const tracking::TrackingFrame& frame, std::uint64_t seed);
 
   VisualHomingConfig config_;
   LocalMap map_;
+  FeatureTracks tracks_;
   double log_odds_ = 0.0;        // that the map is right
   double first_distance_ = 1.0;  // baseline of the first two views
   int misses_ = 0;
+  int tracked_for_ = 0;  // pictures since the target was recognised
+  bool wants_features_ = true;
+  std::optional<LocalPose> latest_;
+  std::optional<Pose2> latest_odometry_;
 };
 
 }  // namespace homeward::homing

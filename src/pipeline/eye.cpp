@@ -58,6 +58,10 @@ Result<features::Appearance> Eye::look(const Image& picture) const {
   return features::extract(*panorama, parts_->feature_config);
 }
 
+features::Appearance Eye::look(const camera::Panorama& panorama) const {
+  return features::extract(panorama, parts_->feature_config);
+}
+
 Result<camera::Panorama> Eye::unwrap(const Image& picture) const { return parts_->unwrapper.unwrap(picture); }
 
 const camera::Camera& Eye::camera() const { return *parts_->camera; }

@@ -21,6 +21,8 @@ class Eye {
 
   /// Errors: those of PanoramaUnwrapper::unwrap. A picture without texture gives an appearance with few or no features.
   [[nodiscard]] Result<features::Appearance> look(const Image& picture) const;
+  /// The same of a picture that is unwrapped already. Precondition: by this eye.
+  [[nodiscard]] features::Appearance look(const camera::Panorama& panorama) const;
   [[nodiscard]] Result<camera::Panorama> unwrap(const Image& picture) const;
   [[nodiscard]] const camera::Camera& camera() const;
   [[nodiscard]] const features::FeatureConfig& feature_config() const;

@@ -48,10 +48,8 @@ std::optional<homing::DistancePrior> distance_known(const ViewTrack& track, cons
   return homing::DistancePrior{distance_m, std::clamp(track.doubt_m() / distance_m, 0.1, 0.8)};
 }
 
-/// The view homed to through its local map; false where the picture says nothing of it.
-bool home_to(FollowState& state, const VisualPath& path, const features::Appearance& seen, const Pose2& odometry,
-             const FollowConfig& config, std::uint64_t seed, FollowResult& result) {
-  const auto index = static_cast<std::size_t>(state.index);
+/// The homing to the view homed to, begun anew when that is another one.
+homing::VisualHoming& homing_of(FollowState& state, const FollowConfig& config) {
   if (state.visual_index != state.index) {
     homing::VisualHomingConfig visual = config.visual;
     visual.first = config.homing;
@@ -60,25 +58,42 @@ bool home_to(FollowState& state, const VisualPath& path, const features::Appeara
     state.visual = homing::VisualHoming(visual);
     state.visual_index = state.index;
   }
-  ViewTrack& track = state.tracks[index];
-  const auto answer =
-      state.visual.update(seen, path.views[index], odometry, distance_known(track, position(odometry)), seed);
-  state.measured = answer && answer->target_m;
-  if (!answer || answer->vector.confidence < config.believe) {
-    state.measured = false;
-    return false;
-  }
-  if (state.measured) {
+  return state.visual;
+}
+
+/// Takes in where the view homed to is seen; false where that says nothing or contradicts what is known.
+bool take_in(FollowState& state, const Result<homing::TargetSeen>& answer, const Pose2& odometry,
+             const FollowConfig& config, FollowResult& result) {
+  state.measured = false;
+  if (!answer || answer->vector.confidence < config.believe) return false;
+  ViewTrack& track = state.tracks[static_cast<std::size_t>(state.index)];
+  if (answer->target_m) {
+    state.measured = true;
     const Eigen::Rotation2Dd turned(odometry.theta_rad);
-    track.settle(position(odometry) + turned * *answer->target_m, turned * answer->covariance_m2 * turned.inverse(),
+    track.settle(position(odometry) + turned * *answer->target_m,
+                 turned.toRotationMatrix() * answer->covariance_m2 * turned.toRotationMatrix().transpose(),
                  odometry.theta_rad + answer->vector.turn_rad);
   } else if (!track.observe(odometry, answer->vector, config.track)) {
     return false;
   }
   result.vector = answer->vector;
-  const int fewer = std::min(seen.size(), path.views[index].size());
-  state.alike = static_cast<double>(answer->vector.inliers) / std::max(1, fewer);
+  result.tracks = answer->tracks;
+  result.answered = true;
+  state.blind_m = 0.0;
   return true;
+}
+
+/// The robot is where odometry says now.
+void drive_on(FollowState& state, const VisualPath& path, const Pose2& odometry, const FollowConfig& config) {
+  if (state.tracks.size() != path.views.size()) {
+    state.tracks.assign(path.views.size(), ViewTrack());
+    state.odometry = odometry;
+  }
+  const Pose2 step = inverse(state.odometry) * odometry;
+  const double driven_m = std::hypot(step.x_m, step.y_m);
+  state.blind_m += driven_m;
+  state.odometry = odometry;
+  for (ViewTrack& track : state.tracks) track.drift(driven_m, config.track);
 }
 
 /// Whether a view on the way is done with: reached, or the robot is level with it on the way to the next.
@@ -90,6 +105,29 @@ bool is_passed(const FollowState& state, int index, const Eigen::Vector2d& here,
   const ViewTrack& next = state.tracks[static_cast<std::size_t>(index) + 1];
   if (!next.known() || to_view.norm() > config.abreast_m) return false;
   return to_view.dot(next.position_m() - track.position_m()) < 0.0;
+}
+
+/// Views that are done with are left, and whether the destination's own is reached.
+void pass_views(FollowState& state, const VisualPath& path, const Pose2& odometry, const FollowConfig& config,
+                FollowResult& result) {
+  const int last = static_cast<int>(path.views.size()) - 1;
+  const int first = state.index;
+  const Eigen::Vector2d here = position(odometry);
+  while (state.index < last && is_passed(state, state.index, here, config)) ++state.index;
+  expect_onwards(state, path, state.index);
+  if (state.index != first) {
+    result.vector.reset();
+    state.measured = false;
+  }
+  if (state.index != last || !result.vector || !state.tracks.back().known()) return;
+  const double distance_m = (state.tracks.back().position_m() - here).norm();
+  // Bearings are sharp to within centimetres of a view: when it passes from ahead to behind, the robot is there.
+  const bool behind = is_sure(*result.vector, config) && std::cos(result.vector->bearing_rad) < 0.0;
+  state.behind = behind ? state.behind + 1 : 0;
+  const bool coincides =
+      result.vector->median_parallax_rad < config.homing.arrived_parallax_rad && state.alike > config.alike_share;
+  result.at_end =
+      state.measured ? distance_m < config.reached_m : coincides || (state.behind >= 2 && distance_m < config.nearby_m);
 }
 
 }  // namespace
@@ -104,26 +142,37 @@ std::optional<Eigen::Vector2d> goal(const FollowState& state, const Pose2& odome
   return Eigen::Vector2d(view.x_m, view.y_m);
 }
 
-FollowResult follow(FollowState& state, const VisualPath& path, const features::Appearance& seen, const Pose2& odometry,
-                    const FollowConfig& config, std::uint64_t seed) {
+bool wants_features(const FollowState& state) {
+  return state.visual_index != state.index || state.visual.wants_features();
+}
+
+FollowResult track(FollowState& state, const VisualPath& path, const tracking::TrackingFrame& frame,
+                   const Pose2& odometry, const FollowConfig& config, std::uint64_t seed) {
+  FollowResult result;
+  drive_on(state, path, odometry, config);
+  const auto answer = homing_of(state, config).track(frame, odometry, seed);
+  const int last = static_cast<int>(path.views.size()) - 1;
+  if (take_in(state, answer, odometry, config, result) && state.index == last) {
+    state.heading_left_rad = result.vector->turn_rad;
+  }
+  pass_views(state, path, odometry, config, result);
+  return result;
+}
+
+FollowResult follow(FollowState& state, const VisualPath& path, const features::Appearance& seen,
+                    const tracking::TrackingFrame& frame, const Pose2& odometry, const FollowConfig& config,
+                    std::uint64_t seed) {
   FollowResult result;
   const int last = static_cast<int>(path.views.size()) - 1;
-  if (state.tracks.size() != path.views.size()) {
-    state.tracks.assign(path.views.size(), ViewTrack());
-    state.odometry = odometry;
-  }
-  const Pose2 step = inverse(state.odometry) * odometry;
-  const double driven_m = std::hypot(step.x_m, step.y_m);
-  state.blind_m += driven_m;
-  state.odometry = odometry;
-  for (ViewTrack& track : state.tracks) track.drift(driven_m, config.track);
-
-  const Eigen::Vector2d here = position(odometry);
+  drive_on(state, path, odometry, config);
   const int first = state.index;
   int clearest = -1;
-  if (home_to(state, path, seen, odometry, config, seed, result)) {
-    result.answered = true;
-    state.blind_m = 0.0;
+  const auto prior = distance_known(state.tracks[static_cast<std::size_t>(first)], position(odometry));
+  const auto answer =
+      homing_of(state, config).update(seen, path.views[static_cast<std::size_t>(first)], odometry, prior, frame, seed);
+  if (take_in(state, answer, odometry, config, result)) {
+    const int fewer = std::min(seen.size(), path.views[static_cast<std::size_t>(first)].size());
+    state.alike = static_cast<double>(result.vector->inliers) / std::max(1, fewer);
     if (is_sure(*result.vector, config)) clearest = first;
     expect_onwards(state, path, first);
     if (first == last) state.heading_left_rad = result.vector->turn_rad;
@@ -150,21 +199,12 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
     if (index == last) state.heading_left_rad = vector->turn_rad;
   }
   // The view homed to is not to be seen and a later one is: it has been cut off.
-  if (!state.tracks[static_cast<std::size_t>(first)].known() && clearest > first) state.index = clearest;
-  while (state.index < last && is_passed(state, state.index, here, config)) ++state.index;
-  expect_onwards(state, path, state.index);
-  if (state.index != first) result.vector.reset();
-
-  if (state.index == last && result.vector && state.tracks.back().known()) {
-    const double distance_m = (state.tracks.back().position_m() - here).norm();
-    // Bearings are sharp to within centimetres of a view: when it passes from ahead to behind, the robot is there.
-    const bool behind = is_sure(*result.vector, config) && std::cos(result.vector->bearing_rad) < 0.0;
-    state.behind = behind ? state.behind + 1 : 0;
-    const bool coincides =
-        result.vector->median_parallax_rad < config.homing.arrived_parallax_rad && state.alike > config.alike_share;
-    result.at_end = state.measured ? distance_m < config.reached_m
-                                   : coincides || (state.behind >= 2 && distance_m < config.nearby_m);
+  if (!state.tracks[static_cast<std::size_t>(first)].known() && clearest > first) {
+    state.index = clearest;
+    result.vector.reset();
+    state.measured = false;
   }
+  pass_views(state, path, odometry, config, result);
   return result;
 }
 

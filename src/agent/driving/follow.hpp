@@ -10,6 +10,7 @@
 #include "features/appearance.hpp"
 #include "homing/home_vector.hpp"
 #include "homing/visual_homing.hpp"
+#include "tracking/tracking_frame.hpp"
 #include "wire/link_messages.hpp"
 
 namespace homeward::agent {
@@ -54,6 +55,7 @@ struct FollowState {
 
 struct FollowResult {
   std::optional<homing::HomeVector> vector;  // the fresh answer of the view homed to, when there is one
+  homing::TrackCounts tracks;                // of its features
   bool answered = false;                     // some view answered
   bool at_end = false;                       // the destination's view is reached
 };
@@ -61,8 +63,16 @@ struct FollowResult {
 /// One picture further along a path of views: takes the answers of the view homed to and of those after it, keeps where
 /// they lie, and passes on to the next view when one is reached or left behind (Goedemé 2007 §7, with the home vector
 /// of each picture alone and its distance triangulated over odometry).
-FollowResult follow(FollowState& state, const VisualPath& path, const features::Appearance& seen, const Pose2& odometry,
-                    const FollowConfig& config, std::uint64_t seed);
+FollowResult follow(FollowState& state, const VisualPath& path, const features::Appearance& seen,
+                    const tracking::TrackingFrame& frame, const Pose2& odometry, const FollowConfig& config,
+                    std::uint64_t seed);
+
+/// One picture further by the tracked features of the view homed to alone.
+FollowResult track(FollowState& state, const VisualPath& path, const tracking::TrackingFrame& frame,
+                   const Pose2& odometry, const FollowConfig& config, std::uint64_t seed);
+
+/// Whether the next picture is better recognised (`follow`) than tracked (`track`).
+bool wants_features(const FollowState& state);
 
 /// Where to drive now, robot frame: the view homed to, or nothing when too little is known of it.
 std::optional<Eigen::Vector2d> goal(const FollowState& state, const Pose2& odometry, const FollowConfig& config);

@@ -17,19 +17,18 @@ void take_picture(DrivingState& state, const SeenPicture& picture, const Driving
   ++state.pictures;
   if (state.drive != wire::DriveState::kDriving) return;
   const int index_before = state.follow.index;
-  state.covered = false;
   state.pictured = true;
-  state.seen =
-      follow(state.follow, state.mission->path, *picture.appearance, picture.odometry, config.follow, state.pictures);
+  state.seen = picture.appearance ? follow(state.follow, state.mission->path, *picture.appearance, picture.frame,
+                                           picture.odometry, config.follow, state.pictures)
+                                  : track(state.follow, state.mission->path, picture.frame, picture.odometry,
+                                          config.follow, state.pictures);
   if (state.seen.answered) {
     state.last_answer_ms = now_ms;
     state.answers_ms.push_back(now_ms);
   }
-  if (picture.appearance->size() < kFewestFeatures) {
-    // A covered lens: memory must not carry the robot on.
-    state.seen = {};
-    state.covered = true;
-  }
+  if (picture.appearance) state.covered = picture.appearance->size() < kFewestFeatures;
+  // A covered lens: memory must not carry the robot on.
+  if (state.covered) state.seen = {};
   const bool gained = state.follow.index != index_before;
   const Pose2 moved = inverse(state.gain_from) * picture.odometry;
   if (gained || std::hypot(moved.x_m, moved.y_m) > 0.25) {

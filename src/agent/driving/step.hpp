@@ -13,6 +13,7 @@
 #include "agent/driving/scan.hpp"
 #include "core/pose2.hpp"
 #include "features/appearance.hpp"
+#include "tracking/tracking_frame.hpp"
 #include "wire/link_messages.hpp"
 
 namespace homeward::agent {
@@ -40,7 +41,8 @@ struct DrivingConfig {
 /// the machine's own on a robot, simulated time in a simulator.
 struct SeenPicture {
   Milliseconds taken_ms = 0;
-  std::shared_ptr<const features::Appearance> appearance;
+  std::shared_ptr<const features::Appearance> appearance;  // null: only tracked, not recognised
+  tracking::TrackingFrame frame;
   Pose2 odometry;  // when it was taken
 };
 struct SeenScan {

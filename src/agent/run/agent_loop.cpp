@@ -114,6 +114,7 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
       link.send(message);
     }
     looker.set_looking(state.drive == wire::DriveState::kDriving);
+    looker.set_features_wanted(wants_features(state.follow));
     const bool changed = state.drive != told_state;
     if (changed)
       options.told(std::string(wire::drive_state_name(state.drive)) +

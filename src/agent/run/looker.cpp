@@ -43,11 +43,18 @@ void Looker::run(const std::stop_token& stop) {
       show_((*taken)->picture);
     }
     if (!looking_) continue;
-    auto appearance = eye_.look((*taken)->picture);
-    if (!appearance) return fail_with(appearance.error());
+    auto panorama = eye_.unwrap((*taken)->picture);
+    if (!panorama) return fail_with(panorama.error());
+    SeenPicture seen;
+    seen.taken_ms = (*taken)->t_ms;
+    seen.odometry = (*taken)->odometry;
+    if (features_wanted_) {
+      auto appearance = eye_.look(*panorama);
+      seen.appearance = std::make_shared<const features::Appearance>(std::move(appearance));
+    }
+    seen.frame = tracking::TrackingFrame(*panorama);
     const std::lock_guard lock(mutex_);
-    newest_ = {(*taken)->t_ms, std::make_shared<const features::Appearance>(std::move(*appearance)),
-               (*taken)->odometry};
+    newest_ = std::move(seen);
   }
 }
 

@@ -28,6 +28,8 @@ class Looker {
   std::optional<SeenPicture> take();
   /// Whether pictures are looked at; standing robots need not.
   void set_looking(bool looking) { looking_ = looking; }
+  /// Whether pictures are recognised; otherwise they are only made ready for tracking.
+  void set_features_wanted(bool wanted) { features_wanted_ = wanted; }
   void set_show_period(Milliseconds period_ms) { show_period_ms_ = period_ms; }
   /// Why there are no more pictures, when there are none.
   std::optional<Error> trouble();
@@ -41,6 +43,7 @@ class Looker {
   std::function<Milliseconds()> now_ms_;
   std::function<void(const Image&)> show_;
   std::atomic<bool> looking_{false};
+  std::atomic<bool> features_wanted_{true};
   std::atomic<Milliseconds> show_period_ms_{200};
   std::mutex mutex_;
   std::optional<SeenPicture> newest_;

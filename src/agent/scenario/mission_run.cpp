@@ -127,9 +127,16 @@ class Drive {
         if (fault.kind == "camera_occluded" && active({fault}, "camera_occluded", elapsed_s()))
           occlude(picture, fault.share);
       }
-      auto appearance = eye_.look(picture);
-      if (!appearance) return pass_on(appearance);
-      inputs.picture = {now_ms_, std::make_shared<const features::Appearance>(std::move(*appearance)), inputs.odometry};
+      const auto panorama = eye_.unwrap(picture);
+      if (!panorama) return pass_on(panorama);
+      SeenPicture seen;
+      seen.taken_ms = now_ms_;
+      seen.odometry = inputs.odometry;
+      if (wants_features(state_.follow)) {
+        seen.appearance = std::make_shared<const features::Appearance>(eye_.look(*panorama));
+      }
+      seen.frame = tracking::TrackingFrame(*panorama);
+      inputs.picture = std::move(seen);
     }
     if (!active(plan_.faults, "scan_lost", elapsed_s())) inputs.scan = {now_ms_, robot_.sweep()};
     const bool was_driving = state_.drive == wire::DriveState::kDriving;
