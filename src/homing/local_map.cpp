@@ -65,7 +65,7 @@ std::optional<LocalPose> LocalMap::begin(std::span<const Sighting> sightings, co
   keyframes_.clear();
   first_distance_m_ = std::max(0.05, std::hypot(guess.target_from_robot.x_m, guess.target_from_robot.y_m));
   first_spread_ = guess.distance_spread;
-  Keyframe keyframe{guess.target_from_robot, odometry, {sightings.begin(), sightings.end()}};
+  Keyframe keyframe{guess.target_from_robot, odometry, {sightings.begin(), sightings.end()}, false};
   learn(keyframe);
   keyframes_.push_back(std::move(keyframe));
   auto pose = refine();
@@ -127,10 +127,23 @@ std::optional<Pose2> LocalMap::expected(const std::optional<Pose2>& odometry) co
   return keyframes_.back().target_from_robot * (inverse(*keyframes_.back().odometry) * *odometry);
 }
 
+bool LocalMap::carried(const Pose2& target_from_robot, const std::optional<Pose2>& odometry) const {
+  if (keyframes_.empty() || !odometry || !keyframes_.back().odometry) return false;
+  // The map's scale may still be off by a factor, so only what no factor explains counts.
+  constexpr double kFactor = 3.0;
+  constexpr double kLeast_m = 0.3;
+  constexpr double kTurn_rad = 0.35;
+  const Pose2 seen = inverse(keyframes_.back().target_from_robot) * target_from_robot;
+  const Pose2 driven = inverse(*keyframes_.back().odometry) * *odometry;
+  return std::hypot(seen.x_m, seen.y_m) > kFactor * std::hypot(driven.x_m, driven.y_m) + kLeast_m ||
+         std::abs(wrap_angle(seen.theta_rad - driven.theta_rad)) > kTurn_rad;
+}
+
 std::optional<LocalPose> LocalMap::add(std::span<const Sighting> sightings, const std::optional<Pose2>& odometry,
                                        const Pose2& target_from_robot) {
   LocalMap tried = *this;
-  Keyframe keyframe{target_from_robot, odometry, {sightings.begin(), sightings.end()}};
+  Keyframe keyframe{
+      target_from_robot, odometry, {sightings.begin(), sightings.end()}, carried(target_from_robot, odometry)};
   tried.learn(keyframe);
   tried.keyframes_.push_back(std::move(keyframe));
   if (tried.keyframes() > config_.keyframes) tried.drop_one();
@@ -155,6 +168,7 @@ void LocalMap::drop_one() {
     const auto known = features_.find(sighting.feature);
     if (known != features_.end() && --known->second.seen == 0) features_.erase(known);
   }
+  keyframes_[least + 1].carried = keyframes_[least + 1].carried || keyframes_[least].carried;
   keyframes_.erase(keyframes_.begin() + static_cast<std::ptrdiff_t>(least));
 }
 
@@ -169,7 +183,7 @@ std::optional<LocalPose> LocalMap::refine() {
     problem.features.push_back({feature.target, feature.log_nearness});
   }
   for (const Keyframe& keyframe : keyframes_) {
-    RefinementView view{keyframe.target_from_robot, keyframe.odometry, {}};
+    RefinementView view{keyframe.target_from_robot, keyframe.odometry, keyframe.carried, {}};
     for (const Sighting& sighting : keyframe.sightings) {
       view.sightings.push_back({index.at(sighting.feature), sighting.here});
     }

@@ -102,8 +102,10 @@ class LocalMap {
     Pose2 target_from_robot;
     std::optional<Pose2> odometry;
     std::vector<Sighting> sightings;
+    bool carried = false;  // odometry does not tell the way from the keyframe before
   };
 
+  [[nodiscard]] bool carried(const Pose2& target_from_robot, const std::optional<Pose2>& odometry) const;
   void learn(const Keyframe& keyframe);
   void drop_one();
   std::optional<LocalPose> refine();

@@ -91,7 +91,8 @@ Eigen::Matrix<double, 2, 3> across(const Eigen::Vector3d& bearing, double spread
   return rows;
 }
 
-constexpr double kLoss = 2.0;  // standard deviations beyond which a bearing loses weight
+constexpr double kOdometryLoss = 3.0;  // the same of odometry: wheels slip
+constexpr double kLoss = 2.0;          // standard deviations beyond which a bearing loses weight
 
 }  // namespace
 
@@ -119,7 +120,7 @@ std::optional<RefinementResult> refine_local_map(RefinementProblem& given) {
     if (v == 0) continue;
     const auto& before = given.views[v - 1].odometry;
     const auto& now = given.views[v].odometry;
-    if (!before || !now) continue;
+    if (!before || !now || given.views[v].carried) continue;
     const Pose2 moved = inverse(*before) * *now;
     const double length_m = std::hypot(moved.x_m, moved.y_m);
     const OdometryCost odometry{moved, config.odometry_least_m + config.odometry_share * length_m,

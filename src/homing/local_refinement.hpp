@@ -21,6 +21,7 @@ struct RefinementSighting {
 struct RefinementView {
   Pose2 target_from_robot;  // refined
   std::optional<Pose2> odometry;
+  bool carried = false;  // odometry does not tell the way from the view before
   std::vector<RefinementSighting> sightings;
 };
 struct RefinementProblem {
