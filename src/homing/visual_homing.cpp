@@ -181,6 +181,8 @@ Result<TargetSeen> VisualHoming::recognise(const features::Appearance& current, 
   if (frame.has_value()) tracks_.anchor(frame, sightings);
   keep(*pose, odometry);
   TargetSeen first = answer(*pose, &vector, vector.matches);
+  // What two views say is calibrated; the map says nothing more yet.
+  first.vector.confidence = vector.confidence;
   first.vector.inliers = vector.inliers;
   first.tracks = tracks_.counts();
   first.began = true;

@@ -101,7 +101,7 @@ bool is_passed(const FollowState& state, int index, const Eigen::Vector2d& here,
   const ViewTrack& track = state.tracks[static_cast<std::size_t>(index)];
   if (!track.known()) return false;
   const Eigen::Vector2d to_view = track.position_m() - here;
-  if (to_view.norm() < config.pass_m) return true;
+  if (to_view.norm() < config.pass_m && track.doubt_m() < config.pass_m) return true;
   const ViewTrack& next = state.tracks[static_cast<std::size_t>(index) + 1];
   if (!next.known() || to_view.norm() > config.abreast_m) return false;
   return to_view.dot(next.position_m() - track.position_m()) < 0.0;

@@ -41,6 +41,7 @@ struct Clerk {
     state.follow = {};
     state.seen = {};
     state.docking = false;
+    state.near_since_ms.reset();
     state.pictured = false;
     state.last_message_ms = now_ms;
   }

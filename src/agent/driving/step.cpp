@@ -117,8 +117,22 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   return steer_round(config.body, points_m, aim_m, inputs.odometry.theta_rad, speed_mps, config.turn_gain);
 }
 
+/// Whether the destination is measured to be right here.
+bool is_near(const DrivingState& state, const DrivingConfig& config) {
+  if (state.follow.tracks.empty() || state.follow.index + 1 != static_cast<int>(state.follow.tracks.size()))
+    return false;
+  const auto goal_m = goal(state.follow, state.follow.odometry, config.follow);
+  return state.follow.measured && goal_m && goal_m->norm() < config.near_m;
+}
+
 void judge_progress(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
-  if (state.seen.at_end && !state.docking) {
+  if (is_near(state, config)) {
+    state.near_since_ms = state.near_since_ms.value_or(now_ms);
+  } else {
+    state.near_since_ms.reset();
+  }
+  const bool near_enough = state.near_since_ms && now_ms - *state.near_since_ms > config.near_ms;
+  if ((state.seen.at_end || near_enough) && !state.docking) {
     if (!state.mission->dock) return end_mission(state, wire::DriveState::kArrived, "");
     state.docking = true;
     state.last_gain_ms = now_ms;

@@ -33,6 +33,8 @@ struct DrivingConfig {
   Milliseconds reaction_ms = 120;        // of it, from an arrival to the wheels
   Milliseconds blind_ms = 4000;          // nothing recognised for so long: the mission fails
   Milliseconds stuck_ms = 20'000;        // no way gained for so long: the mission fails
+  double near_m = 0.15;                  // of the destination: what is in the way there may stay in the way
+  Milliseconds near_ms = 8000;           // so long it tries to come nearer than that
   double turn_gain = 1.8;                // turn rate for each radian towards the carrot
   double dock_within_rad = 0.02;         // heading at the end
 };
@@ -83,7 +85,8 @@ struct DrivingState {
   Milliseconds last_message_ms = 0;
   Milliseconds last_picture_ms = 0;
   Milliseconds last_answer_ms = 0;
-  Milliseconds last_gain_ms = 0;  // when way was last gained
+  std::optional<Milliseconds> near_since_ms;  // how long it has been right beside the destination
+  Milliseconds last_gain_ms = 0;              // when way was last gained
   Pose2 gain_from;
   std::optional<SeenScan> scan;
   std::optional<double> min_range_m;

@@ -47,7 +47,7 @@ Drive drive(const Landmarks& landmarks, const VisualPath& path, double foreign_s
   for (std::uint64_t k = 1; k <= 400; ++k) {
     const auto seen = seen_from(landmarks, pose, 1000 + k, foreign_share);
     const Pose2 odometry = odometry_from_world * pose;
-    const FollowResult followed = follow(state, path, seen, odometry, config, k);
+    const FollowResult followed = follow(state, path, seen, {}, odometry, config, k);
     if (result.indices.empty() || result.indices.back() != state.index) result.indices.push_back(state.index);
     if (followed.at_end) {
       result.at_end = true;
@@ -97,7 +97,7 @@ TEST(Follow, SkipsAViewThatIsNotToBeSeenWhenALaterOneIs) {
   VisualPath path = path_through(landmarks, false);
   path.views[0] = seen_from(homeward::testing::landmarks_around(kViews, 160, 77), kViews[0], 1);
   FollowState state;
-  follow(state, path, seen_from(landmarks, {}, 1), {}, {}, 1);
+  follow(state, path, seen_from(landmarks, {}, 1), {}, {}, {}, 1);
   EXPECT_GE(state.index, 1);
   const Drive driven = drive(landmarks, path, 0.0, {0.0, 0.0, 0.0});
   EXPECT_TRUE(driven.at_end);
@@ -109,7 +109,7 @@ TEST(Follow, AForeignPictureSaysNothingAndMovesNothing) {
   const VisualPath path = path_through(landmarks, true);
   const Landmarks elsewhere = homeward::testing::landmarks_around(kViews, 160, 77);
   FollowState state;
-  const FollowResult result = follow(state, path, seen_from(elsewhere, {}, 1), {}, {}, 1);
+  const FollowResult result = follow(state, path, seen_from(elsewhere, {}, 1), {}, {}, {}, 1);
   EXPECT_FALSE(result.answered);
   EXPECT_FALSE(result.at_end);
   EXPECT_FALSE(result.vector);
@@ -124,9 +124,10 @@ TEST(Follow, AViewOfThePathIsTrustedMoreThanOneMetAnywhere) {
   const auto odds = [&](double path_odds) {
     FollowConfig config;
     config.believe = 0.0;
+    config.pass_m = 0.0;  // or the vector would be of a view that is left already
     config.path_odds = path_odds;
     FollowState state;
-    const auto vector = follow(state, path, seen, {}, config, 1).vector;
+    const auto vector = follow(state, path, seen, {}, {}, config, 1).vector;
     return vector ? vector->confidence / (1.0 - vector->confidence) : -1.0;
   };
   const double met_anywhere = odds(1.0);
@@ -139,7 +140,7 @@ TEST(Follow, DrivesOnBlindlyOnlySoFar) {
   const VisualPath path = path_through(landmarks, true);
   const FollowConfig config;
   FollowState state;
-  follow(state, path, seen_from(landmarks, {}, 1), {}, config, 1);
+  follow(state, path, seen_from(landmarks, {}, 1), {}, {}, config, 1);
   ASSERT_TRUE(goal(state, {}, config));
   EXPECT_TRUE(goal(state, {0.9 * config.blind_m, 0.0, 0.0}, config));
   EXPECT_FALSE(goal(state, {1.1 * config.blind_m, 0.0, 0.0}, config));
@@ -147,7 +148,7 @@ TEST(Follow, DrivesOnBlindlyOnlySoFar) {
   const features::Appearance dark;
   for (int k = 0; k < 4; ++k) {
     const Pose2 odometry{k % 2 == 0 ? 0.45 : 0.0, 0.0, 0.0};
-    EXPECT_FALSE(follow(state, path, dark, odometry, config, 2).answered);
+    EXPECT_FALSE(follow(state, path, dark, {}, odometry, config, 2).answered);
   }
   EXPECT_FALSE(goal(state, {0.0, 0.0, 0.0}, config));
 }
@@ -158,7 +159,7 @@ TEST(Follow, UnclearAnswersLeaveViewsFurtherOnWhereTheMapSaysTheyAre) {
   FollowConfig config;
   config.sure_inliers = 100'000;  // no answer is clear
   FollowState state;
-  const FollowResult followed = follow(state, path, seen_from(landmarks, {}, 1), {}, config, 1);
+  const FollowResult followed = follow(state, path, seen_from(landmarks, {}, 1), {}, {}, config, 1);
   EXPECT_TRUE(followed.answered);
   ASSERT_TRUE(state.tracks[1].known());
   const Pose2 first{state.tracks[0].position_m().x(), state.tracks[0].position_m().y(), state.tracks[0].heading_rad()};
@@ -174,8 +175,8 @@ TEST(Follow, IsTheSameForTheSameSeed) {
   const auto seen = seen_from(landmarks, {0.2, 0.1, 0.1}, 3, 0.3);
   FollowState one;
   FollowState two;
-  follow(one, path, seen, {}, {}, 9);
-  follow(two, path, seen, {}, {}, 9);
+  follow(one, path, seen, {}, {}, {}, 9);
+  follow(two, path, seen, {}, {}, {}, 9);
   const auto goal_one = goal(one, {}, {});
   const auto goal_two = goal(two, {}, {});
   ASSERT_TRUE(goal_one);

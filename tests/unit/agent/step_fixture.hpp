@@ -62,7 +62,7 @@ class StepTest : public ::testing::Test {
     if (pictures_) {
       const auto count = static_cast<std::uint64_t>(now_ms_);
       auto seen = covered_ ? features::Appearance() : seen_from(landmarks_, pose_, count);
-      inputs.picture = SeenPicture{now_ms_, std::make_shared<const features::Appearance>(std::move(seen)), pose_};
+      inputs.picture = SeenPicture{now_ms_, std::make_shared<const features::Appearance>(std::move(seen)), {}, pose_};
     }
     if (sweeps_) {
       Scan scan;

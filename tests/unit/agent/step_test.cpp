@@ -122,7 +122,7 @@ TEST_F(StepTest, PicturesThatComeTooLateAreAsGoodAsNone) {
   inputs.messages = {permit("m1", 1, ++seq_)};
   inputs.scan = state_.scan;
   inputs.scan->taken_ms = now_ms_ + 10;
-  inputs.picture = SeenPicture{now_ms_ - config_.frame_silence_ms, old, pose_};
+  inputs.picture = SeenPicture{now_ms_ - config_.frame_silence_ms, old, {}, pose_};
   EXPECT_TRUE(stands(step(state_, inputs, config_, now_ms_ + 10)));
   EXPECT_EQ(state_.drive, DriveState::kStopped);
   EXPECT_EQ(state_.reason, "The camera gives no pictures.");
@@ -269,7 +269,7 @@ TEST_F(StepTest, IsTheSameForTheSameInputs) {
   inputs.link_up = true;
   inputs.odometry = pose_;
   inputs.picture =
-      SeenPicture{now_ms_, std::make_shared<const features::Appearance>(seen_from(landmarks_, pose_, 5)), pose_};
+      SeenPicture{now_ms_, std::make_shared<const features::Appearance>(seen_from(landmarks_, pose_, 5)), {}, pose_};
   const Outputs one = step(state_, inputs, config_, now_ms_ + 10);
   const Outputs two = step(copy, inputs, config_, now_ms_ + 10);
   EXPECT_EQ(one.motion.speed_mps, two.motion.speed_mps);
