@@ -14,6 +14,7 @@ void register_map(CLI::App& program);
 void register_bench(CLI::App& program);
 void register_calibrate(CLI::App& program);
 void register_compare(CLI::App& program);
+void register_compass(CLI::App& program);
 void register_home(CLI::App& program);
 void register_localise(CLI::App& program);
 void register_loops(CLI::App& program);

@@ -11,6 +11,7 @@
 #include "agent/files/csv.hpp"
 #include "agent/files/read_file.hpp"
 #include "cli/command.hpp"
+#include "homing/scale_space.hpp"
 #include "pipeline/eye.hpp"
 
 namespace homeward::cli {
@@ -53,13 +54,14 @@ class Gallery {
 
 /// What is not known is null; a pair without an answer says why.
 Status answer(Gallery& gallery, const std::string& current, const std::string& target, const fs::path& folder,
-              std::uint64_t seed) {
+              const Options& options) {
   const auto here = gallery.look(folder / current);
   if (!here) return pass_on(here);
   const auto there = gallery.look(folder / target);
   if (!there) return pass_on(there);
   const auto begin = std::chrono::steady_clock::now();
-  const auto vector = homing::home_vector(**here, **there, {}, seed);
+  const auto vector = options.method == "scale-space" ? homing::scale_space_vector(**here, **there, {})
+                                                      : homing::home_vector(**here, **there, {}, options.seed);
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   nlohmann::json line = {{"current", current},  {"target", target},    {"bearing_rad", nullptr},
                          {"turn_rad", nullptr}, {"nearness", nullptr}, {"matches", 0},
@@ -79,9 +81,9 @@ Status answer(Gallery& gallery, const std::string& current, const std::string& t
 }
 
 Status home(const Options& options) {
-  if (options.method != "epipolar") {
-    return fail(ErrorCode::kInvalidInput, "The method '" + options.method + "' is not known; there is epipolar.",
-                "--method");
+  if (options.method != "epipolar" && options.method != "scale-space") {
+    return fail(ErrorCode::kInvalidInput,
+                "The method '" + options.method + "' is not known; there are epipolar and scale-space.", "--method");
   }
   const bool one_pair = !options.current.empty() && !options.target.empty();
   if (one_pair == !options.pairs.empty()) {
@@ -94,7 +96,7 @@ Status home(const Options& options) {
   auto eye = pipeline::Eye::create(*config, pipeline::suited_feature_config(**camera));
   if (!eye) return pass_on(eye);
   Gallery gallery(std::move(*eye));
-  if (one_pair) return answer(gallery, options.current, options.target, {}, options.seed);
+  if (one_pair) return answer(gallery, options.current, options.target, {}, options);
   const auto table = agent::read_csv(options.pairs);
   if (!table) return pass_on(table);
   const auto current = table->column("current");
@@ -104,7 +106,7 @@ Status home(const Options& options) {
   }
   const fs::path folder = fs::path(options.pairs).parent_path();
   for (const std::vector<std::string>& row : table->rows) {
-    if (const Status told = answer(gallery, row[*current], row[*target], folder, options.seed); !told) return told;
+    if (const Status told = answer(gallery, row[*current], row[*target], folder, options); !told) return told;
   }
   return {};
 }
@@ -119,7 +121,7 @@ void register_home(CLI::App& program) {
   command->add_option("--current", options->current, "Picture taken here");
   command->add_option("--target", options->target, "Picture taken there");
   command->add_option("--pairs", options->pairs, "Table (CSV) with columns current and target; paths relative to it");
-  command->add_option("--method", options->method, "epipolar")->capture_default_str();
+  command->add_option("--method", options->method, "epipolar or scale-space")->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of everything random");
   run_on(*command, [options] { return home(*options); });
 }

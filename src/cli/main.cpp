@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   homeward::cli::register_map(program);
   homeward::cli::register_home(program);
+  homeward::cli::register_compass(program);
   homeward::cli::register_compare(program);
   homeward::cli::register_localise(program);
   homeward::cli::register_loops(program);

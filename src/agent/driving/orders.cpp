@@ -42,6 +42,7 @@ struct Clerk {
     state.seen = {};
     state.docking = false;
     state.near_since_ms.reset();
+    state.covered = false;
     state.pictured = false;
     state.last_message_ms = now_ms;
   }

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "homing/scale_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/angles.hpp"
+#include "matching/match.hpp"
+
+namespace homeward::homing {
+namespace {
+
+double azimuth_rad(const features::FeatureSet& set, int index) {
+  return std::atan2(static_cast<double>(set.bearings(index, 1)), static_cast<double>(set.bearings(index, 0)));
+}
+
+/// The angle to which the others are nearest, in sum, on the circle.
+double circular_median(const std::vector<double>& angles_rad) {
+  double best_rad = 0.0;
+  double least = 1e300;
+  for (const double candidate : angles_rad) {
+    double sum = 0.0;
+    for (const double angle : angles_rad) sum += std::abs(wrap_angle(angle - candidate));
+    if (sum >= least) continue;
+    least = sum;
+    best_rad = candidate;
+  }
+  return best_rad;
+}
+
+/// Probability that the direction is right within 15 degrees, by how much the features agree on it: logistic in the
+/// length of the mean, fitted on grids of pictures in generated houses (docs/benchmarks.md).
+double probability(double agreement) { return 1.0 / (1.0 + std::exp(-(6.0 * agreement - 3.6))); }
+
+}  // namespace
+
+Result<HomeVector> scale_space_vector(const features::Appearance& current, const features::Appearance& target,
+                                      const ScaleSpaceConfig& config) {
+  if (current.sift.size() < config.fewest_matches || target.sift.size() < config.fewest_matches) {
+    return fail(ErrorCode::kTooFewFeatures,
+                "A picture has " + std::to_string(std::min(current.sift.size(), target.sift.size())) +
+                    " features; at least " + std::to_string(config.fewest_matches) + " are needed.");
+  }
+  const std::vector<matching::Match> matches = matching::match(current.sift, target.sift, {});
+  double sine = 0.0;
+  double cosine = 0.0;
+  int changed = 0;
+  std::vector<double> turns_rad;
+  for (const matching::Match& match : matches) {
+    const double here_rad = azimuth_rad(current.sift, match.current);
+    turns_rad.push_back(wrap_angle(here_rad - azimuth_rad(target.sift, match.target)));
+    const double change = std::log(static_cast<double>(target.sift.scales_rad[match.target]) /
+                                   static_cast<double>(current.sift.scales_rad[match.current]));
+    if (!std::isfinite(change) || std::abs(change) < config.least_change) continue;
+    // Contracted (smaller here): towards it; expanded: away from it.
+    const double sign = change > 0.0 ? 1.0 : -1.0;
+    sine += sign * std::sin(here_rad);
+    cosine += sign * std::cos(here_rad);
+    ++changed;
+  }
+  if (changed < config.fewest_matches) {
+    return fail(ErrorCode::kTooLittleSupport, std::to_string(changed) + " matches change their size; at least " +
+                                                  std::to_string(config.fewest_matches) + " are needed.");
+  }
+  HomeVector vector;
+  vector.bearing_rad = std::atan2(sine, cosine);
+  vector.turn_rad = circular_median(turns_rad);
+  std::vector<double> parallax_rad;
+  for (const double turn : turns_rad) parallax_rad.push_back(std::abs(wrap_angle(turn - vector.turn_rad)));
+  std::ranges::nth_element(parallax_rad, parallax_rad.begin() + static_cast<std::ptrdiff_t>(parallax_rad.size() / 2));
+  vector.median_parallax_rad = parallax_rad[parallax_rad.size() / 2];
+  vector.matches = static_cast<int>(matches.size());
+  vector.inliers = changed;
+  vector.confidence = probability(std::hypot(sine, cosine) / changed);
+  return vector;
+}
+
+}  // namespace homeward::homing
