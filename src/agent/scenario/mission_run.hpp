@@ -20,8 +20,9 @@ struct MissionPlan {
   std::uint64_t seed = 1;
 };
 
-/// Drives one mission in simulated time, with localiser and planner in the server's place.
+/// Drives one mission in simulated time, with localiser and planner in the server's place; recorded when `record` says
+/// where.
 Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, const sim::RobotProfile& profile,
-                                  const ScenarioListener& listener);
+                                  const ScenarioListener& listener, const std::optional<RecordingOptions>& record);
 
 }  // namespace homeward::agent
