@@ -8,25 +8,6 @@ inline constexpr int kRecordingApplicationId = 0x48575243;
 /// user_version of the file. A released schema is never edited; a newer file is refused.
 inline constexpr int kRecordingVersion = 1;
 
-/// What made the robot stand: the first step that does not drive, or the last one where the recording ends before it.
-#define HOMEWARD_WHY_STOPPED_SQL                                                                                    \
-  "WITH stood AS (SELECT * FROM steps WHERE seq = coalesce((SELECT min(seq) FROM steps WHERE state <> 'driving'), " \
-  "(SELECT max(seq) FROM steps))) "                                                                                 \
-  "SELECT seq AS step, (now_ms - (SELECT now_ms FROM steps ORDER BY seq LIMIT 1)) / 1000.0 AS after_s, state, "     \
-  "reason, path_index, odometry_x_m, odometry_y_m, odometry_theta_rad, link_up, min_range_m, "                      \
-  "(now_ms - (SELECT s.now_ms FROM messages JOIN steps s ON s.seq = step WHERE sender = 'server' "                  \
-  "AND step <= stood.seq ORDER BY step DESC LIMIT 1)) / 1000.0 AS since_message_s, "                                \
-  "(coalesce(sensors_ms, now_ms) - (SELECT taken_ms FROM pictures WHERE step <= stood.seq "                         \
-  "ORDER BY step DESC LIMIT 1)) / 1000.0 AS since_picture_s, "                                                      \
-  "(coalesce(sensors_ms, now_ms) - (SELECT taken_ms FROM sweeps WHERE step <= stood.seq "                           \
-  "ORDER BY step DESC LIMIT 1)) / 1000.0 AS since_sweep_s, "                                                        \
-  "(now_ms - (SELECT s.now_ms FROM steps s JOIN pictures p ON p.step = s.seq WHERE s.answered AND s.seq <= "        \
-  "stood.seq ORDER BY s.seq DESC LIMIT 1)) / 1000.0 AS since_vector_s, "                                            \
-  "(SELECT s.confidence FROM steps s WHERE s.bearing_rad IS NOT NULL AND s.seq <= stood.seq "                       \
-  "ORDER BY s.seq DESC LIMIT 1) AS last_confidence FROM stood"
-
-inline constexpr const char* kSelectWhyStopped = HOMEWARD_WHY_STOPPED_SQL;
-
 /// Columns in units are for people and their queries; what must come back bit for bit stands in `exact` as well (SQLite
 /// keeps neither -0.0 nor NaN).
 inline constexpr const char* kRecordingSchema = R"sql(
@@ -45,8 +26,30 @@ CREATE TABLE sweeps (step INTEGER PRIMARY KEY, taken_ms INTEGER NOT NULL, exact 
 CREATE TABLE pictures (
   step INTEGER PRIMARY KEY, taken_ms INTEGER NOT NULL, odometry_x_m REAL, odometry_y_m REAL, odometry_theta_rad REAL,
   exact BLOB NOT NULL, bytes BLOB) STRICT;
-CREATE VIEW why_did_it_stop AS )sql" HOMEWARD_WHY_STOPPED_SQL ";\n";
+-- What made the robot stand: the first step that does not drive, or the last one where the recording ends before it.
+CREATE VIEW why_did_it_stop AS
+WITH stood AS (SELECT * FROM steps WHERE seq = coalesce(
+  (SELECT min(seq) FROM steps WHERE state <> 'driving'), (SELECT max(seq) FROM steps)))
+SELECT seq AS step, (now_ms - (SELECT now_ms FROM steps ORDER BY seq LIMIT 1)) / 1000.0 AS after_s, state,
+  CASE state WHEN 'driving' THEN coalesce((SELECT value FROM meta WHERE key = 'end'), 'The recording was cut off here.')
+    ELSE reason END AS reason,
+  path_index, odometry_x_m, odometry_y_m, odometry_theta_rad, link_up, min_range_m,
+  (now_ms - (SELECT s.now_ms FROM messages m JOIN steps s ON s.seq = m.step WHERE m.sender = 'server'
+    AND m.step <= stood.seq ORDER BY m.step DESC LIMIT 1)) / 1000.0 AS since_message_s,
+  (coalesce(sensors_ms, now_ms) - (SELECT taken_ms FROM pictures WHERE step <= stood.seq
+    ORDER BY step DESC LIMIT 1)) / 1000.0 AS since_picture_s,
+  (coalesce(sensors_ms, now_ms) - (SELECT taken_ms FROM sweeps WHERE step <= stood.seq
+    ORDER BY step DESC LIMIT 1)) / 1000.0 AS since_sweep_s,
+  (now_ms - (SELECT s.now_ms FROM steps s WHERE s.answered AND s.has_picture AND s.seq <= stood.seq
+    ORDER BY s.seq DESC LIMIT 1)) / 1000.0 AS since_vector_s,
+  (SELECT s.confidence FROM steps s WHERE s.bearing_rad IS NOT NULL AND s.seq <= stood.seq
+    ORDER BY s.seq DESC LIMIT 1) AS last_confidence
+FROM stood;
+)sql";
 
-#undef HOMEWARD_WHY_STOPPED_SQL
+inline constexpr const char* kSelectWhyStopped =
+    "SELECT step, after_s, state, reason, path_index, odometry_x_m, odometry_y_m, odometry_theta_rad, link_up, "
+    "min_range_m, since_message_s, since_picture_s, since_sweep_s, since_vector_s, last_confidence "
+    "FROM why_did_it_stop";
 
 }  // namespace homeward::db

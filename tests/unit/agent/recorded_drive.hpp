@@ -114,7 +114,7 @@ class RecordedDrive : public ::testing::Test {
   }
 
   homeward::testing::ScratchFolder folder_;
-  std::unique_ptr<camera::Camera> camera_;
+  std::shared_ptr<const camera::Camera> camera_;
   Recorder::Robot robot_;
   std::optional<pipeline::Eye> eye_;
   RecordingOptions options_;

@@ -74,7 +74,6 @@ TEST_F(Replay, NoticesAnotherPicture) {
   ASSERT_TRUE(replayed) << replayed.error().message;
   ASSERT_FALSE(replayed->same());
   EXPECT_EQ(replayed->differing[0].step, 5);
-  EXPECT_THAT(replayed->differing[0].what, HasSubstr("vector"));
   EXPECT_LE(replayed->differing.size(), 10U);
 }
 
