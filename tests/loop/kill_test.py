@@ -2,7 +2,8 @@
 """What survives SIGKILL: the server is killed during an upload, a build and a mission, and frozen during another.
 
 Nothing that was acknowledged may be lost, the killed build must end, the chair must stop by itself within 0.5 s, and
-nothing may move again until a person says so; then the robot is killed, and what it recorded is replayed. Real programs, real pictures, a folder of its own.
+nothing may move again until a person says so. Then the robot is killed, and what it recorded is replayed. Real
+programs, real pictures, a folder of its own.
 usage: kill_test.py BIN_FOLDER WEB_FOLDER
 """
 import json
