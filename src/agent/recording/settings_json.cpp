@@ -9,55 +9,87 @@ namespace {
 
 using nlohmann::json;
 
-/// Names every member once, for writing and for reading.
+// Each of these names every member once, for writing and for reading. They take the structures apart, so that one with
+// a new member does not compile before the member is recorded as well.
+
 template <class Fields, class Config>
-void driving_fields(Fields& fields, Config& c) {
-  fields("body_radius_m", c.body.radius_m);
-  fields("body_disc_x_m", c.body.disc_x_m);
-  fields("body_max_speed_mps", c.body.max_speed_mps);
-  fields("body_max_turn_radps", c.body.max_turn_radps);
-  fields("body_deceleration_mps2", c.body.deceleration_mps2);
-  fields("body_turn_deceleration_radps2", c.body.turn_deceleration_radps2);
-  fields("homing_min_inliers", c.follow.homing.min_inliers);
-  fields("homing_arrived_parallax_rad", c.follow.homing.arrived_parallax_rad);
-  fields("track_metres_per_parallax", c.follow.track.metres_per_parallax);
-  fields("track_drift_per_m", c.follow.track.drift_per_m);
-  fields("track_gate", c.follow.track.gate);
-  fields("follow_pass_m", c.follow.pass_m);
-  fields("follow_abreast_m", c.follow.abreast_m);
-  fields("follow_path_odds", c.follow.path_odds);
-  fields("follow_sure", c.follow.sure);
-  fields("follow_sure_inliers", c.follow.sure_inliers);
-  fields("follow_believe", c.follow.believe);
-  fields("follow_look_ahead", c.follow.look_ahead);
-  fields("follow_blind_m", c.follow.blind_m);
-  fields("follow_nearby_m", c.follow.nearby_m);
-  fields("follow_alike_share", c.follow.alike_share);
-  fields("feature_config_id", c.feature_config_id);
-  fields("link_silence_ms", c.link_silence_ms);
-  fields("frame_silence_ms", c.frame_silence_ms);
-  fields("first_frame_ms", c.first_frame_ms);
-  fields("scan_silence_ms", c.scan_silence_ms);
-  fields("stands_within_ms", c.stands_within_ms);
-  fields("reaction_ms", c.reaction_ms);
-  fields("blind_ms", c.blind_ms);
-  fields("stuck_ms", c.stuck_ms);
-  fields("turn_gain", c.turn_gain);
-  fields("dock_within_rad", c.dock_within_rad);
+void body_fields(Fields& fields, Config& body) {
+  auto& [radius_m, disc_x_m, max_speed_mps, max_turn_radps, deceleration_mps2, turn_deceleration_radps2] = body;
+  fields("body_radius_m", radius_m);
+  fields("body_disc_x_m", disc_x_m);
+  fields("body_max_speed_mps", max_speed_mps);
+  fields("body_max_turn_radps", max_turn_radps);
+  fields("body_deceleration_mps2", deceleration_mps2);
+  fields("body_turn_deceleration_radps2", turn_deceleration_radps2);
 }
 
 template <class Fields, class Config>
-void feature_fields(Fields& fields, Config& c) {
-  fields("panorama_width_px", c.panorama_width_px);
-  fields("elevation_max_rad", c.elevation_max_rad);
-  fields("elevation_min_rad", c.elevation_min_rad);
-  fields("max_sift", c.max_sift);
-  fields("sift_contrast_threshold", c.sift_contrast_threshold);
-  fields("sift_code_length", c.sift_code_length);
-  fields("max_columns", c.max_columns);
-  fields("sift_windows", c.sift_windows);
+void homing_fields(Fields& fields, Config& homing) {
+  auto& [min_inliers, arrived_parallax_rad] = homing;
+  fields("homing_min_inliers", min_inliers);
+  fields("homing_arrived_parallax_rad", arrived_parallax_rad);
 }
 
+template <class Fields, class Config>
+void track_fields(Fields& fields, Config& track) {
+  auto& [metres_per_parallax, drift_per_m, gate] = track;
+  fields("track_metres_per_parallax", metres_per_parallax);
+  fields("track_drift_per_m", drift_per_m);
+  fields("track_gate", gate);
+}
+
+template <class Fields, class Config>
+void follow_fields(Fields& fields, Config& follow) {
+  auto& [homing, track, pass_m, abreast_m, path_odds, sure, sure_inliers, believe, look_ahead, blind_m, nearby_m,
+         alike_share] = follow;
+  homing_fields(fields, homing);
+  track_fields(fields, track);
+  fields("follow_pass_m", pass_m);
+  fields("follow_abreast_m", abreast_m);
+  fields("follow_path_odds", path_odds);
+  fields("follow_sure", sure);
+  fields("follow_sure_inliers", sure_inliers);
+  fields("follow_believe", believe);
+  fields("follow_look_ahead", look_ahead);
+  fields("follow_blind_m", blind_m);
+  fields("follow_nearby_m", nearby_m);
+  fields("follow_alike_share", alike_share);
+}
+
+template <class Fields, class Config>
+void driving_fields(Fields& fields, Config& driving) {
+  auto& [body, follow, feature_config_id, link_silence_ms, frame_silence_ms, first_frame_ms, scan_silence_ms,
+         stands_within_ms, reaction_ms, blind_ms, stuck_ms, turn_gain, dock_within_rad] = driving;
+  body_fields(fields, body);
+  follow_fields(fields, follow);
+  fields("feature_config_id", feature_config_id);
+  fields("link_silence_ms", link_silence_ms);
+  fields("frame_silence_ms", frame_silence_ms);
+  fields("first_frame_ms", first_frame_ms);
+  fields("scan_silence_ms", scan_silence_ms);
+  fields("stands_within_ms", stands_within_ms);
+  fields("reaction_ms", reaction_ms);
+  fields("blind_ms", blind_ms);
+  fields("stuck_ms", stuck_ms);
+  fields("turn_gain", turn_gain);
+  fields("dock_within_rad", dock_within_rad);
+}
+
+template <class Fields, class Config>
+void feature_fields(Fields& fields, Config& features) {
+  auto& [panorama_width_px, elevation_max_rad, elevation_min_rad, max_sift, sift_contrast_threshold, sift_code_length,
+         max_columns, sift_windows] = features;
+  fields("panorama_width_px", panorama_width_px);
+  fields("elevation_max_rad", elevation_max_rad);
+  fields("elevation_min_rad", elevation_min_rad);
+  fields("max_sift", max_sift);
+  fields("sift_contrast_threshold", sift_contrast_threshold);
+  fields("sift_code_length", sift_code_length);
+  fields("max_columns", max_columns);
+  fields("sift_windows", sift_windows);
+}
+
+/// Not all of the state: a new mission makes the rest anew.
 template <class Fields, class State>
 void memory_fields(Fields& fields, State& s) {
   fields("epoch", s.newest.epoch);
