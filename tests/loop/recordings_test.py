@@ -13,6 +13,7 @@ import tempfile
 import time
 import unittest
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 BIN = pathlib.Path(sys.argv[1]).resolve()
 SCENARIO = {"format": "homeward-scenario", "version": 1, "world": "house:1", "seed": 1,
             "camera": {"model": "hyperbolic_mirror"},
@@ -32,6 +33,7 @@ class Recordings(unittest.TestCase):
     def setUpClass(cls):
         cls.scratch = tempfile.TemporaryDirectory(prefix="homeward-recordings-")
         cls.folder = pathlib.Path(cls.scratch.name)
+        cls.schema = json.loads((ROOT / "proto/schemas/replay.schema.json").read_text())
         cls.scenario = cls.folder / "scenario.json"
         cls.scenario.write_text(json.dumps(SCENARIO))
         done = subprocess.run([BIN / "homeward", "simulate", "run", "--scenario", cls.scenario, "--json", "--record",
@@ -56,6 +58,9 @@ class Recordings(unittest.TestCase):
                 done = self.replay(file)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 replayed = json.loads(done.stdout)
+                self.assertEqual(set(replayed), set(self.schema["required"]))
+                why = self.schema["properties"]["why_stopped"]
+                self.assertEqual(set(replayed["why_stopped"]), set(why["required"]))
                 self.assertEqual(replayed["differing"], [])
                 self.assertTrue(replayed["complete"], replayed)
                 self.assertEqual(replayed["compared"], replayed["steps"])
