@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <string>
 
 #include "db/recording.hpp"
@@ -156,14 +160,24 @@ class SqliteRecordingWriter final : public RecordingWriter {
 Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::filesystem::path& file,
                                                                  const RecordingHeader& header,
                                                                  const std::optional<RecordedSweep>& sweep_before) {
-  std::error_code ignored;
-  if (std::filesystem::exists(file, ignored)) {
+  // Pictures of a home: for the eyes of its user alone. SQLite gives the files beside it the same rights.
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (descriptor < 0 && errno == EEXIST) {
     return fail(ErrorCode::kConflict, "There is a file of this name already.", file.string());
   }
+  if (descriptor < 0) {
+    return fail(ErrorCode::kIo, std::string("The recording cannot be made: ") + std::strerror(errno) + ".",
+                file.string());
+  }
+  ::close(descriptor);
   std::unique_ptr<RecordingWriter> writer;
   const Status made =
       told_as_status(file, [&] { writer = std::make_unique<SqliteRecordingWriter>(file, header, sweep_before); });
-  if (!made) return pass_on(made);
+  if (!made) {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+    return pass_on(made);
+  }
   return writer;
 }
 

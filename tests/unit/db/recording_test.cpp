@@ -98,6 +98,18 @@ TEST_F(RecordingFile, IsOneFileOnceItEnded) {
   EXPECT_EQ(folder_.count(), 1);
 }
 
+TEST_F(RecordingFile, IsForTheEyesOfItsUserAlone) {
+  auto writer = RecordingWriter::create(file(), homeward::testing::sample_recording_header(), std::nullopt);
+  ASSERT_TRUE(writer);
+  const RecordedStep first[] = {homeward::testing::sample_recorded_step(1)};
+  ASSERT_TRUE((*writer)->append(first));
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+    EXPECT_EQ(entry.status().permissions(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_write)
+        << entry.path();
+  }
+  EXPECT_GE(folder_.count(), 2) << "there is no journal to look at";
+}
+
 TEST_F(RecordingFile, IsNotWrittenOverAnother) {
   record();
   const auto again = RecordingWriter::create(file(), homeward::testing::sample_recording_header(), std::nullopt);
