@@ -18,6 +18,7 @@ void register_compass(CLI::App& program);
 void register_home(CLI::App& program);
 void register_localise(CLI::App& program);
 void register_loops(CLI::App& program);
+void register_replay(CLI::App& program);
 void register_retrieve(CLI::App& program);
 void register_route(CLI::App& program);
 void register_simulate(CLI::App& program);

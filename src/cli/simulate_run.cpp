@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -18,6 +19,8 @@ struct Options {
   std::string scenario;
   bool json = false;
   std::string trace;
+  std::string record;
+  std::int64_t record_limit_mb = 512;
 };
 
 nlohmann::json to_json(const agent::MissionResult& result) {
@@ -87,7 +90,19 @@ Status run(const Options& options) {
     if (!trace) return fail(ErrorCode::kIo, "The trace cannot be written.", options.trace);
     listener.cycled = [&](const agent::CycleTrace& cycle) { trace << to_json(cycle).dump() << "\n"; };
   }
-  return agent::run_scenario(*scenario, std::filesystem::path(options.scenario).parent_path().string(), listener);
+  std::optional<agent::RecordingOptions> record;
+  if (!options.record.empty()) {
+    std::error_code ignored;
+    if (std::filesystem::exists(options.record, ignored) && !std::filesystem::is_empty(options.record, ignored)) {
+      return fail(ErrorCode::kConflict, "The folder holds something already; name a new or empty one.", options.record);
+    }
+    record.emplace();
+    record->folder = options.record;
+    record->limit_bytes = options.record_limit_mb << 20;
+    record->folder_limit_bytes = std::numeric_limits<std::int64_t>::max();
+  }
+  return agent::run_scenario(*scenario, std::filesystem::path(options.scenario).parent_path().string(), listener,
+                             record);
 }
 
 }  // namespace
@@ -99,6 +114,13 @@ void register_simulate_run(CLI::App& simulate) {
   command->add_option("--scenario", options->scenario, "Scenario file")->required();
   command->add_flag("--json", options->json, "One JSON line for each mission");
   command->add_option("--trace", options->trace, "Also write every control cycle as a JSON line to this file");
+  command->add_option("--record", options->record,
+                      "Also record each mission as a file in this new folder (homeward replay)");
+  command
+      ->add_option("--record-limit-mb", options->record_limit_mb,
+                   "Size of one recording; full, it goes on without pictures")
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
   run_on(*command, [options] { return run(*options); });
 }
 

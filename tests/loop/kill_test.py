@@ -2,7 +2,8 @@
 """What survives SIGKILL: the server is killed during an upload, a build and a mission, and frozen during another.
 
 Nothing that was acknowledged may be lost, the killed build must end, the chair must stop by itself within 0.5 s, and
-nothing may move again until a person says so. Real programs, real pictures, a folder of its own.
+nothing may move again until a person says so. Then the robot is killed, and what it recorded is replayed. Real
+programs, real pictures, a folder of its own.
 usage: kill_test.py BIN_FOLDER WEB_FOLDER
 """
 import json
@@ -175,7 +176,8 @@ class Kill(unittest.TestCase):
             type(self).agent = subprocess.Popen(
                 [BIN / "homeward-agent", "run", "--server", self.server.address, "--robot", robot["id"],
                  "--token-file", self.data / "robot-token", "--driver", "simulator", "--world", "house:1",
-                 "--start-room", "living_room", "--truth-file", self.data / "truth.jsonl"], stdout=log,
+                 "--start-room", "living_room", "--truth-file", self.data / "truth.jsonl", "--record",
+                 self.data / "recordings"], stdout=log,
                 stderr=subprocess.STDOUT)
         self.wait_for("knowing where it is", 120, self.located)
         mission = self.set_off("kitchen")
@@ -200,6 +202,35 @@ class Kill(unittest.TestCase):
         self.wait_for("the end of the mission", 30, lambda: self.server.call(
             "GET", f"/api/v1/robots/{self.robot_id}/missions/{mission}")["state"] in ("stopped", "failed"))
         self.expect_no_motion(3.0)
+
+    def replay(self, file):
+        done = subprocess.run([BIN / "homeward", "replay", file, "--json"], capture_output=True, text=True)
+        self.assertTrue(done.stdout, done.stderr)
+        replayed = json.loads(done.stdout)
+        print(f"{replayed['compared']} steps, {replayed['vectors']} vectors: {replayed['note']}", file=sys.stderr)
+        self.assertEqual(done.returncode, 0, replayed)
+        self.assertEqual(replayed["compared"], replayed["steps"])
+        self.assertGreater(replayed["vectors"], 3)
+        return replayed
+
+    def recordings(self):
+        return sorted((self.data / "recordings").glob("*.hwrec"), key=lambda file: file.stat().st_mtime)
+
+    def test_5_its_missions_were_recorded(self):
+        self.assertEqual(len(self.recordings()), 2)
+        for file, word in zip(self.recordings(), ["connection to the house is lost", "fallen silent"], strict=True):
+            replayed = self.replay(file)
+            self.assertTrue(replayed["complete"], replayed)
+            self.assertIn(word, replayed["why_stopped"]["reason"])
+
+    def test_6_a_robot_that_is_killed_leaves_a_recording(self):
+        self.wait_for("knowing where it is", 60, self.located)
+        self.set_off("living_room")
+        self.agent.kill()
+        self.agent.wait()
+        replayed = self.replay(self.recordings()[-1])
+        self.assertFalse(replayed["complete"])
+        self.assertIn("cut off", replayed["why_stopped"]["reason"])
 
 
 if __name__ == "__main__":

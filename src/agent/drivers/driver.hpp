@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
 #include "agent/driving/body.hpp"
 #include "agent/driving/scan.hpp"
@@ -27,6 +29,7 @@ struct TakenPicture {
   Milliseconds t_ms = 0;
   Image picture;
   Pose2 odometry;
+  std::vector<std::uint8_t> jpeg = {};  // as it came, empty where the driver has pixels only
 };
 
 /// A robot's sensors and wheels. `read` and `command` are called from one thread, `next_picture` from another.

@@ -4,12 +4,13 @@
 #include <sodium.h>
 
 #include <chrono>
+#include <memory>
 #include <thread>
 
 #include "agent/driving/step.hpp"
 #include "agent/link/link_client.hpp"
+#include "agent/recording/recorder.hpp"
 #include "agent/run/looker.hpp"
-#include "imageio/decode.hpp"
 #include "pipeline/eye.hpp"
 
 namespace homeward::agent {
@@ -18,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kCycle = std::chrono::milliseconds(40);
 constexpr Milliseconds kStatusPeriod_ms = 250;
-constexpr int kQuality = 90;
+constexpr const char* kAgent = "homeward-agent/0.1.0";
 
 Milliseconds now_ms() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now().time_since_epoch()).count();
@@ -79,14 +80,20 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
   config.body = driver.body();
   config.feature_config_id = features::feature_config_id(features);
 
-  wire::Hello hello{"homeward-agent/0.1.0", options.robot_name,   random_session(),
-                    driver.camera(),        config.body.radius_m, config.body.max_speed_mps};
+  wire::Hello hello{kAgent,          options.robot_name,   random_session(),
+                    driver.camera(), config.body.radius_m, config.body.max_speed_mps};
   const StandStill at_the_end(driver);
   LinkClient link(options.server, options.robot, options.token, std::move(hello), options.told);
   std::int64_t frame_seq = 0;
-  Looker looker(driver, *eye, now_ms, [&](const Image& picture) {
-    if (link.up()) link.send(wire::Frame{++frame_seq, now_us(), imageio::encode_jpeg(picture, kQuality)});
+  Looker looker(driver, *eye, now_ms, [&](const PictureBytes& picture) {
+    if (link.up()) link.send(wire::Frame{++frame_seq, now_us(), *picture});
   });
+  std::unique_ptr<Recorder> recorder;
+  if (options.record) {
+    auto created = Recorder::create(*options.record, {kAgent, driver.camera(), features, config}, options.told);
+    if (!created) return pass_on(created);
+    recorder = std::move(*created);
+  }
 
   DrivingState state;
   std::int64_t status_seq = 0;
@@ -100,14 +107,18 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
     inputs.odometry = reading.odometry;
     inputs.link_up = link.up();
     inputs.messages = link.take_messages();
-    inputs.picture = looker.take();
+    PictureBytes picture;
+    if (auto looked_at = looker.take()) {
+      inputs.picture = std::move(looked_at->seen);
+      picture = std::move(looked_at->bytes);
+    }
     const Milliseconds now = now_ms();
     inputs.sensors_now_ms = reading.t_ms;
     if (reading.scan) inputs.scan = {reading.t_ms, *reading.scan};
     for (const wire::ServerMessage& message : inputs.messages) {
       if (const auto* welcome = std::get_if<wire::Welcome>(&message)) looker.set_show_period(welcome->frame_period_ms);
     }
-    const Outputs outputs = step(state, inputs, config, now);
+    const Outputs outputs = recorder ? recorder->step(state, inputs, picture, now) : step(state, inputs, config, now);
     driver.command(outputs.motion);
     for (wire::AgentMessage message : outputs.messages) {
       if (auto* stopped = std::get_if<wire::Stopped>(&message)) stopped->t_us = now_us();

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 
 #include "agent/drivers/driver.hpp"
 #include "agent/link/address.hpp"
+#include "agent/recording/recording_thread.hpp"
 #include "core/ids.hpp"
 #include "core/result.hpp"
 
@@ -17,12 +19,14 @@ struct AgentOptions {
   RobotId robot;
   std::string token;
   std::string robot_name;
-  std::function<void(const std::string&)> told;  // what happens, for a log
+  std::function<void(const std::string&)> told;  // what happens, for a log; called from any thread
+  std::optional<RecordingOptions> record;        // each mission in a file of its own
 };
 
 /// Runs a robot until `stop` is asked for: one thread looks at pictures, one (the caller's) decides 25 times a second
 /// and commands the driver, one speaks with the server. The driver is commanded to zero at the end, however it ends.
-/// Errors: those of the eye and of pictures.
+/// Errors: those of the eye and of pictures, and of Recorder::create. A recording that cannot go on is given up, and
+/// the robot drives on.
 Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_token& stop);
 
 }  // namespace homeward::agent

@@ -4,7 +4,7 @@
 namespace homeward::agent {
 
 Looker::Looker(Driver& driver, const pipeline::Eye& eye, std::function<Milliseconds()> now_ms,
-               std::function<void(const Image&)> show)
+               std::function<void(const PictureBytes&)> show)
     : driver_(driver),
       eye_(eye),
       now_ms_(std::move(now_ms)),
@@ -16,7 +16,7 @@ Looker::~Looker() {
   thread_.join();
 }
 
-std::optional<SeenPicture> Looker::take() {
+std::optional<LookedAt> Looker::take() {
   const std::lock_guard lock(mutex_);
   return std::exchange(newest_, std::nullopt);
 }
@@ -38,23 +38,19 @@ void Looker::run(const std::stop_token& stop) {
     if (!taken) return fail_with(taken.error());
     if (!*taken) return;
     const Milliseconds taken_ms = now_ms_();
-    if (taken_ms - shown_ms >= show_period_ms_) {
+    const bool shown = taken_ms - shown_ms >= show_period_ms_;
+    if (!shown && !looking_) continue;
+    CameraPicture picture = as_sent(std::move(**taken));
+    picture.recognised = features_wanted_;
+    if (shown) {
       shown_ms = taken_ms;
-      show_((*taken)->picture);
+      show_(picture.bytes);
     }
     if (!looking_) continue;
-    auto panorama = eye_.unwrap((*taken)->picture);
-    if (!panorama) return fail_with(panorama.error());
-    SeenPicture seen;
-    seen.taken_ms = (*taken)->t_ms;
-    seen.odometry = (*taken)->odometry;
-    if (features_wanted_) {
-      auto appearance = eye_.look(*panorama);
-      seen.appearance = std::make_shared<const features::Appearance>(std::move(appearance));
-    }
-    seen.frame = tracking::TrackingFrame(*panorama);
+    auto seen = look(picture, eye_);
+    if (!seen) return fail_with(seen.error());
     const std::lock_guard lock(mutex_);
-    newest_ = std::move(seen);
+    newest_ = LookedAt{std::move(*seen), picture.bytes};
   }
 }
 

@@ -9,23 +9,30 @@
 
 #include "agent/drivers/driver.hpp"
 #include "agent/driving/step.hpp"
+#include "agent/recording/look.hpp"
 #include "core/result.hpp"
 #include "pipeline/eye.hpp"
 
 namespace homeward::agent {
+
+/// A picture that was looked at, and the bytes that were.
+struct LookedAt {
+  SeenPicture seen;
+  PictureBytes bytes;
+};
 
 /// Takes pictures from a driver in a thread of its own: what was seen for the heart of the agent, JPEGs for the server.
 class Looker {
  public:
   /// `now_ms`: the clock of the heart. `show`: hears of a picture for the server, as often as `set_show_period` says.
   Looker(Driver& driver, const pipeline::Eye& eye, std::function<Milliseconds()> now_ms,
-         std::function<void(const Image&)> show);
+         std::function<void(const PictureBytes&)> show);
   ~Looker();
   Looker(const Looker&) = delete;
   Looker& operator=(const Looker&) = delete;
 
   /// The newest picture that was not taken yet.
-  std::optional<SeenPicture> take();
+  std::optional<LookedAt> take();
   /// Whether pictures are looked at; standing robots need not.
   void set_looking(bool looking) { looking_ = looking; }
   /// Whether pictures are recognised; otherwise they are only made ready for tracking.
@@ -41,12 +48,12 @@ class Looker {
   Driver& driver_;
   const pipeline::Eye& eye_;
   std::function<Milliseconds()> now_ms_;
-  std::function<void(const Image&)> show_;
+  std::function<void(const PictureBytes&)> show_;
   std::atomic<bool> looking_{false};
   std::atomic<bool> features_wanted_{true};
   std::atomic<Milliseconds> show_period_ms_{200};
   std::mutex mutex_;
-  std::optional<SeenPicture> newest_;
+  std::optional<LookedAt> newest_;
   std::optional<Error> trouble_;
   std::jthread thread_;  // last: it uses all of the above
 };

@@ -43,6 +43,9 @@ struct RunOptions {
   std::string driver = "simulator";
   agent::SimulatorDriverConfig simulator;
   agent::FolderDriverConfig folder;
+  std::string record;
+  std::int64_t record_limit_mb = 512;
+  std::int64_t record_folder_limit_mb = 4096;
 };
 
 Result<std::unique_ptr<agent::Driver>> make_driver(const RunOptions& options) {
@@ -88,8 +91,18 @@ Status run(const RunOptions& options) {
   spdlog::info("preparing the {}", options.driver);
   const auto driver = make_driver(options);
   if (!driver) return pass_on(driver);
-  const agent::AgentOptions agent_options{*address, RobotId(options.robot), *token, options.robot_name,
-                                          [](const std::string& what) { spdlog::info("{}", what); }};
+  agent::AgentOptions agent_options{*address,
+                                    RobotId(options.robot),
+                                    *token,
+                                    options.robot_name,
+                                    [](const std::string& what) { spdlog::info("{}", what); },
+                                    std::nullopt};
+  if (!options.record.empty()) {
+    agent::RecordingOptions& record = agent_options.record.emplace();
+    record.folder = options.record;
+    record.limit_bytes = options.record_limit_mb << 20;
+    record.folder_limit_bytes = options.record_folder_limit_mb << 20;
+  }
   return agent::run_agent(**driver, agent_options, signals.token());
 }
 
@@ -153,6 +166,17 @@ void register_run(CLI::App& program) {
   command->add_option("--images", options->folder.folder, "Folder: where the pictures are");
   command->add_option("--rate", options->folder.pictures_per_s, "Folder: pictures a second")->capture_default_str();
   command->add_flag("--repeat", options->folder.repeat, "Folder: begin again after the last picture");
+  command->add_option("--record", options->record, "Record each mission as a file in this folder (homeward replay)");
+  command
+      ->add_option("--record-limit-mb", options->record_limit_mb,
+                   "Size of one recording; full, it goes on without pictures")
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
+  command
+      ->add_option("--record-folder-limit-mb", options->record_folder_limit_mb,
+                   "Size of all recordings; the oldest are removed")
+      ->check(CLI::Range(1, 1 << 24))
+      ->capture_default_str();
   run_on(*command, [options] { return run(*options); });
 }
 

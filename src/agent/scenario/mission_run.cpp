@@ -8,6 +8,7 @@
 #include "agent/driving/orders.hpp"
 #include "agent/driving/step.hpp"
 #include "agent/files/world_folder.hpp"
+#include "agent/recording/recorder.hpp"
 #include "core/angles.hpp"
 #include "pipeline/belief_tracker.hpp"
 #include "planning/route.hpp"
@@ -89,8 +90,8 @@ Result<std::optional<PlaceId>> find_place(const TaughtWorld& taught, SimulatedRo
 class Drive {
  public:
   Drive(SimulatedRobot& robot, const pipeline::Eye& eye, const MissionPlan& plan, const DrivingConfig& config,
-        const ScenarioListener& listener)
-      : robot_(robot), eye_(eye), plan_(plan), config_(config), listener_(listener) {}
+        const ScenarioListener& listener, Recorder* recorder)
+      : robot_(robot), eye_(eye), plan_(plan), config_(config), listener_(listener), recorder_(recorder) {}
 
   Status run(const wire::MissionOrder& order) {
     order_ = &order;
@@ -121,26 +122,24 @@ class Drive {
     inputs.odometry = robot_.vehicle().odometry();
     inputs.link_up = link_up;
     inputs.messages = std::exchange(messages_, {});
+    PictureBytes bytes;
     if (!active(plan_.faults, "camera_frozen", elapsed_s())) {
       Image picture = robot_.picture();
       for (const wire::ScenarioFault& fault : plan_.faults) {
         if (fault.kind == "camera_occluded" && active({fault}, "camera_occluded", elapsed_s()))
           occlude(picture, fault.share);
       }
-      const auto panorama = eye_.unwrap(picture);
-      if (!panorama) return pass_on(panorama);
-      SeenPicture seen;
-      seen.taken_ms = now_ms_;
-      seen.odometry = inputs.odometry;
-      if (wants_features(state_.follow)) {
-        seen.appearance = std::make_shared<const features::Appearance>(eye_.look(*panorama));
-      }
-      seen.frame = tracking::TrackingFrame(*panorama);
-      inputs.picture = std::move(seen);
+      CameraPicture sent = as_sent({now_ms_, std::move(picture), inputs.odometry});
+      sent.recognised = wants_features(state_.follow);
+      auto seen = look(sent, eye_);
+      if (!seen) return pass_on(seen);
+      inputs.picture = std::move(*seen);
+      bytes = sent.bytes;
     }
     if (!active(plan_.faults, "scan_lost", elapsed_s())) inputs.scan = {now_ms_, robot_.sweep()};
     const bool was_driving = state_.drive == wire::DriveState::kDriving;
-    const Outputs outputs = step(state_, inputs, config_, now_ms_);
+    const Outputs outputs =
+        recorder_ != nullptr ? recorder_->step(state_, inputs, bytes, now_ms_) : step(state_, inputs, config_, now_ms_);
     if (state_.seen.answered && inputs.picture) ++vectors_;
     if (was_driving && !state_.reason.empty()) stops_.push_back({elapsed_s(), state_.reason});
     if (listener_.cycled) listener_.cycled(trace(outputs));
@@ -182,6 +181,7 @@ class Drive {
   const MissionPlan& plan_;
   const DrivingConfig& config_;
   const ScenarioListener& listener_;
+  Recorder* recorder_;
   const wire::MissionOrder* order_ = nullptr;
   DrivingState state_;
   std::vector<wire::ServerMessage> messages_;
@@ -194,8 +194,8 @@ class Drive {
 
 Result<MissionResult> drive_order(SimulatedRobot& robot, const pipeline::Eye& eye, const wire::MissionOrder& order,
                                   const MissionPlan& plan, const DrivingConfig& config,
-                                  const ScenarioListener& listener) {
-  Drive drive(robot, eye, plan, config, listener);
+                                  const ScenarioListener& listener, Recorder* recorder) {
+  Drive drive(robot, eye, plan, config, listener, recorder);
   if (const Status driven = drive.run(order); !driven) return pass_on(driven);
   MissionResult result;
   result.arrived = drive.state().drive == wire::DriveState::kArrived;
@@ -214,7 +214,7 @@ void judge(const sim::Vehicle& vehicle, const Pose2& target, MissionResult& resu
 }
 
 Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, const sim::RobotProfile& profile,
-                                  const ScenarioListener& listener) {
+                                  const ScenarioListener& listener, const std::optional<RecordingOptions>& record) {
   const sim::World& world = taught.world->world();
   const auto from_m = sim::room_point(world, plan.from);
   if (!from_m) return pass_on(from_m);
@@ -252,7 +252,16 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
       DrivingConfig config;
       config.body = body_of(profile);
       config.feature_config_id = taught.map->feature_config_id;
-      auto driven = drive_order(*robot, *eye, *order, plan, config, listener);
+      std::unique_ptr<Recorder> recorder;
+      if (record) {
+        const Recorder::Robot recorded{"homeward simulate/0.1.0", taught.camera, taught.map->feature_config, config};
+        auto created = Recorder::create(*record, recorded, [&](const std::string& what) {
+          if (listener.told) listener.told(what);
+        });
+        if (!created) return pass_on(created);
+        recorder = std::move(*created);
+      }
+      auto driven = drive_order(*robot, *eye, *order, plan, config, listener, recorder.get());
       if (!driven) return pass_on(driven);
       result = std::move(*driven);
     }

@@ -26,15 +26,17 @@ struct MissionPlan {
 
 /// Drives one order in simulated time with the agent's own heart, until it stands; how it went, but for the truth
 /// about where it came to (see judge). Of the plan, the faults count.
+/// `recorder`, or null: records it.
 Result<MissionResult> drive_order(SimulatedRobot& robot, const pipeline::Eye& eye, const wire::MissionOrder& order,
                                   const MissionPlan& plan, const DrivingConfig& config,
-                                  const ScenarioListener& listener);
+                                  const ScenarioListener& listener, Recorder* recorder = nullptr);
 
 /// Fills in what only the world knows: errors to the target's true pose, way, clearance, collisions.
 void judge(const sim::Vehicle& vehicle, const Pose2& target, MissionResult& result);
 
-/// Drives one mission in simulated time, with localiser and planner in the server's place.
+/// Drives one mission in simulated time, with localiser and planner in the server's place; recorded when `record` says
+/// where.
 Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, const sim::RobotProfile& profile,
-                                  const ScenarioListener& listener);
+                                  const ScenarioListener& listener, const std::optional<RecordingOptions>& record);
 
 }  // namespace homeward::agent

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/scenario/scenario_run.hpp"
 
+#include <cstdio>
+
 #include "agent/scenario/mission_run.hpp"
 #include "agent/scenario/taught_world.hpp"
 #include "sim/generate/painting.hpp"
@@ -34,7 +36,8 @@ std::vector<MissionPlan> expanded(const wire::ScenarioFile& scenario, const Taug
 
 }  // namespace
 
-Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder, const ScenarioListener& listener) {
+Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder, const ScenarioListener& listener,
+                    const std::optional<RecordingOptions>& record) {
   const auto told = [&](const std::string& what) {
     if (listener.told) listener.told(what);
   };
@@ -47,9 +50,17 @@ Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folde
   told(std::to_string(taught->map->images.size()) + " pictures, " + std::to_string(taught->map->places.size()) +
        " places");
   const sim::RobotProfile profile = scenario.robot == "chair" ? sim::chair_profile() : sim::disc_profile();
+  int number = 0;
   for (const MissionPlan& plan : expanded(scenario, *taught)) {
     told("from " + plan.from + " to " + plan.to);
-    const auto result = run_mission(*taught, plan, profile, listener);
+    std::optional<RecordingOptions> record_one = record;
+    if (record_one) {
+      char count[16];
+      std::snprintf(count, sizeof count, "%03d-", ++number);
+      record_one->name = count + plan.from + "-to-" + plan.to;
+      record_one->wait_for_disk = true;
+    }
+    const auto result = run_mission(*taught, plan, profile, listener, record_one);
     if (!result) return pass_on(result);
     if (listener.done) listener.done(*result);
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "agent/recording/recording_thread.hpp"
 #include "core/pose2.hpp"
 #include "core/result.hpp"
 #include "wire/scenario_json.hpp"
@@ -63,6 +64,8 @@ struct ScenarioListener {
 /// Teaches a world by a tour, builds its map and drives the missions with the agent's own heart, in simulated time and
 /// as fast as the machine allows. Same scenario, same results. Errors: those of load_world, plan_tour and build_map;
 /// kInvalidInput for a destination that the tour does not visit.
-Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder, const ScenarioListener& listener);
+/// `record`: keeps a recording of each mission, named by number, start and destination. Errors: also those of Recorder.
+Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder, const ScenarioListener& listener,
+                    const std::optional<RecordingOptions>& record = std::nullopt);
 
 }  // namespace homeward::agent

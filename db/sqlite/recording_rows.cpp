@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "db/sqlite/recording_rows.hpp"
+
+#include <array>
+
+#include "core/bytes.hpp"
+
+namespace homeward::db {
+namespace {
+
+constexpr std::uint8_t kHasVector = 1;
+constexpr std::uint8_t kHasMinRange = 2;
+constexpr std::uint8_t kHasNearness = 4;
+
+}  // namespace
+
+std::vector<std::uint8_t> pack_step(const RecordedStep& step) {
+  const RecordedVector vector = step.vector.value_or(RecordedVector{});
+  const std::array<double, 11> numbers = {step.odometry.x_m,
+                                          step.odometry.y_m,
+                                          step.odometry.theta_rad,
+                                          step.speed_mps,
+                                          step.turn_radps,
+                                          vector.bearing_rad,
+                                          vector.turn_rad,
+                                          vector.confidence,
+                                          vector.parallax_rad,
+                                          vector.nearness.value_or(0.0),
+                                          step.min_range_m.value_or(0.0)};
+  ByteWriter writer;
+  writer.put(static_cast<std::uint8_t>((step.vector ? kHasVector : 0) | (step.min_range_m ? kHasMinRange : 0) |
+                                       (vector.nearness ? kHasNearness : 0)));
+  writer.put(numbers.data(), numbers.size());
+  writer.put(vector.matches);
+  writer.put(vector.inliers);
+  return writer.take();
+}
+
+bool unpack_step(std::span<const std::uint8_t> bytes, RecordedStep& step) {
+  ByteReader reader(bytes);
+  std::uint8_t flags = 0;
+  std::array<double, 11> n{};
+  RecordedVector vector;
+  if (!reader.get(&flags) || !reader.get(n.data(), n.size()) || !reader.get(&vector.matches) ||
+      !reader.get(&vector.inliers) || reader.left() != 0) {
+    return false;
+  }
+  step.odometry = {n[0], n[1], n[2]};
+  step.speed_mps = n[3];
+  step.turn_radps = n[4];
+  vector.bearing_rad = n[5];
+  vector.turn_rad = n[6];
+  vector.confidence = n[7];
+  vector.parallax_rad = n[8];
+  if ((flags & kHasNearness) != 0) vector.nearness = n[9];
+  if ((flags & kHasVector) != 0) step.vector = vector;
+  if ((flags & kHasMinRange) != 0) step.min_range_m = n[10];
+  return true;
+}
+
+std::vector<std::uint8_t> pack_pose(const Pose2& pose) {
+  ByteWriter writer;
+  writer.put(pose.x_m);
+  writer.put(pose.y_m);
+  writer.put(pose.theta_rad);
+  return writer.take();
+}
+
+bool unpack_pose(std::span<const std::uint8_t> bytes, Pose2& pose) {
+  ByteReader reader(bytes);
+  return reader.get(&pose.x_m) && reader.get(&pose.y_m) && reader.get(&pose.theta_rad) && reader.left() == 0;
+}
+
+std::vector<std::uint8_t> pack_sweep(const RecordedSweep& sweep) {
+  ByteWriter writer;
+  writer.put(sweep.angle_min_rad);
+  writer.put(sweep.angle_step_rad);
+  writer.put(sweep.range_max_m);
+  writer.put(sweep.ranges_m.data(), sweep.ranges_m.size());
+  return writer.take();
+}
+
+bool unpack_sweep(std::span<const std::uint8_t> bytes, RecordedSweep& sweep) {
+  ByteReader reader(bytes);
+  if (!reader.get(&sweep.angle_min_rad) || !reader.get(&sweep.angle_step_rad) || !reader.get(&sweep.range_max_m)) {
+    return false;
+  }
+  if (reader.left() % sizeof(float) != 0) return false;
+  sweep.ranges_m.resize(reader.left() / sizeof(float));
+  return reader.get(sweep.ranges_m.data(), sweep.ranges_m.size());
+}
+
+std::string_view message_type(const wire::ServerMessage& message) {
+  constexpr std::array<std::string_view, 6> kNames = {"welcome", "mission", "permit", "stop", "belief", "error"};
+  static_assert(std::variant_size_v<wire::ServerMessage> == kNames.size());
+  return kNames[message.index()];
+}
+
+std::string_view message_type(const wire::AgentMessage& message) {
+  constexpr std::array<std::string_view, 5> kNames = {"hello", "frame", "status", "stopped", "mission_refused"};
+  static_assert(std::variant_size_v<wire::AgentMessage> == kNames.size());
+  return kNames[message.index()];
+}
+
+}  // namespace homeward::db

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/recording/settings_json.hpp"
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace homeward::agent {
+namespace {
+
+using nlohmann::json;
+
+// Each of these names every member once, for writing and for reading. They take the structures apart, so that one with
+// a new member does not compile before the member is recorded as well.
+
+template <class Fields, class Config>
+void body_fields(Fields& fields, Config& body) {
+  auto& [radius_m, disc_x_m, max_speed_mps, max_turn_radps, deceleration_mps2, turn_deceleration_radps2] = body;
+  fields("body_radius_m", radius_m);
+  fields("body_disc_x_m", disc_x_m);
+  fields("body_max_speed_mps", max_speed_mps);
+  fields("body_max_turn_radps", max_turn_radps);
+  fields("body_deceleration_mps2", deceleration_mps2);
+  fields("body_turn_deceleration_radps2", turn_deceleration_radps2);
+}
+
+template <class Fields, class Config>
+void homing_fields(Fields& fields, Config& homing) {
+  auto& [min_inliers, arrived_parallax_rad] = homing;
+  fields("homing_min_inliers", min_inliers);
+  fields("homing_arrived_parallax_rad", arrived_parallax_rad);
+}
+
+template <class Fields, class Config>
+void track_fields(Fields& fields, Config& track) {
+  auto& [metres_per_parallax, drift_per_m, gate] = track;
+  fields("track_metres_per_parallax", metres_per_parallax);
+  fields("track_drift_per_m", drift_per_m);
+  fields("track_gate", gate);
+}
+
+template <class Fields, class Config>
+void local_map_fields(Fields& fields, Config& map) {
+  auto& [bearing_spread_rad, inlier_rad, fewest, fewest_share, ransac_rounds, keyframes, keyframe_m, usual_distance_m,
+         usual_distance_spread, odometry_share, odometry_least_m, odometry_turn_rad_per_m, odometry_least_turn_rad] =
+      map;
+  fields("map_bearing_spread_rad", bearing_spread_rad);
+  fields("map_inlier_rad", inlier_rad);
+  fields("map_fewest", fewest);
+  fields("map_fewest_share", fewest_share);
+  fields("map_ransac_rounds", ransac_rounds);
+  fields("map_keyframes", keyframes);
+  fields("map_keyframe_m", keyframe_m);
+  fields("map_usual_distance_m", usual_distance_m);
+  fields("map_usual_distance_spread", usual_distance_spread);
+  fields("map_odometry_share", odometry_share);
+  fields("map_odometry_least_m", odometry_least_m);
+  fields("map_odometry_turn_rad_per_m", odometry_turn_rad_per_m);
+  fields("map_odometry_least_turn_rad", odometry_least_turn_rad);
+}
+
+template <class Fields, class Config>
+void feature_tracks_fields(Fields& fields, Config& tracks) {
+  auto& [track, most, patch_px, least_in_common, least_correlation, search_px, forget_after] = tracks;
+  auto& [window_px, levels, iterations, least_contrast, most_return_px] = track;
+  fields("tracks_window_px", window_px);
+  fields("tracks_levels", levels);
+  fields("tracks_iterations", iterations);
+  fields("tracks_least_contrast", least_contrast);
+  fields("tracks_most_return_px", most_return_px);
+  fields("tracks_most", most);
+  fields("tracks_patch_px", patch_px);
+  fields("tracks_least_in_common", least_in_common);
+  fields("tracks_least_correlation", least_correlation);
+  fields("tracks_search_px", search_px);
+  fields("tracks_forget_after", forget_after);
+}
+
+template <class Fields, class Config>
+void visual_fields(Fields& fields, Config& visual) {
+  // What begins a homing is the homing's own and the path's.
+  auto& [first, recognise_every, fewest_tracked, begin_confidence, prior_odds, metres_per_parallax, patience, map,
+         tracks] = visual;
+  static_cast<void>(first);
+  static_cast<void>(begin_confidence);
+  static_cast<void>(prior_odds);
+  fields("visual_recognise_every", recognise_every);
+  fields("visual_fewest_tracked", fewest_tracked);
+  fields("visual_metres_per_parallax", metres_per_parallax);
+  fields("visual_patience", patience);
+  local_map_fields(fields, map);
+  feature_tracks_fields(fields, tracks);
+}
+
+template <class Fields, class Config>
+void follow_fields(Fields& fields, Config& follow) {
+  auto& [homing, visual, track, pass_m, abreast_m, path_odds, sure, sure_inliers, believe, look_ahead, blind_m,
+         reached_m, nearby_m, alike_share] = follow;
+  homing_fields(fields, homing);
+  visual_fields(fields, visual);
+  track_fields(fields, track);
+  fields("follow_reached_m", reached_m);
+  fields("follow_pass_m", pass_m);
+  fields("follow_abreast_m", abreast_m);
+  fields("follow_path_odds", path_odds);
+  fields("follow_sure", sure);
+  fields("follow_sure_inliers", sure_inliers);
+  fields("follow_believe", believe);
+  fields("follow_look_ahead", look_ahead);
+  fields("follow_blind_m", blind_m);
+  fields("follow_nearby_m", nearby_m);
+  fields("follow_alike_share", alike_share);
+}
+
+template <class Fields, class Config>
+void driving_fields(Fields& fields, Config& driving) {
+  auto& [body, follow, feature_config_id, link_silence_ms, frame_silence_ms, first_frame_ms, scan_silence_ms,
+         stands_within_ms, reaction_ms, blind_ms, stuck_ms, near_m, near_ms, turn_gain, dock_within_rad] = driving;
+  body_fields(fields, body);
+  follow_fields(fields, follow);
+  fields("feature_config_id", feature_config_id);
+  fields("link_silence_ms", link_silence_ms);
+  fields("frame_silence_ms", frame_silence_ms);
+  fields("first_frame_ms", first_frame_ms);
+  fields("scan_silence_ms", scan_silence_ms);
+  fields("stands_within_ms", stands_within_ms);
+  fields("reaction_ms", reaction_ms);
+  fields("blind_ms", blind_ms);
+  fields("stuck_ms", stuck_ms);
+  fields("near_m", near_m);
+  fields("near_ms", near_ms);
+  fields("turn_gain", turn_gain);
+  fields("dock_within_rad", dock_within_rad);
+}
+
+template <class Fields, class Config>
+void feature_fields(Fields& fields, Config& features) {
+  auto& [panorama_width_px, elevation_max_rad, elevation_min_rad, max_sift, sift_contrast_threshold, sift_code_length,
+         max_columns, sift_windows] = features;
+  fields("panorama_width_px", panorama_width_px);
+  fields("elevation_max_rad", elevation_max_rad);
+  fields("elevation_min_rad", elevation_min_rad);
+  fields("max_sift", max_sift);
+  fields("sift_contrast_threshold", sift_contrast_threshold);
+  fields("sift_code_length", sift_code_length);
+  fields("max_columns", max_columns);
+  fields("sift_windows", sift_windows);
+}
+
+/// Not all of the state: a new mission makes the rest anew.
+template <class Fields, class State>
+void memory_fields(Fields& fields, State& s) {
+  fields("epoch", s.newest.epoch);
+  fields("seq", s.newest.seq);
+  fields("least_epoch", s.least_epoch);
+  fields("pictures", s.pictures);
+  fields("covered", s.covered);
+}
+
+struct Write {
+  json value = json::object();
+  template <class T>
+  void operator()(const char* key, const T& member) {
+    value[key] = member;
+  }
+};
+
+/// Throws what json throws for a value of the wrong kind.
+struct Read {
+  const json& value;
+  std::set<std::string> known{};
+  template <class T>
+  void operator()(const char* key, T& member) {
+    known.insert(key);
+    if (const auto found = value.find(key); found != value.end()) found->get_to(member);
+  }
+};
+
+template <class T, class Visit>
+Result<T> read(const std::string& text, const char* what, Visit&& visit) {
+  const auto damaged = [&] {
+    return fail(ErrorCode::kCorruptFile, std::string("The recording is damaged: ") + what + " cannot be understood.",
+                "meta");
+  };
+  const json value = json::parse(text, nullptr, false);
+  if (!value.is_object()) return damaged();
+  T config;
+  Read fields{value};
+  try {
+    visit(fields, config);
+  } catch (const json::exception&) {
+    return damaged();
+  }
+  for (const auto& [key, ignored] : value.items()) {
+    if (fields.known.contains(key)) continue;
+    return fail(ErrorCode::kUnsupportedFormat,
+                std::string("The recording's ") + what + " have '" + key +
+                    "', which this program does not know: replay it with the program that recorded it.",
+                "meta");
+  }
+  return config;
+}
+
+}  // namespace
+
+std::string driving_to_json(const DrivingConfig& config) {
+  Write fields;
+  driving_fields(fields, config);
+  return fields.value.dump();
+}
+
+Result<DrivingConfig> driving_from_json(const std::string& text) {
+  return read<DrivingConfig>(text, "settings of driving", [](auto& fields, auto& c) { driving_fields(fields, c); });
+}
+
+std::string features_to_json(const features::FeatureConfig& config) {
+  Write fields;
+  feature_fields(fields, config);
+  return fields.value.dump();
+}
+
+Result<features::FeatureConfig> features_from_json(const std::string& text) {
+  return read<features::FeatureConfig>(text, "settings of features",
+                                       [](auto& fields, auto& c) { feature_fields(fields, c); });
+}
+
+std::string memory_to_json(const DrivingState& before) {
+  Write fields;
+  memory_fields(fields, before);
+  return fields.value.dump();
+}
+
+Result<DrivingState> memory_from_json(const std::string& text) {
+  return read<DrivingState>(text, "memories of before", [](auto& fields, auto& s) { memory_fields(fields, s); });
+}
+
+}  // namespace homeward::agent

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "db/recording.hpp"
+
+namespace homeward::testing {
+
+inline db::RecordingHeader sample_recording_header() {
+  return {"homeward-agent/0.1.0", 1'700'000'000'000'000, "m1", "kitchen", "hw2-test", "{}", "{}", "{}", "{}"};
+}
+
+/// A step with everything in it, and with numbers that SQLite's own columns do not keep.
+inline db::RecordedStep sample_recorded_step(std::int64_t seq) {
+  db::RecordedStep step;
+  step.seq = seq;
+  step.now_ms = 5'000 + 40 * seq;
+  step.sensors_ms = 700 + 40 * seq;
+  step.odometry = {-0.0, 1.0 / 3.0, 5e-324};
+  step.link_up = true;
+  step.heard = {wire::Permit{MissionId("m1"), {3, seq}, 1500}};
+  step.sweep =
+      db::RecordedSweep{690 + 40 * seq, -0.0, 0.1, 12.0, {1.5F, std::numeric_limits<float>::infinity(), -0.0F}};
+  step.picture = db::RecordedPicture{
+      650 + 40 * seq, {2.0, -0.0, 0.1}, std::make_shared<const std::vector<std::uint8_t>>(200, std::uint8_t{7})};
+  step.speed_mps = std::nextafter(0.3, 1.0);
+  step.turn_radps = -0.0;
+  step.state = wire::DriveState::kDriving;
+  step.path_index = 2;
+  step.answered = true;
+  step.vector = db::RecordedVector{-0.0, 0.25, 0.9, 0.05, std::nullopt, 80, 40};
+  step.min_range_m = 1.5;
+  step.said = {wire::Stopped{"s1", 0}};
+  return step;
+}
+
+}  // namespace homeward::testing
