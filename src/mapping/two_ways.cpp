@@ -17,9 +17,9 @@ constexpr double kTurnMargin_rad = 0.17;
 
 enum class Say { kNothing, kAgree, kContradict };
 
-Say compare(const Meeting& a, const Meeting& b, const TourTrack& new_way, const TourTrack& old_way, double extent_m) {
-  const TrackPrediction now = new_way.predict(a.image, b.image);
-  const TrackPrediction then = old_way.predict(a.old_image, b.old_image);
+Say compare(const Meeting& a, const Meeting& b, const WayBetween& new_way, const WayBetween& old_way, double extent_m) {
+  const TrackPrediction now = new_way(a.image, b.image);
+  const TrackPrediction then = old_way(a.old_image, b.old_image);
   if (!now.known || !then.known) return Say::kNothing;
   const double sigma_m = std::hypot(now.distance_sigma, then.distance_sigma);
   if (std::max(now.distance, then.distance) < kFarExtents * extent_m) return Say::kNothing;
@@ -38,8 +38,8 @@ Say compare(const Meeting& a, const Meeting& b, const TourTrack& new_way, const 
 
 }  // namespace
 
-std::vector<MeetingTrust> meeting_trust(std::span<const Meeting> meetings, const TourTrack& new_way,
-                                        const TourTrack& old_way, double place_extent_m, int reach) {
+std::vector<MeetingTrust> meeting_trust(std::span<const Meeting> meetings, const WayBetween& new_way,
+                                        const WayBetween& old_way, double place_extent_m, int reach) {
   std::vector<std::size_t> by_image(meetings.size());
   std::iota(by_image.begin(), by_image.end(), std::size_t{0});
   std::ranges::stable_sort(by_image, {}, [&](std::size_t i) { return meetings[i].image; });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct MeetingTrust {
   }
 };
 
+/// Where the second image of a way lies from the first.
+using WayBetween = std::function<TrackPrediction(int, int)>;
+
 /// Holds a way that was driven before against one that is driven now. Two meetings are both right only if the old way
 /// leads from the one's old image to the other's as the new way leads between their new images: as far away and turned
 /// as much. A meeting has the more weight in the others' count the more it is borne out itself (relaxation: Rosenfeld,
@@ -35,7 +39,15 @@ struct MeetingTrust {
 /// others at most `reach` new images away, further than two places: inside one room, a look-alike room agrees with
 /// itself. Pairs agree where both ways are known to a place, and contradict each other beyond three standard
 /// deviations. `place_extent_m`: how large a place is.
-std::vector<MeetingTrust> meeting_trust(std::span<const Meeting> meetings, const TourTrack& new_way,
-                                        const TourTrack& old_way, double place_extent_m, int reach);
+std::vector<MeetingTrust> meeting_trust(std::span<const Meeting> meetings, const WayBetween& new_way,
+                                        const WayBetween& old_way, double place_extent_m, int reach);
+
+/// The same with the ways as they were driven, without their loops.
+inline std::vector<MeetingTrust> meeting_trust(std::span<const Meeting> meetings, const TourTrack& new_way,
+                                               const TourTrack& old_way, double place_extent_m, int reach) {
+  return meeting_trust(
+      meetings, [&](int a, int b) { return new_way.predict(a, b); },
+      [&](int a, int b) { return old_way.predict(a, b); }, place_extent_m, reach);
+}
 
 }  // namespace homeward::mapping
