@@ -9,6 +9,7 @@
 #include "mapping/dempster_shafer.hpp"
 #include "mapping/edges.hpp"
 #include "mapping/extra_places.hpp"
+#include "mapping/growth_statistics.hpp"
 #include "mapping/loops.hpp"
 #include "mapping/old_places.hpp"
 #include "mapping/subclusters.hpp"
@@ -53,6 +54,8 @@ class Growth {
     add_edges(grown);
     add_destinations(grown);
     add_hypotheses(grown);
+    const UsualDistances usual = usual_distances(fresh_, path_, config_);
+    grown.map.motion = grown_statistics(old_, grown.map, input_, pairs_, place_of_image_, usual);
     return grown;
   }
 
