@@ -173,7 +173,7 @@ class Judgement {
   /// What speaks besides looks: the way, and of each hypothesis with an old place how far looks count for it.
   struct Witnesses {
     std::vector<WayEvidence> way;
-    std::vector<double> trust;
+    std::vector<OldPlaces::Trust> trust;
   };
   std::vector<int> decide_by(std::vector<LoopHypothesis>& hypotheses, const Witnesses& witnesses) const;
   /// What the way says once loops are closed; false if that is nothing new.
@@ -219,8 +219,9 @@ std::vector<int> Judgement::decide_by(std::vector<LoopHypothesis>& hypotheses, c
       config_.hypotheses);
   for (std::size_t h = 0; h < witnesses.trust.size(); ++h) {
     LoopHypothesis& hypothesis = hypotheses[h];
-    if (witnesses.trust[h] >= 1.0 || hypothesis.way.verdict == TrackVerdict::kContradicts) continue;
-    hypothesis.reliability *= witnesses.trust[h];
+    const OldPlaces::Trust& trust = witnesses.trust[h];
+    if (trust == OldPlaces::Trust() || hypothesis.way.verdict == TrackVerdict::kContradicts) continue;
+    hypothesis.reliability = (trust.borne_out ? 1.0 : hypothesis.reliability) * trust.factor;
     hypothesis.before = evidence(hypothesis.similarity, config_.hypotheses.own_weight * hypothesis.reliability);
   }
   apply_decisions(hypotheses, parts_, input_, previous_);
@@ -311,23 +312,23 @@ bool Judgement::reconsider_old(std::vector<LoopHypothesis>& hypotheses, Witnesse
   }
   const Claims left = claims(hypotheses, witnesses.way, false);
   if (left.claims.empty()) return news;
-  const std::vector<double> trust = old_->trust(left.claims, track_, closed);
+  const std::vector<OldPlaces::Trust> trust = old_->trust(left.claims, track_, closed);
   for (std::size_t c = 0; c < trust.size(); ++c) {
-    double& known = witnesses.trust[left.hypothesis_of[c]];
-    news = news || std::abs(known - trust[c]) > kNews;
+    OldPlaces::Trust& known = witnesses.trust[left.hypothesis_of[c]];
+    news = news || known.borne_out != trust[c].borne_out || std::abs(known.factor - trust[c].factor) > kNews;
     known = trust[c];
   }
   return news;
 }
 
 std::vector<int> Judgement::decide(std::vector<LoopHypothesis>& hypotheses) const {
-  Witnesses witnesses{std::vector<WayEvidence>(hypotheses.size()), std::vector<double>(hypotheses.size(), 1.0)};
+  Witnesses witnesses{std::vector<WayEvidence>(hypotheses.size()), std::vector<OldPlaces::Trust>(hypotheses.size())};
   for (std::size_t h = 0; h < hypotheses.size() && config_.sources.way; ++h) {
     witnesses.way[h] = track_.judge(prototype(hypotheses[h].a), prototype(hypotheses[h].b));
   }
   const Claims with_old = claims(hypotheses, witnesses.way, false);
   if (!with_old.claims.empty()) {
-    const std::vector<double> trust = old_->trust(with_old.claims, track_, nullptr);
+    const std::vector<OldPlaces::Trust> trust = old_->trust(with_old.claims, track_, nullptr);
     for (std::size_t c = 0; c < trust.size(); ++c) witnesses.trust[with_old.hypothesis_of[c]] = trust[c];
   }
   std::vector<int> place_of_part = decide_by(hypotheses, witnesses);

@@ -145,14 +145,15 @@ std::vector<MeetingTrust> OldPlaces::weighed(std::span<const Claim> claims, cons
   return meeting_trust(meetings, now, then, config_.place_extent_m, kReach);
 }
 
-std::vector<double> OldPlaces::trust(std::span<const Claim> claims, const TourTrack& open,
-                                     const ClosedWay* closed) const {
-  std::vector<double> result(claims.size(), reliability_);
+std::vector<OldPlaces::Trust> OldPlaces::trust(std::span<const Claim> claims, const TourTrack& open,
+                                               const ClosedWay* closed) const {
+  std::vector<Trust> result(claims.size(), Trust{reliability_, false});
   if (!metric_) return result;
   const std::vector<MeetingTrust> ways = weighed(claims, open, closed);
   for (std::size_t c = 0; c < claims.size(); ++c) {
-    // Borne out by several, looks need no other surety: alike rooms of a building lie in different places.
-    result[c] = (ways[c].agreed >= kBorneOut ? 1.0 : reliability_) * ways[c].factor();
+    // Alike rooms of a building lie in different places.
+    const bool borne_out = ways[c].agreed >= kBorneOut;
+    result[c] = {(borne_out ? 1.0 : reliability_) * ways[c].factor(), borne_out};
   }
   return result;
 }

@@ -37,10 +37,16 @@ class OldPlaces {
     int image = 0;
     int anchor = 0;
   };
-  /// Factor on how far looks can be trusted for each claim: how far they were right in the old map where its way could
-  /// tell, and how far old and new way bear the claim out. `open`: the new way; `closed`, or null: with its loops.
-  [[nodiscard]] std::vector<double> trust(std::span<const Claim> claims, const TourTrack& open,
-                                          const ClosedWay* closed) const;
+  /// How far looks can be trusted for a claim.
+  struct Trust {
+    double factor = 1.0;     // how far they were right in the old map where its way could tell, and how far old and new
+                             // way bear the claim out
+    bool borne_out = false;  // by so many others that it does not matter how far looks were right: `factor` is all
+    bool operator==(const Trust&) const = default;
+  };
+  /// `open`: the new way; `closed`, or null: with its loops.
+  [[nodiscard]] std::vector<Trust> trust(std::span<const Claim> claims, const TourTrack& open,
+                                         const ClosedWay* closed) const;
   /// The claims, all of them believed, that others of them exclude; 1 for each such one.
   [[nodiscard]] std::vector<char> excluded(std::span<const Claim> claims, const TourTrack& open,
                                            const ClosedWay* closed) const;

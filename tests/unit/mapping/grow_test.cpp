@@ -316,6 +316,59 @@ TEST_F(Grow, SpreadsAreThoseOfOldAndNewTours) {
   EXPECT_NE(grown.map.motion.distance_spread, map_.motion.distance_spread);
 }
 
+/// A corridor of 24 m driven twice with odometry. The second time, from 16 to 20 m everything looks as it did 12 m
+/// before.
+struct MovedPoster {
+  MovedPoster() : old(corridor_tour(walk(60, false), {60})) {
+    for (std::size_t i = 0; i < old.images.size(); ++i) old.images[i].odometry = Pose2{old.position_m[i], 0.0, 0.0};
+    map = make_map(old.input(), {}, nullptr);
+  }
+  [[nodiscard]] GrownMap grow() const {
+    std::vector<double> looks_m;
+    NewTours tours;
+    for (int i = 0; i < 60; ++i) {
+      const double at_m = 0.4 * i + 0.1;
+      looks_m.push_back(at_m > 16.0 && at_m < 20.0 ? at_m - 12.0 : at_m);
+      tours.images.push_back({ImageId("new/" + std::to_string(1000 + i)), std::nullopt, Pose2{at_m, 0.0, 0.0}});
+      tours.tour_of.push_back(0);
+      tours.appearances.push_back(testing::random_appearance(3, static_cast<unsigned>(500 + i)));
+    }
+    const GrowthInput input = growth_input(map, std::move(tours)).value();
+    for (int image = input.new_images; image < static_cast<int>(input.images.size()); ++image) {
+      looks_m.push_back(input.images[static_cast<std::size_t>(image)].odometry->x_m);
+    }
+    PairTable pairs = corridor_tour(looks_m, {static_cast<int>(looks_m.size())}).pairs;
+    for (int b = 0; b < pairs.images(); ++b) {
+      for (int a = 0; a < b; ++a) {
+        PairRelation relation = pairs.relation(a, b);
+        relation.direction_rad = 0.0F;
+        const bool both_old = input.is_anchor(a);
+        if (relation.verified()) pairs.set(a, b, both_old ? PairRelation() : relation);
+      }
+    }
+    return grow_map(map, input, pairs, {});
+  }
+  CorridorTour old;
+  map::TopologicalMap map;
+};
+
+TEST(GrowWithOdometry, WhatTheTwoWaysKeepApartStaysApart) {
+  const MovedPoster corridor;
+  const GrownMap grown = corridor.grow();
+  EXPECT_GE(grown.added.joined_images, 40);
+  for (std::size_t p = 0; p < grown.map.places.size(); ++p) {
+    double least_m = 1e9;
+    double most_m = -1e9;
+    for (const map::MapImage& image : grown.map.images) {
+      const auto& members = grown.map.places[p].members;
+      if (std::ranges::find(members, image.id) == members.end()) continue;
+      least_m = std::min(least_m, image.odometry->x_m);
+      most_m = std::max(most_m, image.odometry->x_m);
+    }
+    EXPECT_LT(most_m - least_m, 3.0) << grown.map.places[p].id.str();
+  }
+}
+
 TEST_F(Grow, ImagesAreAddedOnce) {
   NewTours again = tour_at({0.0, 0.4, 0.8});
   again.images[1].id = image(3);

@@ -101,12 +101,13 @@ TEST(OldPlaces, EdgesOfTheMapHoldItsWayTogether) {
                                                 drives.claim(81, 81), drives.claim(108, 108)};
   const TourTrack track = drives.track();
   const OldPlaces with(drives.old, drives.input, drives.pairs, true, drives.config);
-  const std::vector<double> trust = with.trust(claims, track, nullptr);
-  EXPECT_GT(trust[2], 0.9);
+  const std::vector<OldPlaces::Trust> trust = with.trust(claims, track, nullptr);
+  EXPECT_GT(trust[2].factor, 0.9);
+  EXPECT_TRUE(trust[2].borne_out);
   TwoDrives loose(120, false);
   doubt(loose.old);
   const OldPlaces without(loose.old, loose.input, loose.pairs, true, loose.config);
-  EXPECT_LT(without.trust(claims, track, nullptr)[2], 0.2);
+  EXPECT_LT(without.trust(claims, track, nullptr)[2].factor, 0.2);
 }
 
 TEST(OldPlaces, AnEdgeThatTheOdometryExcludesDoesNotBendTheWay) {
@@ -120,7 +121,7 @@ TEST(OldPlaces, AnEdgeThatTheOdometryExcludesDoesNotBendTheWay) {
   const OldPlaces old(drives.old, drives.input, drives.pairs, true, drives.config);
   const std::vector<OldPlaces::Claim> claims = {drives.claim(6, 6), drives.claim(18, 18), drives.claim(30, 30),
                                                 drives.claim(42, 42)};
-  for (const double trust : old.trust(claims, drives.track(), nullptr)) EXPECT_GT(trust, 0.9);
+  for (const auto& trust : old.trust(claims, drives.track(), nullptr)) EXPECT_GT(trust.factor, 0.9);
 }
 
 TEST(OldPlaces, WhatTheOthersExcludeIsTakenBack) {
@@ -138,11 +139,11 @@ TEST(OldPlaces, WithoutOdometryLooksCountAsFarAsTheyWereRight) {
   TwoDrives drives(60);
   const std::vector<OldPlaces::Claim> claims = {drives.claim(6, 6), drives.claim(30, 57)};
   const OldPlaces trusted(drives.old, drives.input, drives.pairs, false, drives.config);
-  EXPECT_EQ(trusted.trust(claims, drives.track(), nullptr), (std::vector<double>{1.0, 1.0}));
+  EXPECT_EQ(trusted.trust(claims, drives.track(), nullptr), std::vector<OldPlaces::Trust>(2));
   EXPECT_EQ(std::ranges::count(trusted.excluded(claims, drives.track(), nullptr), 1), 0);
   doubt(drives.old);
   const OldPlaces doubted(drives.old, drives.input, drives.pairs, false, drives.config);
-  EXPECT_LT(doubted.trust(claims, drives.track(), nullptr)[0], 0.01);
+  EXPECT_LT(doubted.trust(claims, drives.track(), nullptr)[0].factor, 0.01);
 }
 
 TEST(OldPlaces, WhatWasTakenBackInTheOldMapCountsAgainstLooks) {
@@ -154,7 +155,7 @@ TEST(OldPlaces, WhatWasTakenBackInTheOldMapCountsAgainstLooks) {
   taken_back.decision = map::Decision::kRejected;
   drives.old.hypotheses.assign(20, taken_back);
   const OldPlaces old(drives.old, drives.input, drives.pairs, false, drives.config);
-  EXPECT_LT(old.trust(std::vector{drives.claim(0, 0)}, drives.track(), nullptr)[0], 0.1);
+  EXPECT_LT(old.trust(std::vector{drives.claim(0, 0)}, drives.track(), nullptr)[0].factor, 0.1);
 }
 
 }  // namespace
