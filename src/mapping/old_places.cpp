@@ -135,8 +135,10 @@ std::vector<MeetingTrust> OldPlaces::weighed(std::span<const Claim> claims, cons
                                              const ClosedWay* closed) const {
   std::vector<Meeting> meetings;
   for (const Claim& claim : claims) {
-    meetings.push_back(
-        {claim.image, old_image_[at(claim.anchor - input_.new_images)], pairs_.relation(claim.image, claim.anchor)});
+    const PairRelation seen = pairs_.relation(claim.image, claim.anchor);
+    // By other light pictures differ more than by where they were taken.
+    const double apart = std::min(open.apart(static_cast<double>(seen.distance)), config_.place_extent_m);
+    meetings.push_back({claim.image, old_image_[at(claim.anchor - input_.new_images)], seen, apart});
   }
   const auto now = [&](int a, int b) { return closed != nullptr ? closed->predict(a, b) : open.predict(a, b); };
   const auto then = [&](int a, int b) {
