@@ -150,6 +150,9 @@ TrackPrediction ClosedWay::predict(int a, int b) const {
   if (!p.track->joined(a, b)) return result;
   result.known = true;
   result.distance = std::hypot(p.x[b] - p.x[a], p.y[b] - p.y[a]);
+  const Pose2 between = inverse(Pose2{p.x[a], p.y[a], p.heading_rad[a]}) * Pose2{p.x[b], p.y[b], p.heading_rad[b]};
+  result.x = between.x_m;
+  result.y = between.y_m;
   const double turn_variance = p.turns.variance(a, b);
   result.distance_sigma = std::sqrt(2.0 * p.positions.variance(a, b) + p.lever(a, b, turn_variance));
   result.turn_rad = wrap_angle(p.heading_rad[b] - p.heading_rad[a]);

@@ -127,7 +127,8 @@ void draw_in(const MappingInput& input, const Drive& drive, const std::vector<in
 }  // namespace
 
 ExtraPlaces insert_extra_places(const MappingInput& input, const MappingConfig& config, std::span<const int> pinned,
-                                Sights& sights, std::vector<map::Place>& places, std::vector<int>& place_of_image) {
+                                Sights& sights, std::vector<map::Place>& places, std::vector<int>& place_of_image,
+                                const std::function<bool(int, int)>& settled) {
   const std::vector<int> prototype = prototype_images(input, places);
   std::vector<char> stays(input.images.size(), 0);
   for (const int image : pinned) stays[at(image)] = 1;
@@ -146,6 +147,7 @@ ExtraPlaces insert_extra_places(const MappingInput& input, const MappingConfig& 
   ExtraPlaces extra;
   Mender mender(sights, config);
   for (const auto& [ends, along] : drives) {
+    if (settled && settled(ends.first, ends.second)) continue;
     const double direct = sights.confidence(prototype[at(ends.first)], prototype[at(ends.second)]);
     if (direct >= config.weak_below_confidence) continue;
     ++extra.weak_before;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,8 +22,10 @@ struct ExtraPlaces {
 /// it helps: if all edges of the chain are sound, or the only weak one is surer than the one it replaces. Images of all
 /// drives between the two that look more like a new place than like their own move into it; where a drive still goes
 /// directly, the weak edge stays beside the sound ones.
-/// `pinned`: images that stay where they are (prototypes of subclusters, marked images). Places are appended.
+/// `pinned`: images that stay where they are (prototypes of subclusters, marked images). `settled`: of two places, by
+/// their indices, whether nothing is to be put in between them. Places are appended.
 ExtraPlaces insert_extra_places(const MappingInput& input, const MappingConfig& config, std::span<const int> pinned,
-                                Sights& sights, std::vector<map::Place>& places, std::vector<int>& place_of_image);
+                                Sights& sights, std::vector<map::Place>& places, std::vector<int>& place_of_image,
+                                const std::function<bool(int, int)>& settled = {});
 
 }  // namespace homeward::mapping

@@ -2,61 +2,22 @@
 #include "mapping/grow.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <set>
 #include <string>
-#include <unordered_map>
 
 #include "map/lookup.hpp"
-#include "map/parts.hpp"
-#include "mapping/clustering.hpp"
 #include "mapping/dempster_shafer.hpp"
 #include "mapping/edges.hpp"
+#include "mapping/extra_places.hpp"
+#include "mapping/growth_statistics.hpp"
+#include "mapping/loops.hpp"
+#include "mapping/old_places.hpp"
 #include "mapping/subclusters.hpp"
-#include "mapping/two_ways.hpp"
 
 namespace homeward::mapping {
 namespace {
 
-constexpr double kToursApartImages = 1e6;  // so far apart along the way are images of different tours
-
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-/// Where each image lies along the tours, in images.
-std::vector<double> positions(const map::TopologicalMap& old, const GrowthInput& input) {
-  std::unordered_map<std::string, int> tours;
-  std::unordered_map<ImageId, double> old_positions;
-  for (std::size_t i = 0; i < old.images.size(); ++i) {
-    const int tour = tours.try_emplace(map::tour_of(old.images[i].id), static_cast<int>(tours.size())).first->second;
-    old_positions.emplace(old.images[i].id, static_cast<double>(i) + kToursApartImages * tour);
-  }
-  std::vector<double> result;
-  for (int i = 0; i < static_cast<int>(input.images.size()); ++i) {
-    const double tour = static_cast<double>(tours.size()) + input.tour_of[at(i)];
-    const auto known = old_positions.find(input.images[at(i)].id);
-    const bool on_old_tour = input.is_anchor(i) && known != old_positions.end();
-    result.push_back(on_old_tour ? known->second : static_cast<double>(i) + kToursApartImages * tour);
-  }
-  return result;
-}
-
-/// How far looks were right in the old map where the way could tell, as weigh_way() has it: its hypotheses keep that in
-/// their masses before neighbours spoke.
-double old_reliability(const map::TopologicalMap& old, const HypothesisConfig& config) {
-  constexpr double kRounding = 1e-6;
-  double agreed = 0.0;
-  double contradicted = 0.0;
-  for (const map::Hypothesis& hypothesis : old.hypotheses) {
-    if (hypothesis.masses_before.is_false > config.contradicting_way_mass - kRounding) {
-      contradicted += hypothesis.similarity;
-    } else if (hypothesis.masses_before.is_true > config.own_weight * hypothesis.similarity + kRounding) {
-      agreed += hypothesis.similarity;
-    }
-  }
-  const double decided = agreed + contradicted;
-  return std::max(0.0, config.looks_trusted + agreed - contradicted) / (config.looks_trusted + decided);
-}
 
 /// The work on one growth, step by step.
 class Growth {
@@ -72,7 +33,9 @@ class Growth {
                std::span(input.appearances).first(at(input.new_images)), input.marks, &pairs},
         path_(fresh_),
         track_(input.images, input.tour_of, pairs, path_.metric(), extent(), config.track),
-        labels_(input.images.size(), nullptr) {
+        labels_(input.images.size(), nullptr),
+        old_places_(old, input, pairs, path_.metric(), config),
+        sights_(all_) {
     for (const MarkedImage& mark : input.marks) labels_[at(mark.image)] = &mark.label;
     for (int i = input.new_images; i < static_cast<int>(input.images.size()); ++i) {
       const std::string& label = old.places[at(input.anchored(i))].label;
@@ -83,146 +46,99 @@ class Growth {
   GrownMap run() {
     GrownMap grown{old_, {}};
     ++grown.map.revision;
-    cluster();
-    decide();
+    close();
+    form_places();
+    settle();
+    put_in_extra_places();
     add_places(grown);
     add_edges(grown);
     add_destinations(grown);
     add_hypotheses(grown);
+    const UsualDistances usual = usual_distances(fresh_, path_, config_);
+    grown.map.motion = grown_statistics(old_, grown.map, input_, pairs_, place_of_image_, usual);
     return grown;
   }
 
  private:
   [[nodiscard]] double extent() const { return path_.metric() ? config_.place_extent_m : config_.place_extent_images; }
 
-  /// Two names are two places.
-  [[nodiscard]] bool named_apart(int a, int b) const {
-    return labels_[at(a)] != nullptr && labels_[at(b)] != nullptr && *labels_[at(a)] != *labels_[at(b)];
+  void close() {
+    const float threshold = place_distance_threshold(fresh_, path_, config_);
+    loops_ = close_loops(all_, config_, track_, labels_, threshold, nullptr, &old_places_);
   }
 
-  void cluster() {
-    const DistanceFunction distance = [this](int a, int b) {
-      const float visual = pairs_.distance(a, b);
-      if (!std::isfinite(visual) || named_apart(a, b)) return std::numeric_limits<float>::infinity();
-      const bool excluded =
-          !input_.is_anchor(a) && !input_.is_anchor(b) && track_.judge(a, b).verdict == TrackVerdict::kContradicts;
-      return excluded ? std::numeric_limits<float>::infinity() : visual;
-    };
-    NearLists near(input_.images.size());
-    for (int a = 0; a < pairs_.images(); ++a) {
-      for (const int b : pairs_.partners(a)) near[at(a)].push_back({b, distance(std::min(a, b), std::max(a, b))});
-    }
-    const std::vector<int> cluster_of =
-        complete_linkage(std::move(near), place_distance_threshold(fresh_, path_, config_));
-    std::vector<int> marked;
-    for (const MarkedImage& mark : input_.marks) marked.push_back(mark.image);
-    parts_ = subclusters(cluster_of, input_.tour_of, marked, distance);
-  }
+  [[nodiscard]] bool is_old(int part) const { return old_places_.is_old(loops_.parts[at(part)].prototype); }
+  [[nodiscard]] int old_place(int part) const { return old_places_.place(loops_.parts[at(part)].prototype); }
 
-  [[nodiscard]] bool is_old(int part) const { return input_.is_anchor(parts_[at(part)].prototype); }
-  [[nodiscard]] int old_place(int part) const { return input_.anchored(parts_[at(part)].prototype); }
-
-  /// Factor on the reliability of looks for each hypothesis between old and new; 1 for the others.
-  [[nodiscard]] std::vector<double> trust_between() const {
-    const auto old_images = map::image_indices(old_);
-    std::vector<Meeting> meetings;
-    std::vector<std::size_t> hypothesis_of;
-    for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
-      if (is_old(hypotheses_[h].a) == is_old(hypotheses_[h].b)) continue;
-      const int image = parts_[at(hypotheses_[h].a)].prototype;  // the new one: anchors come last
-      const int anchor = parts_[at(hypotheses_[h].b)].prototype;
-      const auto old_image = old_images.find(input_.images[at(anchor)].id);
-      meetings.push_back(
-          {image, old_image == old_images.end() ? -1 : old_image->second, pairs_.relation(image, anchor)});
-      hypothesis_of.push_back(h);
+  /// The place of each image: old ones and, behind them, new ones, which go to `places` after a stand-in for each old
+  /// one.
+  void form_places() {
+    for (const map::Place& place : old_.places) {
+      map::Place stand_in;
+      stand_in.id = place.id;
+      stand_in.prototype = place.prototype;
+      places_.push_back(std::move(stand_in));
     }
-    std::vector<double> trust(hypotheses_.size(), 1.0);
-    const double on_old_tours = old_reliability(old_, config_.hypotheses);
-    for (const std::size_t h : hypothesis_of) trust[h] = on_old_tours;
-    const bool old_metric =
-        std::ranges::all_of(old_.images, [](const map::MapImage& i) { return i.odometry.has_value(); });
-    if (!old_metric || !path_.metric()) return trust;
-    std::vector<int> old_tour_of;
-    for (std::size_t i = 0; i < old_.images.size(); ++i) {
-      const bool goes_on = i > 0 && map::tour_of(old_.images[i].id) == map::tour_of(old_.images[i - 1].id);
-      old_tour_of.push_back(i == 0 ? 0 : old_tour_of.back() + (goes_on ? 0 : 1));
-    }
-    const PairTable unknown(static_cast<int>(old_.images.size()));  // the map keeps lengths and turns of odometry only
-    const TourTrack old_way(old_.images, old_tour_of, unknown, true, extent(), config_.track);
-    constexpr int kReach = 60;  // new images; further away odometry alone knows too little
-    const std::vector<MeetingTrust> ways = meeting_trust(meetings, track_, old_way, extent(), kReach);
-    // Borne out by several, looks need no other surety: alike rooms of a building lie in different places.
-    constexpr double kBorneOut = 3.0;
-    for (std::size_t m = 0; m < meetings.size(); ++m) {
-      double& factor = trust[hypothesis_of[m]];
-      factor = (ways[m].agreed >= kBorneOut ? 1.0 : factor) * ways[m].factor();
-    }
-    return trust;
-  }
-
-  void decide() {
-    const UsualDistances usual = usual_distances(fresh_, path_, config_);
-    const auto similarity = [&](int a, int b) {
-      return usual.share_at_least(pairs_.distance(parts_[at(a)].prototype, parts_[at(b)].prototype));
-    };
-    hypotheses_ = formulate_hypotheses(parts_, similarity, config_.hypotheses);
-    const auto way = [&](int a, int b) {
-      return is_old(a) || is_old(b) ? WayEvidence{} : track_.judge(parts_[at(a)].prototype, parts_[at(b)].prototype);
-    };
-    weigh_way(hypotheses_, way, config_.hypotheses);
-    const std::vector<double> trust = trust_between();
-    for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
-      LoopHypothesis& hypothesis = hypotheses_[h];
-      if (is_old(hypothesis.a) == is_old(hypothesis.b)) continue;
-      hypothesis.reliability *= trust[h];
-      hypothesis.before = evidence(hypothesis.similarity, config_.hypotheses.own_weight * hypothesis.reliability);
-      hypothesis.after = hypothesis.before;
-    }
-    collect_evidence(hypotheses_, parts_, positions(old_, input_), config_.hypotheses);
-    const auto apart = [&](int a, int b) {
-      if (is_old(a) && is_old(b)) return old_place(a) != old_place(b);  // the map has decided on these
-      return named_apart(parts_[at(a)].prototype, parts_[at(b)].prototype);
-    };
-    group_of_part_ = merge_accepted(static_cast<int>(parts_.size()), hypotheses_, apart);
-  }
-
-  void add_places(GrownMap& grown) {
-    map::TopologicalMap& map = grown.map;
-    map.images.insert(map.images.end(), fresh_.images.begin(), fresh_.images.end());
-    grown.added.images = input_.new_images;
-    const int groups = group_of_part_.empty() ? 0 : *std::ranges::max_element(group_of_part_) + 1;
+    const std::vector<int>& group_of = loops_.place_of_part;
+    const int groups = group_of.empty() ? 0 : *std::ranges::max_element(group_of) + 1;
     std::vector<std::vector<int>> images(at(groups));  // new ones of each group
     std::vector<int> place_of_group(at(groups), -1);
-    for (std::size_t part = 0; part < parts_.size(); ++part) {
-      const auto group = at(group_of_part_[part]);
+    for (std::size_t part = 0; part < loops_.parts.size(); ++part) {
+      const auto group = at(group_of[part]);
+      const std::vector<int>& own = loops_.parts[part].images;
       if (is_old(static_cast<int>(part))) {
         place_of_group[group] = old_place(static_cast<int>(part));
       } else {
-        images[group].insert(images[group].end(), parts_[part].images.begin(), parts_[part].images.end());
+        images[group].insert(images[group].end(), own.begin(), own.end());
       }
     }
     place_of_image_.assign(input_.images.size(), -1);
-    std::set<int> joined;
     for (std::size_t group = 0; group < images.size(); ++group) {
       if (images[group].empty()) continue;
       std::ranges::sort(images[group]);
       int& place = place_of_group[group];
       if (place < 0) {
-        place = static_cast<int>(map.places.size());
-        map.places.push_back(new_place(images[group], map.next_place_number++));
-        ++grown.added.places;
-        ++grown.added.appearances;
-      } else {
-        join(map.places[at(place)], images[group]);
-        joined.insert(place);
-        grown.added.joined_images += static_cast<int>(images[group].size());
+        place = static_cast<int>(places_.size());
+        places_.push_back(new_place(images[group]));
       }
       for (const int image : images[group]) place_of_image_[at(image)] = place;
     }
     for (int i = input_.new_images; i < static_cast<int>(input_.images.size()); ++i) {
       place_of_image_[at(i)] = input_.anchored(i);
     }
-    grown.added.joined_places = static_cast<int>(joined.size());
+  }
+
+  /// New images as places of their own where an edge that the new tours make would be weak.
+  void put_in_extra_places() {
+    std::vector<int> pinned;
+    for (const MarkedImage& mark : input_.marks) pinned.push_back(mark.image);
+    for (const Subcluster& part : loops_.parts) pinned.push_back(part.prototype);
+    insert_extra_places(all_, config_, pinned, sights_, places_, place_of_image_, [this](int a, int b) {
+      return settled_.contains({places_[at(a)].id, places_[at(b)].id});
+    });
+  }
+
+  void add_places(GrownMap& grown) {
+    map::TopologicalMap& map = grown.map;
+    map.images.insert(map.images.end(), fresh_.images.begin(), fresh_.images.end());
+    grown.added.images = input_.new_images;
+    std::vector<std::vector<int>> images(places_.size());  // new ones of each place
+    for (int i = 0; i < input_.new_images; ++i) images[at(place_of_image_[at(i)])].push_back(i);
+    for (std::size_t p = 0; p < places_.size(); ++p) {
+      if (p < old_.places.size()) {
+        if (images[p].empty()) continue;
+        join(map.places[p], images[p]);
+        ++grown.added.joined_places;
+        grown.added.joined_images += static_cast<int>(images[p].size());
+        continue;
+      }
+      places_[p].id = PlaceId("p" + std::to_string(map.next_place_number++));
+      places_[p].members.clear();
+      for (const int image : images[p]) places_[p].members.push_back(input_.images[at(image)].id);
+      map.places.push_back(std::move(places_[p]));
+      ++grown.added.places;
+      ++grown.added.appearances;
+    }
   }
 
   [[nodiscard]] int marked_image(const std::vector<int>& images) const {
@@ -230,14 +146,13 @@ class Growth {
     return found == images.end() ? -1 : *found;
   }
 
-  [[nodiscard]] map::Place new_place(const std::vector<int>& images, std::int64_t number) const {
+  [[nodiscard]] map::Place new_place(const std::vector<int>& images) const {
     const int marked = marked_image(images);
     const int prototype = marked >= 0 ? marked : medoid(images, [this](int a, int b) { return pairs_.distance(a, b); });
     map::Place place;
-    place.id = PlaceId("p" + std::to_string(number));
+    place.id = PlaceId("new" + std::to_string(places_.size()));
     if (marked >= 0) place.label = *labels_[at(marked)];
     place.prototype = input_.images[at(prototype)].id;
-    for (const int image : images) place.members.push_back(input_.images[at(image)].id);
     place.appearances.push_back(input_.appearances[at(prototype)]);
     return place;
   }
@@ -248,21 +163,23 @@ class Growth {
     if (place.label.empty() && marked >= 0) place.label = *labels_[at(marked)];
   }
 
-  void add_edges(GrownMap& grown) const {
-    map::TopologicalMap& map = grown.map;
-    std::set<std::pair<PlaceId, PlaceId>> settled;  // there already, or taken away by a person
-    for (const map::Edge& edge : map.edges) settled.emplace(edge.from, edge.to);
-    for (const map::Edit& edit : map.edits) {
+  /// Edges that are there already, or that a person took away.
+  void settle() {
+    for (const map::Edge& edge : old_.edges) settled_.emplace(edge.from, edge.to);
+    for (const map::Edit& edit : old_.edits) {
       if (edit.kind != map::EditKind::kRemoveEdge || edit.undone) continue;
-      const map::Place* a = map::find_place_of(map, edit.image_a);
-      const map::Place* b = map::find_place_of(map, edit.image_b);
+      const map::Place* a = map::find_place_of(old_, edit.image_a);
+      const map::Place* b = map::find_place_of(old_, edit.image_b);
       if (a == nullptr || b == nullptr) continue;
-      settled.emplace(a->id, b->id);
-      settled.emplace(b->id, a->id);
+      settled_.emplace(a->id, b->id);
+      settled_.emplace(b->id, a->id);
     }
-    Sights sights(all_);
-    for (map::Edge& edge : form_edges(all_, path_, track_, config_, map.places, place_of_image_, sights)) {
-      if (settled.contains({edge.from, edge.to})) continue;
+  }
+
+  void add_edges(GrownMap& grown) {
+    map::TopologicalMap& map = grown.map;
+    for (map::Edge& edge : form_edges(all_, path_, track_, config_, map.places, place_of_image_, sights_)) {
+      if (settled_.contains({edge.from, edge.to})) continue;
       map.edges.push_back(std::move(edge));
       ++grown.added.edges;
     }
@@ -282,13 +199,13 @@ class Growth {
   }
 
   void add_hypotheses(GrownMap& grown) const {
-    for (const LoopHypothesis& hypothesis : hypotheses_) {
+    for (const LoopHypothesis& hypothesis : loops_.hypotheses) {
       // The older image first.
       const int first = is_old(hypothesis.b) ? hypothesis.b : hypothesis.a;
       const int second = is_old(hypothesis.b) ? hypothesis.a : hypothesis.b;
       map::Hypothesis kept;
-      kept.prototype_a = input_.images[at(parts_[at(first)].prototype)].id;
-      kept.prototype_b = input_.images[at(parts_[at(second)].prototype)].id;
+      kept.prototype_a = input_.images[at(loops_.parts[at(first)].prototype)].id;
+      kept.prototype_b = input_.images[at(loops_.parts[at(second)].prototype)].id;
       kept.similarity = hypothesis.similarity;
       kept.masses_before = hypothesis.before;
       kept.masses_after = hypothesis.after;
@@ -298,7 +215,7 @@ class Growth {
       kept.by = hypothesis.by;
       grown.map.hypotheses.push_back(std::move(kept));
     }
-    grown.added.hypotheses = static_cast<int>(hypotheses_.size());
+    grown.added.hypotheses = static_cast<int>(loops_.hypotheses.size());
   }
 
   const map::TopologicalMap& old_;
@@ -310,9 +227,11 @@ class Growth {
   TourPath path_;
   TourTrack track_;
   std::vector<const std::string*> labels_;  // of each image; null: none
-  std::vector<Subcluster> parts_;
-  std::vector<LoopHypothesis> hypotheses_;
-  std::vector<int> group_of_part_;
+  OldPlaces old_places_;
+  Sights sights_;
+  ClosedLoops loops_;
+  std::set<std::pair<PlaceId, PlaceId>> settled_;
+  std::vector<map::Place> places_;
   std::vector<int> place_of_image_;
 };
 

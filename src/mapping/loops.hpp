@@ -7,6 +7,7 @@
 #include "mapping/clustering.hpp"
 #include "mapping/hypotheses.hpp"
 #include "mapping/map_builder.hpp"
+#include "mapping/old_places.hpp"
 #include "mapping/similarity.hpp"
 #include "mapping/subclusters.hpp"
 #include "mapping/track.hpp"
@@ -23,9 +24,10 @@ struct ClosedLoops {
 
 /// Clusters, subclusters, hypotheses, evidence and decisions. labels: of each image, null where it has none; two that
 /// differ never share a place. threshold: the visual distance up to which images make one place. `previous`, or null:
-/// the decisions of people on its hypotheses hold.
+/// the decisions of people on its hypotheses hold. `old`, or null: images of the input that are places of another map,
+/// one tour each; they never merge with each other, and what is believed of them and new images follows both ways.
 ClosedLoops close_loops(const MappingInput& input, const MappingConfig& config, const TourTrack& track,
                         const std::vector<const std::string*>& labels, float threshold,
-                        const map::TopologicalMap* previous);
+                        const map::TopologicalMap* previous, const OldPlaces* old = nullptr);
 
 }  // namespace homeward::mapping

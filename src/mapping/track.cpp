@@ -204,6 +204,9 @@ TrackPrediction TourTrack::predict(int a, int b) const {
   result.known = true;
   result.distance = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
   result.distance_sigma = std::sqrt(lever_variance(a, b) + length_variance(a, b));
+  const Pose2 between = inverse(from) * to;
+  result.x = between.x_m;
+  result.y = between.y_m;
   result.turn_rad = wrap_angle(to.theta_rad - from.theta_rad);
   result.turn_sigma_rad = std::sqrt(turn_variance(a, b));
   return result;

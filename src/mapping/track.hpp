@@ -38,7 +38,9 @@ struct TrackPrediction {
   bool known = false;
   double distance = 0.0;        // from one to the other
   double distance_sigma = 0.0;  // its standard deviation
-  double turn_rad = 0.0;        // second heading minus first
+  double x = 0.0;               // where the second lies in the frame of the first
+  double y = 0.0;
+  double turn_rad = 0.0;  // second heading minus first
   double turn_sigma_rad = 0.0;
 };
 

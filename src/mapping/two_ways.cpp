@@ -7,39 +7,48 @@
 #include <numeric>
 
 #include "core/angles.hpp"
+#include "core/pose2.hpp"
 
 namespace homeward::mapping {
 namespace {
 
 constexpr double kSureSigmas = 3.0;
-constexpr double kFarExtents = 2.0;  // pairs nearer than so many places cannot tell look-alikes apart
+constexpr double kFarExtents = 2.0;          // pairs nearer than so many places cannot tell look-alikes apart
+constexpr double kSameSpotExtents = 1.0;     // meetings of one spot miss each other by no more, were ways known exactly
+constexpr double kSeenTurnSigma_rad = 0.02;  // of a turn between two pictures that are not neighbours
 constexpr double kTurnMargin_rad = 0.17;
 
 enum class Say { kNothing, kAgree, kContradict };
 
-Say compare(const Meeting& a, const Meeting& b, const TourTrack& new_way, const TourTrack& old_way, double extent_m) {
-  const TrackPrediction now = new_way.predict(a.image, b.image);
-  const TrackPrediction then = old_way.predict(a.old_image, b.old_image);
+/// Where a new image's old one lies in its frame.
+Pose2 over(const Meeting& meeting) {
+  const double direction_rad = static_cast<double>(meeting.seen.direction_rad);
+  return {meeting.apart * std::cos(direction_rad), meeting.apart * std::sin(direction_rad),
+          static_cast<double>(meeting.seen.turn_rad)};
+}
+
+Say compare(const Meeting& a, const Meeting& b, const WayBetween& new_way, const WayBetween& old_way, double extent_m) {
+  if (!a.seen.verified() || !b.seen.verified()) return Say::kNothing;
+  const TrackPrediction now = new_way(a.image, b.image);
+  const TrackPrediction then = old_way(a.old_image, b.old_image);
   if (!now.known || !then.known) return Say::kNothing;
-  const double sigma_m = std::hypot(now.distance_sigma, then.distance_sigma);
   if (std::max(now.distance, then.distance) < kFarExtents * extent_m) return Say::kNothing;
-  const double miss_m = std::abs(now.distance - then.distance);
-  if (miss_m > kFarExtents * extent_m + kSureSigmas * sigma_m) return Say::kContradict;
-  if (a.seen.verified() && b.seen.verified()) {
-    // From a to b by the new way, and over to the old image of b; or over at a, and by the old way.
-    const double turn_now_rad = now.turn_rad + static_cast<double>(b.seen.turn_rad);
-    const double turn_then_rad = static_cast<double>(a.seen.turn_rad) + then.turn_rad;
-    const double sigma_rad = std::hypot(now.turn_sigma_rad, then.turn_sigma_rad);
-    const double miss_rad = std::abs(wrap_angle(turn_now_rad - turn_then_rad));
-    if (miss_rad > kTurnMargin_rad + kSureSigmas * sigma_rad) return Say::kContradict;
-  }
+  // From a to b by the new way, and over to the old image of b; or over at a, and by the old way.
+  const Pose2 one = Pose2{now.x, now.y, now.turn_rad} * over(b);
+  const Pose2 other = over(a) * Pose2{then.x, then.y, then.turn_rad};
+  const double sigma_m = std::hypot(now.distance_sigma, then.distance_sigma, kSeenTurnSigma_rad * then.distance);
+  const double miss_m = std::hypot(one.x_m - other.x_m, one.y_m - other.y_m);
+  if (miss_m > kSameSpotExtents * extent_m + kSureSigmas * sigma_m) return Say::kContradict;
+  const double turn_sigma_rad = std::hypot(now.turn_sigma_rad, then.turn_sigma_rad);
+  const double turn_miss_rad = std::abs(wrap_angle(one.theta_rad - other.theta_rad));
+  if (turn_miss_rad > kTurnMargin_rad + kSureSigmas * turn_sigma_rad) return Say::kContradict;
   return sigma_m <= extent_m && miss_m <= extent_m + sigma_m ? Say::kAgree : Say::kNothing;
 }
 
 }  // namespace
 
-std::vector<MeetingTrust> meeting_trust(std::span<const Meeting> meetings, const TourTrack& new_way,
-                                        const TourTrack& old_way, double place_extent_m, int reach) {
+std::vector<MeetingTrust> meeting_trust(std::span<const Meeting> meetings, const WayBetween& new_way,
+                                        const WayBetween& old_way, double place_extent_m, int reach) {
   std::vector<std::size_t> by_image(meetings.size());
   std::iota(by_image.begin(), by_image.end(), std::size_t{0});
   std::ranges::stable_sort(by_image, {}, [&](std::size_t i) { return meetings[i].image; });

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/grow_map.hpp"
 
+#include <span>
 #include <string>
 #include <utility>
 
 #include "mapping/growth_input.hpp"
 #include "pipeline/eye.hpp"
+#include "pipeline/learn_calibration.hpp"
 #include "pipeline/look_at_tours.hpp"
 
 namespace homeward::pipeline {
@@ -14,7 +16,8 @@ namespace {
 constexpr std::size_t kFewestImages = 3;
 constexpr int kFewFeatures = 20;         // a picture with fewer shows no texture
 constexpr double kFeaturesShare = 0.35;  // of the time, for the progress bar
-constexpr double kCompareShare = 0.6;
+constexpr double kCompareShare = 0.57;
+constexpr double kLoopsShare = 0.03;
 
 }  // namespace
 
@@ -74,6 +77,13 @@ Result<ToursAdded> add_tours(const map::TopologicalMap& old, const std::vector<c
   if (!pairs) return pass_on(pairs);
   stage("places", kFeaturesShare + kCompareShare, 0.0)(0.0);
   ToursAdded result{mapping::grow_map(old, *input, *pairs, {}), std::move(seen->skipped)};
+  constexpr double kBeforeLast = kFeaturesShare + kCompareShare + kLoopsShare;
+  const auto fresh = static_cast<std::size_t>(input->new_images);
+  const auto calibration = relearn_calibration(result.grown.map, std::span(input->appearances).first(fresh),
+                                               std::span(input->tour_of).first(fresh), options.threads,
+                                               stage("places", kBeforeLast, 1.0 - kBeforeLast), stop);
+  if (!calibration) return pass_on(calibration);
+  result.grown.map.calibration = *calibration;
   stage("places", 1.0, 0.0)(0.0);
   return result;
 }

@@ -25,7 +25,8 @@ struct ToursAdded {
 /// comparable features. Errors: kFeatureConfigMismatch (an older program's map, or a camera of another kind).
 Result<Eye> eye_for(const map::TopologicalMap& map, const std::optional<camera::CameraConfig>& camera);
 
-/// Adds tours to a map, see mapping/grow.hpp. Of `options` the name is not used. The result does not depend on the
+/// Adds tours to a map, see mapping/grow.hpp, and fits its calibration to their pictures and to what the old one told
+/// (learn_calibration.hpp). Of `options` the name is not used. The result does not depend on the
 /// number of threads. Errors: those of eye_for, look_at_tours and growth_input; kTooFewImages (under 3),
 /// kTooFewFeatures, kCancelled.
 Result<ToursAdded> add_tours(const map::TopologicalMap& old, const std::vector<const TourSource*>& tours,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "localisation/calibration.hpp"
@@ -31,7 +32,7 @@ std::vector<int> place_of_images(const map::TopologicalMap& map) {
   return place_of;
 }
 
-/// Pictures that follow each other on a tour, prototypes left out.
+/// Pictures that follow each other on a tour, prototypes left out; all runs, or those of a sample.
 std::vector<std::vector<std::size_t>> runs_of(std::span<const int> place_of, std::span<const int> tour_of) {
   std::vector<std::vector<std::size_t>> runs;
   std::vector<std::size_t> run;
@@ -49,16 +50,16 @@ std::vector<std::vector<std::size_t>> runs_of(std::span<const int> place_of, std
   return sampled;
 }
 
-}  // namespace
-
-Result<map::BeliefCalibration> learn_calibration(const map::TopologicalMap& map,
-                                                 std::span<const features::Appearance> appearances,
-                                                 std::span<const int> tour_of, int threads,
-                                                 const std::function<void(double)>& progress,
-                                                 const std::stop_token& stop) {
-  const std::vector<int> place_of = place_of_images(map);
+/// What was believed of pictures, and whether it was right. `place_of`, `appearances`, `tour_of`: of these pictures.
+Result<std::vector<localisation::CalibrationSample>> samples_of(const map::TopologicalMap& map,
+                                                                std::span<const int> place_of,
+                                                                std::span<const features::Appearance> appearances,
+                                                                std::span<const int> tour_of, int threads,
+                                                                const std::function<void(double)>& progress,
+                                                                const std::stop_token& stop) {
+  std::vector<localisation::CalibrationSample> samples;
   const std::vector<std::vector<std::size_t>> runs = runs_of(place_of, tour_of);
-  if (runs.empty()) return map::BeliefCalibration{};
+  if (runs.empty()) return samples;
   const auto index = map::place_indices(map);
   const map::PlaceGraph graph(map);
   const auto adjoin = [&](int a, int b) {
@@ -84,9 +85,56 @@ Result<map::BeliefCalibration> learn_calibration(const map::TopologicalMap& map,
   if (!mapping::parallel_for(runs.size(), threads, drive, report, stop)) {
     return fail(ErrorCode::kCancelled, "The build was cancelled.");
   }
-  std::vector<localisation::CalibrationSample> samples;
   for (const auto& run : of_run) samples.insert(samples.end(), run.begin(), run.end());
-  return localisation::fit_calibration(samples);
+  return samples;
+}
+
+/// So many samples with beliefs as these hold, evenly drawn, of which a calibration is true.
+std::vector<localisation::CalibrationSample> samples_as_told(const map::BeliefCalibration& calibration,
+                                                             std::span<const localisation::CalibrationSample> like,
+                                                             std::size_t count) {
+  std::vector<double> shares;
+  for (const localisation::CalibrationSample& sample : like) shares.push_back(sample.near_share);
+  std::ranges::sort(shares);
+  std::vector<localisation::CalibrationSample> told;
+  double right = 0.5;  // so many are to be right up to here, and not yet said
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = shares[i * shares.size() / count];
+    right += localisation::calibrated(calibration, share);
+    const bool near = right >= 1.0;
+    if (near) right -= 1.0;
+    told.push_back({share, near});
+  }
+  return told;
+}
+
+}  // namespace
+
+Result<map::BeliefCalibration> learn_calibration(const map::TopologicalMap& map,
+                                                 std::span<const features::Appearance> appearances,
+                                                 std::span<const int> tour_of, int threads,
+                                                 const std::function<void(double)>& progress,
+                                                 const std::stop_token& stop) {
+  const auto samples = samples_of(map, place_of_images(map), appearances, tour_of, threads, progress, stop);
+  if (!samples) return pass_on(samples);
+  return localisation::fit_calibration(*samples);
+}
+
+Result<map::BeliefCalibration> relearn_calibration(const map::TopologicalMap& map,
+                                                   std::span<const features::Appearance> appearances,
+                                                   std::span<const int> tour_of, int threads,
+                                                   const std::function<void(double)>& progress,
+                                                   const std::stop_token& stop) {
+  const std::vector<int> place_of = place_of_images(map);
+  const std::size_t old = place_of.size() - appearances.size();
+  auto samples = samples_of(map, std::span(place_of).subspan(old), appearances, tour_of, threads, progress, stop);
+  if (!samples) return pass_on(samples);
+  if (samples->empty()) return map.calibration;
+  const auto asked = std::ranges::count_if(std::span(place_of).first(old), [](int place) { return place >= 0; });
+  const std::size_t before = std::min(static_cast<std::size_t>(asked), kMostRuns * kRunLength);
+  const std::vector<localisation::CalibrationSample> told = samples_as_told(map.calibration, *samples, before);
+  samples->insert(samples->end(), told.begin(), told.end());
+  return localisation::fit_calibration(*samples);
 }
 
 }  // namespace homeward::pipeline

@@ -21,4 +21,13 @@ Result<map::BeliefCalibration> learn_calibration(const map::TopologicalMap& map,
                                                  const std::function<void(double)>& progress,
                                                  const std::stop_token& stop);
 
+/// The same for a map that new tours joined: `appearances` and `tour_of` are of its last images, those of the new
+/// tours; the older ones are gone. What they told is map.calibration. They count as many as they were, with beliefs
+/// like those that the new pictures hold, and right as often as the old calibration says of such beliefs.
+Result<map::BeliefCalibration> relearn_calibration(const map::TopologicalMap& map,
+                                                   std::span<const features::Appearance> appearances,
+                                                   std::span<const int> tour_of, int threads,
+                                                   const std::function<void(double)>& progress,
+                                                   const std::stop_token& stop);
+
 }  // namespace homeward::pipeline

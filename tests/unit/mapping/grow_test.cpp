@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <set>
 
 #include "map/lookup.hpp"
@@ -34,7 +36,9 @@ class Grow : public ::testing::Test {
     return tours;
   }
 
-  [[nodiscard]] GrownMap grow(const std::vector<double>& position_m, std::vector<MarkedImage> marks = {}) const {
+  using Tweak = std::function<void(PairTable&, const GrowthInput&)>;
+  [[nodiscard]] GrownMap grow(const std::vector<double>& position_m, std::vector<MarkedImage> marks = {},
+                              const Tweak& tweak = {}, const MappingConfig& config = {}) const {
     NewTours tours = tour_at(position_m);
     tours.marks = std::move(marks);
     const GrowthInput input = growth_input(map_, std::move(tours)).value();
@@ -46,7 +50,22 @@ class Grow : public ::testing::Test {
     for (int b = input.new_images; b < pairs.images(); ++b) {
       for (int a = input.new_images; a < b; ++a) pairs.set(a, b, {});
     }
-    return grow_map(map_, input, pairs, {});
+    if (tweak) tweak(pairs, input);
+    return grow_map(map_, input, pairs, config);
+  }
+
+  /// Changes what new images and old places say of each other.
+  static Tweak between(const std::function<void(PairRelation&)>& change) {
+    return [change](PairTable& pairs, const GrowthInput& input) {
+      for (int anchor = input.new_images; anchor < pairs.images(); ++anchor) {
+        for (int image = 0; image < input.new_images; ++image) {
+          PairRelation relation = pairs.relation(image, anchor);
+          if (!relation.verified()) continue;
+          change(relation);
+          pairs.set(image, anchor, relation);
+        }
+      }
+    };
   }
 
   [[nodiscard]] double position_of(const ImageId& old_image) const {
@@ -201,6 +220,153 @@ TEST_F(Grow, WhereLooksWereWrongBeforeTheyJoinNothing) {
   expect_kept(grown.map);
   EXPECT_EQ(grown.added.joined_images, 0);
   EXPECT_EQ(map::parts(grown.map).size(), 2U);
+}
+
+TEST_F(Grow, WhatSharesTooLittleToBeOneSpotJoinsNothing) {
+  const MappingConfig config;
+  const auto little = between([&](PairRelation& relation) {
+    relation.match_share = std::min(relation.match_share, 0.9F * config.least_meeting_share);
+  });
+  const GrownMap grown = grow(stretch(0.1, 11.7), {}, little);
+  expect_kept(grown.map);
+  EXPECT_EQ(grown.added.joined_images, 0);
+  EXPECT_GE(grown.added.hypotheses, 5);  // a person may decide on them
+  for (std::size_t h = map_.hypotheses.size(); h < grown.map.hypotheses.size(); ++h) {
+    EXPECT_NE(grown.map.hypotheses[h].decision, map::Decision::kAccepted);
+  }
+}
+
+TEST_F(Grow, OldPlacesAreMetAcrossClusters) {
+  // Everything looks a little different from then: images of one pass are always more alike.
+  const auto other_light = between([](PairRelation& relation) { relation.distance += 0.35F; });
+  MappingConfig config;
+  const GrownMap with = grow(stretch(0.1, 11.7), {}, other_light, config);
+  expect_kept(with.map);
+  config.sources.across = false;
+  const GrownMap without = grow(stretch(0.1, 11.7), {}, other_light, config);
+  EXPECT_GT(with.added.joined_images, without.added.joined_images + 10);
+  for (const map::Place& place : with.map.places) EXPECT_LE(place.members.size(), 10U);
+}
+
+/// Prototypes further apart than 0.9 m do not find each other.
+void see_less(PairTable& pairs, const GrowthInput&) {
+  for (int b = 0; b < pairs.images(); ++b) {
+    for (int a = 0; a < b; ++a) {
+      PairRelation relation = pairs.relation(a, b);
+      if (!relation.verified() || relation.distance < 0.48F) continue;
+      relation.confidence = 0.1F;
+      pairs.set(a, b, relation);
+    }
+  }
+}
+
+TEST_F(Grow, NewImagesBecomePlacesWhereAnEdgeWouldBeWeak) {
+  MappingConfig config;
+  config.extra_place_depth = 0;
+  const auto weak = [](const map::Edge& edge) { return edge.weak; };
+  const GrownMap without = grow(stretch(8.0, 24.0), {}, see_less, config);
+  EXPECT_GE(std::ranges::count_if(without.map.edges, weak), 10);
+  const GrownMap grown = grow(stretch(8.0, 24.0), {}, see_less);
+  expect_kept(grown.map);
+  EXPECT_GE(grown.added.places, without.added.places + 5);
+  EXPECT_EQ(grown.added.appearances, grown.added.places);
+  EXPECT_EQ(std::ranges::count_if(grown.map.edges, weak), 0);
+  std::size_t held = 0;
+  for (const map::Place& place : grown.map.places) {
+    EXPECT_FALSE(place.members.empty());
+    EXPECT_NE(std::ranges::find(place.members, place.prototype), place.members.end());
+    held += place.members.size();
+  }
+  EXPECT_EQ(held, grown.map.images.size());
+}
+
+TEST_F(Grow, NothingIsPutInWhereAPersonTookAnEdgeAway) {
+  for (std::size_t p = 1; p < map_.places.size(); ++p) {
+    map::Edit remove;
+    remove.kind = map::EditKind::kRemoveEdge;
+    remove.image_a = map_.places[p - 1].prototype;
+    remove.image_b = map_.places[p].prototype;
+    ASSERT_TRUE(apply_edit(map_, remove));
+  }
+  const GrownMap grown = grow(stretch(0.1, 11.7), {}, see_less);
+  expect_kept(grown.map);
+  EXPECT_GE(grown.added.joined_images, 24);
+  EXPECT_EQ(grown.added.places, 0);
+  EXPECT_EQ(grown.added.edges, 0);
+}
+
+TEST_F(Grow, SpreadsAreThoseOfOldAndNewTours) {
+  // Twice as dense as the old tour: half as many steps lead to another place.
+  std::vector<double> position_m;
+  for (double x_m = 0.05; x_m < 11.6; x_m += 0.2) position_m.push_back(x_m);
+  const GrownMap grown = grow(position_m);
+  const auto before = static_cast<double>(old_.images.size() - 1);
+  const auto now = static_cast<double>(position_m.size() - 1);
+  double hops = 0.0;
+  for (std::size_t i = 1; i < position_m.size(); ++i) {
+    const std::size_t image = old_.images.size() + i;
+    const auto place = [&](std::size_t which) { return map::find_place_of(grown.map, grown.map.images[which].id)->id; };
+    hops += place(image) == place(image - 1) ? 0.0 : 1.0;
+  }
+  const double old_square = map_.motion.hop_spread * map_.motion.hop_spread;
+  EXPECT_NEAR(grown.map.motion.hop_spread, std::sqrt((old_square * before + hops) / (before + now)), 1e-9);
+  EXPECT_LT(grown.map.motion.hop_spread, map_.motion.hop_spread);
+  EXPECT_LT(grown.map.motion.distance_scale, map_.motion.distance_scale + 0.1);
+  EXPECT_NE(grown.map.motion.distance_scale, map_.motion.distance_scale);
+  EXPECT_NE(grown.map.motion.distance_spread, map_.motion.distance_spread);
+}
+
+/// A corridor of 24 m driven twice with odometry. The second time, from 16 to 20 m everything looks as it did 12 m
+/// before.
+struct MovedPoster {
+  MovedPoster() : old(corridor_tour(walk(60, false), {60})) {
+    for (std::size_t i = 0; i < old.images.size(); ++i) old.images[i].odometry = Pose2{old.position_m[i], 0.0, 0.0};
+    map = make_map(old.input(), {}, nullptr);
+  }
+  [[nodiscard]] GrownMap grow() const {
+    std::vector<double> looks_m;
+    NewTours tours;
+    for (int i = 0; i < 60; ++i) {
+      const double at_m = 0.4 * i + 0.1;
+      looks_m.push_back(at_m > 16.0 && at_m < 20.0 ? at_m - 12.0 : at_m);
+      tours.images.push_back({ImageId("new/" + std::to_string(1000 + i)), std::nullopt, Pose2{at_m, 0.0, 0.0}});
+      tours.tour_of.push_back(0);
+      tours.appearances.push_back(testing::random_appearance(3, static_cast<unsigned>(500 + i)));
+    }
+    const GrowthInput input = growth_input(map, std::move(tours)).value();
+    for (int image = input.new_images; image < static_cast<int>(input.images.size()); ++image) {
+      looks_m.push_back(input.images[static_cast<std::size_t>(image)].odometry->x_m);
+    }
+    PairTable pairs = corridor_tour(looks_m, {static_cast<int>(looks_m.size())}).pairs;
+    for (int b = 0; b < pairs.images(); ++b) {
+      for (int a = 0; a < b; ++a) {
+        PairRelation relation = pairs.relation(a, b);
+        relation.direction_rad = 0.0F;
+        const bool both_old = input.is_anchor(a);
+        if (relation.verified()) pairs.set(a, b, both_old ? PairRelation() : relation);
+      }
+    }
+    return grow_map(map, input, pairs, {});
+  }
+  CorridorTour old;
+  map::TopologicalMap map;
+};
+
+TEST(GrowWithOdometry, WhatTheTwoWaysKeepApartStaysApart) {
+  const MovedPoster corridor;
+  const GrownMap grown = corridor.grow();
+  EXPECT_GE(grown.added.joined_images, 40);
+  for (std::size_t p = 0; p < grown.map.places.size(); ++p) {
+    double least_m = 1e9;
+    double most_m = -1e9;
+    for (const map::MapImage& image : grown.map.images) {
+      const auto& members = grown.map.places[p].members;
+      if (std::ranges::find(members, image.id) == members.end()) continue;
+      least_m = std::min(least_m, image.odometry->x_m);
+      most_m = std::max(most_m, image.odometry->x_m);
+    }
+    EXPECT_LT(most_m - least_m, 3.0) << grown.map.places[p].id.str();
+  }
 }
 
 TEST_F(Grow, ImagesAreAddedOnce) {

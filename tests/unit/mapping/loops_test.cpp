@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/angles.hpp"
+#include "mapping/grow.hpp"
 #include "support/corridor_tour.hpp"
 
 namespace homeward::mapping {
@@ -202,6 +203,30 @@ TEST(CloseLoops, WhatLaterLoopsExcludeIsTakenBackAndSaysSo) {
   }
   EXPECT_GT(taken_back, 2);
   EXPECT_GT(accepted, 10);
+}
+
+TEST(CloseLoops, GrowingTakesBackWhatTheNewToursLoopsExclude) {
+  const CorridorTour elsewhere = corridor_tour(walk(12, false), {12});
+  const map::TopologicalMap old = make_map(elsewhere.input(), {}, nullptr);
+  CorridorTour tour = moved_poster();
+  const GrowthInput input = growth_input(old, {tour.images, tour.tour_of, tour.appearances, {}}).value();
+  PairTable pairs(static_cast<int>(input.images.size()));
+  for (int b = 0; b < input.new_images; ++b) {
+    for (const int a : tour.pairs.partners(b)) {
+      if (a < b) pairs.set(a, b, tour.pairs.relation(a, b));
+    }
+  }
+  MappingConfig config;
+  config.track.least_length_sigma = config.track.picture_length_sigma;
+  const GrownMap grown = grow_map(old, input, pairs, config);
+  int taken_back = 0;
+  for (const map::Hypothesis& hypothesis : grown.map.hypotheses) {
+    taken_back += hypothesis.masses_before.is_true > 0.4 && hypothesis.masses_after.is_false > 0.9 ? 1 : 0;
+  }
+  EXPECT_GT(taken_back, 2);
+  for (std::size_t p = old.places.size(); p < grown.map.places.size(); ++p) {
+    EXPECT_LT(width(tour, grown.map.places[p]), 5.0);
+  }
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/angles.hpp"
+
 namespace homeward::mapping {
 namespace {
 
@@ -46,6 +48,31 @@ TEST(MeetingTrust, ALookAlikeAwayFromTheWayIsNotTrusted) {
   EXPECT_LT(trust[2].factor(), 0.05);
   EXPECT_GT(trust[0].factor(), 0.6);
   EXPECT_GT(trust[1].factor(), 0.6);
+}
+
+TEST(MeetingTrust, TheRoomBesideIsNotTheSameRoom) {
+  // Two rooms that look alike, left and right of where a corridor ends: from all of it both are as far away.
+  const auto drive_to = [](double room_m) {
+    Drive drive(8);
+    for (int i = 0; i < 5; ++i) drive.images[static_cast<std::size_t>(i)].odometry = Pose2{1.6 * i, 0.0, 0.0};
+    for (int i = 5; i < 8; ++i) {
+      drive.images[static_cast<std::size_t>(i)].odometry = Pose2{8.0 + 1.5 * (i - 5), room_m, 0.0};
+    }
+    return drive;
+  };
+  const Drive now = drive_to(-2.0);
+  const Drive before = drive_to(2.0);
+  std::vector<Meeting> meetings;
+  for (int image = 0; image < 8; ++image) meetings.push_back({image, image, turned(0.0F)});
+  const std::size_t right = 5;
+  const auto trust = meeting_trust(meetings, now.track(), before.track(), 1.0, 60);
+  for (std::size_t i = 0; i < meetings.size(); ++i) {
+    if (i < right) {
+      EXPECT_GT(trust[i].factor(), 0.6) << i;
+    } else {
+      EXPECT_LT(trust[i].factor(), 0.2) << i;
+    }
+  }
 }
 
 TEST(MeetingTrust, ARoomTurnedRoundIsNotTrusted) {

@@ -71,6 +71,38 @@ TEST(LearnCalibration, KeepsTheDefaultsWithoutOtherPicturesThanPrototypes) {
   EXPECT_EQ(found.slope, map::BeliefCalibration{}.slope);
 }
 
+/// The last `count` pictures of a tour as those of a new one.
+map::BeliefCalibration relearnt(const Tour& tour, std::size_t count) {
+  const std::size_t old = tour.appearances.size() - count;
+  return relearn_calibration(tour.map, std::span(tour.appearances).subspan(old), std::span(tour.tour_of).subspan(old),
+                             2, [](double) {}, {})
+      .value();
+}
+
+TEST(RelearnCalibration, JoinsWhatOldAndNewToursTell) {
+  Tour made = tour([](int place, int) { return place; });
+  made.map.calibration = {2.0, 1.2};
+  const double share = 0.99;
+  const double before = localisation::calibrated(made.map.calibration, share);
+  EXPECT_NEAR(localisation::calibrated(relearnt(made, 16), share), before, 0.02);
+  // The second half of the pictures look like places four further on.
+  Tour bad =
+      tour([](int place, int member) { return member == 0 || place < kPlaces / 2 ? place : (place + 4) % kPlaces; });
+  bad.map.calibration = made.map.calibration;
+  const double after = localisation::calibrated(relearnt(bad, 16), share);
+  EXPECT_LT(after, before - 0.2);  // twelve new pictures are wrong
+  EXPECT_GT(after, 0.3);           // the twelve old ones were right as often as had been said
+}
+
+TEST(RelearnCalibration, StaysWhereNewPicturesTellNothing) {
+  Tour made = tour([](int place, int) { return place; });
+  made.map.calibration = {1.5, 0.8};
+  for (map::Place& place : made.map.places) place.members.resize(1);
+  const auto found = relearnt(made, 16);
+  EXPECT_EQ(found.offset, 1.5);
+  EXPECT_EQ(found.slope, 0.8);
+}
+
 TEST(LearnCalibration, CanBeCancelled) {
   const Tour made = tour([](int place, int) { return place; });
   std::stop_source stop;
