@@ -14,6 +14,8 @@
 
 namespace homeward::agent {
 
+class Recorder;
+
 /// One mission to drive.
 struct MissionPlan {
   std::string from;
