@@ -9,9 +9,12 @@ namespace homeward::localisation {
 namespace {
 
 constexpr double kMetresPerImage = 0.4;  // where a tour counts but pictures: the builder holds 3 of them for 1.2 m
-// As a share of the way: odometry slips (5 %), and a robot drives straight where the tour went round, or the other way
-// about.
-constexpr double kDriveSigma = 0.2;
+constexpr double kDriveSigma = 0.1;      // of odometry, and of driving beside the tour's line, as a share of the way
+constexpr double kShortCutSigma = 0.25;  // of a way that is longer than the drive: a robot need not go round
+// Of a difference between two places, in squares of their extents along the ways. Were robots anywhere within them
+// alike, it would be 1/12; walks through rendered buildings give 1/4 to 1/9, for places are of uneven size, and drives
+// beside them.
+constexpr double kPlaceVariance = 1.0 / 6.0;
 constexpr double kUsualExtent_m = 1.2;  // of a place without ways
 constexpr double kLeastExtent_m = 0.3;
 constexpr double kSureSigmas = 3.0;  // a drive that misses every way by more has none on the map
@@ -28,7 +31,7 @@ double length_sigma(map::LengthSource from) {
     case map::LengthSource::kTourTime:
       return 0.5;  // people guide a chair at 0.25 to 1 m/s
     case map::LengthSource::kTourImages:
-      return 0.7;  // and take a picture every 0.2 to 1 m
+      return 0.5;  // and take a picture every 0.2 to 0.8 m
     case map::LengthSource::kUnknown:
       break;
   }
@@ -79,13 +82,16 @@ std::vector<PlaceShare> MetricMotion::likely_from(int from, double driven_m) con
     const Reached here = open.top();
     open.pop();
     if (std::ranges::find(likely, here.place, &PlaceShare::place) != likely.end()) continue;
-    // Each end is anywhere within its place: a uniform distribution over the place's extent. Of a length that may be
-    // wrong by a factor, the logarithm is as far off on both sides: near it, that is a share of the geometric mean.
-    const double places = (squared(extent_m_[at(from)]) + squared(extent_m_[at(here.place)])) / 12.0;
+    const double places = kPlaceVariance * (squared(extent_m_[at(from)]) + squared(extent_m_[at(here.place)]));
+    // Of a length that may be wrong by a factor, the logarithm is as far off on both sides: near it, that is a share of
+    // the geometric mean.
     const double share = here.length_m > 0.0 ? here.sigma_m / here.length_m : 0.0;
-    const double variance = places + squared(kDriveSigma * driven_m) + squared(share) * here.length_m * driven_m;
+    const double cut = here.length_m > driven_m ? kShortCutSigma * here.length_m : 0.0;
+    const double variance =
+        places + squared(kDriveSigma * driven_m) + squared(share) * here.length_m * driven_m + squared(cut);
     const double off = squared(here.length_m - driven_m) / variance;
-    likely.push_back({here.place, std::exp(-0.5 * off)});
+    // A large place is met more often than a small one.
+    likely.push_back({here.place, extent_m_[at(here.place)] * std::exp(-0.5 * off)});
     if (here.length_m > driven_m && off > squared(kSureSigmas)) continue;
     for (const Way& way : ways_[at(here.place)]) {
       open.push({way.to, here.length_m + way.length_m, here.sigma_m + way.sigma_m});
@@ -96,10 +102,10 @@ std::vector<PlaceShare> MetricMotion::likely_from(int from, double driven_m) con
 
 DrivenBelief MetricMotion::predict(std::span<const PlaceShare> belief, double driven_m) const {
   DrivenBelief predicted;
-  const double no_way = std::exp(-0.5 * squared(kSureSigmas));
   std::vector<PlaceShare> moved;
   for (const PlaceShare& from : belief) {
     const std::vector<PlaceShare> likely = likely_from(from.place, driven_m);
+    const double no_way = extent_m_[at(from.place)] * std::exp(-0.5 * squared(kSureSigmas));
     double sum = no_way;
     for (const PlaceShare& to : likely) sum += to.probability;
     for (const PlaceShare& to : likely) moved.push_back({to.place, from.probability * to.probability / sum});
