@@ -146,13 +146,14 @@ struct Localiser::State {
     return result;
   }
 
-  /// What the robot did since the last picture that counted. Says whether the picture is one more of the same spot.
+  /// What the robot did since the last picture that counted. Says whether this one is left out: it shows nothing, or
+  /// the same spot once more.
   bool move(const features::Appearance& seen, bool nothing_seen, const std::optional<Pose2>& odometry) {
     const auto driven_m = metres_to(odometry);
-    if (driven_m && *driven_m < known->config.spot_radius_m) {
-      if (!nothing_seen && !spot_seen) return false;  // the lens was covered here
-      if (nothing_seen || known->same_view(*spot_seen, seen)) return true;
-    }
+    if (driven_m && nothing_seen) return true;  // the way counts as a whole once something is seen again
+    // A robot that does not know where it is goes on looking, up to where it does.
+    const bool stands = driven_m && *driven_m < known->config.spot_radius_m;
+    if (stands && spot_seen && !report(false).lost && known->same_view(*spot_seen, seen)) return true;
     if (updates > 0) {
       if (driven_m) {
         belief.predict(known->driven, *driven_m);
@@ -207,9 +208,9 @@ Belief Localiser::update(const features::Appearance& seen, const std::optional<P
   State& state = *state_;
   const Known& known = *state.known;
   const bool nothing_seen = seen.size() < known.config.min_features;
-  const bool known_view = state.move(seen, nothing_seen, odometry);
+  const bool left_out = state.move(seen, nothing_seen, odometry);
   ++state.updates;
-  if (!nothing_seen && !known_view) {
+  if (!nothing_seen && !left_out) {
     state.belief.weigh(known.compare(seen, state.belief), known.config.sensor_floor, known.elsewhere_likelihood());
     if (odometry) state.spot_seen = seen;
   }

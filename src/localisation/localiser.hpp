@@ -59,7 +59,8 @@ class Localiser {
 
   /// Takes one more picture into account. Same pictures, same belief. `odometry`: where it was taken, in any frame that
   /// stays; with that of the picture before, the way between them is known. Pictures of one spot then count once, for
-  /// the second tells nothing that the first did not; one that differs tells that the robot was carried off.
+  /// the second tells nothing that the first did not, unless the belief is lost; one that differs tells that the robot
+  /// was carried off.
   Belief update(const features::Appearance& seen, const std::optional<Pose2>& odometry = std::nullopt);
 
   /// Odometry counts anew: what it said up to now does not belong to what it says next. The belief stays.

@@ -22,11 +22,11 @@ struct Reading {
   std::optional<Scan> scan;  // a new sweep, when there is one
 };
 
-/// A picture with the odometry of the moment at which it was taken.
+/// A picture with the odometry of the moment at which it was taken, of a robot that has it.
 struct TakenPicture {
   Milliseconds t_ms = 0;
   Image picture;
-  Pose2 odometry;
+  std::optional<Pose2> odometry;
 };
 
 /// A robot's sensors and wheels. `read` and `command` are called from one thread, `next_picture` from another.

@@ -84,8 +84,9 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
   const StandStill at_the_end(driver);
   LinkClient link(options.server, options.robot, options.token, std::move(hello), options.told);
   std::int64_t frame_seq = 0;
-  Looker looker(driver, *eye, now_ms, [&](const Image& picture) {
-    if (link.up()) link.send(wire::Frame{++frame_seq, now_us(), imageio::encode_jpeg(picture, kQuality)});
+  Looker looker(driver, *eye, now_ms, [&](const TakenPicture& taken) {
+    if (!link.up()) return;
+    link.send(wire::Frame{++frame_seq, now_us(), imageio::encode_jpeg(taken.picture, kQuality), taken.odometry});
   });
 
   DrivingState state;

@@ -4,7 +4,7 @@
 namespace homeward::agent {
 
 Looker::Looker(Driver& driver, const pipeline::Eye& eye, std::function<Milliseconds()> now_ms,
-               std::function<void(const Image&)> show)
+               std::function<void(const TakenPicture&)> show)
     : driver_(driver),
       eye_(eye),
       now_ms_(std::move(now_ms)),
@@ -40,14 +40,14 @@ void Looker::run(const std::stop_token& stop) {
     const Milliseconds taken_ms = now_ms_();
     if (taken_ms - shown_ms >= show_period_ms_) {
       shown_ms = taken_ms;
-      show_((*taken)->picture);
+      show_(**taken);
     }
     if (!looking_) continue;
     auto appearance = eye_.look((*taken)->picture);
     if (!appearance) return fail_with(appearance.error());
     const std::lock_guard lock(mutex_);
     newest_ = {(*taken)->t_ms, std::make_shared<const features::Appearance>(std::move(*appearance)),
-               (*taken)->odometry};
+               (*taken)->odometry.value_or(Pose2{})};
   }
 }
 

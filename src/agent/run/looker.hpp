@@ -14,12 +14,13 @@
 
 namespace homeward::agent {
 
-/// Takes pictures from a driver in a thread of its own: what was seen for the heart of the agent, JPEGs for the server.
+/// Takes pictures from a driver in a thread of its own: what was seen for the heart of the agent, the pictures
+/// themselves for the server.
 class Looker {
  public:
   /// `now_ms`: the clock of the heart. `show`: hears of a picture for the server, as often as `set_show_period` says.
   Looker(Driver& driver, const pipeline::Eye& eye, std::function<Milliseconds()> now_ms,
-         std::function<void(const Image&)> show);
+         std::function<void(const TakenPicture&)> show);
   ~Looker();
   Looker(const Looker&) = delete;
   Looker& operator=(const Looker&) = delete;
@@ -39,7 +40,7 @@ class Looker {
   Driver& driver_;
   const pipeline::Eye& eye_;
   std::function<Milliseconds()> now_ms_;
-  std::function<void(const Image&)> show_;
+  std::function<void(const TakenPicture&)> show_;
   std::atomic<bool> looking_{false};
   std::atomic<Milliseconds> show_period_ms_{200};
   std::mutex mutex_;
