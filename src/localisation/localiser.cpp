@@ -156,7 +156,7 @@ struct Localiser::State {
     if (stands && spot_seen && !report(false).lost && known->same_view(*spot_seen, seen)) return true;
     if (updates > 0) {
       if (driven_m) {
-        belief.predict(known->driven, *driven_m);
+        belief.predict(known->driven, stands ? 0.0 : *driven_m);
       } else {
         belief.predict();
       }

@@ -70,6 +70,7 @@ std::vector<PlaceShare> MetricMotion::likely_from(int from, double driven_m) con
     double length_m = 0.0;
     double sigma_m = 0.0;
   };
+  if (driven_m <= 0.0) return {{from, extent_m_[at(from)]}};
   const auto later = [](const Reached& a, const Reached& b) {
     return a.length_m != b.length_m ? a.length_m > b.length_m : a.place > b.place;
   };

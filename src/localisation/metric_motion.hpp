@@ -24,8 +24,8 @@ class MetricMotion {
   /// `map` need not outlive the model.
   MetricMotion(const map::TopologicalMap& map, const map::PlaceGraph& graph);
 
-  /// Where the robot is `driven_m` after `belief`, places ascending and each once. Its cost follows the places of
-  /// `belief` and the way driven, not the map.
+  /// Where the robot is `driven_m` after `belief`, places ascending and each once; at 0 it is where it was. Its cost
+  /// follows the places of `belief` and the way driven, not the map.
   [[nodiscard]] DrivenBelief predict(std::span<const PlaceShare> belief, double driven_m) const;
 
   /// Odometry that says more between two pictures says nothing.

@@ -34,11 +34,11 @@ std::vector<AgentMessage> agent_messages() {
   const Hello hello{"homeward-agent/0.1.0", "Chair", "a1b2", homeward::testing::sample_map().camera, 0.35, 0.8};
   return {hello,
           Frame{7, 12, {0xFF, 0xD8, 0x00, 0xFF}},
-          Frame{8, 13, {0xFF}, Pose2{1.5, -2.25, 0.5}},
           driving,
           stopped,
           Stopped{"s1", 12},
-          MissionRefused{MissionId("m1"), {2, 9}, "Other features."}};
+          MissionRefused{MissionId("m1"), {2, 9}, "Other features."},
+          Frame{8, 13, {0xFF}, Pose2{1.5, -2.25, 0.5}}};
 }
 
 std::vector<ServerMessage> server_messages() {
