@@ -49,6 +49,7 @@ void Driving::look(const Unit& unit) {
   std::optional<MapId> map;
   camera::CameraConfig camera;
   std::shared_ptr<AgentLink> link;
+  bool new_odometry = false;
   {
     const std::scoped_lock lock(unit->mutex);
     frame = std::move(unit->waiting_frame);
@@ -56,6 +57,7 @@ void Driving::look(const Unit& unit) {
     if (unit->restart_tracking) unit->tracking.reset();
     unit->restart_tracking = false;
     tracking = unit->tracking;
+    new_odometry = std::exchange(unit->restart_odometry, false);
     map = unit->map;
     camera = unit->hello.camera;
     link = unit->link;
@@ -66,9 +68,10 @@ void Driving::look(const Unit& unit) {
       auto fitting = tracking_for(tracking, *map, camera);
       if (!fitting) return pass_on(fitting);
       tracking = *fitting;
+      if (new_odometry) tracking->tracker.restart_odometry();
       const auto picture = imageio::decode(frame->jpeg, "frame " + std::to_string(frame->seq));
       if (!picture) return pass_on(picture);
-      const auto belief = tracking->tracker.update(*picture);
+      const auto belief = tracking->tracker.update(*picture, frame->odometry);
       if (!belief) return pass_on(belief);
       wire::BeliefView view = view_of(*belief);
       view.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <spdlog/spdlog.h>
 
+#include <nlohmann/json.hpp>
+
 #include "server/driving/driving.hpp"
+#include "wire/camera_json.hpp"
 
 namespace homeward::server {
 namespace {
 
 constexpr std::int64_t kFramePeriodMs = 200;
+constexpr std::chrono::seconds kTrackingKept{60};  // a robot that was gone for longer may have been carried anywhere
 const char* const kServerName = "homeward-server/0.1.0";
 
 }  // namespace
@@ -39,13 +43,18 @@ void Driving::heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& li
     if (unit->under_way) stop_robot(*unit, "", "the robot connected anew", "server");
     if (unit->link) unit->link->close(kClosePolicy, "the robot connected anew");
     spdlog::info("robot {} connected: {}", unit->id.str(), hello.agent);
+    // A robot that soon comes back with the same camera goes on from where it was; a program that was started anew
+    // counts its odometry from somewhere else.
+    const bool soon = unit->gone_at && std::chrono::steady_clock::now() - *unit->gone_at < kTrackingKept;
+    const bool same_camera = wire::camera_to_json(unit->hello.camera) == wire::camera_to_json(hello.camera);
+    if (!(unit->link || soon) || !same_camera) unit->restart_tracking = true;
+    if (unit->hello.session != hello.session) unit->restart_odometry = true;
     unit->link = link;
     unit->welcomed = false;
     unit->hello = std::move(hello);
     unit->status.reset();
     unit->belief.reset();
     unit->waiting_frame.reset();
-    unit->restart_tracking = true;
   }
   // The new epoch is written to disk, which the socket thread must not wait for.
   if (!journal_.try_run([this, unit, link] { welcome(unit, link); })) link->close(kCloseGoingAway, "the server ends");
@@ -127,7 +136,7 @@ void Driving::closed(const std::shared_ptr<AgentLink>& link) {
   unit.status.reset();
   unit.belief.reset();
   unit.waiting_frame.reset();
-  unit.restart_tracking = true;
+  unit.gone_at = std::chrono::steady_clock::now();
   tell(unit);
 }
 

@@ -43,8 +43,9 @@ struct RobotUnit {
   std::string name;
   std::optional<MapId> map;
 
-  std::shared_ptr<AgentLink> link;  // null: not connected
-  bool welcomed = false;            // the new epoch is known and told
+  std::shared_ptr<AgentLink> link;    // null: not connected
+  std::optional<SteadyTime> gone_at;  // when the last connection ended
+  bool welcomed = false;              // the new epoch is known and told
   wire::Hello hello;
   std::optional<wire::AgentStatus> status;
   std::optional<SteadyTime> status_at;
@@ -54,6 +55,7 @@ struct RobotUnit {
   std::shared_ptr<const wire::Frame> waiting_frame;  // the newest one that was not looked at
   std::shared_ptr<Tracking> tracking;                // the worker's while `looking`
   bool restart_tracking = false;
+  bool restart_odometry = false;  // the robot's odometry began anew
   std::optional<wire::BeliefView> belief;
   SteadyTime belief_at;
 

@@ -3,6 +3,8 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "agent/files/read_file.hpp"
 #include "agent/files/tour_folder.hpp"
@@ -18,6 +20,7 @@ struct Options {
   std::string images;
   std::string camera;
   int restart_every = 0;
+  bool no_odometry = false;
 };
 
 nlohmann::json line_of(const std::string& image, const localisation::Belief& belief, double ms) {
@@ -33,11 +36,23 @@ nlohmann::json line_of(const std::string& image, const localisation::Belief& bel
   return line;
 }
 
+/// Where each picture was taken, as far as the folder says.
+Result<std::vector<std::optional<Pose2>>> odometry_of(const Options& options, std::size_t pictures) {
+  std::vector<std::optional<Pose2>> poses(pictures);
+  if (options.no_odometry) return poses;
+  const auto folder = agent::TourFolder::open(options.images);
+  if (!folder) return pass_on(folder);
+  for (std::size_t i = 0; i < pictures; ++i) poses[i] = folder->images()[i].odometry;
+  return poses;
+}
+
 Status localise(const Options& options) {
   auto stored = db::load_map(options.map);
   if (!stored) return pass_on(stored);
   const auto files = agent::pictures_in(options.images);
   if (!files) return pass_on(files);
+  const auto odometry = odometry_of(options, files->size());
+  if (!odometry) return pass_on(odometry);
   const auto map = std::make_shared<const map::TopologicalMap>(std::move(stored->map));
   camera::CameraConfig camera = map->camera;
   if (!options.camera.empty()) {
@@ -52,7 +67,7 @@ Status localise(const Options& options) {
     if (!picture) return pass_on(picture);
     if (options.restart_every > 0 && i % static_cast<std::size_t>(options.restart_every) == 0) tracker->restart();
     const auto begin = std::chrono::steady_clock::now();
-    const auto belief = tracker->update(*picture);
+    const auto belief = tracker->update(*picture, (*odometry)[i]);
     if (!belief) return fail(belief.error().code, belief.error().message, (*files)[i].string());
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     std::cout << line_of((*files)[i].filename().string(), *belief, ms).dump() << "\n";
@@ -66,10 +81,14 @@ void register_localise(CLI::App& program) {
   CLI::App* command = program.add_subcommand("localise", "Where in a map pictures were taken: a JSON line for each");
   const auto options = std::make_shared<Options>();
   command->add_option("--map", options->map, "Map file")->required();
-  command->add_option("--images", options->images, "Folder of pictures, in name order")->required();
+  command
+      ->add_option("--images", options->images,
+                   "Folder of pictures, in name order; its odometry.csv, if any, tells the way between them")
+      ->required();
   command->add_option("--camera", options->camera, "camera.json, when it is not the map's camera");
   command->add_option("--restart-every", options->restart_every, "Forget everything after so many pictures (0: never)")
       ->check(CLI::NonNegativeNumber);
+  command->add_flag("--no-odometry", options->no_odometry, "Leave odometry.csv aside");
   run_on(*command, [options] { return localise(*options); });
 }
 

@@ -8,6 +8,7 @@
 
 #include "localisation/calibration.hpp"
 #include "localisation/candidates.hpp"
+#include "localisation/metric_motion.hpp"
 #include "localisation/motion_model.hpp"
 #include "localisation/place_belief.hpp"
 #include "map/graph.hpp"
@@ -52,6 +53,7 @@ struct Localiser::Known {
         graph(*map),
         neighbours(neighbours_of(graph)),
         motion(graph, std::max(0.5, kFasterThanTour * map->motion.hop_spread), c.max_hops_per_update),
+        driven(*map, graph),
         finder(*map) {}
 
   /// P(z | x) of a place at this visual distance. The papers' Gaussian (2007 eq. 14) has thin tails: by night, when all
@@ -101,6 +103,11 @@ struct Localiser::Known {
     return likelihoods;
   }
 
+  /// Whether two pictures of one spot show the same.
+  [[nodiscard]] bool same_view(const features::Appearance& before, const features::Appearance& now) const {
+    return matching::compare(before, now, {}, kSeed).distance < config.same_view * distance_scale;
+  }
+
   /// Of a place "not in this map". Also where the map's own distances are so small that the floor hides the difference:
   /// a picture that no place explains speaks for being elsewhere.
   [[nodiscard]] double elsewhere_likelihood() const {
@@ -114,6 +121,7 @@ struct Localiser::Known {
   map::PlaceGraph graph;
   std::vector<std::vector<int>> neighbours;
   MotionModel motion;
+  MetricMotion driven;
   CandidateFinder finder;
 };
 
@@ -138,9 +146,37 @@ struct Localiser::State {
     return result;
   }
 
+  /// What the robot did since the last picture that counted. Says whether this one is left out: it shows nothing, or
+  /// the same spot once more.
+  bool move(const features::Appearance& seen, bool nothing_seen, const std::optional<Pose2>& odometry) {
+    const auto driven_m = metres_to(odometry);
+    if (driven_m && nothing_seen) return true;  // the way counts as a whole once something is seen again
+    // A robot that does not know where it is goes on looking, up to where it does.
+    const bool stands = driven_m && *driven_m < known->config.spot_radius_m;
+    if (stands && spot_seen && !report(false).lost && known->same_view(*spot_seen, seen)) return true;
+    if (updates > 0) {
+      if (driven_m) {
+        belief.predict(known->driven, stands ? 0.0 : *driven_m);
+      } else {
+        belief.predict();
+      }
+    }
+    spot = odometry;
+    spot_seen.reset();
+    return false;
+  }
+
+  [[nodiscard]] std::optional<double> metres_to(const std::optional<Pose2>& odometry) const {
+    if (!spot || !odometry) return std::nullopt;
+    const double driven_m = std::hypot(odometry->x_m - spot->x_m, odometry->y_m - spot->y_m);
+    return driven_m <= MetricMotion::longest_m() ? std::optional(driven_m) : std::nullopt;
+  }
+
   std::shared_ptr<const Known> known;
   PlaceBelief belief;
   int updates = 0;
+  std::optional<Pose2> spot;                      // where the belief was last moved to
+  std::optional<features::Appearance> spot_seen;  // the picture that counted there
 };
 
 Localiser::Localiser(const map::TopologicalMap& map, const LocaliserConfig& config)
@@ -160,16 +196,23 @@ Localiser Localiser::another() const { return Localiser(state_->known); }
 void Localiser::restart() {
   state_->belief.restart();
   state_->updates = 0;
+  restart_odometry();
 }
 
-Belief Localiser::update(const features::Appearance& seen) {
+void Localiser::restart_odometry() {
+  state_->spot.reset();
+  state_->spot_seen.reset();
+}
+
+Belief Localiser::update(const features::Appearance& seen, const std::optional<Pose2>& odometry) {
   State& state = *state_;
-  if (state.updates > 0) state.belief.predict();
-  ++state.updates;
   const Known& known = *state.known;
   const bool nothing_seen = seen.size() < known.config.min_features;
-  if (!nothing_seen) {
+  const bool left_out = state.move(seen, nothing_seen, odometry);
+  ++state.updates;
+  if (!nothing_seen && !left_out) {
     state.belief.weigh(known.compare(seen, state.belief), known.config.sensor_floor, known.elsewhere_likelihood());
+    if (odometry) state.spot_seen = seen;
   }
   return state.report(nothing_seen);
 }

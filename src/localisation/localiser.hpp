@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/ids.hpp"
+#include "core/pose2.hpp"
 #include "core/result.hpp"
 #include "features/appearance.hpp"
 #include "map/topological_map.hpp"
@@ -22,6 +24,8 @@ struct LocaliserConfig {
   double leave_probability = 0.02;      // that it left the mapped part
   double lost_below_probability = 0.3;  // best place and its neighbours together less probable than this: lost
   int min_features = 20;                // a picture with fewer says nothing
+  double spot_radius_m = 0.2;           // pictures taken so near to each other, by odometry, are of one spot
+  double same_view = 0.5;               // and say nothing new when they differ by less, in usual distances
 };
 
 struct PlaceProbability {
@@ -31,7 +35,7 @@ struct PlaceProbability {
 
 /// Where the robot believes to be after its latest picture.
 struct Belief {
-  int updates = 0;                    // pictures used since the last uniform start
+  int updates = 0;                    // pictures looked at since the last uniform start
   std::vector<PlaceProbability> top;  // most probable first, at most 5
   double near_share = 0.0;            // belief in the first place and its neighbours together
   double near_probability = 0.0;      // that the robot is at one of these, as the map's own tours say (calibration)
@@ -53,8 +57,14 @@ class Localiser {
   /// Another one that starts anew and shares what was made ready for the map. Each may be used by a thread of its own.
   [[nodiscard]] Localiser another() const;
 
-  /// Takes one more picture into account. Same pictures, same belief.
-  Belief update(const features::Appearance& seen);
+  /// Takes one more picture into account. Same pictures, same belief. `odometry`: where it was taken, in any frame that
+  /// stays; with that of the picture before, the way between them is known. Pictures of one spot then count once, for
+  /// the second tells nothing that the first did not, unless the belief is lost; one that differs tells that the robot
+  /// was carried off.
+  Belief update(const features::Appearance& seen, const std::optional<Pose2>& odometry = std::nullopt);
+
+  /// Odometry counts anew: what it said up to now does not belong to what it says next. The belief stays.
+  void restart_odometry();
 
   /// Forgets all pictures: uniform belief.
   void restart();

@@ -2,6 +2,7 @@
 #include "localisation/place_belief.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace homeward::localisation {
 namespace {
@@ -36,15 +37,24 @@ double PlaceBelief::of(int place) const {
 }
 
 void PlaceBelief::predict() {
+  if (motion_->places() > 0) move(motion_->predict(excess_), 0.0);
+}
+
+void PlaceBelief::predict(const MetricMotion& motion, double driven_m) {
   if (motion_->places() == 0) return;
+  DrivenBelief driven = motion.predict(excess_, driven_m);
+  move(std::move(driven.shares), driven.unexplained);
+}
+
+void PlaceBelief::move(std::vector<PlaceShare> driven, double unexplained) {
   const double inside = 1.0 - elsewhere_;
-  const double spread_evenly =
-      (odds_.jump_probability * inside + odds_.leave_probability * elsewhere_) / motion_->places();
-  const double driven = 1.0 - odds_.jump_probability - odds_.leave_probability;
-  excess_ = motion_->predict(excess_);
-  for (PlaceShare& share : excess_) share.probability *= driven;
-  common_ = common_ * driven + spread_evenly;
-  elsewhere_ = elsewhere_ * (1.0 - odds_.leave_probability) + inside * odds_.leave_probability;
+  const double drove = 1.0 - odds_.jump_probability - odds_.leave_probability;
+  const double without_way = 0.5 * drove * unexplained;  // half of it left the mapped part
+  const double evenly = odds_.jump_probability * inside + odds_.leave_probability * elsewhere_ + without_way;
+  excess_ = std::move(driven);
+  for (PlaceShare& share : excess_) share.probability *= drove;
+  common_ = common_ * drove + evenly / motion_->places();
+  elsewhere_ = elsewhere_ * (1.0 - odds_.leave_probability) + inside * odds_.leave_probability + without_way;
   forget_small();
 }
 

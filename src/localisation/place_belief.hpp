@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "localisation/metric_motion.hpp"
 #include "localisation/motion_model.hpp"
 
 namespace homeward::localisation {
@@ -29,6 +30,10 @@ class PlaceBelief {
   /// place as it takes away.
   void predict();
 
+  /// The same when odometry knows how far it drove. What no way on the map explains is somewhere else, in the map or
+  /// not.
+  void predict(const MetricMotion& motion, double driven_m);
+
   /// Bayes' rule. `seen`: likelihood P(z | x) of the picture at the places that were compared, each once; every other
   /// place has `floor`, and being elsewhere has `elsewhere`. A likelihood below `floor` counts as `floor`.
   void weigh(std::span<const PlaceShare> seen, double floor, double elsewhere);
@@ -43,6 +48,7 @@ class PlaceBelief {
 
  private:
   [[nodiscard]] double total() const;
+  void move(std::vector<PlaceShare> driven, double unexplained);
   void forget_small();
 
   const MotionModel* motion_;

@@ -39,13 +39,15 @@ Result<BeliefTracker> BeliefTracker::create(std::shared_ptr<const map::Topologic
   return create(std::move(map), camera);
 }
 
-Result<localisation::Belief> BeliefTracker::update(const Image& picture) {
+Result<localisation::Belief> BeliefTracker::update(const Image& picture, const std::optional<Pose2>& odometry) {
   const auto seen = state_->eye.look(picture);
   if (!seen) return pass_on(seen);
-  return state_->localiser.update(*seen);
+  return state_->localiser.update(*seen, odometry);
 }
 
 void BeliefTracker::restart() { state_->localiser.restart(); }
+
+void BeliefTracker::restart_odometry() { state_->localiser.restart_odometry(); }
 
 const map::TopologicalMap& BeliefTracker::map() const { return *state_->map; }
 

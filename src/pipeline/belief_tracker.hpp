@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/image.hpp"
+#include "core/pose2.hpp"
 #include "core/result.hpp"
 #include "localisation/localiser.hpp"
 #include "map/topological_map.hpp"
@@ -26,8 +28,11 @@ class BeliefTracker {
   BeliefTracker& operator=(BeliefTracker&&) noexcept;
 
   /// Errors: kWrongImageSize. A black or covered picture is no error: the belief says lost.
-  Result<localisation::Belief> update(const Image& picture);
+  /// `odometry`: where it was taken, see localisation::Localiser.
+  Result<localisation::Belief> update(const Image& picture, const std::optional<Pose2>& odometry = std::nullopt);
   void restart();
+  /// Odometry counts anew; the belief stays.
+  void restart_odometry();
   [[nodiscard]] const map::TopologicalMap& map() const;
 
  private:

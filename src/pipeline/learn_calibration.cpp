@@ -75,7 +75,7 @@ Result<std::vector<localisation::CalibrationSample>> samples_of(const map::Topol
   const auto drive = [&](std::size_t r) {
     localisation::Localiser own = localiser.another();
     for (const std::size_t image : runs[r]) {
-      const localisation::Belief belief = own.update(appearances[image]);
+      const localisation::Belief belief = own.update(appearances[image], map.images[image].odometry);
       if (belief.top.empty()) continue;
       const int answer = index.at(belief.top.front().place);
       of_run[r].push_back({belief.near_share, !belief.lost && adjoin(answer, place_of[image])});

@@ -13,6 +13,8 @@ using nlohmann::json;
 
 constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t kMaxPathPlaces = 2000;
+constexpr double kFarthest_m = 1e6;  // of odometry from where it began
+constexpr double kMostHeading_rad = 3.2;
 
 std::vector<std::uint8_t> read_bytes(ObjectReader& reader, const std::string& key) {
   const json& value = reader.value(key);
@@ -42,8 +44,18 @@ Hello read_hello(ObjectReader& reader) {
   return m;
 }
 
+std::optional<Pose2> read_odometry(ObjectReader& reader) {
+  if (!reader.has("odometry")) return std::nullopt;
+  ObjectReader inner(reader.value("odometry"), reader.path_of("odometry"));
+  const Pose2 pose{inner.number("x_m", -kFarthest_m, kFarthest_m), inner.number("y_m", -kFarthest_m, kFarthest_m),
+                   inner.number("theta_rad", -kMostHeading_rad, kMostHeading_rad)};
+  if (const Status status = inner.finish(); !status) reader.take<int>(pass_on(status));
+  return pose;
+}
+
 Frame read_frame(ObjectReader& reader) {
-  return {reader.integer("seq", 0, kMost), reader.integer("t_us", 0, kMost), read_bytes(reader, "jpeg")};
+  return {reader.integer("seq", 0, kMost), reader.integer("t_us", 0, kMost), read_bytes(reader, "jpeg"),
+          read_odometry(reader)};
 }
 
 std::optional<HomeReport> read_home(ObjectReader& reader) {

@@ -11,6 +11,7 @@
 
 #include "camera/camera_config.hpp"
 #include "core/ids.hpp"
+#include "core/pose2.hpp"
 #include "core/result.hpp"
 #include "core/time.hpp"
 
@@ -44,6 +45,7 @@ struct Frame {
   std::int64_t seq = 0;
   TimeUs t_us = 0;
   std::vector<std::uint8_t> jpeg;
+  std::optional<Pose2> odometry = std::nullopt;  // where it was taken, in a frame that stays as long as the session
 };
 
 /// "idle", "driving", "arrived", "stopped" (told to, or something went stale), "failed" (cannot go on).

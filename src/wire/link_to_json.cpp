@@ -38,6 +38,9 @@ json write(const Frame& m) {
   value["seq"] = m.seq;
   value["t_us"] = m.t_us;
   value["jpeg"] = json::binary(m.jpeg);
+  if (m.odometry) {
+    value["odometry"] = {{"x_m", m.odometry->x_m}, {"y_m", m.odometry->y_m}, {"theta_rad", m.odometry->theta_rad}};
+  }
   return value;
 }
 

@@ -237,6 +237,13 @@ class BadMaps(CliTest):
         self.assert_refused(2, ["pictures"], "localise", "--map", "good.map", "--images", "pictures")
         self.assert_refused(3, ["nowhere"], "localise", "--map", "good.map", "--images", "nowhere")
 
+    def test_odometry_of_a_walk_that_cannot_be_read(self):
+        self.good_map()
+        odometry = self.tour() / "odometry.csv"
+        odometry.write_text("t_us,x_m,y_m,theta_rad\n12,here,0,0\n")
+        self.assert_refused(2, ["odometry.csv:2"], "localise", "--map", "good.map", "--images", "tour")
+        self.result_of("localise", "--map", "good.map", "--images", "tour", "--no-odometry")
+
 
 class BadPictures(CliTest):
     def home(self, current, target):

@@ -117,6 +117,23 @@ class HappyPath(CliTest):
         self.assertTrue(all(answer["updates"] == 1 for answer in alone))
         self.assertGreaterEqual(sum(answer["place"] == place_of[answer["image"]] for answer in alone), 0.6 * len(alone))
 
+    def test_odometry_is_used_when_there_is_one(self):
+        self.good_map()
+        self.tour("with")
+        self.tour("without", without=("poses.csv", "scans.csv", "odometry.csv"))
+
+        def beliefs(*arguments):
+            lines = self.lines_of("localise", "--map", "good.map", *arguments)
+            return [{key: value for key, value in line.items() if key != "ms"} for line in lines]
+
+        used, aside, absent = (beliefs("--images", "with"), beliefs("--images", "with", "--no-odometry"),
+                               beliefs("--images", "without"))
+        self.assertEqual(aside, absent)
+        self.assertEqual(used[0], absent[0])  # the first picture knows of no way
+        self.assertNotEqual(used, absent)
+        # A restart forgets where the last picture was taken.
+        self.assertEqual(beliefs("--images", "with", "--restart-every", 1), beliefs("--images", "without", "--restart-every", 1))
+
     def test_routes_from_label_to_label(self):
         self.good_map()
         there = json.loads(self.result_of("route", "--map", "good.map", "--from", "corridor", "--to", "office_1", "--json"))

@@ -141,7 +141,10 @@ std::vector<Bytes> agent_messages() {
   hello.robot_name = "chair";
   hello.session = "abc";
   hello.camera = testing::sample_map().camera;
-  const std::vector<wire::AgentMessage> messages = {hello, wire::Frame{1, 2, {0xFF, 0xD8, 0xFF}}, status,
+  const std::vector<wire::AgentMessage> messages = {hello,
+                                                    wire::Frame{1, 2, {0xFF, 0xD8, 0xFF}},
+                                                    wire::Frame{2, 3, {0xFF}, Pose2{1.0, 2.0, 0.5}},
+                                                    status,
                                                     wire::Stopped{"s1", 5},
                                                     wire::MissionRefused{MissionId("m1"), {3, 4}, "No."}};
   std::vector<Bytes> encoded;

@@ -24,11 +24,11 @@ struct Reading {
   std::optional<Scan> scan;  // a new sweep, when there is one
 };
 
-/// A picture with the odometry of the moment at which it was taken.
+/// A picture with the odometry of the moment at which it was taken, of a robot that has it.
 struct TakenPicture {
   Milliseconds t_ms = 0;
   Image picture;
-  Pose2 odometry;
+  std::optional<Pose2> odometry;  // nothing: the driver has none
   std::vector<std::uint8_t> jpeg = {};  // as it came, empty where the driver has pixels only
 };
 

@@ -22,7 +22,7 @@ Result<SeenPicture> look(const CameraPicture& picture, const pipeline::Eye& eye)
   if (!panorama) return pass_on(panorama);
   SeenPicture seen;
   seen.taken_ms = picture.taken_ms;
-  seen.odometry = picture.odometry;
+  seen.odometry = picture.odometry.value_or(Pose2{});
   if (picture.recognised) seen.appearance = std::make_shared<const features::Appearance>(eye.look(*panorama));
   seen.frame = tracking::TrackingFrame(*panorama);
   return seen;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "agent/drivers/driver.hpp"
@@ -18,7 +19,7 @@ using PictureBytes = std::shared_ptr<const std::vector<std::uint8_t>>;
 /// A picture as a camera sends it.
 struct CameraPicture {
   Milliseconds taken_ms = 0;
-  Pose2 odometry;
+  std::optional<Pose2> odometry;
   PictureBytes bytes;
   bool recognised = true;  // its features are looked for; else it is only made ready for tracking
 };

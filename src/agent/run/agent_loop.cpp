@@ -85,8 +85,8 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
   const StandStill at_the_end(driver);
   LinkClient link(options.server, options.robot, options.token, std::move(hello), options.told);
   std::int64_t frame_seq = 0;
-  Looker looker(driver, *eye, now_ms, [&](const PictureBytes& picture) {
-    if (link.up()) link.send(wire::Frame{++frame_seq, now_us(), *picture});
+  Looker looker(driver, *eye, now_ms, [&](const CameraPicture& picture) {
+    if (link.up()) link.send(wire::Frame{++frame_seq, now_us(), *picture.bytes, picture.odometry});
   });
   std::unique_ptr<Recorder> recorder;
   if (options.record) {

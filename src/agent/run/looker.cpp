@@ -4,7 +4,7 @@
 namespace homeward::agent {
 
 Looker::Looker(Driver& driver, const pipeline::Eye& eye, std::function<Milliseconds()> now_ms,
-               std::function<void(const PictureBytes&)> show)
+               std::function<void(const CameraPicture&)> show)
     : driver_(driver),
       eye_(eye),
       now_ms_(std::move(now_ms)),
@@ -44,7 +44,7 @@ void Looker::run(const std::stop_token& stop) {
     picture.recognised = features_wanted_;
     if (shown) {
       shown_ms = taken_ms;
-      show_(picture.bytes);
+      show_(picture);
     }
     if (!looking_) continue;
     auto seen = look(picture, eye_);

@@ -26,7 +26,7 @@ class Looker {
  public:
   /// `now_ms`: the clock of the heart. `show`: hears of a picture for the server, as often as `set_show_period` says.
   Looker(Driver& driver, const pipeline::Eye& eye, std::function<Milliseconds()> now_ms,
-         std::function<void(const PictureBytes&)> show);
+         std::function<void(const CameraPicture&)> show);
   ~Looker();
   Looker(const Looker&) = delete;
   Looker& operator=(const Looker&) = delete;
@@ -48,7 +48,7 @@ class Looker {
   Driver& driver_;
   const pipeline::Eye& eye_;
   std::function<Milliseconds()> now_ms_;
-  std::function<void(const PictureBytes&)> show_;
+  std::function<void(const CameraPicture&)> show_;
   std::atomic<bool> looking_{false};
   std::atomic<bool> features_wanted_{true};
   std::atomic<Milliseconds> show_period_ms_{200};

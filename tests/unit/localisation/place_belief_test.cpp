@@ -103,6 +103,20 @@ TEST(PlaceBelief, IsTheFilterWithANumberForEveryPlace) {
   }
 }
 
+TEST(PlaceBelief, LosesNothingOnADrive) {
+  constexpr int kPlaces = 30;
+  const map::TopologicalMap map = ring(kPlaces);
+  const map::PlaceGraph graph(map);
+  const MotionModel motion(graph, 1.0, 3);
+  const MetricMotion driven(map, graph);
+  PlaceBelief belief(motion, {});
+  belief.weigh(std::vector<PlaceShare>{{4, 0.9}, {17, 0.4}}, kFloor, kElsewhere);
+  for (const double driven_m : {0.0, 0.3, 1.0, 5.0, 19.0}) {
+    belief.predict(driven, driven_m);
+    EXPECT_NEAR(sum_of(belief, kPlaces), 1.0, 1e-9) << driven_m;
+  }
+}
+
 TEST(PlaceBelief, KeepsFewPlacesOfALargeMap) {
   constexpr int kPlaces = 5000;
   const MotionModel motion(map::PlaceGraph(ring(kPlaces)), 1.5, 4);

@@ -26,11 +26,11 @@ class FakeAgent {
     const auto bytes = wire::encode(message);
     socket.send({bytes.begin(), bytes.end()}, false);
   }
-  void hello() {
+  void hello(const std::string& session = "s1") {
     wire::Hello hello;
     hello.agent = "homeward-agent/test";
     hello.robot_name = "chair";
-    hello.session = "s1";
+    hello.session = session;
     hello.camera = testing::small_panorama_camera();
     say(hello);
   }
@@ -160,6 +160,20 @@ TEST_F(DrivingTest, OneDrivesAndTheOthersAreTold) {
   EXPECT_TRUE(admin->get(root).json().at("lease").is_null());
   EXPECT_EQ(viewer.post(root + "/lease").status, 403);
   EXPECT_EQ(admin->post("/api/v1/robots/none/lease").status, 404);
+}
+
+TEST_F(DrivingTest, ARobotThatComesBackGoesOnFromWhereItWas) {
+  add_robot();
+  put_on_map();
+  for (const int updates : {1, 2}) {
+    FakeAgent agent;
+    ASSERT_EQ(agent.connect(app->port(), robot, token), 101);
+    agent.hello("s" + std::to_string(updates));
+    ASSERT_TRUE(agent.await<wire::Welcome>());
+    agent.look(1);
+    ASSERT_TRUE(agent.await<wire::BeliefReport>());
+    EXPECT_EQ(admin->get(root).json().at("belief").at("updates"), updates);
+  }
 }
 
 TEST_F(DrivingTest, NoMissionWithoutLeaseOrRobot) {
