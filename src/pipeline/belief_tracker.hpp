@@ -28,6 +28,8 @@ class BeliefTracker {
   /// Errors: kWrongImageSize. A black or covered picture is no error: the belief says lost.
   Result<localisation::Belief> update(const Image& picture);
   void restart();
+  /// Of the latest picture; empty before the first.
+  [[nodiscard]] const features::Appearance& seen() const;
   [[nodiscard]] const map::TopologicalMap& map() const;
 
  private:
