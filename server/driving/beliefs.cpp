@@ -46,6 +46,7 @@ Result<std::shared_ptr<Tracking>> Driving::tracking_for(std::shared_ptr<Tracking
 
 void Driving::hand_over_sights(RobotUnit& unit) {
   auto sights = std::make_shared<const std::vector<pipeline::DriveSight>>(unit.sights.take());
+  spdlog::debug("robot {} hands over {} sights", unit.id.str(), sights->size());
   if (sights->empty() || !keep_drive_ || !unit.tracking || unit.tracking->map_id != unit.mission->map) return;
   db::Drive drive{
       unit.mission->id, unit.mission->map, unit.tracking->tracker.map().feature_config_id, wall_clock_us(), {}};

@@ -15,14 +15,19 @@ namespace homeward::server {
 namespace {
 
 constexpr int kMostAttempts = 3;
+constexpr std::int64_t kAddedBytesPerPlace = 18'000;  // on average: two appearances besides the prototype's
 
 std::string where_of(const MapId& map) { return "maps/" + map.str(); }
 
-pipeline::RefineOptions refine_options(const db::StoredMap& stored, int threads) {
+pipeline::RefineOptions refine_options(const map::TopologicalMap& map, int threads) {
   pipeline::RefineOptions options;
   options.threads = threads;
-  options.spare_bytes =
-      pipeline::kRefinedBytesPerPlace * static_cast<std::int64_t>(stored.map.places.size()) - stored.bytes;
+  options.spare_bytes = kAddedBytesPerPlace * static_cast<std::int64_t>(map.places.size());
+  for (const map::Place& place : map.places) {
+    for (std::size_t i = 1; i < place.appearances.size(); ++i) {
+      options.spare_bytes -= mapping::kept_bytes(place.appearances[i]);
+    }
+  }
   return options;
 }
 
@@ -122,7 +127,7 @@ Result<wire::JobState> BuildJobs::refine_by_tours(wire::JobView& job, const std:
   if (!tours) return pass_on(tours);
   const auto loaded = maps_.load(job.map);
   if (!loaded) return pass_on(loaded);
-  pipeline::RefineOptions options = refine_options(**loaded, threads_);
+  pipeline::RefineOptions options = refine_options((*loaded)->map, threads_);
   map::TopologicalMap map = (*loaded)->map;
   mapping::Refinement all;
   std::vector<Error> skipped;
@@ -162,12 +167,17 @@ Result<wire::JobState> BuildJobs::refine_by_drives(wire::JobView& job, const std
   tell(job);
   const auto sights = sights_of(store_, job.drives, (*loaded)->map);
   if (!sights) return pass_on(sights);
-  const auto refined = pipeline::refine_by_sights((*loaded)->map, *sights, refine_options(**loaded, threads_), stop);
+  const auto refined =
+      pipeline::refine_by_sights((*loaded)->map, *sights, refine_options((*loaded)->map, threads_), stop);
   if (!refined) return pass_on(refined);
   const bool at_once = job.taken || record->refine == wire::RefineMode::kAuto;
   const mapping::Refinement& refinement = refined->refinement;
   job.gained = static_cast<std::int64_t>(refinement.gained.size());
   job.notes = words_of(refined->map, refinement, !at_once);
+  const auto certain =
+      std::count_if(refined->sure.begin(), refined->sure.end(), [](const PlaceId& p) { return !p.empty(); });
+  spdlog::info("job {}: {} sights of {} drives, {} at places that are certain, {} new appearances", job.id.str(),
+               sights->size(), job.drives.size(), certain, job.gained);
   if (refinement.gained.empty()) {
     if (job.taken) job.notes.insert(job.notes.begin(), "Nothing of the offer is left: the map has changed since.");
     return wire::JobState::kDone;
