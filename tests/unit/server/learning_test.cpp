@@ -332,6 +332,8 @@ TEST_F(LearningTest, AMapIsSetToLearnAtOnceOrNotAtAll) {
   EXPECT_GE(done.at("gained"), 1);
   EXPECT_EQ(admin->get(at(map)).json().at("revision"), 2);
   saw_by_night("m3");
+  std::this_thread::sleep_for(milliseconds(1500));
+  EXPECT_EQ(kept_drives(), 0U) << "it was looked through";
   EXPECT_EQ(admin->get(at(map)).json().at("revision"), 2) << "the same once more says nothing";
 }
 
