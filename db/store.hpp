@@ -89,10 +89,14 @@ class Store {
   virtual Result<MapRecord> map(const MapId& id) = 0;
   /// Errors: kNotFound.
   virtual Status set_map_state(const MapId& id, wire::MapState state) = 0;
-  /// Keeps new contents as revision `contents.revision` and makes the map ready. The older file goes once the row has
-  /// been switched. Errors: kNotFound, kStaleRevision (`expected_revision` is not the present one).
+  /// Errors: kNotFound.
+  virtual Status set_map_refine(const MapId& id, wire::RefineMode mode) = 0;
+  /// Keeps new contents as revision `contents.revision` and makes the map ready, together with what is to change
+  /// `along` with it. The older file goes once the row has been switched. Errors: kNotFound, kStaleRevision
+  /// (`expected_revision` is not the present one).
   virtual Result<MapRecord> save_map_contents(const MapId& id, const map::TopologicalMap& contents,
-                                              const Thumbnails& thumbnails, std::int64_t expected_revision) = 0;
+                                              const Thumbnails& thumbnails, std::int64_t expected_revision,
+                                              const AlongWithContents& along = {}) = 0;
   /// Errors: kNotFound (also before the first build), those of load_map.
   virtual Result<StoredMap> load_map_contents(const MapId& id) = 0;
   /// The bytes of the map file, for export. Errors: kNotFound.
@@ -102,10 +106,19 @@ class Store {
   /// With its jobs; robots on it are left without a map. Errors: kNotFound.
   virtual Status remove_map(const MapId& id) = 0;
 
+  // --- What drives saw ---------------------------------------------------------------------------------------------
+  /// The eight newest of each map are kept. Errors: kNotFound (the map).
+  virtual Status add_drive(const Drive& drive) = 0;
+  virtual Result<std::vector<MissionId>> drives(const MapId& map) = 0;  // oldest first
+  /// Errors: kNotFound.
+  virtual Result<Drive> drive(const MissionId& mission) = 0;
+  /// Success also when there are none.
+  virtual Status remove_drives(const std::vector<MissionId>& missions) = 0;
+
   // --- Jobs -------------------------------------------------------------------------------------------------------
   /// Errors: kNotFound (the map).
   virtual Result<wire::JobView> add_job(wire::JobView job) = 0;
-  /// State, stage, share and error. Errors: kNotFound.
+  /// All but kind, map, tours and time. Errors: kNotFound.
   virtual Status update_job(const wire::JobView& job) = 0;
   virtual Result<std::vector<wire::JobView>> jobs() = 0;  // oldest first
   /// Queued or running, oldest first: what to take up again after a restart.

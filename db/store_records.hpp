@@ -85,6 +85,28 @@ struct MapRecord {
   std::vector<TourId> tours;  // in the order given
   std::optional<std::string> feature_config_id;
   TimeUs created_us = 0;
+  wire::RefineMode refine = wire::RefineMode::kAsk;
+};
+
+struct DriveSight {
+  PlaceId place;                         // that the robot was sure of; empty: of none, and nothing else is kept
+  std::vector<std::uint8_t> appearance;  // wire/appearance_blob.hpp
+};
+
+/// What the map of a mission that arrived may learn from, in driving order.
+struct Drive {
+  MissionId mission;
+  MapId map;
+  std::string feature_config_id;
+  TimeUs created_us = 0;
+  std::vector<DriveSight> sights;
+};
+
+/// What changes in one step with a map's contents.
+struct AlongWithContents {
+  std::vector<TourId> new_tours;       // that the map is made from as well from now on
+  std::vector<MissionId> used_drives;  // that are not needed any more
+  std::optional<wire::JobView> job;    // as it is afterwards
 };
 
 struct RobotRecord {

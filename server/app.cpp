@@ -81,6 +81,7 @@ struct App::Parts {
         jobs(*store, maps, events, threads_of(config)),
         front({router, access, files, authenticator, idempotency, metrics, workers, heavy, driving, events,
                [this] { return snapshot(); }}) {
+    driving.when_arrived([this](const db::Drive& drive) { jobs.add_drive(drive); });
     add_account_routes(router, authenticator, *store);
     add_tour_routes(router, tours, *store);
     add_map_routes(router, maps, jobs, *store);
@@ -105,11 +106,16 @@ struct App::Parts {
     snapshot.build = kBuild;
     snapshot.robots = driving.list();
     if (const auto all = store->jobs()) {
-      // Finished ones from long ago are history.
-      const std::size_t first = all->size() > 50 ? all->size() - 50 : 0;
-      for (std::size_t i = first; i < all->size(); ++i) {
-        const auto now = jobs.get((*all)[i].id);
-        snapshot.jobs.push_back(now ? *now : (*all)[i]);
+      // Finished ones from long ago are history, and drives that taught nothing are no news.
+      std::vector<wire::JobView> told;
+      for (const wire::JobView& job : *all) {
+        const bool no_news = job.kind == "refine" && job.state == wire::JobState::kDone && job.notes.empty();
+        if (!no_news) told.push_back(job);
+      }
+      const std::size_t first = told.size() > 50 ? told.size() - 50 : 0;
+      for (std::size_t i = first; i < told.size(); ++i) {
+        const auto now = jobs.get(told[i].id);
+        snapshot.jobs.push_back(now ? *now : told[i]);
       }
     }
     if (const auto all = store->maps()) {

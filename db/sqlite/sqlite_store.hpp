@@ -53,12 +53,20 @@ class SqliteStore final : public Store {
   Result<std::vector<MapRecord>> maps() override;
   Result<MapRecord> map(const MapId& id) override;
   Status set_map_state(const MapId& id, wire::MapState state) override;
+  Status set_map_refine(const MapId& id, wire::RefineMode mode) override;
   Result<MapRecord> save_map_contents(const MapId& id, const map::TopologicalMap& contents,
-                                      const Thumbnails& thumbnails, std::int64_t expected_revision) override;
+                                      const Thumbnails& thumbnails, std::int64_t expected_revision,
+                                      const AlongWithContents& along) override;
   Result<StoredMap> load_map_contents(const MapId& id) override;
   Result<std::vector<std::uint8_t>> map_file_bytes(const MapId& id) override;
   Result<MapRecord> import_map(MapRecord map, std::span<const std::uint8_t> file) override;
   Status remove_map(const MapId& id) override;
+
+  // --- What drives saw ---
+  Status add_drive(const Drive& drive) override;
+  Result<std::vector<MissionId>> drives(const MapId& map) override;
+  Result<Drive> drive(const MissionId& mission) override;
+  Status remove_drives(const std::vector<MissionId>& missions) override;
 
   // --- Jobs ---
   Result<wire::JobView> add_job(wire::JobView job) override;
@@ -87,6 +95,9 @@ class SqliteStore final : public Store {
   [[nodiscard]] std::filesystem::path image_file(const TourId& tour, std::int64_t number, ImageType type) const;
   [[nodiscard]] std::filesystem::path map_file(const MapId& map, std::int64_t revision) const;
   void remove_stray_map_files();
+  // Within a transaction:
+  static void write_job(SQLite::Database& database, const wire::JobView& job);
+  static void forget_drives(SQLite::Database& database, const std::vector<MissionId>& missions);
 
   FolderLock lock_;
   std::filesystem::path folder_;

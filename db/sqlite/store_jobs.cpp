@@ -11,6 +11,20 @@ namespace {
 
 constexpr TimeUs kAnswersKeptUs = 24LL * 3600 * 1'000'000;
 
+template <class Name>
+std::vector<Name> ids_of(const std::string& list) {
+  std::vector<Name> ids;
+  for (const auto& id : nlohmann::json::parse(list)) ids.emplace_back(id.get<std::string>());
+  return ids;
+}
+
+template <class Name>
+std::string ids_text(const std::vector<Name>& ids) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Name& id : ids) list.push_back(id.str());
+  return list.dump();
+}
+
 wire::JobView job_of(SQLite::Statement& row) {
   wire::JobView job;
   job.id = JobId(text(row, 0));
@@ -28,6 +42,10 @@ wire::JobView job_of(SQLite::Statement& row) {
   job.created_us = integer(row, 9);
   job.skipped = integer(row, 10);
   job.notes = nlohmann::json::parse(text(row, 11)).get<std::vector<std::string>>();
+  job.gained = integer(row, 12);
+  job.taken = integer(row, 13) != 0;
+  job.tours = ids_of<TourId>(text(row, 14));
+  job.drives = ids_of<MissionId>(text(row, 15));
   return job;
 }
 
@@ -62,24 +80,27 @@ Result<wire::JobView> SqliteStore::add_job(wire::JobView job) {
     }
     if (job.id.empty()) job.id = JobId(random_id());
     const ErrorColumns error = error_columns(job);
-    execute(database, "INSERT INTO jobs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", job.id, job.kind, job.map,
-            std::string(wire::job_state_name(job.state)), job.stage, job.share, error.code, error.message, error.where,
-            job.created_us, job.skipped, notes_text(job));
+    execute(database, "INSERT INTO jobs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", job.id, job.kind,
+            job.map, std::string(wire::job_state_name(job.state)), job.stage, job.share, error.code, error.message,
+            error.where, job.created_us, job.skipped, notes_text(job), job.gained, job.taken, ids_text(job.tours),
+            ids_text(job.drives));
     return job;
   });
 }
 
+void SqliteStore::write_job(SQLite::Database& database, const wire::JobView& job) {
+  const ErrorColumns error = error_columns(job);
+  if (execute(database,
+              "UPDATE jobs SET state = ?, stage = ?, share = ?, error_code = ?, error_message = ?, error_where = ?, "
+              "skipped = ?, notes = ?, gained = ?, taken = ?, drives = ? WHERE id = ?",
+              std::string(wire::job_state_name(job.state)), job.stage, job.share, error.code, error.message,
+              error.where, job.skipped, notes_text(job), job.gained, job.taken, ids_text(job.drives), job.id) == 0) {
+    refuse(ErrorCode::kNotFound, "There is no job with this id.", "jobs/" + job.id.str());
+  }
+}
+
 Status SqliteStore::update_job(const wire::JobView& job) {
-  return database_.work([&](SQLite::Database& database) {
-    const ErrorColumns error = error_columns(job);
-    if (execute(database,
-                "UPDATE jobs SET state = ?, stage = ?, share = ?, error_code = ?, error_message = ?, error_where = ?, "
-                "skipped = ?, notes = ? WHERE id = ?",
-                std::string(wire::job_state_name(job.state)), job.stage, job.share, error.code, error.message,
-                error.where, job.skipped, notes_text(job), job.id) == 0) {
-      refuse(ErrorCode::kNotFound, "There is no job with this id.", "jobs/" + job.id.str());
-    }
-  });
+  return database_.work([&](SQLite::Database& database) { write_job(database, job); });
 }
 
 Result<std::vector<wire::JobView>> SqliteStore::jobs() {

@@ -9,10 +9,10 @@ namespace homeward::db {
 namespace {
 
 constexpr const char* kMaps =
-    "SELECT id, name, state, revision, places, images, feature_config_id, created_us FROM maps "
+    "SELECT id, name, state, revision, places, images, feature_config_id, created_us, refine FROM maps "
     "ORDER BY created_us, rowid";
 constexpr const char* kOneMap =
-    "SELECT id, name, state, revision, places, images, feature_config_id, created_us FROM maps WHERE id = ?";
+    "SELECT id, name, state, revision, places, images, feature_config_id, created_us, refine FROM maps WHERE id = ?";
 
 MapRecord map_of(SQLite::Database& database, SQLite::Statement& row) {
   MapRecord map;
@@ -26,6 +26,9 @@ MapRecord map_of(SQLite::Database& database, SQLite::Statement& row) {
   map.images = integer(row, 5);
   map.feature_config_id = optional_text(row, 6);
   map.created_us = integer(row, 7);
+  const std::optional<wire::RefineMode> refine = wire::refine_mode(text(row, 8));
+  if (!refine) refuse(ErrorCode::kCorruptFile, "The database holds an unknown setting.", "maps/" + map.id.str());
+  map.refine = *refine;
   SQLite::Statement tour = prepared(database, "SELECT tour FROM map_tours WHERE map = ? ORDER BY position", map.id);
   while (tour.executeStep()) map.tours.emplace_back(text(tour, 0));
   return map;
@@ -37,19 +40,23 @@ MapRecord need_map(SQLite::Database& database, const MapId& id) {
   return map_of(database, row);
 }
 
-MapRecord insert_map(SQLite::Database& database, const MapRecord& map) {
-  execute(database,
-          "INSERT INTO maps (id, name, state, revision, places, images, feature_config_id, created_us) "
-          "VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-          map.id, map.name, std::string(wire::map_state_name(map.state)), map.revision, map.places, map.images,
-          map.feature_config_id, map.created_us);
-  std::int64_t position = 0;
-  for (const TourId& tour : map.tours) {
+void insert_tours(SQLite::Database& database, const MapId& map, const std::vector<TourId>& tours,
+                  std::size_t position) {
+  for (const TourId& tour : tours) {
     if (!prepared(database, "SELECT id FROM tours WHERE id = ?", tour).executeStep()) {
       refuse(ErrorCode::kNotFound, "There is no tour with this id.", "tours/" + tour.str());
     }
-    execute(database, "INSERT INTO map_tours (map, position, tour) VALUES (?, ?, ?)", map.id, position++, tour);
+    execute(database, "INSERT INTO map_tours (map, position, tour) VALUES (?, ?, ?)", map, position++, tour);
   }
+}
+
+MapRecord insert_map(SQLite::Database& database, const MapRecord& map) {
+  execute(database,
+          "INSERT INTO maps (id, name, state, revision, places, images, feature_config_id, created_us, refine) "
+          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
+          map.id, map.name, std::string(wire::map_state_name(map.state)), map.revision, map.places, map.images,
+          map.feature_config_id, map.created_us, std::string(wire::refine_mode_name(map.refine)));
+  insert_tours(database, map.id, map.tours, 0);
   return map;
 }
 
@@ -100,8 +107,16 @@ Status SqliteStore::set_map_state(const MapId& id, wire::MapState state) {
   });
 }
 
+Status SqliteStore::set_map_refine(const MapId& id, wire::RefineMode mode) {
+  return database_.work([&](SQLite::Database& database) {
+    need_map(database, id);
+    execute(database, "UPDATE maps SET refine = ? WHERE id = ?", std::string(wire::refine_mode_name(mode)), id);
+  });
+}
+
 Result<MapRecord> SqliteStore::save_map_contents(const MapId& id, const map::TopologicalMap& contents,
-                                                 const Thumbnails& thumbnails, std::int64_t expected_revision) {
+                                                 const Thumbnails& thumbnails, std::int64_t expected_revision,
+                                                 const AlongWithContents& along) {
   const std::scoped_lock files(map_files_mutex_);
   const std::string where = "maps/" + id.str();
   const Result<MapRecord> before = map(id);
@@ -119,6 +134,7 @@ Result<MapRecord> SqliteStore::save_map_contents(const MapId& id, const map::Top
   if (const Status written = save_map(file, contents, thumbnails); !written) return pass_on(written);
   MapRecord after = *before;
   describe(after, contents);
+  after.tours.insert(after.tours.end(), along.new_tours.begin(), along.new_tours.end());
   const Status switched = database_.work([&](SQLite::Database& database) {
     if (execute(database,
                 "UPDATE maps SET state = 'ready', revision = ?, places = ?, images = ?, feature_config_id = ? "
@@ -126,6 +142,9 @@ Result<MapRecord> SqliteStore::save_map_contents(const MapId& id, const map::Top
                 after.revision, after.places, after.images, after.feature_config_id, id) == 0) {
       refuse(ErrorCode::kNotFound, "The map has been removed.", where);
     }
+    insert_tours(database, id, along.new_tours, before->tours.size());
+    forget_drives(database, along.used_drives);
+    if (along.job) write_job(database, *along.job);
   });
   if (!switched) {
     forget_file(file);

@@ -2,8 +2,10 @@
 #include <spdlog/spdlog.h>
 
 #include "imageio/decode.hpp"
+#include "server/auth/authenticator.hpp"
 #include "server/driving/driving.hpp"
 #include "server/services/belief_view.hpp"
+#include "wire/appearance_blob.hpp"
 
 namespace homeward::server {
 namespace {
@@ -42,6 +44,22 @@ Result<std::shared_ptr<Tracking>> Driving::tracking_for(std::shared_ptr<Tracking
   return std::make_shared<Tracking>(Tracking{map, std::move(*tracker)});
 }
 
+void Driving::hand_over_sights(RobotUnit& unit) {
+  auto sights = std::make_shared<const std::vector<pipeline::DriveSight>>(unit.sights.take());
+  spdlog::debug("robot {} hands over {} sights", unit.id.str(), sights->size());
+  if (sights->empty() || !keep_drive_ || !unit.tracking || unit.tracking->map_id != unit.mission->map) return;
+  db::Drive drive{
+      unit.mission->id, unit.mission->map, unit.tracking->tracker.map().feature_config_id, wall_clock_us(), {}};
+  // Left out when the journal is full: another drive will come.
+  static_cast<void>(journal_.try_run([this, drive = std::move(drive), sights]() mutable {
+    for (const pipeline::DriveSight& sight : *sights) {
+      drive.sights.push_back(
+          {sight.place, sight.place.empty() ? std::vector<std::uint8_t>() : wire::encode_appearance(sight.seen)});
+    }
+    keep_drive_(drive);
+  }));
+}
+
 void Driving::look(const Unit& unit) {
   const auto began = std::chrono::steady_clock::now();
   std::shared_ptr<const wire::Frame> frame;
@@ -62,6 +80,7 @@ void Driving::look(const Unit& unit) {
     camera = unit->hello.camera;
     link = unit->link;
   }
+  PlaceId sure;
   Result<wire::BeliefView> seen = fail(ErrorCode::kConflict, "The robot has no map.", "robots/" + unit->id.str());
   if (frame && map && link) {
     const auto look_once = [&]() -> Result<wire::BeliefView> {
@@ -73,6 +92,7 @@ void Driving::look(const Unit& unit) {
       if (!picture) return pass_on(picture);
       const auto belief = tracking->tracker.update(*picture, frame->odometry);
       if (!belief) return pass_on(belief);
+      sure = pipeline::sure_place(*belief, {});
       wire::BeliefView view = view_of(*belief);
       view.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
       view.t_us = frame->t_us;
@@ -93,6 +113,8 @@ void Driving::look(const Unit& unit) {
     if (seen) {
       unit->belief = *seen;
       unit->belief_at = std::chrono::steady_clock::now();
+      if (unit->under_way && unit->sights.due(frame->t_us))
+        unit->sights.add(frame->t_us, sure, tracking->tracker.seen());
       link->send(wire::BeliefReport{frame->seq, seen->place, seen->probability.value_or(0.0), seen->lost});
     } else {
       unit->belief.reset();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -22,6 +23,8 @@ class Driving : public LinkListener {
   Driving(db::Store& store, MapService& maps, EventHub& events, WorkPool& heavy, WorkPool& journal)
       : store_(store), maps_(maps), events_(events), heavy_(heavy), journal_(journal) {}
 
+  /// `keep` is called on the journal with what each mission saw that arrived; set before the first robot connects.
+  void when_arrived(std::function<void(const db::Drive&)> keep) { keep_drive_ = std::move(keep); }
   /// Reads the robots of the store. Errors: those of the store.
   Status load();
   /// Every 50 ms, on the socket thread: permits, leases that end, agents that fell silent.
@@ -91,12 +94,14 @@ class Driving : public LinkListener {
                                                  const camera::CameraConfig& camera);
   Result<Plan> plan(const Unit& unit, const MissionRequest& request);
   void keep(const wire::MissionView& mission);
+  void hand_over_sights(RobotUnit& unit);  // with the unit locked
 
   db::Store& store_;
   MapService& maps_;
   EventHub& events_;
   WorkPool& heavy_;
   WorkPool& journal_;
+  std::function<void(const db::Drive&)> keep_drive_;
   std::mutex mutex_;  // of units_; never taken while a unit is locked
   std::map<RobotId, Unit> units_;
 };

@@ -119,6 +119,7 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
   unit.closed.clear();
   unit.detours = 0;
   unit.looking_for_detour = false;
+  unit.sights.clear();
   unit.mission_at = now;
   unit.link->send(planned->order);
   spdlog::info("robot {} mission {} to {} over {} places, by {}", id.str(), mission.id.str(), mission.place.str(),
@@ -151,6 +152,8 @@ void Driving::end_mission(RobotUnit& unit, wire::MissionState state, const std::
   spdlog::info("robot {} mission {} {}{}{}", unit.id.str(), unit.mission->id.str(), wire::mission_state_name(state),
                reason.empty() ? "" : ": ", reason);
   keep(*unit.mission);
+  if (state == wire::MissionState::kArrived) hand_over_sights(unit);
+  unit.sights.clear();
 }
 
 void Driving::stop_robot(RobotUnit& unit, const std::string& stop_id, const std::string& reason,

@@ -9,6 +9,7 @@
 #include "pipeline/belief_tracker.hpp"
 #include "planning/route.hpp"
 #include "server/driving/agent_link.hpp"
+#include "server/driving/drive_sights.hpp"
 #include "wire/robot_json.hpp"
 
 namespace homeward::server {
@@ -69,6 +70,7 @@ struct RobotUnit {
   std::vector<planning::Way> closed;
   int detours = 0;
   bool looking_for_detour = false;  // no permit goes out until the new way is sent
+  DriveSights sights;               // of this mission
 
   [[nodiscard]] bool online() const { return link != nullptr && welcomed; }
   /// The belief is of now and names a place.

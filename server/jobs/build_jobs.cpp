@@ -5,13 +5,11 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "pipeline/build_map.hpp"
-#include "pipeline/thumbnail.hpp"
 #include "server/auth/authenticator.hpp"
+#include "server/jobs/stored_tours.hpp"
 #include "server/services/tours.hpp"
-#include "wire/camera_json.hpp"
 
 namespace homeward::server {
 namespace {
@@ -19,54 +17,6 @@ namespace {
 constexpr std::size_t kMostQueued = 16;
 constexpr double kBuildShare = 0.9;  // the rest: thumbnails and writing
 constexpr std::chrono::milliseconds kTellEvery{250};
-
-struct Tours {
-  std::vector<std::unique_ptr<pipeline::TourSource>> sources;
-  camera::CameraConfig camera;
-};
-
-Result<Tours> open_tours(db::Store& store, const std::vector<TourId>& ids) {
-  Tours tours;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const auto tour = store.tour(ids[i]);
-    if (!tour) return pass_on(tour);
-    auto camera = camera_of(*tour);
-    if (!camera) return pass_on(camera);
-    if (i == 0) tours.camera = *camera;
-    auto source = stored_tour(store, ids[i]);
-    if (!source) return pass_on(source);
-    tours.sources.push_back(std::move(*source));
-  }
-  return tours;
-}
-
-// Pictures of the places, their look-alikes and destinations; others are made when somebody asks.
-Result<db::Thumbnails> make_thumbnails(const map::TopologicalMap& map, const Tours& tours,
-                                       const std::stop_token& stop) {
-  std::set<ImageId> wanted;
-  for (const map::Place& place : map.places) wanted.insert(place.prototype);
-  for (const map::Hypothesis& hypothesis : map.hypotheses) {
-    wanted.insert(hypothesis.prototype_a);
-    wanted.insert(hypothesis.prototype_b);
-  }
-  for (const map::Destination& destination : map.destinations) wanted.insert(destination.image);
-  const auto eye = pipeline::Eye::create(map.camera, map.feature_config);
-  if (!eye) return pass_on(eye);
-  db::Thumbnails thumbnails;
-  for (const auto& source : tours.sources) {
-    for (std::size_t i = 0; i < source->images().size(); ++i) {
-      if (stop.stop_requested()) return fail(ErrorCode::kCancelled, "The build was cancelled.", map.name);
-      const ImageId& id = source->images()[i].id;
-      if (!wanted.contains(id)) continue;
-      const auto picture = source->read(i);
-      if (!picture) return pass_on(picture);
-      auto thumbnail = pipeline::make_thumbnail(*eye, *picture);
-      if (!thumbnail) return pass_on(thumbnail);
-      thumbnails[id] = std::move(*thumbnail);
-    }
-  }
-  return thumbnails;
-}
 
 }  // namespace
 
@@ -76,6 +26,10 @@ BuildJobs::BuildJobs(db::Store& store, MapService& maps, EventHub& events, int t
     queue_.assign(unfinished->begin(), unfinished->end());
   } else {
     spdlog::error("unfinished jobs cannot be read: {}", unfinished.error().message);
+  }
+  // Drives that were kept just before the server ended, and no job had heard of.
+  if (const auto known = store_.maps()) {
+    for (const db::MapRecord& map : *known) look_for_drives(map.id);
   }
   thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
 }
@@ -114,7 +68,9 @@ Result<BuildJobs::NewMap> BuildJobs::add_map(const std::string& name, const std:
   const auto map = store_.add_map(record);
   if (!map) return pass_on(map);
   maps_.tell(*map);
-  const auto job = queue(map->id);
+  wire::JobView asked;
+  asked.map = map->id;
+  const auto job = queue(std::move(asked));
   if (!job) {
     if (const Status removed = store_.remove_map(map->id); !removed) {
       spdlog::error("map {} cannot be removed: {}", map->id.str(), removed.error().message);
@@ -128,27 +84,48 @@ Result<wire::JobView> BuildJobs::rebuild(const MapId& map) {
   const auto record = store_.map(map);
   if (!record) return pass_on(record);
   const std::string where = "maps/" + map.str();
-  if (record->tours.empty()) {
+  const auto imported = [&] {
     return fail(ErrorCode::kConflict, "The map was imported; its pictures are not here.", where);
+  };
+  if (record->tours.empty()) return imported();
+  if (record->revision > 0) {
+    const auto loaded = maps_.load(map);
+    if (!loaded) return pass_on(loaded);
+    // An imported map may have gained tours of this server since.
+    for (const auto& image : (*loaded)->map.images) {
+      const TourId tour(image.id.str().substr(0, image.id.str().find('/')));
+      if (std::find(record->tours.begin(), record->tours.end(), tour) == record->tours.end()) return imported();
+    }
   }
-  if (building(map)) return fail(ErrorCode::kConflict, "A build of this map is under way.", where);
-  return queue(map);
-}
-
-Result<wire::JobView> BuildJobs::queue(const MapId& map) {
-  const std::scoped_lock lock(mutex_);
-  if (queue_.size() >= kMostQueued) {
-    return fail(ErrorCode::kOverloaded, "Too many builds are waiting already.", "maps/" + map.str());
-  }
+  if (building(map)) return fail(ErrorCode::kConflict, "A job of this map is under way.", where);
   wire::JobView job;
   job.map = map;
-  job.created_us = wall_clock_us();
-  auto added = store_.add_job(job);
-  if (!added) return added;
-  queue_.push_back(*added);
-  events_.publish(*added);
+  return queue(std::move(job));
+}
+
+Result<wire::JobView> BuildJobs::queue(wire::JobView job) {
+  const std::scoped_lock lock(mutex_);
+  return queue_locked(std::move(job));
+}
+
+Result<wire::JobView> BuildJobs::queue_locked(wire::JobView job) {
+  if (queue_.size() >= kMostQueued) {
+    return fail(ErrorCode::kOverloaded, "Too many jobs are waiting already.", "maps/" + job.map.str());
+  }
+  job.state = wire::JobState::kQueued;
+  job.share = 0.0;
+  if (job.id.empty()) {
+    job.created_us = wall_clock_us();
+    auto added = store_.add_job(job);
+    if (!added) return added;
+    job = std::move(*added);
+  } else if (const Status status = store_.update_job(job); !status) {
+    return pass_on(status);
+  }
+  queue_.push_back(job);
+  events_.publish(job);
   ready_.notify_one();
-  return added;
+  return job;
 }
 
 bool BuildJobs::building(const MapId& map) {
@@ -180,13 +157,19 @@ Result<wire::JobView> BuildJobs::cancel(const JobId& id) {
     if (found != queue_.end()) {
       waiting = *found;
       queue_.erase(found);
+    } else if (auto now = store_.job(id); now && now->state == wire::JobState::kOffered) {
+      // At once, so that nobody can take it in between.
+      now->state = wire::JobState::kCancelled;
+      forget_drives_of(*now);
+      if (const Status status = store_.update_job(*now); !status) return pass_on(status);
+      waiting = *now;
     }
   }
   if (!waiting) {
     return fail(ErrorCode::kConflict, "The job has ended: " + std::string(wire::job_state_name(known->state)) + ".",
                 "jobs/" + id.str());
   }
-  finish(*waiting, fail(ErrorCode::kCancelled, "The build was cancelled.", "jobs/" + id.str()));
+  finish(*waiting, fail(ErrorCode::kCancelled, "The job was cancelled.", "jobs/" + id.str()));
   return *waiting;
 }
 
@@ -213,11 +196,11 @@ void BuildJobs::work(const std::stop_token& stop) {
 
 void BuildJobs::run(wire::JobView job, const std::stop_token& stop) {
   tell(job);
-  Result<db::MapRecord> result = fail(ErrorCode::kInternal, "The build did not run.", "jobs/" + job.id.str());
+  Result<wire::JobState> result = fail(ErrorCode::kInternal, "The job did not run.", "jobs/" + job.id.str());
   try {
-    result = build(job, stop);
+    result = job.kind == "build" ? build(job, stop) : learn(job, stop);
   } catch (const std::exception& exception) {
-    result = fail(ErrorCode::kInternal, std::string("The build failed: ") + exception.what(), "jobs/" + job.id.str());
+    result = fail(ErrorCode::kInternal, std::string("The job failed: ") + exception.what(), "jobs/" + job.id.str());
   }
   bool by_person = false;
   {
@@ -230,7 +213,7 @@ void BuildJobs::run(wire::JobView job, const std::stop_token& stop) {
   finish(job, result);
 }
 
-Result<db::MapRecord> BuildJobs::build(wire::JobView& job, const std::stop_token& stop) {
+Result<wire::JobState> BuildJobs::build(wire::JobView& job, const std::stop_token& stop) {
   const auto record = store_.map(job.map);
   if (!record) return pass_on(record);
   const auto tours = open_tours(store_, record->tours);
@@ -241,23 +224,11 @@ Result<db::MapRecord> BuildJobs::build(wire::JobView& job, const std::stop_token
     if (!loaded) return pass_on(loaded);
     previous = *loaded;
   }
-  auto told = std::chrono::steady_clock::now() - kTellEvery;
-  const auto progress = [&](const pipeline::BuildProgress& now) {
-    const auto time = std::chrono::steady_clock::now();
-    const bool next_stage = now.stage != job.stage;
-    if (!next_stage && time - told < kTellEvery) return;
-    told = time;
-    job.stage = now.stage;
-    job.share = kBuildShare * std::clamp(now.share, 0.0, 1.0);
-    tell(job);
-  };
-  std::vector<const pipeline::TourSource*> sources;
-  for (const auto& source : tours->sources) sources.push_back(source.get());
   pipeline::BuildOptions options;
   options.name = record->name;
   options.threads = threads_;
-  auto built =
-      pipeline::build_noted_map(sources, tours->camera, options, previous ? &previous->map : nullptr, progress, stop);
+  auto built = pipeline::build_noted_map(tours->views(), tours->camera, options, previous ? &previous->map : nullptr,
+                                         progress_of(job), stop);
   if (!built) return pass_on(built);
   const std::vector<std::string> notes = pipeline::notes_in_words(built->notes);
   job.skipped = static_cast<std::int64_t>(built->notes.skipped.size());
@@ -265,19 +236,34 @@ Result<db::MapRecord> BuildJobs::build(wire::JobView& job, const std::stop_token
   job.stage = "thumbnails";
   job.share = kBuildShare;
   tell(job);
-  const auto thumbnails = make_thumbnails(built->map, *tours, stop);
-  if (!thumbnails) return pass_on(thumbnails);
-  auto kept = maps_.keep_build(job.map, std::move(built->map), *thumbnails);
-  if (kept) job.notes = notes;  // they are about a map that is there
-  return kept;
+  db::Thumbnails thumbnails;
+  if (const Status made = add_thumbnails(built->map, *tours, stop, thumbnails); !made) return pass_on(made);
+  const auto kept = maps_.keep_build(job.map, std::move(built->map), thumbnails);
+  if (!kept) return pass_on(kept);
+  job.notes = notes;  // they are about a map that is there
+  spdlog::info("job {}: map {} has {} places from {} pictures", job.id.str(), job.map.str(), kept->places,
+               kept->images);
+  return wire::JobState::kDone;
 }
 
-void BuildJobs::finish(wire::JobView& job, const Result<db::MapRecord>& result) {
+pipeline::ProgressSink BuildJobs::progress_of(wire::JobView& job) {
+  return
+      [this, &job, told = std::chrono::steady_clock::now() - kTellEvery](const pipeline::BuildProgress& now) mutable {
+        const auto time = std::chrono::steady_clock::now();
+        const bool next_stage = now.stage != job.stage;
+        if (!next_stage && time - told < kTellEvery) return;
+        told = time;
+        job.stage = now.stage;
+        job.share = kBuildShare * std::clamp(now.share, 0.0, 1.0);
+        tell(job);
+      };
+}
+
+void BuildJobs::finish(wire::JobView& job, const Result<wire::JobState>& result) {
   if (result) {
-    job.state = wire::JobState::kDone;
+    job.state = *result;
     job.share = 1.0;
-    spdlog::info("job {} done: map {} has {} places from {} pictures", job.id.str(), job.map.str(), result->places,
-                 result->images);
+    spdlog::info("job {} {}", job.id.str(), wire::job_state_name(job.state));
   } else {
     const bool cancelled = result.error().code == ErrorCode::kCancelled;
     job.state = cancelled ? wire::JobState::kCancelled : wire::JobState::kFailed;
@@ -290,7 +276,10 @@ void BuildJobs::finish(wire::JobView& job, const Result<db::MapRecord>& result) 
       }
     }
   }
+  const bool from_drives = learns_from_drives(job);
+  const bool forgotten = !from_drives || job.state == wire::JobState::kOffered || forget_drives_of(job);
   tell(job);
+  if (from_drives && forgotten) look_for_drives(job.map);  // others may have come meanwhile
 }
 
 void BuildJobs::tell(const wire::JobView& job) {

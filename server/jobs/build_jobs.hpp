@@ -9,13 +9,16 @@
 #include <thread>
 
 #include "db/store.hpp"
+#include "pipeline/build_map.hpp"
 #include "server/services/maps.hpp"
 #include "server/ws/event_hub.hpp"
 
 namespace homeward::server {
 
-/// Builds maps, one at a time, on a thread of its own (which uses several for the pictures). What was queued or running
-/// when the server ended is begun again at its next start.
+/// Builds maps and lets them learn, one job at a time, on a thread of its own (which uses several for the pictures).
+/// What was queued or running when the server ended is begun again at its next start. A job `refine` without tours
+/// learns from what drives saw: it works out what the map would gain and offers that, or keeps it at once where the map
+/// is set so. There is one of them for each map; a new drive sets it to work again.
 class BuildJobs {
  public:
   BuildJobs(db::Store& store, MapService& maps, EventHub& events, int threads);
@@ -30,9 +33,18 @@ class BuildJobs {
   };
   /// Errors: kNotFound (a tour), kConflict (a tour is not complete, or the cameras differ), kOverloaded.
   Result<NewMap> add_map(const std::string& name, const std::vector<TourId>& tours);
-  /// Errors: kNotFound, kConflict (a build is under way, or the map has no tours), kOverloaded.
+  /// Errors: kNotFound, kConflict (a job of the map is under way, or its pictures are not here), kOverloaded.
   Result<wire::JobView> rebuild(const MapId& map);
-  /// Errors: kNotFound, kConflict (it has ended).
+  /// `kind`: "add" or "refine", by tours. Errors: kNotFound (map or tour), kConflict (not built yet, a job of the map
+  /// is under way, a tour is not complete or in the map already, or the cameras differ), kOverloaded.
+  Result<wire::JobView> learn_from(const MapId& map, const std::string& kind, const std::vector<TourId>& tours);
+  /// Keeps what a mission saw, unless the map is set not to learn by itself, and sets its job to work.
+  void add_drive(const db::Drive& drive);
+  /// The map is to have what the job offers. Errors: kNotFound, kConflict (it offers nothing), kOverloaded.
+  Result<wire::JobView> take(const JobId& id);
+  /// kOff also withdraws what waits. Errors: kNotFound.
+  Result<db::MapRecord> set_refine(const MapId& map, wire::RefineMode mode);
+  /// An offer is discarded. Errors: kNotFound, kConflict (it has ended).
   Result<wire::JobView> cancel(const JobId& id);
   Result<wire::JobView> get(const JobId& id);
   [[nodiscard]] bool building(const MapId& map);
@@ -40,11 +52,23 @@ class BuildJobs {
  private:
   void work(const std::stop_token& stop);
   void run(wire::JobView job, const std::stop_token& stop);
-  Result<db::MapRecord> build(wire::JobView& job, const std::stop_token& stop);
-  Result<wire::JobView> queue(const MapId& map);
+  Result<wire::JobState> build(wire::JobView& job, const std::stop_token& stop);
+  Result<wire::JobState> learn(wire::JobView& job, const std::stop_token& stop);
+  // One attempt each; the map may have changed meanwhile (kStaleRevision).
+  Result<wire::JobState> add_tours(wire::JobView& job, const std::stop_token& stop);
+  Result<wire::JobState> refine_by_tours(wire::JobView& job, const std::stop_token& stop);
+  Result<wire::JobState> refine_by_drives(wire::JobView& job, const std::stop_token& stop);
+  static bool learns_from_drives(const wire::JobView& job) { return job.kind == "refine" && job.tours.empty(); }
+  void look_for_drives(const MapId& map);
+  bool forget_drives_of(const wire::JobView& job);
+  Result<wire::JobState> keep_learnt(wire::JobView& job, const map::TopologicalMap& map,
+                                     const db::Thumbnails& thumbnails, std::int64_t revision);
+  pipeline::ProgressSink progress_of(wire::JobView& job);
+  Result<wire::JobView> queue(wire::JobView job);
+  Result<wire::JobView> queue_locked(wire::JobView job);
   Status check_tours(const std::vector<TourId>& tours);
   void tell(const wire::JobView& job);
-  void finish(wire::JobView& job, const Result<db::MapRecord>& result);
+  void finish(wire::JobView& job, const Result<wire::JobState>& result);
 
   db::Store& store_;
   MapService& maps_;

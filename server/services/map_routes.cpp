@@ -25,11 +25,8 @@ Response list_maps(db::Store& store) {
   return json_response(200, {{"maps", list}});
 }
 
-Response add_map(BuildJobs& jobs, const Request& request) {
-  const auto body = json_body(request);
-  if (!body) return not_json(body.error());
-  wire::ObjectReader reader(*body, "body");
-  const std::string name = reader.text("name", 200);
+// Tours that a reader's key "tours" names, each once.
+std::vector<TourId> tours_in(wire::ObjectReader& reader) {
   std::vector<TourId> tours;
   std::set<std::string> seen;
   for (const json& tour : reader.array("tours", 100)) {
@@ -39,6 +36,15 @@ Response add_map(BuildJobs& jobs, const Request& request) {
       tours.emplace_back(tour.get<std::string>());
     }
   }
+  return tours;
+}
+
+Response add_map(BuildJobs& jobs, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  const std::string name = reader.text("name", 200);
+  const std::vector<TourId> tours = tours_in(reader);
   if (name.empty()) reader.problem("name", "A map needs a name.");
   if (tours.empty()) reader.problem("tours", "A map is built from at least one tour.");
   if (const Status status = reader.finish(); !status) return problem_of(status);
@@ -46,6 +52,30 @@ Response add_map(BuildJobs& jobs, const Request& request) {
   if (!made) return problem_of(made);
   return json_response(202,
                        {{"map", wire::map_info_to_json(view_of(made->map))}, {"job", wire::job_to_json(made->job)}});
+}
+
+Response build_again(BuildJobs& jobs, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  const std::string kind = reader.has("kind") ? reader.choice("kind", {"build", "add", "refine"}) : "build";
+  const std::vector<TourId> tours = reader.has("tours") ? tours_in(reader) : std::vector<TourId>();
+  if (kind == "build" && !tours.empty()) reader.problem("tours", "A build is from the tours that the map has.");
+  if (kind != "build" && tours.empty()) reader.problem("tours", "Name at least one tour to learn from.");
+  if (const Status status = reader.finish(); !status) return problem_of(status);
+  const MapId map = map_in(request);
+  const auto job = kind == "build" ? jobs.rebuild(map) : jobs.learn_from(map, kind, tours);
+  return job ? json_response(202, {{"job", wire::job_to_json(*job)}}) : problem_of(job);
+}
+
+Response set_refine(BuildJobs& jobs, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  const auto mode = wire::refine_mode(reader.choice("refine", {"off", "ask", "auto"}));
+  if (const Status status = reader.finish(); !status) return problem_of(status);
+  const auto record = jobs.set_refine(map_in(request), *mode);
+  return record ? json_response(200, wire::map_info_to_json(view_of(*record))) : problem_of(record);
 }
 
 Response graph(MapService& maps, const Request& request) {
@@ -179,10 +209,8 @@ void add_map_routes(Router& router, MapService& maps, BuildJobs& jobs, db::Store
     return map ? json_response(200, wire::map_info_to_json(view_of(*map))) : problem_of(map);
   });
   add("DELETE", "/{map}", "installer", [j, db](Request& request) { return remove_map(*j, *db, request); });
-  add("POST", "/{map}/builds", "installer", [j](Request& request) {
-    const auto job = j->rebuild(map_in(request));
-    return job ? json_response(202, {{"job", wire::job_to_json(*job)}}) : problem_of(job);
-  });
+  add("POST", "/{map}/builds", "installer", [j](Request& request) { return build_again(*j, request); });
+  add("PUT", "/{map}/refine", "installer", [j](Request& request) { return set_refine(*j, request); });
   add("GET", "/{map}/graph", "viewer", [m](Request& request) { return graph(*m, request); });
   add("GET", "/{map}/places/{place}/thumbnail", "viewer",
       [m](Request& request) { return place_thumbnail(*m, request); });
@@ -206,6 +234,8 @@ void add_map_routes(Router& router, MapService& maps, BuildJobs& jobs, db::Store
       Lane::kHeavy, kMaxImageBody);
   router.add({"GET", "/api/v1/jobs/{job}", "viewer", Lane::kWork, 0,
               [j](Request& request) { return job_response(200, j->get(JobId(request.parameter("job")))); }});
+  router.add({"POST", "/api/v1/jobs/{job}/take", "installer", Lane::kWork, kMaxJsonBody,
+              [j](Request& request) { return job_response(202, j->take(JobId(request.parameter("job")))); }});
   router.add({"POST", "/api/v1/jobs/{job}/cancel", "installer", Lane::kWork, kMaxJsonBody,
               [j](Request& request) { return job_response(202, j->cancel(JobId(request.parameter("job")))); }});
 }

@@ -28,7 +28,8 @@ Error stale(const MapId& id, std::int64_t present, std::int64_t asked) {
 
 wire::MapInfoView view_of(const db::MapRecord& record) {
   return {record.id,     record.name,   record.state, record.revision,
-          record.places, record.images, record.tours, record.feature_config_id};
+          record.places, record.images, record.tours, record.feature_config_id,
+          record.refine};
 }
 
 Result<LoadedMap> MapService::load(const MapId& id) {
@@ -111,6 +112,15 @@ Result<db::MapRecord> MapService::keep_build(const MapId& id, map::TopologicalMa
   }
   contents.revision = record->revision + 1;
   auto saved = store_.save_map_contents(id, contents, thumbnails, record->revision);
+  if (saved) tell(*saved);
+  return saved;
+}
+
+Result<db::MapRecord> MapService::keep_learnt(const MapId& id, const map::TopologicalMap& contents,
+                                              const db::Thumbnails& thumbnails, std::int64_t revision,
+                                              const db::AlongWithContents& along) {
+  const std::scoped_lock changing(changing_);
+  auto saved = store_.save_map_contents(id, contents, thumbnails, revision, along);
   if (saved) tell(*saved);
   return saved;
 }

@@ -42,6 +42,11 @@ class MapService {
 
   /// Keeps a new build, over edits that were made meanwhile. Errors: those of the store.
   Result<db::MapRecord> keep_build(const MapId& id, map::TopologicalMap contents, const db::Thumbnails& thumbnails);
+  /// Keeps what a map learnt as its next revision. Errors: kStaleRevision (it was changed meanwhile), those of the
+  /// store.
+  Result<db::MapRecord> keep_learnt(const MapId& id, const map::TopologicalMap& contents,
+                                    const db::Thumbnails& thumbnails, std::int64_t revision,
+                                    const db::AlongWithContents& along);
   void tell(const db::MapRecord& record) { events_.publish(view_of(record)); }
 
  private:

@@ -24,7 +24,7 @@ struct Options {
   std::string camera;
   std::string out;
   pipeline::RefineOptions refine;
-  double kilobytes_per_place = 32.0;
+  double kilobytes_per_place = pipeline::kRefinedBytesPerPlace / kBytesPerKilobyte;
   bool json = false;
 };
 

@@ -9,6 +9,7 @@ struct BeliefTracker::State {
   std::shared_ptr<const map::TopologicalMap> map;
   Eye eye;
   localisation::Localiser localiser;
+  features::Appearance seen;
 };
 
 BeliefTracker::BeliefTracker() = default;
@@ -30,7 +31,7 @@ Result<BeliefTracker> BeliefTracker::create(std::shared_ptr<const map::Topologic
   if (!eye) return pass_on(eye);
   localisation::Localiser localiser(map, config);
   BeliefTracker tracker;
-  tracker.state_ = std::make_unique<State>(State{std::move(map), std::move(*eye), std::move(localiser)});
+  tracker.state_ = std::make_unique<State>(State{std::move(map), std::move(*eye), std::move(localiser), {}});
   return tracker;
 }
 
@@ -40,14 +41,17 @@ Result<BeliefTracker> BeliefTracker::create(std::shared_ptr<const map::Topologic
 }
 
 Result<localisation::Belief> BeliefTracker::update(const Image& picture, const std::optional<Pose2>& odometry) {
-  const auto seen = state_->eye.look(picture);
+  auto seen = state_->eye.look(picture);
   if (!seen) return pass_on(seen);
-  return state_->localiser.update(*seen, odometry);
+  state_->seen = std::move(*seen);
+  return state_->localiser.update(state_->seen, odometry);
 }
 
 void BeliefTracker::restart() { state_->localiser.restart(); }
 
 void BeliefTracker::restart_odometry() { state_->localiser.restart_odometry(); }
+
+const features::Appearance& BeliefTracker::seen() const { return state_->seen; }
 
 const map::TopologicalMap& BeliefTracker::map() const { return *state_->map; }
 

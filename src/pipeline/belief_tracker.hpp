@@ -33,6 +33,8 @@ class BeliefTracker {
   void restart();
   /// Odometry counts anew; the belief stays.
   void restart_odometry();
+  /// Of the latest picture; empty before the first.
+  [[nodiscard]] const features::Appearance& seen() const;
   [[nodiscard]] const map::TopologicalMap& map() const;
 
  private:

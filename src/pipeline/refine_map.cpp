@@ -91,26 +91,62 @@ class Closeness {
   std::map<int, float> to_neighbour_rad_;  // displacement to the nearest neighbour's prototype
 };
 
-/// Of each picture the place that the belief is sure of, or -1.
-std::vector<int> sure_places(const map::TopologicalMap& map, const std::vector<features::Appearance>& pictures,
-                             const RefineOptions& options, const std::function<void(double)>& progress,
-                             const std::stop_token& stop) {
-  const auto index = map::place_indices(map);
+/// The pictures with the places that the belief is sure of.
+std::vector<DriveSight> localised(const map::TopologicalMap& map, std::vector<features::Appearance> pictures,
+                                  const RefineOptions& options, const std::function<void(double)>& progress,
+                                  const std::stop_token& stop) {
   // The map outlives the localiser.
   localisation::Localiser localiser(std::shared_ptr<const map::TopologicalMap>(std::shared_ptr<void>(), &map), {});
-  std::vector<int> places;
-  for (const features::Appearance& seen : pictures) {
+  std::vector<DriveSight> sights;
+  for (features::Appearance& seen : pictures) {
     if (stop.stop_requested()) break;
-    const localisation::Belief belief = localiser.update(seen);
-    const bool sure = !belief.lost && !belief.top.empty() && belief.updates >= options.least_updates &&
-                      belief.near_probability >= options.least_probability;
-    places.push_back(sure ? index.at(belief.top.front().place) : -1);
-    progress(static_cast<double>(places.size()) / static_cast<double>(pictures.size()));
+    const PlaceId place = sure_place(localiser.update(seen), options);
+    sights.push_back({std::move(seen), place});
+    progress(static_cast<double>(sights.size()) / static_cast<double>(pictures.size()));
   }
-  return places;
+  return sights;
 }
 
 }  // namespace
+
+PlaceId sure_place(const localisation::Belief& belief, const RefineOptions& options) {
+  const bool sure = !belief.lost && !belief.top.empty() && belief.updates >= options.least_updates &&
+                    belief.near_probability >= options.least_probability;
+  return sure ? belief.top.front().place : PlaceId();
+}
+
+Result<RefinedBySights> refine_by_sights(const map::TopologicalMap& map, std::span<const DriveSight> sights,
+                                         const RefineOptions& options, std::stop_token stop) {
+  const auto index = map::place_indices(map);
+  std::vector<int> believed;
+  for (const DriveSight& sight : sights) {
+    const auto known = index.find(sight.place);
+    believed.push_back(known == index.end() ? -1 : known->second);
+  }
+  const auto cancelled = [] { return fail(ErrorCode::kCancelled, "The refinement was cancelled."); };
+  if (stop.stop_requested()) return cancelled();
+  const map::PlaceGraph graph(map);
+  const Closeness closeness(map, graph, believed, options);
+  std::vector<int> place_of(sights.size(), -1);
+  const auto verify = [&](std::size_t i) {
+    if (i + 1 >= sights.size() || believed[i] < 0 || believed[i + 1] < 0) return;
+    if (!closeness.near(believed[i]).contains(believed[i + 1])) return;  // what comes next must bear it out
+    place_of[i] = closeness.place_of(sights[i].seen, believed[i]);
+  };
+  if (!mapping::parallel_for(sights.size(), options.threads, verify, {}, stop)) return cancelled();
+
+  RefinedBySights result{map, {}, {}};
+  std::vector<mapping::Sighting> sightings;
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    result.sure.push_back(place_of[i] < 0 ? PlaceId() : map.places[static_cast<std::size_t>(place_of[i])].id);
+    if (place_of[i] >= 0) sightings.push_back({place_of[i], static_cast<int>(i), &sights[i].seen});
+  }
+  auto refined =
+      mapping::refine_places(result.map, sightings, options.refine, options.spare_bytes, options.threads, stop);
+  if (!refined) return pass_on(refined);
+  result.refinement = std::move(*refined);
+  return result;
+}
 
 Result<RefinedMap> refine_map(const map::TopologicalMap& map, const TourSource& drive,
                               const std::optional<camera::CameraConfig>& camera, const RefineOptions& options,
@@ -124,34 +160,16 @@ Result<RefinedMap> refine_map(const map::TopologicalMap& map, const TourSource& 
   };
   auto looked = look_at_tours({&drive}, *eye, options.threads, stage("features", 0.0, kFeaturesShare), stop);
   if (!looked) return pass_on(looked);
-  const std::vector<features::Appearance>& pictures = looked->tours.appearances;
-  const std::vector<int> believed =
-      sure_places(map, pictures, options, stage("localise", kFeaturesShare, kLocaliseShare), stop);
-  const auto cancelled = [] { return fail(ErrorCode::kCancelled, "The refinement was cancelled."); };
-  if (stop.stop_requested()) return cancelled();
-
-  const map::PlaceGraph graph(map);
-  const Closeness closeness(map, graph, believed, options);
-  std::vector<int> place_of(pictures.size(), -1);
-  const auto verify = [&](std::size_t i) {
-    if (i + 1 >= pictures.size() || believed[i] < 0 || believed[i + 1] < 0) return;
-    if (!closeness.near(believed[i]).contains(believed[i + 1])) return;  // what comes next must bear it out
-    place_of[i] = closeness.place_of(pictures[i], believed[i]);
-  };
-  if (!mapping::parallel_for(pictures.size(), options.threads, verify, {}, stop)) return cancelled();
-
-  RefinedMap result{map, {}, {}, std::move(looked->skipped), {}};
-  std::vector<mapping::Sighting> sightings;
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    result.images.push_back(looked->tours.images[i].id);
-    result.sure.push_back(place_of[i] < 0 ? PlaceId() : map.places[static_cast<std::size_t>(place_of[i])].id);
-    if (place_of[i] < 0) continue;
-    sightings.push_back({place_of[i], static_cast<int>(i), &pictures[i]});
-  }
-  auto refined =
-      mapping::refine_places(result.map, sightings, options.refine, options.spare_bytes, options.threads, stop);
+  const std::vector<DriveSight> sights = localised(map, std::move(looked->tours.appearances), options,
+                                                   stage("localise", kFeaturesShare, kLocaliseShare), stop);
+  auto refined = refine_by_sights(map, sights, options, stop);
   if (!refined) return pass_on(refined);
-  result.refinement = std::move(*refined);
+  RefinedMap result{std::move(refined->map),
+                    std::move(refined->refinement),
+                    {},
+                    std::move(looked->skipped),
+                    std::move(refined->sure)};
+  for (const auto& image : looked->tours.images) result.images.push_back(image.id);
   stage("places", 1.0, 0.0)(0.0);
   return result;
 }

@@ -10,7 +10,7 @@
 namespace homeward::wire {
 namespace {
 
-constexpr std::array<std::string_view, 5> kStates = {"queued", "running", "done", "failed", "cancelled"};
+constexpr std::array<std::string_view, 6> kStates = {"queued", "running", "offered", "done", "failed", "cancelled"};
 
 }  // namespace
 
@@ -30,6 +30,7 @@ nlohmann::json job_to_json(const JobView& job) {
                           {"progress", {{"stage", job.stage}, {"share", finite_or_null(job.share)}}},
                           {"error", nullptr},
                           {"skipped", job.skipped},
+                          {"gained", job.gained},
                           {"notes", job.notes},
                           {"created_us", job.created_us}};
   if (job.error) value["error"] = problem_to_json(*job.error);

@@ -14,17 +14,17 @@
 
 namespace homeward::wire {
 
-/// The last three are final.
-enum class JobState { kQueued, kRunning, kDone, kFailed, kCancelled };
+/// The last three are final; an offer waits for a person to take or discard it.
+enum class JobState { kQueued, kRunning, kOffered, kDone, kFailed, kCancelled };
 
-/// "queued", "running", "done", "failed", "cancelled".
+/// "queued", "running", "offered", "done", "failed", "cancelled".
 std::string_view job_state_name(JobState state);
 std::optional<JobState> job_state(std::string_view name);
 
 /// Work that the server does in the background (proto/schemas/job.schema.json).
 struct JobView {
   JobId id;
-  std::string kind = "build";
+  std::string kind = "build";  // or "add", "refine"
   MapId map;
   JobState state = JobState::kQueued;
   std::string stage;   // what it is doing, for people
@@ -32,7 +32,12 @@ struct JobView {
   std::optional<Error> error;
   TimeUs created_us = 0;
   std::int64_t skipped = 0;        // pictures that cannot be read and that the map does without
-  std::vector<std::string> notes;  // what a person should know of a build that is done, in whole sentences
+  std::vector<std::string> notes;  // what a person should know of a job that is done or offered, in whole sentences
+  std::int64_t gained = 0;         // new appearances that places gained, or would gain
+  // What the server remembers and nobody is told:
+  bool taken = false;                  // what it offers is wanted
+  std::vector<TourId> tours = {};      // that it adds or refines by
+  std::vector<MissionId> drives = {};  // that its offer comes from
 };
 
 nlohmann::json job_to_json(const JobView& job);

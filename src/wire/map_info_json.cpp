@@ -10,8 +10,17 @@ namespace homeward::wire {
 namespace {
 
 constexpr std::array<std::string_view, 3> kStates = {"building", "ready", "failed"};
+constexpr std::array<std::string_view, 3> kRefineModes = {"off", "ask", "auto"};
 
 }  // namespace
+
+std::string_view refine_mode_name(RefineMode mode) { return kRefineModes[static_cast<std::size_t>(mode)]; }
+
+std::optional<RefineMode> refine_mode(std::string_view name) {
+  const auto found = std::find(kRefineModes.begin(), kRefineModes.end(), name);
+  if (found == kRefineModes.end()) return std::nullopt;
+  return static_cast<RefineMode>(found - kRefineModes.begin());
+}
 
 std::string_view map_state_name(MapState state) { return kStates[static_cast<std::size_t>(state)]; }
 
@@ -29,7 +38,8 @@ nlohmann::json map_info_to_json(const MapInfoView& map) {
           {"places", map.places},
           {"images", map.images},
           {"tours", ids_to_json(map.tours)},
-          {"feature_config_id", or_null(map.feature_config_id)}};
+          {"feature_config_id", or_null(map.feature_config_id)},
+          {"refine", refine_mode_name(map.refine)}};
 }
 
 }  // namespace homeward::wire

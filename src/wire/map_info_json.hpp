@@ -17,6 +17,13 @@ enum class MapState { kBuilding, kReady, kFailed };
 std::string_view map_state_name(MapState state);
 std::optional<MapState> map_state(std::string_view name);
 
+/// What becomes of what drives saw of a map's places.
+enum class RefineMode { kOff, kAsk, kAuto };
+
+/// "off", "ask", "auto".
+std::string_view refine_mode_name(RefineMode mode);
+std::optional<RefineMode> refine_mode(std::string_view name);
+
 /// A map in a list of maps (proto/schemas/map_info.schema.json).
 struct MapInfoView {
   MapId id;
@@ -27,6 +34,7 @@ struct MapInfoView {
   std::int64_t images = 0;
   std::vector<TourId> tours;                     // it was built from
   std::optional<std::string> feature_config_id;  // nothing until the first build is done
+  RefineMode refine = RefineMode::kAsk;
 };
 
 nlohmann::json map_info_to_json(const MapInfoView& map);

@@ -300,6 +300,46 @@ const checks = [
     }),
   ],
   [
+    'tours join a map that is there',
+    withHouse(async (page, house) => {
+      await tab(page, 'Tours');
+      await page
+        .getByLabel('What to make of the tours')
+        .selectOption({ label: 'More of the map Ground floor' });
+      await page.getByText('Every complete tour is in this map already.').waitFor();
+      house.tours.push({ ...house.tours[0], id: 't9', name: 'The new wing' });
+      await page.reload();
+      await page
+        .getByLabel('What to make of the tours')
+        .selectOption({ label: 'More of the map Ground floor' });
+      assert.ok(await page.getByRole('checkbox', { name: 'The new wing' }).isChecked());
+      await page.getByRole('button', { name: 'Add to the map' }).click();
+      await page.getByRole('progressbar', { name: 'Adding to Ground floor' }).waitFor();
+      assert.equal(house.jobs.at(-1).kind, 'add');
+    }),
+  ],
+  [
+    'what drives saw is taken or discarded, and a map may keep it at once',
+    withHouse(async (page, house) => {
+      await tab(page, 'Tours');
+      house.steer({ do: 'offer' });
+      await page.getByText('2 new appearances from drives. kitchen would gain 2 new appearances.').waitFor();
+      await page.getByRole('button', { name: 'Take what drives saw into Ground floor' }).click();
+      await page.getByText('kitchen gained 2 new appearances.').waitFor();
+      house.steer({ do: 'offer' });
+      await tab(page, 'Map');
+      await page.getByRole('button', { name: 'Discard what drives saw for Ground floor' }).click();
+      await page.getByText('2 new appearances from drives.').waitFor({ state: 'detached' });
+      assert.equal(house.jobs.at(-1).state, 'cancelled');
+      await tab(page, 'Tours');
+      const setting = page.getByLabel('When a drive saw places of Ground floor in a new light');
+      assert.equal(await setting.inputValue(), 'ask');
+      await setting.selectOption('auto');
+      await page.waitForFunction(() => !document.querySelector('select:disabled'));
+      assert.equal(house.maps[0].refine, 'auto');
+    }),
+  ],
+  [
     'a new robot shows its token once and is given a map',
     withHouse(async (page, house) => {
       await tab(page, 'Robots');

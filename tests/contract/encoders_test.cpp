@@ -125,6 +125,17 @@ TEST(Encoders, NameEveryStateAsTheSchemasDo) {
     EXPECT_THAT(schemas().problems("job", job_to_json(job)), IsEmpty());
     EXPECT_EQ(job_state(job_state_name(job.state)), job.state);
   }
+  for (const char* kind : {"build", "add", "refine"}) {
+    job.kind = kind;
+    EXPECT_THAT(schemas().problems("job", job_to_json(job)), IsEmpty());
+  }
+  MapInfoView map{MapId("house"), "House", MapState::kReady, 1, 2, 3, {TourId("t1")}, "hw2"};
+  for (int mode = 0; mode <= static_cast<int>(RefineMode::kAuto); ++mode) {
+    map.refine = static_cast<RefineMode>(mode);
+    EXPECT_THAT(schemas().problems("map_info", map_info_to_json(map)), IsEmpty());
+    EXPECT_EQ(refine_mode(refine_mode_name(map.refine)), map.refine);
+  }
+  EXPECT_FALSE(refine_mode("always"));
   RobotView robot = sample_robot();
   for (int state = 0; state <= static_cast<int>(DriveState::kFailed); ++state) {
     robot.state = static_cast<DriveState>(state);

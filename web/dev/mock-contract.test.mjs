@@ -61,6 +61,10 @@ describe('the mock server', () => {
     expect([refused.status, problemsOf('problem', refused.body)]).toEqual([404, []]);
     const { body: built } = await ask('POST', 'maps', { name: 'second', tours: ['t1'] });
     expect([...problemsOf('job', built.job), ...problemsOf('map_info', built.map)]).toEqual([]);
+    const { body: added } = await ask('POST', 'maps/m1/builds', { kind: 'add', tours: ['t1'] });
+    expect(problemsOf('job', added.job)).toEqual([]);
+    const { body: set } = await ask('PUT', 'maps/m1/refine', { refine: 'auto' });
+    expect(problemsOf('map_info', set)).toEqual([]);
   });
 
   it('tells events as the schema says, the snapshot first', async () => {

@@ -167,6 +167,32 @@ function addMap(house, { body }) {
   return { status: 202, body: { map, job: house.build(map) } };
 }
 
+function addToMap(house, { body, args }) {
+  const map = house.find(house.maps, args[0]);
+  const more = (body.tours ?? []).filter((one) => !map.tours.includes(one));
+  return { status: 202, body: { job: house.build(map, body.kind ?? 'build', [...map.tours, ...more]) } };
+}
+
+function setRefine(house, { body, args }) {
+  const map = Object.assign(house.find(house.maps, args[0]), { refine: body.refine });
+  house.send('map', map);
+  return { body: map };
+}
+
+function takeJob(house, { args }) {
+  const job = house.find(house.jobs, args[0]);
+  if (job.state !== 'offered') throw new Refusal(409, 'conflict', 'the job offers nothing');
+  Object.assign(job, { state: 'done', notes: ['kitchen gained 2 new appearances.'] });
+  house.send('job', job);
+  return { status: 202, body: job };
+}
+
+function cancelJob(house, { args }) {
+  const job = Object.assign(house.find(house.jobs, args[0]), { state: 'cancelled' });
+  house.send('job', job);
+  return { status: 202, body: job };
+}
+
 function addRobot(house, { body }) {
   const robot = house.newRobot(body.name, null);
   house.robots.push(robot);
@@ -243,6 +269,8 @@ export const kRoutes = [
     'installer',
     (house, { args }) => ((house.maps = house.maps.filter((one) => one.id !== args[0])), { status: 204 }),
   ],
+  [/^POST maps\/([^/]+)\/builds$/, 'installer', addToMap],
+  [/^PUT maps\/([^/]+)\/refine$/, 'installer', setRefine],
   [/^GET maps\/([^/]+)\/graph$/, 'viewer', graphOf],
   [/^GET maps\/[^/]+\/history$/, 'viewer', (house) => ({ body: { edits: house.edits } })],
   [/^GET maps\/[^/]+\/places\/([^/]+)\/thumbnail$/, 'viewer', (_, { args }) => ({ picture: args[0] })],
@@ -258,12 +286,6 @@ export const kRoutes = [
   [/^PUT tours\/([^/]+)\/images\/(\d+)$/, 'installer', putImage],
   [/^PUT tours\/([^/]+)\/marks$/, 'installer', (_, { body }) => ({ body })],
   [/^POST tours\/([^/]+)\/complete$/, 'installer', complete],
-  [
-    /^POST jobs\/([^/]+)\/cancel$/,
-    'installer',
-    (house, { args }) => ({
-      status: 202,
-      body: Object.assign(house.find(house.jobs, args[0]), { state: 'cancelled' }),
-    }),
-  ],
+  [/^POST jobs\/([^/]+)\/take$/, 'installer', takeJob],
+  [/^POST jobs\/([^/]+)\/cancel$/, 'installer', cancelJob],
 ];

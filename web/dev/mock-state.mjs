@@ -61,6 +61,7 @@ export class House {
       images: made ? 26 : 0,
       tours,
       feature_config_id: null,
+      refine: 'ask',
     };
   }
   newRobot(name, map) {
@@ -209,15 +210,34 @@ export class House {
     this.tellRobot(robot);
   }
 
-  build(map) {
+  /** What drives would teach a map, waiting for a person. */
+  offer(map) {
     const job = {
       id: this.newId('j'),
-      kind: 'build',
+      kind: 'refine',
+      map: map.id,
+      state: 'offered',
+      progress: { stage: 'places', share: 1 },
+      error: null,
+      skipped: 0,
+      gained: 2,
+      notes: ['kitchen would gain 2 new appearances.'],
+      created_us: Date.now() * 1000,
+    };
+    this.jobs.push(job);
+    this.send('job', job);
+  }
+
+  build(map, kind = 'build', tours = map.tours) {
+    const job = {
+      id: this.newId('j'),
+      kind,
       map: map.id,
       state: 'running',
       progress: { stage: 'comparing pictures', share: 0 },
       error: null,
       skipped: 0,
+      gained: 0,
       notes: [],
       created_us: Date.now() * 1000,
     };
@@ -231,13 +251,7 @@ export class House {
         if (job.state === 'running') job.state = 'done';
         Object.assign(
           map,
-          this.mapInfo(
-            map.id,
-            map.name,
-            job.state === 'done' ? 'ready' : 'failed',
-            map.revision + 1,
-            map.tours,
-          ),
+          this.mapInfo(map.id, map.name, job.state === 'done' ? 'ready' : 'failed', map.revision + 1, tours),
         );
         this.send('map', map);
       }
@@ -247,7 +261,7 @@ export class House {
     return job;
   }
 
-  /** Orders of the tests: {do: "unreachable", on}, {do: "robot", set: {...}}, {do: "edit"}, {do: "hold", holder}. */
+  /** Orders of the tests: {do: "unreachable", on}, {do: "robot", set: {...}}, {do: "edit"}, {do: "hold", holder}, {do: "offer"}. */
   steer(order) {
     const robot = this.robots[0];
     if (order.do === 'unreachable') {
@@ -259,6 +273,8 @@ export class House {
     } else if (order.do === 'edit') {
       // Another person's change that this browser has not heard of yet.
       this.graph.revision += 1;
+    } else if (order.do === 'offer') {
+      this.offer(this.maps[0]);
     } else if (order.do === 'hold') {
       robot.lease = { id: 'other', holder: order.holder, epoch: 7, until_ms: Date.now() + 60_000 };
       this.tellRobot(robot);

@@ -164,6 +164,81 @@ TEST_F(StoreContent, JobsThatAreNotOverAreFoundAfterARestart) {
   EXPECT_EQ(store().add_job(job).error().code, ErrorCode::kNotFound);
 }
 
+Drive drive_on(const MapId& map, const std::string& mission, TimeUs created_us) {
+  return {MissionId(mission), map, "hw2", created_us, {{PlaceId("p1"), {1, 2, 3}}, {PlaceId(), {}}}};
+}
+
+TEST_F(StoreContent, WhatDrivesSawIsKeptUntilItIsUsed) {
+  const MapId map = new_map();
+  EXPECT_EQ(store().add_drive(drive_on(MapId("none"), "m0", 1)).error().code, ErrorCode::kNotFound);
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(store().add_drive(drive_on(map, "m" + std::to_string(i), i)));
+  open();
+  const auto kept = store().drives(map).value();
+  ASSERT_EQ(kept.size(), 8U) << "the oldest make room";
+  EXPECT_EQ(kept.front().str(), "m2");
+  const Drive drive = store().drive(kept.front()).value();
+  EXPECT_EQ(drive.feature_config_id, "hw2");
+  ASSERT_EQ(drive.sights.size(), 2U);
+  EXPECT_EQ(drive.sights[0].place.str(), "p1");
+  EXPECT_THAT(drive.sights[0].appearance, ElementsAre(1, 2, 3));
+  EXPECT_TRUE(drive.sights[1].place.empty());
+  EXPECT_TRUE(drive.sights[1].appearance.empty());
+  EXPECT_EQ(store().drive(MissionId("m0")).error().code, ErrorCode::kNotFound);
+  ASSERT_TRUE(store().remove_drives({kept.front()}));
+  EXPECT_EQ(store().drives(map)->size(), 7U);
+  ASSERT_TRUE(store().remove_map(map));
+  EXPECT_EQ(store().drive(kept.back()).error().code, ErrorCode::kNotFound);
+}
+
+TEST_F(StoreContent, ContentsToursDrivesAndJobChangeTogetherOrNotAtAll) {
+  const TourId first = new_tour();
+  const TourId second = new_tour();
+  const MapId id = new_map({first});
+  map::TopologicalMap contents = testing::sample_map();
+  contents.revision = 1;
+  ASSERT_TRUE(store().save_map_contents(id, contents, {}, 0));
+  ASSERT_TRUE(store().add_drive(drive_on(id, "m1", 1)));
+  ASSERT_TRUE(store().add_drive(drive_on(id, "m2", 2)));
+  wire::JobView job;
+  job.kind = "add";
+  job.map = id;
+  job.tours = {second};
+  job = *store().add_job(job);
+  job.state = wire::JobState::kDone;
+  job.gained = 3;
+  job.taken = true;
+  job.drives = {MissionId("m1")};
+  contents.revision = 2;
+  AlongWithContents along{{TourId("none")}, {MissionId("m1")}, job};
+  EXPECT_EQ(store().save_map_contents(id, contents, {}, 1, along).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(store().map(id)->revision, 1);
+  EXPECT_EQ(store().load_map_contents(id)->map.revision, 1);
+  EXPECT_EQ(store().drives(id)->size(), 2U);
+  EXPECT_EQ(store().unfinished_jobs()->size(), 1U);
+  along.new_tours = {second};
+  const auto saved = store().save_map_contents(id, contents, {}, 1, along);
+  ASSERT_TRUE(saved) << saved.error().message;
+  EXPECT_THAT(saved->tours, ElementsAre(first, second));
+  open();
+  EXPECT_THAT(store().map(id)->tours, ElementsAre(first, second));
+  EXPECT_THAT(*store().drives(id), ElementsAre(MissionId("m2")));
+  const wire::JobView after = store().job(job.id).value();
+  EXPECT_EQ(after.state, wire::JobState::kDone);
+  EXPECT_EQ(after.gained, 3);
+  EXPECT_TRUE(after.taken);
+  EXPECT_THAT(after.tours, ElementsAre(second));
+  EXPECT_THAT(after.drives, ElementsAre(MissionId("m1")));
+}
+
+TEST_F(StoreContent, AMapRemembersWhatBecomesOfDrives) {
+  const MapId id = new_map();
+  EXPECT_EQ(store().map(id)->refine, wire::RefineMode::kAsk);
+  ASSERT_TRUE(store().set_map_refine(id, wire::RefineMode::kAuto));
+  open();
+  EXPECT_EQ(store().map(id)->refine, wire::RefineMode::kAuto);
+  EXPECT_EQ(store().set_map_refine(MapId("none"), wire::RefineMode::kOff).error().code, ErrorCode::kNotFound);
+}
+
 TEST_F(StoreContent, AnswersAreKeptForADay) {
   const RequestKey key{"anna", "POST /maps", "k1"};
   ASSERT_TRUE(store().keep_answer(key, {202, std::string("{\0}", 3)}, 1000));

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <fstream>
+#include <sstream>
 
 #include "unit/db/store_fixture.hpp"
 
@@ -92,7 +93,7 @@ TEST_F(StoreDurability, AnEmptyFileBecomesADatabaseAndANewerOneIsRefused) {
   close();
   {
     SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
-    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 2);
+    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 3);
     EXPECT_EQ(database.execAndGet("PRAGMA journal_mode").getString(), "wal");
     database.exec("PRAGMA user_version = 999");
   }
@@ -100,6 +101,38 @@ TEST_F(StoreDurability, AnEmptyFileBecomesADatabaseAndANewerOneIsRefused) {
   ASSERT_FALSE(newer);
   EXPECT_EQ(newer.error().code, ErrorCode::kUnsupportedFormat);
   EXPECT_THAT(newer.error().message, ::testing::HasSubstr("999"));
+}
+
+TEST_F(StoreDurability, AnOlderDatabaseKeepsItsMapsAndJobs) {
+  close();
+  std::filesystem::remove_all(folder());
+  std::filesystem::create_directories(folder());
+  {
+    SQLite::Database database((folder() / "homeward.db").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    for (const char* file : {"0001_first.sql", "0002_job_notes.sql"}) {
+      std::ostringstream sql;
+      sql << std::ifstream(std::filesystem::path(HOMEWARD_SOURCE_DIR) / "db/migrations" / file).rdbuf();
+      database.exec(sql.str());
+    }
+    database.exec(
+        "INSERT INTO maps (id, name, state, created_us) VALUES ('m', 'house', 'building', 1);"
+        "INSERT INTO jobs VALUES ('done', 'build', 'm', 'failed', 'features', 0.5, 'too_few_images', 'two', 'tours/1', "
+        "5,"
+        " 2, '[\"A note.\"]');"
+        "INSERT INTO jobs VALUES ('open', 'build', 'm', 'running', '', 0, NULL, NULL, NULL, 6, 0, '[]');");
+    database.exec("PRAGMA application_id = " + std::to_string(0x48575354));
+    database.exec("PRAGMA user_version = 2");
+  }
+  open();
+  EXPECT_EQ(store().map(MapId("m"))->refine, wire::RefineMode::kAsk);
+  ASSERT_EQ(store().jobs()->size(), 2U);
+  const wire::JobView job = store().job(JobId("done")).value();
+  EXPECT_EQ(job.state, wire::JobState::kFailed);
+  EXPECT_EQ(job.error->message, "two");
+  EXPECT_EQ(job.skipped, 2);
+  EXPECT_EQ(job.notes, std::vector<std::string>{"A note."});
+  EXPECT_EQ(job.gained, 0);
+  EXPECT_EQ(store().unfinished_jobs()->at(0).id.str(), "open");
 }
 
 TEST_F(StoreDurability, AFileThatIsNoDatabaseIsNamed) {

@@ -148,6 +148,34 @@ TEST(RefineMap, ADriveInTheSameLightTeachesNothing) {
   EXPECT_EQ(refined->map.revision, old_map().revision);
 }
 
+TEST(RefineMap, SightsOfADriveSpeakOnlyWhereTheNextOneAgreesAndThePlaceIsKnown) {
+  const map::Place& place = old_map().places[2];
+  const DriveSight here{place.appearances.front(), place.id};
+  const DriveSight gone{place.appearances.front(), PlaceId("p999")};
+  const std::vector<DriveSight> sights = {here, here, DriveSight{}, here, gone, gone, here, here};
+  RefineOptions options;
+  options.spare_bytes = 1'000'000;
+  const auto refined = refine_by_sights(old_map(), sights, options);
+  ASSERT_TRUE(refined) << refined.error().message;
+  const std::vector<PlaceId> expected = {place.id, {}, {}, {}, {}, {}, place.id, {}};
+  EXPECT_EQ(refined->sure, expected);
+  EXPECT_TRUE(refined->refinement.gained.empty()) << "the prototype itself says nothing new";
+  EXPECT_EQ(refined->map.revision, old_map().revision);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_EQ(refine_by_sights(old_map(), sights, options, stop.get_token()).error().code, ErrorCode::kCancelled);
+  localisation::Belief belief{3, {{place.id, 0.9}}, 0.99, 0.96, false};
+  EXPECT_EQ(sure_place(belief, options), place.id);
+  belief.updates = 2;
+  EXPECT_TRUE(sure_place(belief, options).empty());
+  belief.updates = 3;
+  belief.near_probability = 0.94;
+  EXPECT_TRUE(sure_place(belief, options).empty());
+  belief.near_probability = 0.96;
+  belief.lost = true;
+  EXPECT_TRUE(sure_place(belief, options).empty());
+}
+
 TEST(RefineMap, NothingIsLearntFromElsewhere) {
   MemoryTour tour("elsewhere");
   homeward::testing::PaintedRoom other = painted_corridor();

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fstream>
-#include <sstream>
-
-#include "db/map_file.hpp"
 #include "server/driving/detour.hpp"
-#include "support/server_fixture.hpp"
-#include "wire/link_messages.hpp"
+#include "support/driving_fixture.hpp"
 
 namespace homeward::server {
 namespace {
@@ -14,129 +9,9 @@ using nlohmann::json;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 using testing::Answer;
+using testing::DrivingTest;
+using testing::FakeAgent;
 using testing::SocketClient;
-
-/// An agent that says what the test tells it to.
-class FakeAgent {
- public:
-  int connect(std::uint16_t port, const std::string& robot, const std::string& token) {
-    return socket.open(port, "/api/v1/robots/" + robot + "/link", {{"Authorization", "Bearer " + token}});
-  }
-  void say(const wire::AgentMessage& message) {
-    const auto bytes = wire::encode(message);
-    socket.send({bytes.begin(), bytes.end()}, false);
-  }
-  void hello(const std::string& session = "s1") {
-    wire::Hello hello;
-    hello.agent = "homeward-agent/test";
-    hello.robot_name = "chair";
-    hello.session = session;
-    hello.camera = testing::small_panorama_camera();
-    say(hello);
-  }
-  void status(wire::DriveState state, const std::optional<wire::MissionOrder>& order = {}, std::int64_t index = 0) {
-    wire::AgentStatus status;
-    status.seq = ++status_seq;
-    status.t_us = 1;
-    status.state = state;
-    status.path_index = index;
-    if (order) {
-      status.mission = order->mission;
-      status.epoch = order->order.epoch;
-    }
-    say(status);
-  }
-  /// The next message of one kind within `patience`; others are passed over.
-  template <class T>
-  std::optional<T> await(milliseconds patience = milliseconds(10'000)) {
-    const auto end = steady_clock::now() + patience;
-    while (steady_clock::now() < end && !socket.closed()) {
-      const auto left = std::chrono::duration_cast<milliseconds>(end - steady_clock::now());
-      const auto bytes = socket.receive(std::max(left, milliseconds(1)));
-      if (!bytes) continue;
-      const auto message =
-          wire::decode_server_message({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()});
-      EXPECT_TRUE(message) << message.error().message;
-      if (message && std::holds_alternative<T>(*message)) return std::get<T>(*message);
-    }
-    return std::nullopt;
-  }
-  void look(unsigned room) {
-    const std::string picture = testing::room_picture(room, static_cast<unsigned>(++frame_seq) + 1000U);
-    say(wire::Frame{frame_seq, frame_seq, {picture.begin(), picture.end()}});
-  }
-
-  SocketClient socket;
-  std::int64_t status_seq = 0;
-  std::int64_t frame_seq = 0;
-};
-
-class DrivingTest : public testing::ServerTest {
- protected:
-  void add_robot() {
-    const json made = admin->post("/api/v1/robots", {{"name", "chair"}}).json();
-    robot = made.at("id");
-    token = made.at("token");
-    root = "/api/v1/robots/" + robot;
-  }
-  void put_on_map() {
-    map = built_map(3);
-    ASSERT_EQ(admin->put(root + "/map", {{"map", map}}).status, 200);
-    destination = admin->get("/api/v1/maps/" + map + "/graph").json().at("destinations")[0].at("id");
-  }
-  /// A map like the robot's with a weak way straight from the first place to the destination, and the robot on it.
-  void add_second_way() {
-    const auto file = config.data / "second_way.hwmap";
-    const std::string bytes = admin->get("/api/v1/maps/" + map + "/export").body;
-    std::ofstream(file, std::ios::binary) << bytes;
-    auto stored = db::load_map(file);
-    ASSERT_TRUE(stored) << stored.error().message;
-    const PlaceId goal = stored->map.destinations.at(0).place;
-    for (const bool back : {false, true}) {
-      map::Edge edge;
-      edge.from = back ? goal : stored->map.places.front().id;
-      edge.to = back ? stored->map.places.front().id : goal;
-      edge.weak = true;
-      stored->map.edges.push_back(edge);
-    }
-    ASSERT_TRUE(db::save_map(file, stored->map, stored->thumbnails));
-    std::stringstream edited;
-    edited << std::ifstream(file, std::ios::binary).rdbuf();
-    const Answer imported =
-        admin->send("POST", "/api/v1/maps/import", edited.str(), {{"Content-Type", "application/vnd.sqlite3"}});
-    ASSERT_EQ(imported.status, 201) << imported.body;
-    map = imported.json().at("map").at("id");
-    ASSERT_EQ(admin->put(root + "/map", {{"map", map}}).status, 200);
-  }
-  std::string take_lease(testing::HttpClient& client) {
-    return client.post(root + "/lease", {{"take_over", true}}).json().at("lease").at("id");
-  }
-  Answer send_home(const std::string& lease) {
-    return admin->post(root + "/missions", {{"lease_id", lease}, {"destination", destination}});
-  }
-  void find_itself(FakeAgent& agent) {
-    agent.hello();
-    ASSERT_TRUE(agent.await<wire::Welcome>());
-    for (int i = 0; i < 20; ++i) {
-      agent.look(1);
-      const auto belief = agent.await<wire::BeliefReport>(milliseconds(60'000));
-      ASSERT_TRUE(belief) << admin->get(root).body;
-      if (!belief->lost) return;
-    }
-    FAIL() << "the fake agent never learnt where it is";
-  }
-  json mission_now(const json& mission) {
-    return admin->get(root + "/missions/" + mission.at("id").get<std::string>()).json();
-  }
-  json wait_for_state(const json& mission, const std::string& state) {
-    for (int i = 0; i < 200 && mission_now(mission).at("state") != state; ++i) {
-      std::this_thread::sleep_for(milliseconds(20));
-    }
-    return mission_now(mission);
-  }
-
-  std::string robot, token, root, map, destination;
-};
 
 TEST_F(DrivingTest, OneDrivesAndTheOthersAreTold) {
   add_robot();

@@ -8,6 +8,7 @@ import type {
   LoggedEdit,
   MapInfo,
   Mission,
+  RefineMode,
   Robot,
   Role,
   TokenInfo,
@@ -139,9 +140,14 @@ export const imageThumbnailUrl = (map: string, image: string) =>
 export const exportUrl = (map: string) => `${kRoot}/maps/${id(map)}/export`;
 export const buildMap = (body: { name: string; tours: string[] }) =>
   call<{ map: MapInfo; job: Job }>('/maps', { method: 'POST', body });
+export const addToMap = (map: string, tours: string[]) =>
+  call<{ job: Job }>(`/maps/${id(map)}/builds`, { method: 'POST', body: { kind: 'add', tours } });
+export const setRefine = (map: string, refine: RefineMode) =>
+  call<MapInfo>(`/maps/${id(map)}/refine`, { method: 'PUT', body: { refine } });
 export const maps = () => call<{ maps: MapInfo[] }>('/maps');
 export const history = (map: string) => call<{ edits: LoggedEdit[] }>(`/maps/${id(map)}/history`);
 export const removeMap = (map: string) => call<unknown>(`/maps/${id(map)}`, { method: 'DELETE' });
+export const takeJob = (job: string) => call<unknown>(`/jobs/${id(job)}/take`, { method: 'POST' });
 export const cancelJob = (job: string) => call<unknown>(`/jobs/${id(job)}/cancel`, { method: 'POST' });
 
 // Tours

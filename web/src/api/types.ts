@@ -17,6 +17,7 @@ export type Robot = Schemas['Robot'];
 export type MapInfo = Schemas['MapInfo'];
 export type Problem = Schemas['Problem'];
 export type Job = Schemas['Job'];
+export type RefineMode = Schemas['RefineMode'];
 export type Graph = Schemas['Graph'];
 export type Place = Schemas['Place'];
 export type Edge = Schemas['Edge'];

@@ -14,6 +14,7 @@ import { placeTitle } from '../../lib/whereabouts';
 import { count } from '../../lib/words';
 import { send } from '../go/driving';
 import { hindrance, isActive } from '../go/journey';
+import { DriveNews } from '../tours/drive_news';
 import { GraphView } from './graph_view';
 import { Inspector } from './inspector';
 import { LookAlikes } from './look_alikes';
@@ -124,6 +125,7 @@ function Drawn({ map, graph }: { map: MapInfo; graph: Graph }) {
   };
   return (
     <>
+      <DriveNews map={map} mayTake={mayEdit} />
       <p class="soft">
         {count(graph.places.length, 'place')} from {count(map.images, 'picture')}. Choose one in the drawing
         or in the list.

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
-import type { Tour } from '../../api/types';
-import { TextField } from '../../components/field';
+import type { MapInfo, Tour } from '../../api/types';
+import { Choice, TextField } from '../../components/field';
 import { Notice } from '../../components/notice';
 import { useCommand } from '../../lib/command';
 import { count } from '../../lib/words';
 
-/** Building a map from complete tours. */
-export function BuildMap({ tours }: { tours: readonly Tour[] }) {
-  const complete = tours.filter((one) => one.state === 'complete');
+/** Building a map from complete tours, or adding them to one that is there. */
+export function BuildMap({ tours, maps }: { tours: readonly Tour[]; maps: readonly MapInfo[] }) {
+  const [target, setTarget] = useState('');
+  const grown = maps.find((one) => one.id === target) ?? null;
+  const complete = tours.filter((one) => one.state === 'complete' && !(grown?.tours ?? []).includes(one.id));
   const [name, setName] = useState('');
   const [left_out, setLeftOut] = useState<ReadonlySet<string>>(new Set());
   const [begun, setBegun] = useState<string | null>(null);
@@ -25,16 +27,42 @@ export function BuildMap({ tours }: { tours: readonly Tour[] }) {
     const wanted = name.trim();
     setBegun(null);
     run(async () => {
-      await calls.buildMap({ name: wanted, tours: chosen.map((one) => one.id) });
-      setBegun(wanted);
+      const ids = chosen.map((one) => one.id);
+      if (grown) {
+        await calls.addToMap(grown.id, ids);
+        setBegun(`Adding to ${grown.name}`);
+        return;
+      }
+      await calls.buildMap({ name: wanted, tours: ids });
+      setBegun(`Building ${wanted}`);
       setName('');
     });
   };
   return (
     <section class="card stack" aria-labelledby="build-map">
       <h2 id="build-map">Build a map</h2>
+      {maps.length > 0 && (
+        <Choice
+          label="What to make of the tours"
+          value={grown?.id ?? ''}
+          onChange={setTarget}
+          options={[
+            { value: '', label: 'A new map' },
+            ...maps.map((one) => ({ value: one.id, label: `More of the map ${one.name}` })),
+          ]}
+          hint={
+            grown
+              ? 'Places that the tours show again gain their pictures, other places are new. Names and changes made by hand stay.'
+              : undefined
+          }
+        />
+      )}
       {complete.length === 0 ? (
-        <p class="soft">A map is built from complete tours. There is none yet.</p>
+        <p class="soft">
+          {grown
+            ? 'Every complete tour is in this map already.'
+            : 'A map is built from complete tours. There is none yet.'}
+        </p>
       ) : (
         <form class="stack" onSubmit={submit}>
           <fieldset>
@@ -46,19 +74,19 @@ export function BuildMap({ tours }: { tours: readonly Tour[] }) {
               </label>
             ))}
           </fieldset>
-          <TextField label="Name of the map" value={name} onInput={setName} />
+          {!grown && <TextField label="Name of the map" value={name} onInput={setName} />}
           <div class="row">
             <button
               type="submit"
               class="button main"
-              disabled={busy || chosen.length === 0 || name.trim() === ''}
+              disabled={busy || chosen.length === 0 || (!grown && name.trim() === '')}
             >
-              {busy ? 'Starting …' : 'Build the map'}
+              {busy ? 'Starting …' : grown ? 'Add to the map' : 'Build the map'}
             </button>
           </div>
         </form>
       )}
-      {begun !== null && <Notice>Building {begun}. Its progress is shown under Maps.</Notice>}
+      {begun !== null && <Notice>{begun}. Its progress is shown under Maps.</Notice>}
       {problem && <Notice tone="bad">{problem.message}</Notice>}
     </section>
   );

@@ -11,6 +11,7 @@ const job = (id: string, created_us: number, part: Partial<Job> = {}): Job => ({
   progress: { stage: 'compare', share: 0.5 },
   error: null,
   skipped: 0,
+  gained: 0,
   notes: [],
   created_us,
   ...part,
@@ -20,6 +21,8 @@ it('takes the newest job of the map, wherever it stands in the list', () => {
   const jobs = [job('a', 5), job('b', 9), job('c', 7), job('d', 99, { map: 'other' })];
   expect(newestJob(jobs, 'm')?.id).toBe('b');
   expect(newestJob(jobs, 'none')).toBeNull();
+  expect(newestJob([...jobs, job('e', 100, { kind: 'refine' })], 'm')?.id).toBe('b');
+  expect(newestJob([...jobs, job('e', 100, { kind: 'refine' })], 'm', ['refine'])?.id).toBe('e');
 });
 
 it('tells stages in words, and unknown ones by their name', () => {

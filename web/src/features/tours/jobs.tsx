@@ -7,9 +7,13 @@ import { Bar, Notice } from '../../components/notice';
 import { useCommand } from '../../lib/command';
 import { percent } from '../../lib/words';
 
-/** The newest job of a map; null when there is none. */
-export function newestJob(jobs: readonly Job[], map: string): Job | null {
-  const own = jobs.filter((job) => job.map === map);
+/** The newest job of a map that is of one of these kinds; null when there is none. */
+export function newestJob(
+  jobs: readonly Job[],
+  map: string,
+  kinds: readonly Job['kind'][] = ['build', 'add'],
+): Job | null {
+  const own = jobs.filter((job) => job.map === map && kinds.includes(job.kind));
   return own.reduce<Job | null>((best, job) => (best && best.created_us > job.created_us ? best : job), null);
 }
 
@@ -33,19 +37,24 @@ export function BuildProgress({ map, mayCancel }: { map: MapInfo; mayCancel: boo
   const job = newestJob(connection.value.house?.jobs ?? [], map.id);
   const { busy, problem, run } = useCommand();
   if (!job) return null;
+  const adds = job.kind === 'add';
   if (job.state === 'done')
-    return job.notes.length > 0 ? <Notice tone="warn">{job.notes.join(' ')}</Notice> : null;
+    return job.notes.length > 0 ? (
+      <Notice tone={adds && job.skipped === 0 ? 'plain' : 'warn'}>{job.notes.join(' ')}</Notice>
+    ) : null;
   if (job.state === 'failed')
     return (
       <Notice tone="bad">
-        It could not be built. {sentence(job.error?.detail ?? job.error?.title ?? '')}
+        {adds ? 'The tours could not be added.' : 'It could not be built.'}{' '}
+        {sentence(job.error?.detail ?? job.error?.title ?? '')}
       </Notice>
     );
-  if (job.state === 'cancelled') return <Notice tone="warn">Building was cancelled.</Notice>;
+  if (job.state === 'cancelled')
+    return <Notice tone="warn">{adds ? 'Adding' : 'Building'} was cancelled.</Notice>;
   const words = stageWords(job);
   return (
     <div class="build stack tight">
-      <Bar share={job.progress.share} label={`Building ${map.name}`} />
+      <Bar share={job.progress.share} label={`${adds ? 'Adding to' : 'Building'} ${map.name}`} />
       <div class="row apart">
         <span class="soft" aria-live="polite">
           {words}
@@ -57,7 +66,7 @@ export function BuildProgress({ map, mayCancel }: { map: MapInfo; mayCancel: boo
               type="button"
               class="button small"
               disabled={busy}
-              aria-label={`Cancel building ${map.name}`}
+              aria-label={`Cancel ${adds ? 'adding to' : 'building'} ${map.name}`}
               onClick={() => run(() => calls.cancelJob(job.id))}
             >
               Cancel

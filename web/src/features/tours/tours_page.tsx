@@ -11,6 +11,7 @@ import { useLoaded } from '../../lib/loaded';
 import { atLeast } from '../../lib/roles';
 import { count, dateText } from '../../lib/words';
 import { BuildMap } from './build_map';
+import { DriveNews, RefineSetting } from './drive_news';
 import { BuildProgress } from './jobs';
 import { NewTour } from './new_tour';
 
@@ -31,7 +32,7 @@ export function ToursPage() {
               {mayInstall ? (
                 <>
                   <NewTour tours={answer.tours} onEnd={tours.again} />
-                  <BuildMap tours={answer.tours} />
+                  <BuildMap tours={answer.tours} maps={maps.value.filter((one) => one.state === 'ready')} />
                 </>
               ) : (
                 <Notice still>Somebody who may install things adds tours and builds maps.</Notice>
@@ -118,6 +119,8 @@ function MapRow({ map, mayInstall }: { map: MapInfo; mayInstall: boolean }) {
         )}
       </div>
       <BuildProgress map={map} mayCancel={mayInstall} />
+      <DriveNews map={map} mayTake={mayInstall} />
+      {mayInstall && map.state === 'ready' && <RefineSetting map={map} />}
       {problem && <Notice tone="bad">{problem.message}</Notice>}
     </li>
   );

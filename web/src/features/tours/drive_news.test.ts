@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+import { expect, it } from 'vitest';
+import type { Job } from '../../api/types';
+import { driveNews } from './drive_news';
+
+const job = (part: Partial<Job>): Job => ({
+  id: 'j',
+  kind: 'refine',
+  map: 'm',
+  state: 'offered',
+  progress: { stage: 'places', share: 1 },
+  error: null,
+  skipped: 0,
+  gained: 3,
+  notes: ['kitchen would gain 3 new appearances.'],
+  created_us: 1,
+  ...part,
+});
+
+it('says what drives would teach and where', () => {
+  expect(driveNews(job({}))).toBe('3 new appearances from drives. kitchen would gain 3 new appearances.');
+  expect(driveNews(job({ gained: 1, notes: [] }))).toBe('1 new appearance from drives. ');
+});
+
+it('says nothing of drives that taught nothing or that a person discarded', () => {
+  expect(driveNews(job({ state: 'done', gained: 0, notes: [] }))).toBeNull();
+  expect(driveNews(job({ state: 'cancelled' }))).toBeNull();
+});
+
+it('says why nothing could be learnt', () => {
+  const error = { type: 'about:blank', title: 'No', status: 422, detail: 'they cannot be compared' };
+  expect(driveNews(job({ state: 'failed', error: error as Job['error'] }))).toContain(
+    'They cannot be compared',
+  );
+});
