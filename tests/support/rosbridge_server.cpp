@@ -4,6 +4,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
@@ -28,6 +29,7 @@ struct Subscription {
   std::chrono::milliseconds throttle{0};
   std::size_t queue_length = 0;
   Clock::time_point sent;
+  std::deque<std::string> held;  // back because of the throttle, at most queue_length
 };
 
 struct Waiting {
@@ -115,6 +117,7 @@ struct RosbridgeServer::Impl {
   Events events;
   asio::io_context context{1};
   Tcp::acceptor acceptor{context};
+  asio::steady_timer ticker{context};
   unsigned short port = 0;
   bool refused = false;
   std::set<std::shared_ptr<Session>> sessions;
@@ -189,9 +192,10 @@ struct RosbridgeServer::Impl {
       if (known == types.end() || (!type.empty() && known->second != type)) {
         return session.status("error", "cannot subscribe to " + topic + " as " + type, id);
       }
-      session.subscriptions[topic] = {std::chrono::milliseconds(message.value("throttle_rate", 0)),
-                                      message.value<std::size_t>("queue_length", 0),
-                                      {}};
+      Subscription subscription;
+      subscription.throttle = std::chrono::milliseconds(message.value("throttle_rate", 0));
+      subscription.queue_length = message.value<std::size_t>("queue_length", 0);
+      session.subscriptions[topic] = std::move(subscription);
     } else if (op == "unsubscribe") {
       session.subscriptions.erase(topic);
     } else {
@@ -201,14 +205,38 @@ struct RosbridgeServer::Impl {
 
   void publish(const std::string& topic, const json& msg) {
     std::string text;
-    const auto now = Clock::now();
-    for (const auto& session : std::set(sessions)) {
+    for (const auto& session : sessions) {
       const auto found = session->subscriptions.find(topic);
-      if (found == session->subscriptions.end() || now - found->second.sent < found->second.throttle) continue;
-      found->second.sent = now;
+      if (found == session->subscriptions.end()) continue;
       if (text.empty()) text = json{{"op", "publish"}, {"topic", topic}, {"msg", msg}}.dump();
-      session->send(topic, text, found->second.queue_length);
+      Subscription& subscription = found->second;
+      subscription.held.push_back(text);
+      while (subscription.held.size() > std::max<std::size_t>(1, subscription.queue_length)) {
+        subscription.held.pop_front();
+      }
+      send_held(*session, topic, subscription);
+      if (subscription.queue_length == 0) subscription.held.clear();
     }
+  }
+
+  static void send_held(Session& session, const std::string& topic, Subscription& subscription) {
+    const auto now = Clock::now();
+    if (subscription.held.empty() || now - subscription.sent < subscription.throttle) return;
+    subscription.sent = now;
+    session.send(topic, std::move(subscription.held.front()), subscription.queue_length);
+    subscription.held.pop_front();
+  }
+
+  /// Sends what a throttle held back, when its time has come.
+  void tick() {
+    ticker.expires_after(std::chrono::milliseconds(10));
+    ticker.async_wait([this](beast::error_code ended) {
+      if (ended) return;
+      for (const auto& session : sessions) {
+        for (auto& [topic, subscription] : session->subscriptions) send_held(*session, topic, subscription);
+      }
+      tick();
+    });
   }
 };
 
@@ -216,12 +244,14 @@ RosbridgeServer::RosbridgeServer(unsigned short port, Events events)
     : impl_(std::make_unique<Impl>(std::move(events))) {
   impl_->listen(port);
   impl_->accept();
+  impl_->tick();
   impl_->thread = std::thread([this] { impl_->context.run(); });
 }
 
 RosbridgeServer::~RosbridgeServer() {
   impl_->on_thread([this] {
     impl_->acceptor.close();
+    impl_->ticker.cancel();
     impl_->cut();
   });
   impl_->thread.join();
