@@ -15,12 +15,14 @@ std::optional<Error> missing(const DriverOptions& options, const std::string& op
 }  // namespace
 
 void add_driver_options(CLI::App& command, DriverOptions& options) {
-  command.add_option("--driver", options.driver, "simulator, rosbridge or folder")
-      ->check(CLI::IsMember({"simulator", "rosbridge", "folder"}))
+  command
+      .add_option("--driver", options.driver,
+                  "simulator, rosbridge (a ROS robot), or without wheels: v4l2 (a USB camera), folder, video")
+      ->check(CLI::IsMember({"simulator", "rosbridge", "folder", "video", "v4l2"}))
       ->capture_default_str();
   command.add_option("--camera", options.camera,
-                     "A camera.json; or, for the simulator, a model's name (hyperbolic_mirror). Left out: the folder's "
-                     "own");
+                     "V4l2, folder, video: camera.json (left out: the one beside the pictures). Simulator: a model "
+                     "(hyperbolic_mirror) or a camera.json");
   command.add_option("--world", options.simulator.world, "Simulator: house:SEED, offices:SEED or a world.json")
       ->capture_default_str();
   command.add_option("--light", options.simulator.light, "Simulator: day, night or half")->capture_default_str();
@@ -35,8 +37,10 @@ void add_driver_options(CLI::App& command, DriverOptions& options) {
   command.add_option("--rosbridge", options.rosbridge_file,
                      "Rosbridge: the robot's description (JSON, format homeward-rosbridge)");
   command.add_option("--images", options.folder.folder, "Folder: where the pictures are");
-  command.add_option("--rate", options.folder.pictures_per_s, "Folder: pictures a second")->capture_default_str();
-  command.add_flag("--repeat", options.folder.repeat, "Folder: begin again after the last picture");
+  command.add_option("--video", options.video.file, "Video: the file; its pictures come at its own times");
+  command.add_option("--device", options.v4l2.device, "V4l2: the camera's device")->capture_default_str();
+  command.add_option("--rate", options.pictures_per_s, "Folder, v4l2: pictures a second (2; 10)");
+  command.add_flag("--repeat", options.repeat, "Folder, video: begin again after the last picture");
 }
 
 Result<std::unique_ptr<Driver>> make_driver(const DriverOptions& options,
@@ -49,7 +53,23 @@ Result<std::unique_ptr<Driver>> make_driver(const DriverOptions& options,
     if (const auto error = missing(options, "--images", options.folder.folder)) return tl::unexpected(*error);
     FolderDriverConfig folder = options.folder;
     folder.camera = options.camera;
+    folder.repeat = options.repeat;
+    folder.pictures_per_s = options.pictures_per_s.value_or(folder.pictures_per_s);
     return make_folder_driver(folder);
+  }
+  if (options.driver == "video") {
+    if (const auto error = missing(options, "--video", options.video.file)) return tl::unexpected(*error);
+    VideoDriverConfig video = options.video;
+    video.camera = options.camera;
+    video.repeat = options.repeat;
+    return make_video_driver(video);
+  }
+  if (options.driver == "v4l2") {
+    if (const auto error = missing(options, "--camera", options.camera)) return tl::unexpected(*error);
+    V4l2DriverConfig v4l2 = options.v4l2;
+    v4l2.camera = options.camera;
+    v4l2.pictures_per_s = options.pictures_per_s.value_or(v4l2.pictures_per_s);
+    return make_v4l2_driver(v4l2);
   }
   SimulatorDriverConfig simulator = options.simulator;
   if (!options.camera.empty()) simulator.camera = options.camera;

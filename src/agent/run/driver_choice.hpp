@@ -9,6 +9,8 @@
 #include "agent/drivers/driver.hpp"
 #include "agent/drivers/folder_driver.hpp"
 #include "agent/drivers/simulator_driver.hpp"
+#include "agent/drivers/v4l2_driver.hpp"
+#include "agent/drivers/video_driver.hpp"
 
 namespace homeward::agent {
 
@@ -17,8 +19,12 @@ struct DriverOptions {
   std::string driver = "simulator";
   std::string camera;  // empty: the driver's usual one
   SimulatorDriverConfig simulator;
-  FolderDriverConfig folder;
   std::string rosbridge_file;
+  FolderDriverConfig folder;
+  VideoDriverConfig video;
+  V4l2DriverConfig v4l2;
+  std::optional<double> pictures_per_s;  // nothing: the driver's usual rate
+  bool repeat = false;
 };
 
 void add_driver_options(CLI::App& command, DriverOptions& options);
