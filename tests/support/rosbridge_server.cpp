@@ -250,6 +250,7 @@ RosbridgeServer::RosbridgeServer(unsigned short port, Events events)
 
 RosbridgeServer::~RosbridgeServer() {
   impl_->on_thread([this] {
+    impl_->refused = true;  // a connection may be on its way through the queue
     impl_->acceptor.close();
     impl_->ticker.cancel();
     impl_->cut();

@@ -26,7 +26,7 @@ constexpr Milliseconds kMostLag_ms = 300;
 // Longer than the agent bears without sweeps: after a lost connection it stops for certain.
 constexpr Milliseconds kWithheld_ms = 600;
 constexpr Milliseconds kSuspicious_ms = 5000;
-constexpr auto kFarewellLimit = std::chrono::milliseconds(300);
+constexpr auto kFarewellLimit = std::chrono::milliseconds(1000);
 
 Milliseconds now_ms() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now().time_since_epoch()).count();
