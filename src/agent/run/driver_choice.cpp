@@ -21,8 +21,8 @@ void add_driver_options(CLI::App& command, DriverOptions& options) {
       ->check(CLI::IsMember({"simulator", "rosbridge", "folder", "video", "v4l2"}))
       ->capture_default_str();
   command.add_option("--camera", options.camera,
-                     "V4l2, folder, video: camera.json (left out: the one beside the pictures). Simulator: a model "
-                     "(hyperbolic_mirror) or a camera.json");
+                     "V4l2, folder, video: camera.json (folder and video: else the one beside the pictures). "
+                     "Simulator: a model (hyperbolic_mirror) or a camera.json");
   command.add_option("--world", options.simulator.world, "Simulator: house:SEED, offices:SEED or a world.json")
       ->capture_default_str();
   command.add_option("--light", options.simulator.light, "Simulator: day, night or half")->capture_default_str();
