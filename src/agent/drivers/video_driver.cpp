@@ -84,7 +84,8 @@ class VideoDriver final : public Driver {
 
   Result<std::optional<TakenPicture>> after_the_last(const std::stop_token& stop) {
     if (!config_.repeat || shown_ == 0) return std::optional<TakenPicture>();
-    if (!video_.open(config_.file, cv::CAP_FFMPEG)) return fail(ErrorCode::kIo, "The video cannot be read again.", config_.file);
+    if (!video_.open(config_.file, cv::CAP_FFMPEG))
+      return fail(ErrorCode::kIo, "The video cannot be read again.", config_.file);
     {
       // The last picture is shown as long as the others.
       std::unique_lock lock(mutex_);
