@@ -36,6 +36,7 @@ struct RecordedSweep {
   double angle_step_rad = 0.0;
   double range_max_m = 0.0;
   std::vector<float> ranges_m;
+  Pose2 robot_from_scan = {};
 };
 
 /// A picture that the heart was given: the bytes of the JPEG or PNG that the eye looked at.

@@ -76,13 +76,18 @@ std::vector<std::uint8_t> pack_sweep(const RecordedSweep& sweep) {
   writer.put(sweep.angle_min_rad);
   writer.put(sweep.angle_step_rad);
   writer.put(sweep.range_max_m);
+  writer.put(sweep.robot_from_scan.x_m);
+  writer.put(sweep.robot_from_scan.y_m);
+  writer.put(sweep.robot_from_scan.theta_rad);
   writer.put(sweep.ranges_m.data(), sweep.ranges_m.size());
   return writer.take();
 }
 
 bool unpack_sweep(std::span<const std::uint8_t> bytes, RecordedSweep& sweep) {
   ByteReader reader(bytes);
-  if (!reader.get(&sweep.angle_min_rad) || !reader.get(&sweep.angle_step_rad) || !reader.get(&sweep.range_max_m)) {
+  Pose2& scanner = sweep.robot_from_scan;
+  if (!reader.get(&sweep.angle_min_rad) || !reader.get(&sweep.angle_step_rad) || !reader.get(&sweep.range_max_m) ||
+      !reader.get(&scanner.x_m) || !reader.get(&scanner.y_m) || !reader.get(&scanner.theta_rad)) {
     return false;
   }
   if (reader.left() % sizeof(float) != 0) return false;

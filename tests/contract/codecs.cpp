@@ -6,6 +6,7 @@
 #include "wire/link_messages.hpp"
 #include "wire/mission_json.hpp"
 #include "wire/problem_json.hpp"
+#include "wire/rosbridge_json.hpp"
 #include "wire/scenario_json.hpp"
 #include "wire/tour_json.hpp"
 #include "wire/world_json.hpp"
@@ -74,6 +75,7 @@ std::map<std::string, Recode> all_codecs() {
   codecs["edits"] = recode([](const json& v) { return wire::edits_from_json(v); }, wire::edits_to_json);
   codecs["mission"] = recode([](const json& v) { return wire::mission_from_json(v); }, wire::mission_to_json);
   codecs["problem"] = recode(wire::problem_from_json, wire::problem_to_json);
+  codecs["rosbridge"] = recode([](const json& v) { return wire::rosbridge_from_json(v); }, wire::rosbridge_to_json);
   codecs["scenario"] = [](const json& value) -> Result<json> {  // only ever read
     const auto scenario = wire::scenario_from_json(value);
     return scenario ? Result<json>(value) : pass_on(scenario);

@@ -13,6 +13,7 @@
 #include "wire/camera_json.hpp"
 #include "wire/edit_json.hpp"
 #include "wire/json_reader.hpp"
+#include "wire/rosbridge_json.hpp"
 #include "wire/scenario_json.hpp"
 #include "wire/world_json.hpp"
 
@@ -69,6 +70,10 @@ TEST(FuzzTexts, World) {
 
 TEST(FuzzTexts, Scenario) {
   fuzz("scenario", 2000, [](const std::string& text) { return wire::parse_scenario(text, "scenario.json"); });
+}
+
+TEST(FuzzTexts, Rosbridge) {
+  fuzz("rosbridge", 2000, [](const std::string& text) { return wire::parse_rosbridge(text, "robot.json"); });
 }
 
 TEST(FuzzTexts, Edits) {

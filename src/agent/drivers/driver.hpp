@@ -21,14 +21,15 @@ struct Reading {
   Milliseconds t_ms = 0;  // by the driver's clock: the machine's steady one, or simulated time
   Pose2 odometry;
   double speed_mps = 0.0;
-  std::optional<Scan> scan;  // a new sweep, when there is one
+  std::optional<Scan> scan;               // a new sweep, when there is one
+  std::optional<Milliseconds> scan_t_ms;  // when it was taken; nothing: now
 };
 
 /// A picture with the odometry of the moment at which it was taken, of a robot that has it.
 struct TakenPicture {
   Milliseconds t_ms = 0;
   Image picture;
-  std::optional<Pose2> odometry;  // nothing: the driver has none
+  std::optional<Pose2> odometry;        // nothing: the driver has none
   std::vector<std::uint8_t> jpeg = {};  // as it came, empty where the driver has pixels only
 };
 
@@ -42,7 +43,7 @@ class Driver {
   /// Obeyed until the next one; a driver stops by itself when none comes for half a second.
   virtual void command(const Motion& motion) = 0;
   /// Waits for the next picture; nothing when `stop` was asked for or there are no more.
-  /// Errors: a picture that cannot be read (kIo and those of imageio::decode).
+  /// Errors: a picture that cannot be read (kIo and those of imageio::decode), a camera that is gone (kIo).
   virtual Result<std::optional<TakenPicture>> next_picture(std::stop_token stop) = 0;
 };
 

@@ -8,6 +8,7 @@
 
 #include "agent/files/read_file.hpp"
 #include "agent/files/tour_folder.hpp"
+#include "imageio/decode.hpp"
 
 namespace homeward::agent {
 namespace {
@@ -23,7 +24,7 @@ class FolderDriver final : public Driver {
 
   [[nodiscard]] const camera::CameraConfig& camera() const override { return camera_; }
   [[nodiscard]] Body body() const override { return {}; }
-  Reading read() override { return {now_ms(), {}, 0.0, std::nullopt}; }
+  Reading read() override { return {now_ms(), {}, 0.0, std::nullopt, std::nullopt}; }
   void command(const Motion&) override {}
 
   Result<std::optional<TakenPicture>> next_picture(std::stop_token stop) override {
@@ -32,9 +33,15 @@ class FolderDriver final : public Driver {
     if (next_ == files_.size() && repeat_) next_ = 0;
     if (stop.stop_requested() || next_ == files_.size()) return std::optional<TakenPicture>();
     taken_ = Clock::now();
-    auto picture = read_picture(files_[next_++]);
+    const std::string name = files_[next_].string();
+    const auto text = read_text(files_[next_++]);
+    if (!text) return pass_on(text);
+    std::vector<std::uint8_t> bytes(text->begin(), text->end());
+    auto picture = imageio::decode(bytes, name);
     if (!picture) return pass_on(picture);
-    return std::optional(TakenPicture{now_ms(), std::move(*picture), {}});
+    const auto header = imageio::read_header(bytes);
+    if (!header || header->format != imageio::ImageFormat::kJpeg) bytes.clear();
+    return std::optional(TakenPicture{now_ms(), std::move(*picture), {}, std::move(bytes)});
   }
 
  private:

@@ -48,7 +48,8 @@ class SimulatorDriver final : public Driver {
     until_picture_s_ -= seconds;
     if (seconds > 0.0) robot_.advance(seconds);
     tell_truth(now);
-    return {simulated_ms(), robot_.vehicle().odometry(), robot_.vehicle().motion().speed_mps, robot_.sweep()};
+    return {simulated_ms(), robot_.vehicle().odometry(), robot_.vehicle().motion().speed_mps, robot_.sweep(),
+            std::nullopt};
   }
 
   void command(const Motion& motion) override {
@@ -68,7 +69,7 @@ class SimulatorDriver final : public Driver {
     const SimulatedRobot::View view = robot_.view();
     const Milliseconds taken_ms = simulated_ms();
     lock.unlock();
-    return std::optional(TakenPicture{taken_ms, robot_.render(view), view.odometry});
+    return std::optional(TakenPicture{taken_ms, robot_.render(view), view.odometry, {}});
   }
 
  private:

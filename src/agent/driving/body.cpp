@@ -49,8 +49,10 @@ std::vector<Eigen::Vector2d> hit_points(const Scan& scan) {
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range_m = static_cast<double>(scan.ranges_m[i]);
     if (!std::isfinite(range_m) || range_m <= 0.0 || range_m >= scan.range_max_m) continue;
-    const double angle_rad = scan.angle_min_rad + static_cast<double>(i) * scan.angle_step_rad;
-    points.emplace_back(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
+    const double angle_rad =
+        scan.robot_from_scan.theta_rad + scan.angle_min_rad + static_cast<double>(i) * scan.angle_step_rad;
+    points.emplace_back(scan.robot_from_scan.x_m + range_m * std::cos(angle_rad),
+                        scan.robot_from_scan.y_m + range_m * std::sin(angle_rad));
   }
   return points;
 }

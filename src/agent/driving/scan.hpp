@@ -4,15 +4,18 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/pose2.hpp"
+
 namespace homeward::agent {
 
-/// One sweep of range sensors in the robot frame. Ray i points angle_min_rad + i * angle_step_rad counter-clockwise
-/// from forward; a range that is not finite or beyond range_max_m saw nothing.
+/// One sweep of range sensors. Ray i starts at the scanner and points angle_min_rad + i * angle_step_rad
+/// counter-clockwise from its forward; a range that is not finite or beyond range_max_m saw nothing.
 struct Scan {
   std::vector<float> ranges_m;
   double angle_min_rad = 0.0;
   double angle_step_rad = 0.0;
   double range_max_m = 12.0;
+  Pose2 robot_from_scan;
 };
 
 /// The points that a sweep hit, robot frame.

@@ -6,22 +6,14 @@
 
 namespace homeward::agent {
 
-Result<ServerAddress> parse_address(const std::string& text) {
+namespace {
+
+/// `rest`: what follows the scheme; `address` holds the scheme's own port.
+Result<ServerAddress> parse_host(std::string rest, ServerAddress address, const std::string& text,
+                                 const std::string& example) {
   const auto wrong = [&](const std::string& why) {
-    return fail(ErrorCode::kInvalidInput, why + " An address looks like http://127.0.0.1:8080.", text);
+    return fail(ErrorCode::kInvalidInput, why + " An address looks like " + example + ".", text);
   };
-  ServerAddress address;
-  std::string rest;
-  if (text.starts_with("http://")) {
-    rest = text.substr(7);
-    address.port = "80";
-  } else if (text.starts_with("https://")) {
-    rest = text.substr(8);
-    address.tls = true;
-    address.port = "443";
-  } else {
-    return wrong("The address must begin with http:// or https://.");
-  }
   if (rest.ends_with('/')) rest.pop_back();
   if (rest.find('/') != std::string::npos) return wrong("The address must not have a path.");
   const std::size_t colon = rest.rfind(':');
@@ -38,6 +30,23 @@ Result<ServerAddress> parse_address(const std::string& text) {
   if (rest.empty()) return wrong("The address names no host.");
   address.host = rest;
   return address;
+}
+
+}  // namespace
+
+Result<ServerAddress> parse_address(const std::string& text) {
+  const std::string example = "http://127.0.0.1:8080";
+  if (text.starts_with("http://")) return parse_host(text.substr(7), {false, "", "80"}, text, example);
+  if (text.starts_with("https://")) return parse_host(text.substr(8), {true, "", "443"}, text, example);
+  return fail(ErrorCode::kInvalidInput,
+              "The address must begin with http:// or https://. An address looks like " + example + ".", text);
+}
+
+Result<ServerAddress> parse_websocket_address(const std::string& text) {
+  const std::string example = "ws://192.168.1.7:9090";
+  if (text.starts_with("ws://")) return parse_host(text.substr(5), {false, "", "80"}, text, example);
+  return fail(ErrorCode::kInvalidInput, "The address must begin with ws://. An address looks like " + example + ".",
+              text);
 }
 
 }  // namespace homeward::agent

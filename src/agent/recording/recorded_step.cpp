@@ -4,11 +4,13 @@
 namespace homeward::agent {
 
 db::RecordedSweep to_recorded(const SeenScan& scan) {
-  return {scan.taken_ms, scan.scan.angle_min_rad, scan.scan.angle_step_rad, scan.scan.range_max_m, scan.scan.ranges_m};
+  return {scan.taken_ms,         scan.scan.angle_min_rad, scan.scan.angle_step_rad,
+          scan.scan.range_max_m, scan.scan.ranges_m,      scan.scan.robot_from_scan};
 }
 
 SeenScan from_recorded(const db::RecordedSweep& sweep) {
-  return {sweep.taken_ms, {sweep.ranges_m, sweep.angle_min_rad, sweep.angle_step_rad, sweep.range_max_m}};
+  return {sweep.taken_ms,
+          {sweep.ranges_m, sweep.angle_min_rad, sweep.angle_step_rad, sweep.range_max_m, sweep.robot_from_scan}};
 }
 
 void put_outcome(db::RecordedStep& step, const DrivingState& state, const Outputs& outputs) {

@@ -114,7 +114,7 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
     }
     const Milliseconds now = now_ms();
     inputs.sensors_now_ms = reading.t_ms;
-    if (reading.scan) inputs.scan = {reading.t_ms, *reading.scan};
+    if (reading.scan) inputs.scan = {reading.scan_t_ms.value_or(reading.t_ms), *reading.scan};
     for (const wire::ServerMessage& message : inputs.messages) {
       if (const auto* welcome = std::get_if<wire::Welcome>(&message)) looker.set_show_period(welcome->frame_period_ms);
     }

@@ -7,10 +7,9 @@
 #include <memory>
 #include <thread>
 
-#include "agent/drivers/folder_driver.hpp"
-#include "agent/drivers/simulator_driver.hpp"
 #include "agent/files/read_file.hpp"
 #include "agent/run/agent_loop.hpp"
+#include "agent/run/driver_choice.hpp"
 #include "agent/run/upload.hpp"
 #include "wire/error_table.hpp"
 
@@ -40,18 +39,11 @@ struct RunOptions {
   ServerOptions server;
   std::string robot;
   std::string robot_name = "Homeward robot";
-  std::string driver = "simulator";
-  agent::SimulatorDriverConfig simulator;
-  agent::FolderDriverConfig folder;
+  agent::DriverOptions driver;
   std::string record;
   std::int64_t record_limit_mb = 512;
   std::int64_t record_folder_limit_mb = 4096;
 };
-
-Result<std::unique_ptr<agent::Driver>> make_driver(const RunOptions& options) {
-  if (options.driver == "simulator") return agent::make_simulator_driver(options.simulator);
-  return agent::make_folder_driver(options.folder);
-}
 
 /// Waits for SIGINT or SIGTERM in a thread of its own, so that the loop can end in order.
 class SignalWatch {
@@ -88,8 +80,9 @@ Status run(const RunOptions& options) {
   if (!address) return pass_on(address);
   const auto token = read_token(options.server.token_file);
   if (!token) return pass_on(token);
-  spdlog::info("preparing the {}", options.driver);
-  const auto driver = make_driver(options);
+  spdlog::info("preparing the driver: {}", options.driver.driver);
+  const auto driver =
+      agent::make_driver(options.driver, [](const std::string& what) { spdlog::info("robot: {}", what); });
   if (!driver) return pass_on(driver);
   agent::AgentOptions agent_options{*address,
                                     RobotId(options.robot),
@@ -147,25 +140,7 @@ void register_run(CLI::App& program) {
   add_server_options(*command, options->server);
   command->add_option("--robot", options->robot, "The robot's id on the server")->required();
   command->add_option("--name", options->robot_name, "The robot's name, for the log")->capture_default_str();
-  command->add_option("--driver", options->driver, "simulator or folder")
-      ->check(CLI::IsMember({"simulator", "folder"}))
-      ->capture_default_str();
-  command->add_option("--world", options->simulator.world, "Simulator: house:SEED, offices:SEED or a world.json")
-      ->capture_default_str();
-  command->add_option("--light", options->simulator.light, "Simulator: day, night or half")->capture_default_str();
-  command->add_option("--profile", options->simulator.robot, "Simulator: disc or chair")
-      ->check(CLI::IsMember({"disc", "chair"}))
-      ->capture_default_str();
-  command->add_option("--start-room", options->simulator.start_room, "Simulator: room to start in");
-  command->add_option("--people", options->simulator.people, "Simulator: people who walk about")
-      ->check(CLI::Range(0, 50));
-  command->add_option("--seed", options->simulator.seed, "Simulator: seed of noise and people");
-  command->add_option("--truth-file", options->simulator.truth_file, "Simulator: append true poses to this file");
-  command->add_option("--camera", options->simulator.camera, "Model of the simulated camera, or a camera.json")
-      ->capture_default_str();
-  command->add_option("--images", options->folder.folder, "Folder: where the pictures are");
-  command->add_option("--rate", options->folder.pictures_per_s, "Folder: pictures a second")->capture_default_str();
-  command->add_flag("--repeat", options->folder.repeat, "Folder: begin again after the last picture");
+  agent::add_driver_options(*command, options->driver);
   command->add_option("--record", options->record, "Record each mission as a file in this folder (homeward replay)");
   command
       ->add_option("--record-limit-mb", options->record_limit_mb,

@@ -27,6 +27,17 @@ TEST(ParseAddress, TakesIPv6InBrackets) {
   EXPECT_EQ(parse_address("https://[fe80::1]")->port, "443");
 }
 
+TEST(ParseAddress, KnowsRosbridges) {
+  const auto address = parse_websocket_address("ws://192.168.1.7:9090/");
+  ASSERT_TRUE(address);
+  EXPECT_EQ(address->host, "192.168.1.7");
+  EXPECT_EQ(address->port, "9090");
+  EXPECT_FALSE(address->tls);
+  for (const char* text : {"wss://robot:9090", "http://robot:9090", "ws://", "ws://robot:9090/path"}) {
+    EXPECT_EQ(parse_websocket_address(text).error().code, ErrorCode::kInvalidInput) << text;
+  }
+}
+
 TEST(ParseAddress, RefusesTheRestAndNamesIt) {
   for (const char* text : {"", "127.0.0.1:8080", "ftp://house", "http://", "http://:80",
                            "http://house:", "http://house:http", "http://house:123456", "http://house/path"}) {

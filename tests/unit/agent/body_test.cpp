@@ -158,5 +158,16 @@ TEST(HitPoints, AreWhereTheRaysEndAndNowhereElse) {
   EXPECT_LT((points[1] - Eigen::Vector2d(3.0, 0.0)).norm(), 1e-9);
 }
 
+TEST(HitPoints, StartWhereTheScannerSits) {
+  Scan scan;
+  scan.angle_step_rad = kPi / 2.0;
+  scan.ranges_m = {2.0F, 3.0F};
+  scan.robot_from_scan = {0.5, -0.25, kPi / 2.0};
+  const Points points = hit_points(scan);
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_LT((points[0] - Eigen::Vector2d(0.5, 1.75)).norm(), 1e-6);
+  EXPECT_LT((points[1] - Eigen::Vector2d(-2.5, -0.25)).norm(), 1e-6);
+}
+
 }  // namespace
 }  // namespace homeward::agent

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "agent/driving/body.hpp"
+#include "agent/driving/scan.hpp"
+#include "core/pose2.hpp"
+#include "core/result.hpp"
+#include "wire/rosbridge_json.hpp"
+
+namespace homeward::agent {
+
+/// What the rosbridge protocol (version 2, "ROSBRIDGE_PROTOCOL.md" of RobotWebTools/rosbridge_suite) carries between a
+/// robot and the agent. Stamps are microseconds by the robot's clock; nothing when the header's stamp is zero.
+using RosStamp = std::optional<std::int64_t>;
+
+struct RosSweep {
+  RosStamp stamp_us;
+  Scan scan;
+};
+struct RosOdometry {
+  RosStamp stamp_us;
+  Pose2 pose;
+  double speed_mps = 0.0;
+};
+struct RosPicture {
+  RosStamp stamp_us;
+  std::vector<std::uint8_t> bytes;  // a JPEG or PNG, not looked at
+};
+struct RosStatus {
+  std::string level;  // "error", "warning", "info" or "none"
+  std::string text;
+};
+struct RosOther {};  // a message that the agent has no use for
+using RosMessage = std::variant<RosOther, RosSweep, RosOdometry, RosPicture, RosStatus>;
+
+inline constexpr std::size_t kMaxRosMessageBytes = 16UL * 1024 * 1024;
+inline constexpr std::size_t kMaxRosRanges = 20'000;
+
+/// A text from the bridge. A range that is null, not finite or below the sensor's least saw nothing.
+/// Errors: kInvalidInput, kTooLarge; each names the field.
+Result<RosMessage> decode_ros_message(std::string_view text, const wire::RosbridgeFile& robot);
+
+/// What is said first on a connection: the topics that are published and those that are wanted.
+std::vector<std::string> ros_greeting(const wire::RosbridgeFile& robot);
+/// What is said last: the robot stands, and topics are given back.
+std::vector<std::string> ros_farewell(const wire::RosbridgeFile& robot);
+std::string ros_motion(const wire::RosbridgeFile& robot, const Motion& motion);
+
+/// The robot's body as discs that cover its outline.
+Body body_of(const wire::RosBody& outline);
+
+}  // namespace homeward::agent

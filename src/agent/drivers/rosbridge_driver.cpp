@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/drivers/rosbridge_driver.hpp"
+
+#include <bit>
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+
+#include "agent/drivers/odometry_track.hpp"
+#include "agent/drivers/ros_messages.hpp"
+#include "agent/files/read_file.hpp"
+#include "agent/link/json_socket.hpp"
+#include "imageio/decode.hpp"
+
+namespace homeward::agent {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kPublishPeriod = std::chrono::milliseconds(50);
+constexpr Milliseconds kCommandLife_ms = 500;
+constexpr Milliseconds kZerosAfterMotion_ms = 1000;  // said again and again: the bridge keeps no count
+constexpr Milliseconds kOdometrySilence_ms = 400;
+constexpr Milliseconds kMostLag_ms = 300;
+// Longer than the agent bears without sweeps: after a lost connection it stops for certain.
+constexpr Milliseconds kWithheld_ms = 600;
+constexpr Milliseconds kSuspicious_ms = 5000;
+constexpr auto kFarewellLimit = std::chrono::milliseconds(1000);
+
+Milliseconds now_ms() {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now().time_since_epoch()).count();
+}
+
+bool stands(const Motion& motion) { return motion.speed_mps == 0.0 && motion.turn_radps == 0.0; }
+
+/// Foreign text for a log line.
+std::string shown(std::string text) {
+  text.resize(std::min<std::size_t>(text.size(), 200));
+  for (char& c : text) {
+    if (c < 0x20 || c > 0x7E) c = '?';
+  }
+  return text;
+}
+
+/// One topic that is listened to.
+struct Feed {
+  Milliseconds arrived_ms = 0;
+  RosStamp stamp_us;
+  bool missed = false;  // its absence was told
+
+  /// Whether this is a new message, not one that a bridge or node said before.
+  bool take(RosStamp stamp, Milliseconds now) {
+    if (stamp && stamp == stamp_us) return false;
+    stamp_us = stamp;
+    arrived_ms = now;
+    missed = false;
+    return true;
+  }
+};
+
+class RosbridgeDriver final : public Driver {
+ public:
+  RosbridgeDriver(wire::RosbridgeFile robot, camera::CameraConfig camera, const ServerAddress& address,
+                  std::function<void(const std::string&)> told)
+      : robot_(std::move(robot)), camera_(std::move(camera)), body_(body_of(robot_.body)), told_(std::move(told)) {
+    JsonSocket::Events events;
+    events.greeting = [this] { return greeting(); };
+    events.arrived = [this](std::string_view text) { arrived(text); };
+    events.lost = [this] { lost(); };
+    events.told = told_;
+    socket_ = std::make_unique<JsonSocket>(address, kMaxRosMessageBytes, std::move(events));
+    publisher_ = std::jthread([this](const std::stop_token& stop) { publish(stop); });
+  }
+
+  ~RosbridgeDriver() override {
+    publisher_.request_stop();
+    publisher_.join();
+    socket_->finish(ros_farewell(robot_), kFarewellLimit);
+    socket_.reset();
+  }
+  RosbridgeDriver(const RosbridgeDriver&) = delete;
+  RosbridgeDriver& operator=(const RosbridgeDriver&) = delete;
+
+  [[nodiscard]] const camera::CameraConfig& camera() const override { return camera_; }
+  [[nodiscard]] Body body() const override { return body_; }
+
+  Reading read() override {
+    const bool live = socket_->up() && socket_->lag().count() <= kMostLag_ms;
+    const std::lock_guard lock(mutex_);
+    Reading reading;
+    reading.t_ms = now_ms();
+    reading.odometry = track_.at(std::nullopt);
+    reading.speed_mps = speed_mps_;
+    std::optional<Scan> sweep = std::exchange(sweep_, std::nullopt);
+    if (!live || interrupted_ || reading.t_ms - odom_.arrived_ms > kOdometrySilence_ms) return reading;
+    reading.scan = std::move(sweep);
+    reading.scan_t_ms = scan_.arrived_ms;
+    return reading;
+  }
+
+  void command(const Motion& motion) override {
+    const std::lock_guard lock(mutex_);
+    commanded_ms_ = now_ms();
+    if (interrupted_ && stands(motion) && commanded_ms_ >= withheld_until_ms_) interrupted_ = false;
+    const Motion obeyed = interrupted_ ? Motion{} : motion;
+    const bool stops = stands(obeyed) && !stands(command_);
+    command_ = obeyed;
+    if (!stops) return;
+    at_once_ = true;
+    changed_.notify_all();
+  }
+
+  Result<std::optional<TakenPicture>> next_picture(std::stop_token stop) override {
+    while (true) {
+      std::unique_lock lock(mutex_);
+      if (!changed_.wait(lock, stop, [this] { return picture_.has_value(); })) return std::optional<TakenPicture>();
+      const RosPicture sent = std::move(*picture_);
+      picture_.reset();
+      TakenPicture taken{image_.arrived_ms, {}, track_.at(sent.stamp_us), {}};
+      lock.unlock();
+      auto picture = decoded(sent.bytes);
+      if (!picture) {
+        complain(picture.error());
+        continue;
+      }
+      const auto header = imageio::read_header(sent.bytes);
+      if (header && header->format == imageio::ImageFormat::kJpeg) taken.jpeg = sent.bytes;
+      taken.picture = std::move(*picture);
+      return std::optional(std::move(taken));
+    }
+  }
+
+ private:
+  [[nodiscard]] Result<Image> decoded(const std::vector<std::uint8_t>& bytes) const {
+    // Nothing larger than the camera is worth decoding.
+    imageio::DecodeLimits limits;
+    limits.max_bytes = kMaxRosMessageBytes;
+    limits.max_pixels = std::int64_t{camera_.width_px} * camera_.height_px;
+    auto picture = imageio::decode(bytes, robot_.image.topic, limits);
+    if (picture && (picture->width_px != camera_.width_px || picture->height_px != camera_.height_px)) {
+      return fail(ErrorCode::kWrongImageSize,
+                  "The picture has " + std::to_string(picture->width_px) + " x " + std::to_string(picture->height_px) +
+                      " pixels, its camera.json says " + std::to_string(camera_.width_px) + " x " +
+                      std::to_string(camera_.height_px) + ".",
+                  robot_.image.topic);
+    }
+    return picture;
+  }
+
+  std::vector<std::string> greeting() {
+    std::vector<std::string> texts = ros_greeting(robot_);
+    const std::lock_guard lock(mutex_);
+    connected_ms_ = now_ms();
+    // A base that was left moving when the connection broke is told to stand before anything else.
+    if (moved_) {
+      texts.push_back(ros_motion(robot_, {}));
+      zeros_until_ms_ = connected_ms_ + kZerosAfterMotion_ms;
+    }
+    return texts;
+  }
+
+  void lost() {
+    const std::lock_guard lock(mutex_);
+    interrupted_ = true;
+    withheld_until_ms_ = now_ms() + kWithheld_ms;
+    command_ = {};
+    sweep_.reset();
+    track_.clear();
+  }
+
+  void arrived(std::string_view text) {
+    auto message = decode_ros_message(text, robot_);
+    if (!message) return complain(message.error());
+    if (const auto* status = std::get_if<RosStatus>(&*message)) return tell_status(*status);
+    const Milliseconds now = now_ms();
+    bool blind = false;
+    {
+      const std::lock_guard lock(mutex_);
+      if (auto* odometry = std::get_if<RosOdometry>(&*message)) {
+        if (!odom_.take(odometry->stamp_us, now)) return;
+        track_.add(odometry->stamp_us, odometry->pose);
+        speed_mps_ = odometry->speed_mps;
+      } else if (auto* sweep = std::get_if<RosSweep>(&*message)) {
+        // Within a house something is always in reach: a sweep without any return is that of a covered scanner.
+        blind = std::none_of(sweep->scan.ranges_m.begin(), sweep->scan.ranges_m.end(),
+                             [](float range_m) { return std::isfinite(range_m); });
+        if (!blind && scan_.take(sweep->stamp_us, now)) sweep_ = std::move(sweep->scan);
+      } else if (auto* picture = std::get_if<RosPicture>(&*message)) {
+        if (!image_.take(picture->stamp_us, now)) return;
+        picture_ = std::move(*picture);
+        changed_.notify_all();
+      }
+    }
+    if (blind) complain({ErrorCode::kEmptyInput, "The sweep saw nothing at all.", robot_.scan.topic});
+  }
+
+  void tell_status(const RosStatus& status) {
+    if (status.level != "error" && status.level != "warning") return;
+    const int count = ++statuses_;
+    if (std::has_single_bit(static_cast<unsigned>(count))) told_("the rosbridge says: " + shown(status.text));
+  }
+
+  /// Tells of the first, second, fourth, eighth ... message that is of no use.
+  void complain(const Error& error) {
+    const int count = ++useless_;
+    if (!std::has_single_bit(static_cast<unsigned>(count))) return;
+    told_(std::to_string(count) + (count == 1 ? " message" : " messages") +
+          " of no use; the last: " + shown(error.message) + " (" + shown(error.where) + ")");
+  }
+
+  void publish(const std::stop_token& stop) {
+    auto next = Clock::now();
+    while (!stop.stop_requested()) {
+      next = std::max(next + kPublishPeriod, Clock::now());
+      std::optional<Motion> motion;
+      {
+        std::unique_lock lock(mutex_);
+        changed_.wait_until(lock, stop, next, [this] { return at_once_; });
+        at_once_ = false;
+        const Milliseconds now = now_ms();
+        if (now - commanded_ms_ > kCommandLife_ms) command_ = {};
+        if (!stands(command_)) {
+          moved_ = true;
+          zeros_until_ms_ = now + kZerosAfterMotion_ms;
+        }
+        // Silent while it stands, so that others may drive the base by hand.
+        if (now < zeros_until_ms_) motion = command_;
+      }
+      if (motion) socket_->send_newest(ros_motion(robot_, *motion));
+      if (socket_->up()) tell_of_missing();
+    }
+  }
+
+  void tell_of_missing() {
+    for (const auto& [feed, topic] :
+         {std::pair(&odom_, &robot_.odom), std::pair(&scan_, &robot_.scan), std::pair(&image_, &robot_.image)}) {
+      {
+        const std::lock_guard lock(mutex_);
+        const Milliseconds since_ms = std::max(feed->arrived_ms, connected_ms_);
+        if (feed->missed || now_ms() - since_ms < kSuspicious_ms) continue;
+        feed->missed = true;
+      }
+      told_("nothing comes on " + topic->topic + " (" + topic->type + ")");
+    }
+  }
+
+  wire::RosbridgeFile robot_;
+  camera::CameraConfig camera_;
+  Body body_;
+  std::function<void(const std::string&)> told_;
+  std::atomic<int> useless_{0};
+  std::atomic<int> statuses_{0};
+
+  std::mutex mutex_;  // of all that follows
+  std::condition_variable_any changed_;
+  Feed odom_;
+  Feed scan_;
+  Feed image_;
+  OdometryTrack track_;
+  double speed_mps_ = 0.0;
+  std::optional<Scan> sweep_;
+  std::optional<RosPicture> picture_;
+  Motion command_;
+  Milliseconds commanded_ms_ = 0;
+  Milliseconds connected_ms_ = 0;
+  Milliseconds zeros_until_ms_ = 0;
+  Milliseconds withheld_until_ms_ = 0;
+  bool interrupted_ = false;  // a connection was lost, and the agent has not stood still since
+  bool moved_ = false;
+  bool at_once_ = false;
+
+  std::unique_ptr<JsonSocket> socket_;  // these two last: they use all of the above
+  std::jthread publisher_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Driver>> make_rosbridge_driver(const std::string& file,
+                                                      std::function<void(const std::string&)> told) {
+  const auto text = read_text(file);
+  if (!text) return pass_on(text);
+  auto robot = wire::parse_rosbridge(*text, file);
+  if (!robot) return pass_on(robot);
+  const auto address = parse_websocket_address(robot->address);
+  if (!address) return pass_on(address);
+  auto camera = read_camera(std::filesystem::path(file).parent_path() / robot->camera);
+  if (!camera) return pass_on(camera);
+  return std::make_unique<RosbridgeDriver>(std::move(*robot), std::move(*camera), *address, std::move(told));
+}
+
+}  // namespace homeward::agent

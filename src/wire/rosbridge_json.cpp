@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/rosbridge_json.hpp"
+
+#include <algorithm>
+
+#include "wire/json_reader.hpp"
+
+namespace homeward::wire {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kMaxOffset_m = 5.0;
+
+/// The names of a message type in ROS 1 and in ROS 2.
+std::vector<std::string> both(const std::string& package, const std::string& type) {
+  return {package + "/" + type, package + "/msg/" + type};
+}
+
+bool is_topic(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '/' ||
+           c == '~';
+  });
+}
+
+void read_topic(ObjectReader& reader, RosTopic& topic, const std::vector<std::string>& types) {
+  topic.topic = reader.text("topic", 256);
+  if (!is_topic(topic.topic)) reader.problem("topic", "A topic consists of letters, digits, '_', '/' and '~'.");
+  topic.type = reader.choice("type", types);
+}
+
+RosTopic topic_at(ObjectReader& reader, const std::string& key, const std::vector<std::string>& types) {
+  ObjectReader inner(reader.value(key), reader.path_of(key));
+  RosTopic topic;
+  read_topic(inner, topic, types);
+  if (const Status status = inner.finish(); !status) return reader.take<RosTopic>(pass_on(status));
+  return topic;
+}
+
+void read_scan(ObjectReader& reader, RosbridgeFile& file) {
+  ObjectReader inner(reader.value("scan"), reader.path_of("scan"));
+  read_topic(inner, file.scan, both("sensor_msgs", "LaserScan"));
+  ObjectReader mount(inner.value("robot_from_scan"), inner.path_of("robot_from_scan"));
+  file.robot_from_scan = {mount.number("x_m", -kMaxOffset_m, kMaxOffset_m),
+                          mount.number("y_m", -kMaxOffset_m, kMaxOffset_m), mount.number("theta_rad", -kPi, kPi)};
+  if (const Status status = mount.finish(); !status) inner.take<double>(pass_on(status));
+  if (const Status status = inner.finish(); !status) reader.take<double>(pass_on(status));
+}
+
+RosBody read_body(ObjectReader& reader) {
+  ObjectReader inner(reader.value("body"), reader.path_of("body"));
+  RosBody body;
+  if (inner.has("rectangle")) {
+    ObjectReader rectangle(inner.value("rectangle"), inner.path_of("rectangle"));
+    body.front_m = rectangle.number("front_m", 0.05, 3.0);
+    body.back_m = rectangle.number("back_m", 0.05, 3.0);
+    body.width_m = rectangle.number("width_m", 0.1, 3.0);
+    if (const Status status = rectangle.finish(); !status) inner.take<double>(pass_on(status));
+    if (inner.has("radius_m")) inner.problem("radius_m", "A body is either round or a rectangle.");
+  } else {
+    body.radius_m = inner.number("radius_m", 0.05, 3.0);
+  }
+  body.max_speed_mps = inner.number("max_speed_mps", 0.05, 2.0);
+  body.max_turn_radps = inner.number("max_turn_radps", 0.05, 4.0);
+  if (inner.has("deceleration_mps2")) body.deceleration_mps2 = inner.number("deceleration_mps2", 0.1, 10.0);
+  if (inner.has("turn_deceleration_radps2")) {
+    body.turn_deceleration_radps2 = inner.number("turn_deceleration_radps2", 0.1, 50.0);
+  }
+  if (const Status status = inner.finish(); !status) return reader.take<RosBody>(pass_on(status));
+  return body;
+}
+
+json topic_to_json(const RosTopic& topic) { return {{"topic", topic.topic}, {"type", topic.type}}; }
+
+}  // namespace
+
+json rosbridge_to_json(const RosbridgeFile& file) {
+  json scan = topic_to_json(file.scan);
+  scan["robot_from_scan"] = {{"x_m", file.robot_from_scan.x_m},
+                             {"y_m", file.robot_from_scan.y_m},
+                             {"theta_rad", file.robot_from_scan.theta_rad}};
+  json body = {{"max_speed_mps", file.body.max_speed_mps},
+               {"max_turn_radps", file.body.max_turn_radps},
+               {"deceleration_mps2", file.body.deceleration_mps2},
+               {"turn_deceleration_radps2", file.body.turn_deceleration_radps2}};
+  if (file.body.radius_m > 0.0) {
+    body["radius_m"] = file.body.radius_m;
+  } else {
+    body["rectangle"] = {{"front_m", file.body.front_m}, {"back_m", file.body.back_m}, {"width_m", file.body.width_m}};
+  }
+  return {{"format", "homeward-rosbridge"},
+          {"version", 1},
+          {"address", file.address},
+          {"camera", file.camera},
+          {"cmd_vel", topic_to_json(file.cmd_vel)},
+          {"odom", topic_to_json(file.odom)},
+          {"scan", scan},
+          {"image", topic_to_json(file.image)},
+          {"body", body}};
+}
+
+Result<RosbridgeFile> rosbridge_from_json(const json& value, const std::string& path) {
+  ObjectReader reader(value, path);
+  reader.format("homeward-rosbridge", 1);
+  RosbridgeFile file;
+  file.address = reader.text("address", 300);
+  if (!file.address.starts_with("ws://") || file.address.size() < 6) {
+    reader.problem("address", "The address of a rosbridge looks like ws://192.168.1.7:9090.");
+  }
+  file.camera = reader.text("camera");
+  if (file.camera.empty()) reader.problem("camera", "'camera' names the robot's camera.json.");
+  std::vector<std::string> twists = both("geometry_msgs", "Twist");
+  for (const std::string& stamped : both("geometry_msgs", "TwistStamped")) twists.push_back(stamped);
+  file.cmd_vel = topic_at(reader, "cmd_vel", twists);
+  file.odom = topic_at(reader, "odom", both("nav_msgs", "Odometry"));
+  read_scan(reader, file);
+  file.image = topic_at(reader, "image", both("sensor_msgs", "CompressedImage"));
+  file.body = read_body(reader);
+  if (const Status status = reader.finish(); !status) return pass_on(status);
+  return file;
+}
+
+Result<RosbridgeFile> parse_rosbridge(const std::string& text, const std::string& where) {
+  const Result<json> value = parse_json(text, where, 65536);
+  if (!value) return pass_on(value);
+  return rosbridge_from_json(*value, where);
+}
+
+}  // namespace homeward::wire

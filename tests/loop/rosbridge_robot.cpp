@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// A simulated robot behind the tests' rosbridge: odometry, sweeps and pictures ten times a second; it obeys the last
+// Twist until the next one comes, as most bases do.
+// usage: homeward-rosbridge-robot PORT WORLD START_ROOM disc|chair TRUTH_FILE CAMERA_FILE
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <iostream>
+#include <mutex>
+#include <thread>
+
+#include "agent/drivers/simulator_driver.hpp"
+#include "imageio/decode.hpp"
+#include "support/rosbridge_server.hpp"
+#include "support/sample_rosbridge.hpp"
+#include "wire/camera_json.hpp"
+
+namespace {
+
+using namespace homeward;  // NOLINT(google-build-using-namespace): a program's own file
+using Clock = std::chrono::steady_clock;
+
+std::atomic<bool> ended{false};
+
+void send_pictures(agent::Driver& robot, testing::RosbridgeServer& bridge, const std::stop_token& stop) {
+  constexpr int kQuality = 90;
+  while (!stop.stop_requested()) {
+    const auto taken = robot.next_picture(stop);
+    if (!taken || !*taken) return;
+    bridge.publish("/image", testing::picture_message(1000 * (*taken)->t_ms + 1,
+                                                      imageio::encode_jpeg((*taken)->picture, kQuality)));
+  }
+}
+
+int run(const std::vector<std::string>& arguments) {
+  agent::SimulatorDriverConfig config;
+  config.world = arguments[2];
+  config.start_room = arguments[3];
+  config.robot = arguments[4];
+  config.truth_file = arguments[5];
+  const auto made = agent::make_simulator_driver(config);
+  if (!made) {
+    std::cerr << made.error().message << " (" << made.error().where << ")\n";
+    return 1;
+  }
+  agent::Driver& robot = **made;
+
+  std::mutex mutex;
+  agent::Motion twist;
+  testing::RosbridgeServer bridge(static_cast<unsigned short>(std::stoi(arguments[1])),
+                                  {[&](const std::string& topic, const nlohmann::json& msg) {
+                                    if (topic != "/cmd_vel") return;
+                                    const std::lock_guard lock(mutex);
+                                    twist = {msg["linear"]["x"].get<double>(), msg["angular"]["z"].get<double>()};
+                                  }});
+  const wire::RosbridgeFile described = testing::sample_rosbridge();
+  for (const wire::RosTopic* topic : {&described.cmd_vel, &described.odom, &described.scan, &described.image}) {
+    bridge.serve_topic(topic->topic, topic->type);
+  }
+  // Last: who finds this file finds the bridge listening.
+  std::ofstream(arguments[6]) << wire::camera_to_json(robot.camera()).dump();
+
+  std::jthread pictures([&](const std::stop_token& stop) { send_pictures(robot, bridge, stop); });
+  constexpr auto kTick = std::chrono::milliseconds(20);
+  constexpr int kTicksPerSweep = 5;
+  auto next = Clock::now();
+  for (int tick = 0; !ended; ++tick) {
+    {
+      const std::lock_guard lock(mutex);
+      robot.command(twist);
+    }
+    const agent::Reading reading = robot.read();
+    if (tick % kTicksPerSweep == 0) {
+      const std::int64_t stamp_us = 1000 * reading.t_ms + 1;
+      bridge.publish("/odom", testing::odometry_message(stamp_us, reading.odometry, reading.speed_mps));
+      const std::vector<double> ranges_m(reading.scan->ranges_m.begin(), reading.scan->ranges_m.end());
+      bridge.publish("/scan", testing::sweep_message(stamp_us, ranges_m, reading.scan->range_max_m));
+    }
+    next = std::max(next + kTick, Clock::now());
+    std::this_thread::sleep_until(next);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv, argv + argc);
+  if (arguments.size() != 7) {
+    std::cerr << "usage: homeward-rosbridge-robot PORT WORLD START_ROOM disc|chair TRUTH_FILE CAMERA_FILE\n";
+    return 2;
+  }
+  std::signal(SIGTERM, [](int) { ended = true; });
+  std::signal(SIGINT, [](int) { ended = true; });
+  return run(arguments);
+}

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/rosbridge_server.hpp"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <deque>
+#include <future>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+
+namespace homeward::testing {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+using Tcp = asio::ip::tcp;
+using Clock = std::chrono::steady_clock;
+using nlohmann::json;
+
+struct Subscription {
+  std::chrono::milliseconds throttle{0};
+  std::size_t queue_length = 0;
+  Clock::time_point sent;
+  std::deque<std::string> held;  // back because of the throttle, at most queue_length
+};
+
+struct Waiting {
+  std::string topic;  // empty: a status
+  std::string text;
+};
+
+}  // namespace
+
+struct RosbridgeServer::Impl {
+  struct Session : std::enable_shared_from_this<Session> {
+    Session(Impl& server, Tcp::socket socket) : impl(server), stream(std::move(socket)) {}
+
+    void start() {
+      stream.text(true);
+      stream.async_accept([self = shared_from_this()](beast::error_code error) {
+        if (error) return self->end();
+        ++self->impl.connections;
+        self->read();
+      });
+    }
+
+    void read() {
+      stream.async_read(buffer, [self = shared_from_this()](beast::error_code error, std::size_t) {
+        if (error) return self->end();
+        const std::string text = beast::buffers_to_string(self->buffer.data());
+        self->buffer.consume(self->buffer.size());
+        self->impl.take(*self, text);
+        self->read();
+      });
+    }
+
+    void send(const std::string& topic, std::string text, std::size_t queue_length) {
+      if (queue_length > 0) {
+        std::size_t waits = 0;
+        for (const Waiting& other : out) waits += other.topic == topic ? 1 : 0;
+        for (auto other = out.begin(); waits >= queue_length && other != out.end();) {
+          if (other->topic != topic) {
+            ++other;
+            continue;
+          }
+          other = out.erase(other);
+          --waits;
+        }
+      }
+      out.push_back({topic, std::move(text)});
+      write();
+    }
+
+    void status(const std::string& level, const std::string& what, const json& id) {
+      json message = {{"op", "status"}, {"level", level}, {"msg", what}};
+      if (!id.is_null()) message["id"] = id;
+      send("", message.dump(), 0);
+    }
+
+    void write() {
+      if (writing || out.empty()) return;
+      writing = true;
+      sending = std::move(out.front().text);
+      out.pop_front();
+      stream.async_write(asio::buffer(sending), [self = shared_from_this()](beast::error_code error, std::size_t) {
+        self->writing = false;
+        if (error) return self->end();
+        self->write();
+      });
+    }
+
+    void end() {
+      beast::get_lowest_layer(stream).close();
+      impl.sessions.erase(shared_from_this());
+    }
+
+    Impl& impl;
+    websocket::stream<beast::tcp_stream> stream;
+    beast::flat_buffer buffer;
+    std::deque<Waiting> out;
+    std::string sending;
+    bool writing = false;
+    std::map<std::string, Subscription> subscriptions;
+    std::set<std::string> advertised;
+  };
+
+  explicit Impl(Events e) : events(std::move(e)) {}
+
+  Events events;
+  asio::io_context context{1};
+  Tcp::acceptor acceptor{context};
+  asio::steady_timer ticker{context};
+  unsigned short port = 0;
+  bool refused = false;
+  std::set<std::shared_ptr<Session>> sessions;
+  std::map<std::string, std::string> types;
+  std::vector<json> received;
+  int connections = 0;
+  std::thread thread;
+
+  /// Runs on the server's thread and waits for it; from that thread itself, at once.
+  template <class Work>
+  auto on_thread(Work work) {
+    if (std::this_thread::get_id() == thread.get_id()) return work();
+    std::packaged_task<decltype(work())()> task(std::move(work));
+    auto result = task.get_future();
+    asio::post(context, [&task] { task(); });
+    return result.get();
+  }
+
+  void listen(unsigned short wanted) {
+    const Tcp::endpoint here(asio::ip::make_address_v4("127.0.0.1"), wanted);
+    acceptor.open(here.protocol());
+    acceptor.set_option(asio::socket_base::reuse_address(true));
+    acceptor.bind(here);
+    acceptor.listen();
+    port = acceptor.local_endpoint().port();
+  }
+
+  void accept() {
+    acceptor.async_accept([this](beast::error_code error, Tcp::socket socket) {
+      if (error) return;
+      if (!refused) {
+        const auto session = std::make_shared<Session>(*this, std::move(socket));
+        sessions.insert(session);
+        session->start();
+      }
+      accept();
+    });
+  }
+
+  void cut() {
+    // Each end erases its session.
+    const auto ending = sessions;
+    for (const auto& session : ending) session->end();
+  }
+
+  void take(Session& session, const std::string& text) {
+    const json message = json::parse(text, nullptr, false);
+    if (!message.is_object() || !message.contains("op") || !message["op"].is_string()) {
+      return session.status("error", "a message must be an object with an op", nullptr);
+    }
+    received.push_back(message);
+    const json id = message.value("id", json());
+    const std::string op = message["op"];
+    const std::string topic = message.value("topic", "");
+    if (op == "advertise") {
+      const std::string type = message.value("type", "");
+      const auto known = types.find(topic);
+      if (known != types.end() && known->second != type) {
+        return session.status("error", topic + " has the type " + known->second + ", not " + type, id);
+      }
+      types[topic] = type;
+      session.advertised.insert(topic);
+    } else if (op == "unadvertise") {
+      if (session.advertised.erase(topic) == 0) session.status("warning", topic + " was not advertised", id);
+    } else if (op == "publish") {
+      if (!types.contains(topic)) return session.status("error", "there is no topic " + topic, id);
+      if (!message.contains("msg")) return session.status("error", "a publish needs a msg", id);
+      if (events.published) events.published(topic, message["msg"]);
+    } else if (op == "subscribe") {
+      const auto known = types.find(topic);
+      const std::string type = message.value("type", "");
+      if (known == types.end() || (!type.empty() && known->second != type)) {
+        return session.status("error", "cannot subscribe to " + topic + " as " + type, id);
+      }
+      Subscription subscription;
+      subscription.throttle = std::chrono::milliseconds(message.value("throttle_rate", 0));
+      subscription.queue_length = message.value<std::size_t>("queue_length", 0);
+      session.subscriptions[topic] = std::move(subscription);
+    } else if (op == "unsubscribe") {
+      session.subscriptions.erase(topic);
+    } else {
+      session.status("error", "unknown op " + op, id);
+    }
+  }
+
+  void publish(const std::string& topic, const json& msg) {
+    std::string text;
+    for (const auto& session : sessions) {
+      const auto found = session->subscriptions.find(topic);
+      if (found == session->subscriptions.end()) continue;
+      if (text.empty()) text = json{{"op", "publish"}, {"topic", topic}, {"msg", msg}}.dump();
+      Subscription& subscription = found->second;
+      subscription.held.push_back(text);
+      while (subscription.held.size() > std::max<std::size_t>(1, subscription.queue_length)) {
+        subscription.held.pop_front();
+      }
+      send_held(*session, topic, subscription);
+      if (subscription.queue_length == 0) subscription.held.clear();
+    }
+  }
+
+  static void send_held(Session& session, const std::string& topic, Subscription& subscription) {
+    const auto now = Clock::now();
+    if (subscription.held.empty() || now - subscription.sent < subscription.throttle) return;
+    subscription.sent = now;
+    session.send(topic, std::move(subscription.held.front()), subscription.queue_length);
+    subscription.held.pop_front();
+  }
+
+  /// Sends what a throttle held back, when its time has come.
+  void tick() {
+    ticker.expires_after(std::chrono::milliseconds(10));
+    ticker.async_wait([this](beast::error_code ended) {
+      if (ended) return;
+      for (const auto& session : sessions) {
+        for (auto& [topic, subscription] : session->subscriptions) send_held(*session, topic, subscription);
+      }
+      tick();
+    });
+  }
+};
+
+RosbridgeServer::RosbridgeServer(unsigned short port, Events events)
+    : impl_(std::make_unique<Impl>(std::move(events))) {
+  impl_->listen(port);
+  impl_->accept();
+  impl_->tick();
+  impl_->thread = std::thread([this] { impl_->context.run(); });
+}
+
+RosbridgeServer::~RosbridgeServer() {
+  impl_->on_thread([this] {
+    impl_->refused = true;  // a connection may be on its way through the queue
+    impl_->acceptor.close();
+    impl_->ticker.cancel();
+    impl_->cut();
+  });
+  impl_->thread.join();
+}
+
+unsigned short RosbridgeServer::port() const { return impl_->port; }
+
+void RosbridgeServer::serve_topic(const std::string& topic, const std::string& type) {
+  impl_->on_thread([&] { impl_->types[topic] = type; });
+}
+
+void RosbridgeServer::publish(const std::string& topic, json msg) {
+  asio::post(impl_->context, [impl = impl_.get(), topic, msg = std::move(msg)] { impl->publish(topic, msg); });
+}
+
+void RosbridgeServer::send_raw(const std::string& text) {
+  asio::post(impl_->context, [impl = impl_.get(), text] {
+    for (const auto& session : std::set(impl->sessions)) session->send("", text, 0);
+  });
+}
+
+void RosbridgeServer::cut() {
+  impl_->on_thread([this] { impl_->cut(); });
+}
+
+void RosbridgeServer::freeze(std::chrono::milliseconds duration) {
+  asio::post(impl_->context, [duration] { std::this_thread::sleep_for(duration); });
+}
+
+void RosbridgeServer::refuse(bool refused) {
+  impl_->on_thread([this, refused] {
+    impl_->refused = refused;
+    if (refused) impl_->cut();
+  });
+}
+
+int RosbridgeServer::connections() const {
+  return impl_->on_thread([this] { return impl_->connections; });
+}
+
+std::vector<std::string> RosbridgeServer::subscribed() const {
+  return impl_->on_thread([this] {
+    std::vector<std::string> topics;
+    for (const auto& session : impl_->sessions) {
+      for (const auto& [topic, ignored] : session->subscriptions) topics.push_back(topic);
+    }
+    return topics;
+  });
+}
+
+std::vector<json> RosbridgeServer::received() const {
+  return impl_->on_thread([this] { return impl_->received; });
+}
+
+}  // namespace homeward::testing
