@@ -112,8 +112,7 @@ int main(int argc, char** argv) {
     order.valid_for_ms = 1500;
     order.speed_limit_mps = 0.45;
     order.final_image = ImageId("target");
-    order.final_appearance =
-        wire::encode_appearance(or_die(eye.look(renderer.render(target, {}, own_seed + 1))));
+    order.final_appearance = wire::encode_appearance(or_die(eye.look(renderer.render(target, {}, own_seed + 1))));
     order.dock = true;
     agent::DrivingConfig driving;
     driving.body = agent::body_of(profile);

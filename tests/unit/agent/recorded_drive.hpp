@@ -77,11 +77,12 @@ class RecordedDrive : public ::testing::Test {
     inputs.messages.emplace_back(wire::Permit{MissionId("m1"), {1, ++seq_}, 1500});
     PictureBytes bytes;
     if (pictures_) {
-      const CameraPicture sent = picture(pose_);
+      CameraPicture sent = picture(pose_);
+      sent.recognised = wants_features(state_.follow);
       inputs.picture = look(sent, *eye_).value();
       bytes = sent.bytes;
     }
-    inputs.scan = SeenScan{now_ms_, {std::vector<float>(60, 3.0F), 0.0, kPi / 30.0, 12.0}};
+    inputs.scan = SeenScan{now_ms_, {std::vector<float>(60, 3.0F), 0.0, kPi / 30.0, 12.0, {}}};
     const Outputs outputs = recorder_->step(state_, inputs, bytes, now_ms_);
     pose_ = pose_ * Pose2{0.1 * outputs.motion.speed_mps, 0.0, 0.1 * outputs.motion.turn_radps};
     return outputs;

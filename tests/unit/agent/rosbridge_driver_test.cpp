@@ -157,7 +157,8 @@ TEST_F(RosbridgeDriverTest, GivesPicturesAsSentWithTheOdometryOfTheirMoment) {
   bridge_->publish("/image", picture_message(1'050'000, sample_jpeg()));
   const auto taken = picture();
   ASSERT_TRUE(taken);
-  EXPECT_NEAR(taken->odometry.x_m, 1.5, 1e-9);
+  ASSERT_TRUE(taken->odometry);
+  EXPECT_NEAR(taken->odometry->x_m, 1.5, 1e-9);
   EXPECT_EQ(taken->jpeg, sample_jpeg());
   EXPECT_EQ(taken->picture.width_px, kWidth_px);
   // A PNG has no JPEG to keep.
