@@ -225,7 +225,7 @@ class Kill(unittest.TestCase):
 
     def test_6_a_robot_that_is_killed_leaves_a_recording(self):
         self.wait_for("knowing where it is", 60, self.located)
-        self.set_off("living_room")
+        self.set_off("kitchen")
         self.agent.kill()
         self.agent.wait()
         replayed = self.replay(self.recordings()[-1])
