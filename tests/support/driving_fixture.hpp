@@ -27,6 +27,7 @@ class FakeAgent {
     hello.session = session;
     hello.camera = small_panorama_camera();
     say(hello);
+    latest = idle();
   }
   void status(wire::DriveState state, const std::optional<wire::MissionOrder>& order = {}, std::int64_t index = 0) {
     wire::AgentStatus status;
@@ -39,6 +40,7 @@ class FakeAgent {
       status.epoch = order->order.epoch;
     }
     say(status);
+    latest = status;
   }
   /// The next message of one kind within `patience`; others are passed over.
   template <class T>
@@ -46,8 +48,13 @@ class FakeAgent {
     const auto end = std::chrono::steady_clock::now() + patience;
     while (std::chrono::steady_clock::now() < end && !socket.closed()) {
       const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
-      const auto bytes = socket.receive(std::max(left, std::chrono::milliseconds(1)));
-      if (!bytes) continue;
+      // Like a real one it goes on telling how it is while it waits, or it would be taken for dead.
+      constexpr std::chrono::milliseconds kTells{500};
+      const auto bytes = socket.receive(std::clamp(left, std::chrono::milliseconds(1), kTells));
+      if (!bytes) {
+        if (latest) say(*latest);
+        continue;
+      }
       const auto message =
           wire::decode_server_message({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()});
       EXPECT_TRUE(message) << message.error().message;
@@ -60,7 +67,15 @@ class FakeAgent {
     say(wire::Frame{frame_seq, frame_seq, {picture.begin(), picture.end()}});
   }
 
+  static wire::AgentStatus idle() {
+    wire::AgentStatus status;
+    status.t_us = 1;
+    status.state = wire::DriveState::kIdle;
+    return status;
+  }
+
   SocketClient socket;
+  std::optional<wire::AgentStatus> latest;  // told again while it waits
   std::int64_t status_seq = 0;
   std::int64_t frame_seq = 0;
 };
