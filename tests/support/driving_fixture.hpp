@@ -52,7 +52,7 @@ class FakeAgent {
       constexpr std::chrono::milliseconds kTells{500};
       const auto bytes = socket.receive(std::clamp(left, std::chrono::milliseconds(1), kTells));
       if (!bytes) {
-        if (latest) say(*latest);
+        repeat();
         continue;
       }
       const auto message =
@@ -65,6 +65,16 @@ class FakeAgent {
   void look(unsigned room) {
     const std::string picture = room_picture(room, static_cast<unsigned>(++frame_seq) + 1000U);
     say(wire::Frame{frame_seq, frame_seq, {picture.begin(), picture.end()}});
+  }
+
+  /// A server that has closed the connection hears nothing more.
+  void repeat() {
+    if (!latest || socket.closed()) return;
+    try {
+      say(*latest);
+    } catch (const std::exception&) {
+      latest.reset();
+    }
   }
 
   static wire::AgentStatus idle() {
