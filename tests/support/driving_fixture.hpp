@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 #include "db/map_file.hpp"
@@ -53,6 +54,7 @@ class FakeAgent {
       const auto bytes = socket.receive(std::clamp(left, std::chrono::milliseconds(1), kTells));
       if (!bytes) {
         repeat();
+        if (while_waiting) while_waiting();
         continue;
       }
       const auto message =
@@ -86,6 +88,7 @@ class FakeAgent {
 
   SocketClient socket;
   std::optional<wire::AgentStatus> latest;  // told again while it waits
+  std::function<void()> while_waiting;
   std::int64_t status_seq = 0;
   std::int64_t frame_seq = 0;
 };
@@ -128,12 +131,19 @@ class DrivingTest : public ServerTest {
     ASSERT_EQ(admin->put(root + "/map", {{"map", map}}).status, 200);
   }
   std::string take_lease(HttpClient& client) {
-    return client.post(root + "/lease", {{"take_over", true}}).json().at("lease").at("id");
+    const std::string lease = client.post(root + "/lease", {{"take_over", true}}).json().at("lease").at("id");
+    if (&client == &*admin) admins_lease = lease;
+    return lease;
+  }
+  /// As an open dashboard does.
+  void keep_lease() {
+    if (!admins_lease.empty()) admin->put(root + "/lease", {{"lease_id", admins_lease}});
   }
   Answer send_home(const std::string& lease) {
     return admin->post(root + "/missions", {{"lease_id", lease}, {"destination", destination}});
   }
   void find_itself(FakeAgent& agent) {
+    agent.while_waiting = [this] { keep_lease(); };
     agent.hello();
     ASSERT_TRUE(agent.await<wire::Welcome>());
     for (int i = 0; i < 20; ++i) {
@@ -154,7 +164,7 @@ class DrivingTest : public ServerTest {
     return mission_now(mission);
   }
 
-  std::string robot, token, root, map, destination;
+  std::string robot, token, root, map, destination, admins_lease;
 };
 
 }  // namespace homeward::testing
