@@ -29,8 +29,7 @@ double circular_median(const std::vector<double>& angles_rad) {
   return best_rad;
 }
 
-/// Probability that the direction is right within 15 degrees, by how much the features agree on it: logistic in the
-/// length of the mean, fitted on grids of pictures in generated houses (docs/benchmarks.md).
+/// How sure a direction is, by how much the features agree on it: rises with the length of their mean. Not calibrated.
 double probability(double agreement) { return 1.0 / (1.0 + std::exp(-(6.0 * agreement - 3.6))); }
 
 }  // namespace
