@@ -6,6 +6,7 @@
 
 #include "core/result.hpp"
 #include "features/appearance.hpp"
+#include "matching/verify.hpp"
 
 namespace homeward::homing {
 
@@ -24,6 +25,9 @@ struct HomeVector {
   int inliers = 0;
   double confidence = 0.0;  // probability that bearing_rad is right within 15 degrees
 };
+
+/// The home vector that verified matches say.
+HomeVector vector_of(const matching::VerifiedMatch& verified);
 
 /// The home vector from two appearances alone (no memory of former frames).
 /// Errors: kTooFewFeatures, kTooLittleSupport. It never guesses. When the two views coincide the bearing means nothing:

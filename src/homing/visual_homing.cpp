@@ -154,12 +154,7 @@ Result<TargetSeen> VisualHoming::recognise(const features::Appearance& current, 
   }
   const auto verified = matching::verify(current, target, verify_config, seed);
   if (!verified) return pass_on(verified);
-  HomeVector vector;
-  vector.bearing_rad = verified->pose.motion.direction_rad;
-  vector.turn_rad = verified->pose.motion.turn_rad;
-  vector.median_parallax_rad = verified->pose.median_parallax_rad;
-  vector.matches = static_cast<int>(verified->matches.size());
-  vector.inliers = static_cast<int>(verified->pose.inliers.size());
+  HomeVector vector = vector_of(*verified);
   log_odds_ = log_odds(verified->pose.confidence) + std::log(config_.prior_odds);
   vector.confidence = probability(log_odds_);
   TargetSeen seen;
