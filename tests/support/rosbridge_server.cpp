@@ -130,9 +130,10 @@ struct RosbridgeServer::Impl {
   template <class Work>
   auto on_thread(Work work) {
     if (std::this_thread::get_id() == thread.get_id()) return work();
-    std::packaged_task<decltype(work())()> task(std::move(work));
-    auto result = task.get_future();
-    asio::post(context, [&task] { task(); });
+    // Shared: the task is still at work for a moment after its result can be had.
+    const auto task = std::make_shared<std::packaged_task<decltype(work())()>>(std::move(work));
+    auto result = task->get_future();
+    asio::post(context, [task] { (*task)(); });
     return result.get();
   }
 
@@ -252,8 +253,9 @@ RosbridgeServer::~RosbridgeServer() {
   impl_->on_thread([this] {
     impl_->refused = true;  // a connection may be on its way through the queue
     impl_->acceptor.close();
-    impl_->ticker.cancel();
     impl_->cut();
+    // A tick that is already due cannot be cancelled, and would set the next.
+    impl_->context.stop();
   });
   impl_->thread.join();
 }
