@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "agent/driving/orders.hpp"
+#include "agent/driving/pursuit.hpp"
 #include "agent/driving/steering.hpp"
 
 namespace homeward::agent {
@@ -114,6 +115,7 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   if (!state.seen.answered) speed_mps = std::min(speed_mps, 0.25);
   const double doubt_m = state.follow.tracks[static_cast<std::size_t>(state.follow.index)].doubt_m();
   speed_mps *= std::clamp(1.2 - 0.4 * doubt_m, 0.4, 1.0);
+  if (const auto straight = pursue(config.body, points_m, aim_m, speed_mps)) return *straight;
   return steer_round(config.body, points_m, aim_m, inputs.odometry.theta_rad, speed_mps, config.turn_gain);
 }
 
