@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -38,6 +39,37 @@ float display_level(float light) {
   const float bounded = 1.0F - std::exp(-light);
   const float srgb = bounded <= 0.0031308F ? 12.92F * bounded : 1.055F * std::pow(bounded, 1.0F / 2.4F) - 0.055F;
   return 255.0F * srgb;
+}
+
+/// The same from a table over the root of the light, right to a hundredth of a level: each pixel asks three times.
+class DisplayCurve {
+ public:
+  DisplayCurve() {
+    for (std::size_t i = 0; i < levels_.size(); ++i) {
+      const float root = static_cast<float>(i) / kSteps;
+      levels_[i] = display_level(root * root);
+    }
+  }
+  [[nodiscard]] float level(float light) const {
+    const float place = kSteps * std::min(std::sqrt(light), kBrightest);
+    const auto below = static_cast<std::size_t>(place);
+    return levels_[below] + (place - static_cast<float>(below)) * (levels_[below + 1] - levels_[below]);
+  }
+
+ private:
+  static constexpr float kBrightest = 3.5F;  // e^-12 short of white
+  static constexpr float kSteps = 512.0F;
+  std::array<float, static_cast<std::size_t>(kBrightest* kSteps) + 2> levels_{};
+};
+
+std::vector<Eigen::Vector3f> normals(const Scene& scene) {
+  std::vector<Eigen::Vector3f> result(static_cast<std::size_t>(scene.triangles.rows()));
+  for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t) {
+    const Eigen::Vector3f ab = scene.vertices_m.row(3 * t + 1) - scene.vertices_m.row(3 * t);
+    const Eigen::Vector3f ac = scene.vertices_m.row(3 * t + 2) - scene.vertices_m.row(3 * t);
+    result[static_cast<std::size_t>(t)] = ab.cross(ac).normalized();
+  }
+  return result;
 }
 
 std::vector<float> texels_per_metre(const Scene& scene, const std::vector<MipTexture>& textures) {
@@ -130,6 +162,8 @@ struct Renderer::Parts {
   float radians_per_pixel;
   std::vector<MipTexture> textures;
   std::vector<float> texel_density;  // texels per metre of each triangle
+  std::vector<Eigen::Vector3f> triangle_normals;
+  DisplayCurve display;
 
   [[nodiscard]] Eigen::Array3f shade(const Hit& hit, const Eigen::Vector3f& direction) const;
 };
@@ -158,7 +192,9 @@ Renderer::Renderer(const LitWorld& world, const LightSettings& settings, std::sh
                                          {},
                                          0.005F,
                                          std::move(textures),
-                                         std::move(density)});
+                                         std::move(density),
+                                         normals(world.fine_scene()),
+                                         {}});
   const camera::BearingTable table = camera::bearing_table(*camera);
   for (std::size_t i = 0; i < table.valid.size(); ++i) {
     if (table.valid[i] == 0) continue;
@@ -187,9 +223,7 @@ Eigen::Array3f Renderer::Parts::shade(const Hit& hit, const Eigen::Vector3f& dir
   if (material.texture >= 0) {
     const Eigen::Vector2f uv = w * scene->texture_uv.row(3 * t) + hit.u * scene->texture_uv.row(3 * t + 1) +
                                hit.v * scene->texture_uv.row(3 * t + 2);
-    const Eigen::Vector3f ab = scene->vertices_m.row(3 * t + 1) - scene->vertices_m.row(3 * t);
-    const Eigen::Vector3f ac = scene->vertices_m.row(3 * t + 2) - scene->vertices_m.row(3 * t);
-    const float slant = std::max(0.15F, std::abs(ab.cross(ac).normalized().dot(direction)));
+    const float slant = std::max(0.15F, std::abs(triangle_normals[hit.triangle].dot(direction)));
     // Half way between the footprint's short and long side keeps slanted floors readable.
     const float width_m = hit.distance_m * radians_per_pixel / std::sqrt(slant);
     albedo *= textures[static_cast<std::size_t>(material.texture)].sample(uv.x(), uv.y(),
@@ -222,6 +256,7 @@ Image Renderer::render(const Pose2& robot, const std::vector<Person>& people, st
     if (floor) light = parts.light->corners.row(3 * static_cast<Eigen::Index>(floor->triangle)).array();
     person_light.push_back(light * parts.settings.exposure);
   }
+  const std::uint64_t noise_key = mix(noise_seed);
   const std::size_t packets = (parts.pixels.size() + 7) / 8;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets, 64), [&](const auto& range) {
     for (std::size_t packet_index = range.begin(); packet_index != range.end(); ++packet_index) {
@@ -249,9 +284,9 @@ Image Renderer::render(const Pose2& robot, const std::vector<Person>& people, st
         const int pixel = parts.pixels[first + i];
         std::uint8_t* target = image.data.data() + static_cast<std::size_t>(pixel) * 3;
         for (unsigned band = 0; band < 3; ++band) {
-          const std::uint64_t key = mix(noise_seed) + static_cast<std::uint64_t>(pixel) * 3 + band;
+          const std::uint64_t key = noise_key + static_cast<std::uint64_t>(pixel) * 3 + band;
           const float level =
-              display_level(light[static_cast<Eigen::Index>(band)]) + parts.settings.noise_levels * noise(key);
+              parts.display.level(light[static_cast<Eigen::Index>(band)]) + parts.settings.noise_levels * noise(key);
           target[band] = static_cast<std::uint8_t>(std::clamp(level + 0.5F, 0.0F, 255.0F));
         }
       }

@@ -8,6 +8,15 @@
 #include "sim/lighting.hpp"
 
 namespace homeward::sim {
+namespace {
+
+/// std::floor calls a function where the processor is not known to round by itself; coordinates of textures are small.
+float floor_of(float value) {
+  const auto whole = static_cast<float>(static_cast<int>(value));
+  return whole > value ? whole - 1.0F : whole;
+}
+
+}  // namespace
 
 MipTexture::MipTexture(const Image& texture) {
   std::array<float, 256> linear{};
@@ -38,14 +47,14 @@ MipTexture::MipTexture(const Image& texture) {
 }
 
 Eigen::Array3f MipTexture::bilinear(const Level& level, float u, float v) {
-  const float x = (u - std::floor(u)) * static_cast<float>(level.width) - 0.5F;
-  const float y = (v - std::floor(v)) * static_cast<float>(level.height) - 0.5F;
-  const float left = std::floor(x);
-  const float top = std::floor(y);
+  const float x = (u - floor_of(u)) * static_cast<float>(level.width) - 0.5F;
+  const float y = (v - floor_of(v)) * static_cast<float>(level.height) - 0.5F;
+  const float left = floor_of(x);
+  const float top = floor_of(y);
   const float right_share = x - left;
   const float bottom_share = y - top;
-  const int x0 = static_cast<int>(left) < 0 ? level.width - 1 : static_cast<int>(left);
-  const int y0 = static_cast<int>(top) < 0 ? level.height - 1 : static_cast<int>(top);
+  const int x0 = left < 0.0F ? level.width - 1 : std::min(static_cast<int>(left), level.width - 1);
+  const int y0 = top < 0.0F ? level.height - 1 : std::min(static_cast<int>(top), level.height - 1);
   const int x1 = x0 + 1 == level.width ? 0 : x0 + 1;
   const int y1 = y0 + 1 == level.height ? 0 : y0 + 1;
   const auto at = [&](int column, int row) {
@@ -57,9 +66,10 @@ Eigen::Array3f MipTexture::bilinear(const Level& level, float u, float v) {
 }
 
 Eigen::Array3f MipTexture::sample(float u, float v, float texels) const {
-  const float lod = std::log2(std::max(1.0F, texels));
-  const auto last = static_cast<float>(levels_.size() - 1);
-  return bilinear(levels_[static_cast<std::size_t>(std::min(last, std::round(lod)))], u, v);
+  // The nearest copy: the logarithm to base 2, rounded, is the exponent of sqrt(2) times as much.
+  int exponent = 0;
+  std::frexp(1.41421356F * std::max(1.0F, texels), &exponent);
+  return bilinear(levels_[std::min(levels_.size() - 1, static_cast<std::size_t>(exponent - 1))], u, v);
 }
 
 }  // namespace homeward::sim
