@@ -17,7 +17,8 @@ std::vector<MissionPlan> expanded(const wire::ScenarioFile& scenario, const Taug
   sim::Random random(static_cast<std::uint64_t>(scenario.seed) * 2'654'435'761ULL + 1);
   std::vector<MissionPlan> plans;
   for (const wire::ScenarioMission& mission : scenario.missions) {
-    MissionPlan plan{mission.from, mission.to, mission.light, mission.people, mission.faults, 0};
+    MissionPlan plan{mission.from,   mission.to, mission.light, mission.people, mission.moved_furniture,
+                     mission.faults, 0};
     const int count = std::max(1, mission.random);
     for (int i = 0; i < count; ++i) {
       if (mission.random > 0) {

@@ -16,6 +16,7 @@ namespace homeward::agent {
 struct StopEvent {
   double t_s = 0.0;
   std::string reason;
+  std::optional<double> stand_after_s;  // from the beginning of the fault that was on to wheels at zero
 };
 
 /// How one mission of a scenario went. Errors are measured to the true pose of the destination's picture.
@@ -32,6 +33,9 @@ struct MissionResult {
   std::vector<StopEvent> stops;
   double vectors_per_s = 0.0;
   double duration_s = 0.0;
+  int detours = 0;           // orders that were given anew after a drive had failed
+  int moved_after_stop = 0;  // control cycles with motion between a stop and the next order
+  int moved_furniture = 0;   // pieces that stood elsewhere than in the tour
 };
 
 /// One control cycle of a mission, for whoever wants to see why it went as it did.
