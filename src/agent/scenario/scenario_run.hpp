@@ -67,8 +67,9 @@ struct ScenarioListener {
 
 /// Teaches a world by a tour, builds its map and drives the missions with the agent's own heart, in simulated time and
 /// as fast as the machine allows. Same scenario, same results. Errors: those of load_world, plan_tour and build_map;
-/// kInvalidInput for a destination that the tour does not visit.
-/// `record`: keeps a recording of each mission, named by number, start and destination. Errors: also those of Recorder.
+/// kInvalidInput for a destination that the tour does not visit, for furniture to move in a world from a file, and
+/// where the robot does not fit at a room's point. `record`: keeps a recording of each mission, named by number, start
+/// and destination. Errors: also those of Recorder.
 Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder, const ScenarioListener& listener,
                     const std::optional<RecordingOptions>& record = std::nullopt);
 
