@@ -81,6 +81,9 @@ TEST(BoxAhead, IsNeverPutOnTheRobot) {
 class SimulatedDrive : public ::testing::Test {
  protected:
   SimulatedDrive() : world_(sim::generate_offices(1)) {
+    sim::Irradiance even;  // light that costs nothing
+    even.corners.setConstant(world_.fine_scene().vertices_m.rows(), 3, 0.6F);
+    EXPECT_TRUE(world_.set_irradiance(sim::LightPreset::kDay, std::move(even)));
     SimulatedRobotConfig config;
     config.camera = *usual_camera("hyperbolic_mirror");
     auto robot = SimulatedRobot::create(world_, config, {2.0, 1.1, 0.0});
