@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/driving/detour.hpp"
-
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 
 #include "map/lookup.hpp"
+#include "planning/detour.hpp"
 #include "server/driving/driving.hpp"
 #include "wire/mission_order.hpp"
 
 namespace homeward::server {
 namespace {
-
-constexpr int kMostDetours = 3;  // of one mission; then a person decides
 
 // What must hold for a robot that failed to be sent on, with the unit locked.
 bool may_go_on(const RobotUnit& unit, SteadyTime now) {
@@ -21,29 +18,13 @@ bool may_go_on(const RobotUnit& unit, SteadyTime now) {
 
 }  // namespace
 
-std::vector<planning::Way> failed_ways(const std::vector<PlaceId>& path, std::int64_t index, const PlaceId& here) {
-  std::vector<planning::Way> ways;
-  const auto size = static_cast<std::int64_t>(path.size());
-  const auto close = [&](std::int64_t before) {
-    const PlaceId& from = path[static_cast<std::size_t>(before)];
-    const PlaceId& to = path[static_cast<std::size_t>(before) + 1];
-    ways.push_back({from, to});
-    ways.push_back({to, from});
-  };
-  if (index > 0 && index < size) close(index - 1);
-  const auto at = std::ranges::find(path, here) - path.begin();
-  if (at >= index && at + 1 < size) close(at);
-  return ways;
-}
-
 bool Driving::begin_detour(const Unit& found, const std::string& reason) {
   RobotUnit& unit = *found;
-  if (unit.detours >= kMostDetours || !may_go_on(unit, std::chrono::steady_clock::now())) return false;
-  if (*unit.belief->place == unit.mission->place)
-    return false;  // at the destination's place no way is left to go round
-  const auto ways = failed_ways(unit.mission->path, unit.mission->path_index, *unit.belief->place);
-  if (ways.empty()) return false;
-  unit.closed.insert(unit.closed.end(), ways.begin(), ways.end());
+  if (!may_go_on(unit, std::chrono::steady_clock::now())) return false;
+  const auto ways = planning::detour_after(
+      {unit.mission->path, unit.mission->path_index, *unit.belief->place, unit.mission->place, unit.detours});
+  if (!ways) return false;
+  unit.closed.insert(unit.closed.end(), ways->begin(), ways->end());
   ++unit.detours;
   unit.looking_for_detour = true;
   // Reading the map and planning are no work for the thread of the sockets.

@@ -35,9 +35,14 @@ nlohmann::json to_json(const agent::MissionResult& result) {
                           {"collisions", result.collisions},
                           {"stops", nlohmann::json::array()},
                           {"vectors_per_s", result.vectors_per_s},
-                          {"duration_s", result.duration_s}};
-  for (const agent::StopEvent& stop : result.stops)
+                          {"duration_s", result.duration_s},
+                          {"detours", result.detours},
+                          {"moved_after_stop", result.moved_after_stop},
+                          {"moved_furniture", result.moved_furniture}};
+  for (const agent::StopEvent& stop : result.stops) {
     value["stops"].push_back({{"t_s", stop.t_s}, {"reason", stop.reason}});
+    if (stop.stand_after_s) value["stops"].back()["stand_after_s"] = *stop.stand_after_s;
+  }
   return value;
 }
 

@@ -98,9 +98,15 @@ FloorGrid occupied_cells(const Scene& scene, double resolution_m, double lowest_
   grid.width = static_cast<int>(std::ceil((most_m.x() - least_m.x() + 2.0 * kMargin_m) / resolution_m));
   grid.height = static_cast<int>(std::ceil((most_m.y() - least_m.y() + 2.0 * kMargin_m) / resolution_m));
   grid.cells.assign(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height), 0);
+  mark_triangles(grid, scene, 0, scene.triangles.rows(), lowest_m, highest_m);
+  return grid;
+}
+
+void mark_triangles(FloorGrid& grid, const Scene& scene, Eigen::Index first, Eigen::Index count, double lowest_m,
+                    double highest_m) {
   // Points on every triangle, closer than half a cell, mark their cells.
-  const double step_m = 0.45 * resolution_m;
-  for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t) {
+  const double step_m = 0.45 * grid.resolution_m;
+  for (Eigen::Index t = first; t < first + count; ++t) {
     const Eigen::Vector3d a = scene.vertices_m.row(scene.triangles(t, 0)).transpose().cast<double>();
     const Eigen::Vector3d b = scene.vertices_m.row(scene.triangles(t, 1)).transpose().cast<double>();
     const Eigen::Vector3d c = scene.vertices_m.row(scene.triangles(t, 2)).transpose().cast<double>();
@@ -119,7 +125,6 @@ FloorGrid occupied_cells(const Scene& scene, double resolution_m, double lowest_
       }
     }
   }
-  return grid;
 }
 
 std::vector<float> clearance(const FloorGrid& occupied) {

@@ -20,6 +20,10 @@ bool is_set(const FloorGrid& grid, const Eigen::Vector2d& point_m);
 /// Cells in which some triangle stands between the two heights, over the scene's bounding box and a margin.
 FloorGrid occupied_cells(const Scene& scene, double resolution_m, double lowest_m = 0.1, double highest_m = 1.4);
 
+/// Marks the cells of `grid` in which one of these triangles stands between the two heights.
+void mark_triangles(FloorGrid& grid, const Scene& scene, Eigen::Index first, Eigen::Index count, double lowest_m = 0.1,
+                    double highest_m = 1.4);
+
 /// Distance of every cell's centre to the nearest occupied cell's centre, metres; row-major like the cells.
 std::vector<float> clearance(const FloorGrid& occupied);
 

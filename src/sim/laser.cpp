@@ -9,7 +9,7 @@
 namespace homeward::sim {
 
 std::vector<float> scan(const RayScene& rays, const Pose2& robot, const std::vector<Person>& people,
-                        const LaserConfig& config, std::uint64_t noise_seed) {
+                        const LaserConfig& config, std::uint64_t noise_seed, const std::vector<Box>& boxes) {
   std::mt19937_64 random(noise_seed);
   std::normal_distribution<float> noise_m(0.0F, static_cast<float>(config.noise_m));
   std::vector<float> ranges_m(static_cast<std::size_t>(config.rays), std::numeric_limits<float>::infinity());
@@ -25,6 +25,10 @@ std::vector<float> scan(const RayScene& rays, const Pose2& robot, const std::vec
       if (const auto hit = rays.first_hit(origin_m, direction, std::min(far_m, range_m))) range_m = hit->distance_m;
       for (const Person& person : people) {
         const auto met = hit_person(person, origin_m, direction);
+        if (met && met->distance_m < range_m) range_m = met->distance_m;
+      }
+      for (const Box& box : boxes) {
+        const auto met = hit_box(box, origin_m, direction);
         if (met && met->distance_m < range_m) range_m = met->distance_m;
       }
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/pose2.hpp"
+#include "sim/box.hpp"
 #include "sim/people.hpp"
 #include "sim/ray_scene.hpp"
 
@@ -18,8 +19,9 @@ struct LaserConfig {
   int rays = 360;  // ray i points 2 pi i / rays counter-clockwise from forward
 };
 
-/// Ranges of one sweep at a robot pose, metres; infinity where nothing stands within range. People are seen.
+/// Ranges of one sweep at a robot pose, metres; infinity where nothing stands within range. People and
+/// boxes are seen.
 std::vector<float> scan(const RayScene& rays, const Pose2& robot, const std::vector<Person>& people,
-                        const LaserConfig& config, std::uint64_t noise_seed);
+                        const LaserConfig& config, std::uint64_t noise_seed, const std::vector<Box>& boxes = {});
 
 }  // namespace homeward::sim

@@ -238,7 +238,8 @@ Eigen::Array3f Renderer::Parts::shade(const Hit& hit, const Eigen::Vector3f& dir
   return seen;
 }
 
-Image Renderer::render(const Pose2& robot, const std::vector<Person>& people, std::uint64_t noise_seed) const {
+Image Renderer::render(const Pose2& robot, const std::vector<Person>& people, std::uint64_t noise_seed,
+                       const std::vector<Box>& boxes) const {
   const Parts& parts = *parts_;
   Image image(parts.width_px, parts.height_px, 3);
   const Eigen::Matrix3f world_from_robot =
@@ -246,16 +247,18 @@ Image Renderer::render(const Pose2& robot, const std::vector<Person>& people, st
   const Eigen::Vector3f viewpoint_m =
       world_from_robot * parts.viewpoint_in_robot_m +
       Eigen::Vector3f(static_cast<float>(robot.x_m), static_cast<float>(robot.y_m), 0.0F);
-  // Light on people: what falls on the floor at their feet, roughly; the floor's light is looked up by a ray straight
-  // down.
-  std::vector<Eigen::Array3f> person_light;
-  for (const Person& person : people) {
-    const Eigen::Vector3f above_m(static_cast<float>(person.x_m), static_cast<float>(person.y_m), 1.9F);
+  // Light on people and boxes: what falls on the floor at their feet, roughly; it is looked up by a ray straight down.
+  const auto light_at = [&](double x_m, double y_m) -> Eigen::Array3f {
+    const Eigen::Vector3f above_m(static_cast<float>(x_m), static_cast<float>(y_m), 1.9F);
     const auto floor = parts.rays->first_hit(above_m, -Eigen::Vector3f::UnitZ(), kFar_m);
     Eigen::Array3f light = Eigen::Array3f::Constant(0.5F);
     if (floor) light = parts.light->corners.row(3 * static_cast<Eigen::Index>(floor->triangle)).array();
-    person_light.push_back(light * parts.settings.exposure);
-  }
+    return light * parts.settings.exposure;
+  };
+  std::vector<Eigen::Array3f> person_light;
+  for (const Person& person : people) person_light.push_back(light_at(person.x_m, person.y_m));
+  std::vector<Eigen::Array3f> box_light;
+  for (const Box& box : boxes) box_light.push_back(light_at(box.pose.x_m, box.pose.y_m));
   const std::uint64_t noise_key = mix(noise_seed);
   const std::size_t packets = (parts.pixels.size() + 7) / 8;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets, 64), [&](const auto& range) {
@@ -280,6 +283,12 @@ Image Renderer::render(const Pose2& robot, const std::vector<Person>& people, st
           if (!met || met->distance_m >= nearest_m) continue;
           nearest_m = met->distance_m;
           light = met->albedo * person_light[p];
+        }
+        for (std::size_t b = 0; b < boxes.size(); ++b) {
+          const auto met = hit_box(boxes[b], viewpoint_m, packet.directions[i]);
+          if (!met || met->distance_m >= nearest_m) continue;
+          nearest_m = met->distance_m;
+          light = met->albedo * box_light[b];
         }
         const int pixel = parts.pixels[first + i];
         std::uint8_t* target = image.data.data() + static_cast<std::size_t>(pixel) * 3;

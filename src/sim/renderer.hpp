@@ -8,6 +8,7 @@
 #include "camera/camera.hpp"
 #include "core/image.hpp"
 #include "core/pose2.hpp"
+#include "sim/box.hpp"
 #include "sim/lighting.hpp"
 #include "sim/people.hpp"
 #include "sim/ray_scene.hpp"
@@ -50,7 +51,8 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
 
   /// The picture at a robot pose. Same arguments, same picture, whatever the number of threads.
-  [[nodiscard]] Image render(const Pose2& robot, const std::vector<Person>& people, std::uint64_t noise_seed) const;
+  [[nodiscard]] Image render(const Pose2& robot, const std::vector<Person>& people, std::uint64_t noise_seed,
+                             const std::vector<Box>& boxes = {}) const;
 
  private:
   struct Parts;

@@ -43,6 +43,14 @@ struct Lamp {
   double strength = 1.0;
 };
 
+/// A piece of furniture: the scene's triangles from `first` on, which share no vertices with others.
+struct Furniture {
+  std::string room;  // by name; empty in a space without one
+  Eigen::Index first = 0;
+  Eigen::Index count = 0;
+  bool movable = true;  // not built in or hung on a wall
+};
+
 /// Cells of the floor, row 0 at the largest y, like ROS map_server.
 struct FloorGrid {  // see floor.hpp for what is computed on it
   int width = 0;
@@ -60,6 +68,7 @@ struct World {
   Pose2 start;
   std::vector<Room> rooms;
   std::vector<Lamp> lamps;
+  std::vector<Furniture> furniture;  // known of generated worlds alone
   FloorGrid occupied;  // 255 = something stands there between knee and head
   FloorGrid
       drivable;  // 255 = the centre of a disc robot of robot_radius_m may be here, and can get here from the start

@@ -12,6 +12,8 @@ namespace {
 using nlohmann::json;
 
 constexpr int kMaxRandom = 10'000;
+constexpr double kUsualSlip = 0.5;
+constexpr double kMostSlip = 0.95;
 
 void close(ObjectReader& outer, ObjectReader& inner) {
   if (const Status status = inner.finish(); !status) outer.take<int>(pass_on(status));
@@ -24,10 +26,13 @@ std::string light_of(ObjectReader& reader) {
 ScenarioFault read_fault(ObjectReader& outer, const json& value, const std::string& path) {
   ObjectReader reader(value, path);
   ScenarioFault fault;
-  fault.kind = reader.choice("kind", {"camera_occluded", "camera_frozen", "scan_lost", "link_lost", "stop"});
+  fault.kind = reader.choice("kind", {"camera_occluded", "camera_frozen", "scan_lost", "link_lost", "stop",
+                                      "agent_frozen", "wheel_slip", "obstacle"});
+  const bool slips = fault.kind == "wheel_slip";
+  if (slips) fault.share = kUsualSlip;
   fault.at_s = reader.number("at_s", 0.0, 1e5);
   if (reader.has("for_s")) fault.for_s = reader.number("for_s", 0.0, 1e5);
-  if (reader.has("share")) fault.share = reader.number("share", 0.0, 1.0);
+  if (reader.has("share")) fault.share = reader.number("share", 0.0, slips ? kMostSlip : 1.0);
   close(outer, reader);
   return fault;
 }
@@ -43,10 +48,8 @@ ScenarioMission read_mission(ObjectReader& outer, const json& value, const std::
   }
   mission.light = light_of(reader);
   if (reader.has("people")) mission.people = static_cast<int>(reader.integer("people", 0, 100));
-  if (reader.has("moved_furniture") && reader.integer("moved_furniture", 0, 1000) != 0) {
-    reader.problem("moved_furniture", "Furniture cannot be moved by this version; only 0 is understood.",
-                   ErrorCode::kUnsupportedFormat);
-  }
+  if (reader.has("moved_furniture"))
+    mission.moved_furniture = static_cast<int>(reader.integer("moved_furniture", 0, 1000));
   if (reader.has("faults")) {
     const std::vector<json> faults = reader.array("faults", 100);
     for (std::size_t i = 0; i < faults.size(); ++i) {

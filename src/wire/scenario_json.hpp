@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -13,10 +14,11 @@ namespace homeward::wire {
 
 /// Something that goes wrong during a mission, for a while.
 struct ScenarioFault {
-  std::string kind;  // "camera_occluded", "camera_frozen", "scan_lost", "link_lost", "stop"
+  std::string kind;  // "camera_occluded", "camera_frozen", "scan_lost", "link_lost", "stop", "agent_frozen",
+                     // "wheel_slip", "obstacle"
   double at_s = 0.0;
-  double for_s = 0.0;
-  double share = 1.0;  // of the picture that is covered
+  double for_s = std::numeric_limits<double>::infinity();
+  double share = 1.0;  // of the picture that is covered, of the way that is not made
 };
 
 /// One entry of "missions": from room to room, or `random` of them.
@@ -26,6 +28,7 @@ struct ScenarioMission {
   int random = 0;  // > 0: so many missions between rooms drawn at random
   std::string light = "day";
   int people = 0;
+  int moved_furniture = 0;  // pieces in each room
   std::vector<ScenarioFault> faults;
 };
 

@@ -33,23 +33,39 @@ void SimulatedRobot::advance(double seconds) {
   const int steps = std::max(1, static_cast<int>(std::lround(seconds / kStep_s)));
   for (int i = 0; i < steps; ++i) {
     walkers_.advance(seconds / steps, vehicle_.pose());
-    vehicle_.advance(seconds / steps, command_, obstacles_, walkers_.people());
+    const Pose2 before = vehicle_.odometry();
+    vehicle_.advance(seconds / steps, {(1.0 - slip_) * command_.speed_mps, command_.turn_radps}, obstacles_,
+                     walkers_.people());
+    if (slip_ > 0.0) {
+      Pose2 rolled = inverse(before) * vehicle_.odometry();
+      rolled.x_m /= 1.0 - slip_;
+      rolled.y_m /= 1.0 - slip_;
+      lie_ = lie_ * before * rolled * inverse(vehicle_.odometry());
+    }
   }
   seconds_ += seconds;
 }
 
+void SimulatedRobot::set_boxes(std::vector<sim::Box> boxes) {
+  boxes_ = std::move(boxes);
+  sim::World floor;  // obstacles read nothing else of a world
+  floor.occupied = world_->world().occupied;
+  for (const sim::Box& box : boxes_) sim::mark_box(floor.occupied, box);
+  obstacles_ = sim::Obstacles(floor);
+}
+
 SimulatedRobot::View SimulatedRobot::view() {
-  return {vehicle_.pose(), vehicle_.odometry(), walkers_.people(), config_.seed * 7'919 + ++readings_};
+  return {vehicle_.pose(), odometry(), walkers_.people(), boxes_, config_.seed * 7'919 + ++readings_};
 }
 
 Image SimulatedRobot::render(const View& view) const {
-  return renderer_.render(view.pose, view.people, view.noise_seed);
+  return renderer_.render(view.pose, view.people, view.noise_seed, view.boxes);
 }
 
 Scan SimulatedRobot::sweep() {
   Scan scan;
   scan.ranges_m = sim::scan(world_->rays(), vehicle_.pose(), walkers_.people(), config_.laser,
-                            config_.seed * 104'729 + ++readings_);
+                            config_.seed * 104'729 + ++readings_, boxes_);
   scan.angle_step_rad = 2.0 * std::numbers::pi / config_.laser.rays;
   scan.range_max_m = config_.laser.range_max_m;
   return scan;

@@ -11,6 +11,7 @@
 #include "camera/camera_config.hpp"
 #include "core/image.hpp"
 #include "core/result.hpp"
+#include "sim/box.hpp"
 #include "sim/laser.hpp"
 #include "sim/motion.hpp"
 #include "sim/people.hpp"
@@ -44,6 +45,7 @@ class SimulatedRobot {
     Pose2 pose;
     Pose2 odometry;
     std::vector<sim::Person> people;
+    std::vector<sim::Box> boxes;
     std::uint64_t noise_seed = 0;
   };
   [[nodiscard]] View view();
@@ -52,6 +54,12 @@ class SimulatedRobot {
   [[nodiscard]] Scan sweep();
 
   [[nodiscard]] const sim::Vehicle& vehicle() const { return vehicle_; }
+  /// What the wheels say.
+  [[nodiscard]] Pose2 odometry() const { return lie_ * vehicle_.odometry(); }
+  /// From now on this share of the way that the wheels roll is not made, 0 to 0.95.
+  void slip(double share) { slip_ = share; }
+  /// These boxes, and no others, stand about from now on.
+  void set_boxes(std::vector<sim::Box> boxes);
   [[nodiscard]] const std::vector<sim::Person>& people() const { return walkers_.people(); }
   [[nodiscard]] double seconds() const { return seconds_; }
   void carry_to(const Pose2& pose) { vehicle_.carry_to(pose); }
@@ -68,6 +76,9 @@ class SimulatedRobot {
   sim::Walkers walkers_;
   sim::Vehicle vehicle_;
   sim::MotionCommand command_;
+  std::vector<sim::Box> boxes_;
+  double slip_ = 0.0;
+  Pose2 lie_;  // what slipping wheels have added to the odometry, in its frame
   double seconds_ = 0.0;
   std::uint64_t readings_ = 0;
 };

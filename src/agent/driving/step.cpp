@@ -11,6 +11,8 @@
 namespace homeward::agent {
 namespace {
 
+// After such a pause between two steps the robot's base has stopped by itself, and what it drives by is old.
+constexpr Milliseconds kPause_ms = 500;
 constexpr int kFewestFeatures = 20;  // with fewer the camera is taken to be covered
 
 void take_picture(DrivingState& state, const SeenPicture& picture, const DrivingConfig& config, Milliseconds now_ms) {
@@ -159,6 +161,10 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   Outputs outputs;
   const Milliseconds sensors_ms = inputs.sensors_now_ms.value_or(now_ms);
   const std::shared_ptr<const Mission> before = state.mission;
+  // Permits that piled up in a pause must not set it going again: only an order does.
+  if (state.drive == wire::DriveState::kDriving && now_ms - state.last_step_ms > kPause_ms)
+    end_mission(state, wire::DriveState::kStopped, "The robot's own computer stood still for a while.");
+  state.last_step_ms = now_ms;
   obey(state, inputs.messages, config, now_ms, outputs);
   if (state.mission != before) {
     state.last_answer_ms = state.last_gain_ms = state.last_picture_ms = sensors_ms;

@@ -82,6 +82,7 @@ struct DrivingState {
   bool pictured = false;  // a picture has come since the mission began
   bool docking = false;
   bool covered = false;  // the latest picture shows next to nothing
+  Milliseconds last_step_ms = 0;
   Milliseconds last_message_ms = 0;
   Milliseconds last_picture_ms = 0;
   Milliseconds last_answer_ms = 0;

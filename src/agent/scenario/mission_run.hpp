@@ -22,6 +22,7 @@ struct MissionPlan {
   std::string to;
   std::string light;
   int people = 0;
+  int moved_furniture = 0;  // pieces in each room
   std::vector<wire::ScenarioFault> faults;
   std::uint64_t seed = 1;
 };
@@ -36,8 +37,10 @@ Result<MissionResult> drive_order(SimulatedRobot& robot, const pipeline::Eye& ey
 /// Fills in what only the world knows: errors to the target's true pose, way, clearance, collisions.
 void judge(const sim::Vehicle& vehicle, const Pose2& target, MissionResult& result);
 
-/// Drives one mission in simulated time, with localiser and planner in the server's place; recorded when `record` says
-/// where.
+/// Drives one mission in simulated time, with localiser and planner in the server's place: after a drive has failed
+/// they look again where the robot is and send it another way, as a server does. Recorded when `record` says where.
+/// Furniture is moved by the plan's seed; the world of `taught` stays as it is. Errors: also those of starting_pose and
+/// move_furniture.
 Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, const sim::RobotProfile& profile,
                                   const ScenarioListener& listener, const std::optional<RecordingOptions>& record);
 

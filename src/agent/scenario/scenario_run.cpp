@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/scenario/scenario_run.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "agent/scenario/mission_run.hpp"
@@ -17,7 +18,8 @@ std::vector<MissionPlan> expanded(const wire::ScenarioFile& scenario, const Taug
   sim::Random random(static_cast<std::uint64_t>(scenario.seed) * 2'654'435'761ULL + 1);
   std::vector<MissionPlan> plans;
   for (const wire::ScenarioMission& mission : scenario.missions) {
-    MissionPlan plan{mission.from, mission.to, mission.light, mission.people, mission.faults, 0};
+    MissionPlan plan{mission.from,   mission.to, mission.light, mission.people, mission.moved_furniture,
+                     mission.faults, 0};
     const int count = std::max(1, mission.random);
     for (int i = 0; i < count; ++i) {
       if (mission.random > 0) {
@@ -41,6 +43,14 @@ Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folde
   const auto told = [&](const std::string& what) {
     if (listener.told) listener.told(what);
   };
+  // Known before the long tour already: only what was generated here says what is furniture.
+  const bool from_file = scenario.world.find(':') == std::string::npos;
+  if (from_file && std::ranges::any_of(scenario.missions, [](const auto& one) { return one.moved_furniture > 0; })) {
+    return fail(ErrorCode::kInvalidInput,
+                "Furniture can be moved in generated worlds alone: a mesh does not say which of its triangles are a "
+                "piece of furniture.",
+                "missions/moved_furniture");
+  }
   told("teaching " + scenario.world);
   auto taught = teach(scenario, folder);
   if (!taught) return pass_on(taught);

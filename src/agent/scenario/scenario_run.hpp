@@ -16,6 +16,7 @@ namespace homeward::agent {
 struct StopEvent {
   double t_s = 0.0;
   std::string reason;
+  std::optional<double> stand_after_s;  // from the beginning of the fault that was on to wheels at zero
 };
 
 /// How one mission of a scenario went. Errors are measured to the true pose of the destination's picture.
@@ -32,6 +33,9 @@ struct MissionResult {
   std::vector<StopEvent> stops;
   double vectors_per_s = 0.0;
   double duration_s = 0.0;
+  int detours = 0;           // orders that were given anew after a drive had failed
+  int moved_after_stop = 0;  // control cycles with motion between a stop and the next order
+  int moved_furniture = 0;   // pieces that stood elsewhere than in the tour
 };
 
 /// One control cycle of a mission, for whoever wants to see why it went as it did.
@@ -63,8 +67,9 @@ struct ScenarioListener {
 
 /// Teaches a world by a tour, builds its map and drives the missions with the agent's own heart, in simulated time and
 /// as fast as the machine allows. Same scenario, same results. Errors: those of load_world, plan_tour and build_map;
-/// kInvalidInput for a destination that the tour does not visit.
-/// `record`: keeps a recording of each mission, named by number, start and destination. Errors: also those of Recorder.
+/// kInvalidInput for a destination that the tour does not visit, for furniture to move in a world from a file, and
+/// where the robot does not fit at a room's point. `record`: keeps a recording of each mission, named by number, start
+/// and destination. Errors: also those of Recorder.
 Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder, const ScenarioListener& listener,
                     const std::optional<RecordingOptions>& record = std::nullopt);
 

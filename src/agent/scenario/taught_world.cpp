@@ -22,6 +22,7 @@ class RenderedTour final : public pipeline::TourSource {
     images_.push_back({ImageId("tour/" + name), std::nullopt, odometry});
     jpegs_.push_back(std::move(jpeg));
   }
+  [[nodiscard]] const ImageId& last() const { return images_.back().id; }
   void mark_last(const std::string& label) { marks_.push_back({images_.back().id.str().substr(5), label}); }
   [[nodiscard]] const std::vector<pipeline::TourImage>& images() const override { return images_; }
   [[nodiscard]] const std::vector<pipeline::TourMark>& marks() const override { return marks_; }
@@ -67,6 +68,7 @@ Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string&
     const sim::TourStop& stop = (*stops)[i];
     if (i > 0) wheels.follow((*stops)[i - 1].pose, stop.pose);
     tour.add(imageio::encode_jpeg(renderer.render(stop.pose, {}, seed * 1'000'003 + i), kQuality), wheels.reading());
+    taught.picture_poses.emplace(tour.last(), stop.pose);
     if (!stop.arrived) continue;
     tour.mark_last(*stop.arrived);
     taught.destination_poses.emplace(*stop.arrived, stop.pose);

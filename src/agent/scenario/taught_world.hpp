@@ -20,6 +20,7 @@ struct TaughtWorld {
   camera::CameraConfig camera;
   std::shared_ptr<const map::TopologicalMap> map;
   std::map<std::string, Pose2> destination_poses;  // by room; for judging only
+  std::map<ImageId, Pose2> picture_poses;          // of the tour; for putting things in the way only
 };
 
 /// Renders the scenario's tour and builds its map. Errors: see run_scenario.

@@ -35,6 +35,7 @@ class SceneBuilder {
   /// An upright cylinder with 12 sides, closed above.
   void cylinder(const Pose2& frame, const Eigen::Vector3d& foot, double radius_m, double height_m, Surface surface);
 
+  [[nodiscard]] Eigen::Index triangles() const { return static_cast<Eigen::Index>(materials_of_triangles_.size()); }
   /// The scene; the builder is empty afterwards.
   Scene take();
 

@@ -13,6 +13,12 @@ namespace {
 constexpr std::array<Side, 4> kSides = {Side::kSouth, Side::kEast, Side::kNorth, Side::kWest};
 constexpr int kTries = 40;
 
+bool is_movable(Piece piece) {
+  using enum Piece;
+  constexpr std::array kBuiltIn = {kCounter, kBath, kBasin, kCoats, kWhiteboard};
+  return std::find(kBuiltIn.begin(), kBuiltIn.end(), piece) == kBuiltIn.end();
+}
+
 }  // namespace
 
 Furnisher::Furnisher(SceneBuilder& scene, const Space& space, const std::vector<Doorway>& doorways)
@@ -60,12 +66,18 @@ bool Furnisher::wall_is_free(Side side, double from_m, double to_m, double botto
   });
 }
 
+void Furnisher::build(Piece piece, const Pose2& frame, Random& random) {
+  const Eigen::Index first = scene_.triangles();
+  build_piece(scene_, piece, frame, random);
+  furniture_.push_back({space_.name, first, scene_.triangles() - first, is_movable(piece)});
+}
+
 void Furnisher::place_at(Piece piece, Side side, double along_m, Random& random) {
   const PieceSize size = size_of(piece);
   const Pose2 frame = wall_frame(space_, side).frame * Pose2{along_m, 0.0, 0.0};
   taken_.push_back(footprint(frame, size));
   wall_taken_.push_back({side, along_m - 0.5 * size.width_m, along_m + 0.5 * size.width_m, 0.0, size.height_m});
-  build_piece(scene_, piece, frame, random);
+  build(piece, frame, random);
 }
 
 bool Furnisher::place(Piece piece, Random& where, Random& looks) {
@@ -97,7 +109,7 @@ bool Furnisher::place_central(Piece piece, Random& random) {
     const Footprint wanted = footprint(frame, size);
     if (!is_free(wanted)) continue;
     taken_.push_back(wanted);
-    build_piece(scene_, piece, frame, random);
+    build(piece, frame, random);
     return true;
   }
   return false;

@@ -26,6 +26,8 @@ class Furnisher {
   /// Pictures and a clock on the free stretches of wall, `count` at most.
   void hang_pictures(int count, Random& random);
   void hang_at(Side side, double along_m, double width_m, Image picture);
+  /// What was placed so far.
+  [[nodiscard]] const std::vector<Furniture>& furniture() const { return furniture_; }
 
  private:
   struct Stretch {  // of a wall that is taken above `from_height_m`
@@ -41,12 +43,14 @@ class Furnisher {
   };
   [[nodiscard]] Footprint footprint(const Pose2& frame, const PieceSize& size) const;
   [[nodiscard]] bool is_free(const Footprint& wanted) const;
+  void build(Piece piece, const Pose2& frame, Random& random);
   [[nodiscard]] bool wall_is_free(Side side, double from_m, double to_m, double bottom_m, double top_m) const;
 
   SceneBuilder& scene_;
   const Space& space_;
   std::vector<Footprint> taken_;
   std::vector<Stretch> wall_taken_;
+  std::vector<Furniture> furniture_;
 };
 
 }  // namespace homeward::sim

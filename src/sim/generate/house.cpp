@@ -114,7 +114,8 @@ Plan plan_house(SceneBuilder& scene, Random& random) {
   return plan;
 }
 
-void furnish(SceneBuilder& scene, const Space& space, const std::vector<Doorway>& doorways, Random& random) {
+std::vector<Furniture> furnish(SceneBuilder& scene, const Space& space, const std::vector<Doorway>& doorways,
+                               Random& random) {
   Furnisher furnisher(scene, space, doorways);
   const bool corridor = space.name.empty() || space.name == "hall";
   const Eigen::Vector2d middle_m = 0.5 * (space.least_m + space.most_m);
@@ -131,7 +132,7 @@ void furnish(SceneBuilder& scene, const Space& space, const std::vector<Doorway>
     furnisher.place(Piece::kConsole, random);
     if (along_x) furnisher.place(Piece::kCoats, random);
     furnisher.hang_pictures(along_x ? 12 : 7, random);
-    return;
+    return furnisher.furniture();
   }
   const Recipe recipe = recipe_of(space.name);
   for (const Piece piece : recipe.along_walls) furnisher.place(piece, random);
@@ -141,6 +142,7 @@ void furnish(SceneBuilder& scene, const Space& space, const std::vector<Doorway>
                       {uniform(random, 1.9, 2.5), uniform(random, 1.3, 1.8)}, random);
   }
   furnisher.hang_pictures(recipe.pictures, random);
+  return furnisher.furniture();
 }
 
 std::vector<Lamp> light(SceneBuilder& scene, const std::vector<Space>& spaces, Random& random) {
@@ -172,8 +174,11 @@ World generate_house(std::uint64_t seed) {
     const Plan plan = plan_house(scene, random);
     for (const Space& space : plan.spaces) build_shell(scene, space, plan.doorways, random);
     build_linings(scene, plan.doorways, random);
-    for (const Space& space : plan.spaces) furnish(scene, space, plan.doorways, random);
     world = World();
+    for (const Space& space : plan.spaces) {
+      const std::vector<Furniture> placed = furnish(scene, space, plan.doorways, random);
+      world.furniture.insert(world.furniture.end(), placed.begin(), placed.end());
+    }
     world.name = "house:" + std::to_string(seed);
     world.lamps = light(scene, plan.spaces, random);
     world.scene = scene.take();

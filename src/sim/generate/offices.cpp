@@ -15,8 +15,8 @@ constexpr double kDepth_m = 4.4;
 constexpr double kCorridor_m = 2.2;
 
 /// Furniture and its textures are drawn from the same seed in every office; only the small things are its own.
-void furnish_office(SceneBuilder& scene, const Space& space, const std::vector<Doorway>& doorways, bool south,
-                    bool mirrored, std::uint64_t seed, int number) {
+std::vector<Furniture> furnish_office(SceneBuilder& scene, const Space& space, const std::vector<Doorway>& doorways,
+                                      bool south, bool mirrored, std::uint64_t seed, int number) {
   Random common(seed * 31 + 5);
   Random own(seed * 977 + static_cast<std::uint64_t>(number) * 131 + 3);
   Furnisher furnisher(scene, space, doorways);
@@ -38,6 +38,7 @@ void furnish_office(SceneBuilder& scene, const Space& space, const std::vector<D
   const double along_m = from_far(right, 3.0);
   furnisher.hang_at(right, along_m, 0.7, paint_picture(own));
   if (number % 2 == 1) furnisher.place_at(Piece::kPlant, far, mirrored ? 0.4 : 3.4, own);
+  return furnisher.furniture();
 }
 
 }  // namespace
@@ -77,7 +78,9 @@ World generate_offices(std::uint64_t seed) {
   World world;
   for (std::size_t i = 1; i < spaces.size(); ++i) {
     const int number = static_cast<int>(i);
-    furnish_office(scene, spaces[i], doorways, number > kOffices / 2, number == kOffices, seed, number);
+    const auto placed =
+        furnish_office(scene, spaces[i], doorways, number > kOffices / 2, number == kOffices, seed, number);
+    world.furniture.insert(world.furniture.end(), placed.begin(), placed.end());
   }
   Furnisher corridor(scene, spaces.front(), doorways);
   corridor.hang_pictures(4, random);

@@ -102,6 +102,26 @@ TEST_F(StepTest, APermitThatIsNotRenewedRunsOut) {
   expect_stays();
 }
 
+TEST_F(StepTest, AComputerThatStoodStillStopsWhateverHasPiledUpMeanwhile) {
+  set_off();
+  now_ms_ += 600;
+  std::vector<wire::ServerMessage> piled_up;
+  for (int k = 0; k < 6; ++k) piled_up.emplace_back(permit("m1", 1, ++seq_));
+  EXPECT_TRUE(stands(tick(piled_up)));
+  EXPECT_EQ(state_.drive, DriveState::kStopped);
+  EXPECT_EQ(state_.reason, "The robot's own computer stood still for a while.");
+  expect_stays();
+  tick({mission("m2", 1, seq_ + 1)});
+  EXPECT_EQ(state_.drive, DriveState::kDriving) << "a new order sets it going";
+}
+
+TEST_F(StepTest, AShortPauseOfTheComputerChangesNothing) {
+  set_off();
+  now_ms_ += 400;
+  tick({permit("m1", 1, ++seq_)});
+  EXPECT_EQ(state_.drive, DriveState::kDriving) << state_.reason;
+}
+
 TEST_F(StepTest, ACameraThatFallsSilentStops) {
   set_off();
   pictures_ = false;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/driving/detour.hpp"
 #include "support/driving_fixture.hpp"
 
 namespace homeward::server {
@@ -156,20 +155,6 @@ TEST_F(DrivingTest, AStopOvertakesAndALostLinkStops) {
   ASSERT_TRUE(welcome);
   EXPECT_GT(welcome->epoch, order->order.epoch) << "a reconnect begins a new epoch";
   EXPECT_FALSE(reborn.await<wire::MissionOrder>(milliseconds(400))) << "nothing moves before a person says so";
-}
-
-TEST(FailedWays, AreTheOneDrivenAndTheOneAfterIt) {
-  const std::vector<PlaceId> path = {PlaceId("p1"), PlaceId("p2"), PlaceId("p3"), PlaceId("p4")};
-  const auto way = [](const char* from, const char* to) { return planning::Way{PlaceId(from), PlaceId(to)}; };
-  using Ways = std::vector<planning::Way>;
-  EXPECT_EQ(failed_ways(path, 1, PlaceId("p1")), (Ways{way("p1", "p2"), way("p2", "p1")}));
-  EXPECT_EQ(failed_ways(path, 2, PlaceId("p9")), (Ways{way("p2", "p3"), way("p3", "p2")}));
-  EXPECT_EQ(failed_ways(path, 2, PlaceId("p3")),
-            (Ways{way("p2", "p3"), way("p3", "p2"), way("p3", "p4"), way("p4", "p3")}));
-  EXPECT_EQ(failed_ways(path, 0, PlaceId("p1")), (Ways{way("p1", "p2"), way("p2", "p1")}));
-  EXPECT_EQ(failed_ways(path, 3, PlaceId("p4")), (Ways{way("p3", "p4"), way("p4", "p3")}));
-  EXPECT_TRUE(failed_ways(path, 0, PlaceId("p9")).empty());
-  EXPECT_TRUE(failed_ways({PlaceId("p1")}, 0, PlaceId("p1")).empty());
 }
 
 TEST_F(DrivingTest, AFailedWayIsDrivenRoundAndWithoutAnotherTheMissionFails) {

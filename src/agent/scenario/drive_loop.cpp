@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/scenario/drive_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "agent/recording/recorder.hpp"
+
+namespace homeward::agent {
+namespace {
+
+constexpr double kCycle_s = 0.1;
+constexpr double kLongest_s = 600.0;
+constexpr Milliseconds kPermit_ms = 1500;
+constexpr double kHeardWithin_s = 1.0;  // the house permits no robot that was silent for longer
+constexpr double kCommandLife_s = 0.5;  // the base's own watch over its commands
+
+bool moves(const SimulatedRobot& robot) {
+  constexpr double kAtRest = 1e-3;
+  const sim::MotionCommand& motion = robot.vehicle().motion();
+  return std::abs(motion.speed_mps) > kAtRest || std::abs(motion.turn_radps) > kAtRest;
+}
+
+}  // namespace
+
+DriveLoop::DriveLoop(SimulatedRobot& robot, const pipeline::Eye& eye, FaultSchedule faults, const DrivingConfig& config,
+                     const ScenarioListener& listener, Recorder* recorder)
+    : robot_(robot),
+      eye_(eye),
+      faults_(std::move(faults)),
+      config_(config),
+      listener_(listener),
+      recorder_(recorder),
+      box_done_(faults_.all().size(), false) {}
+
+Status DriveLoop::run(wire::MissionOrder order, std::vector<Eigen::Vector2d> way_m) {
+  order_ = std::move(order);
+  way_m_ = std::move(way_m);
+  messages_.emplace_back(order_);
+  halted_ = false;
+  const double began_s = elapsed_s();
+  while (elapsed_s() < kLongest_s) {
+    if (elapsed_s() > began_s) hear_the_house(!on("link_lost"));
+    if (const Status cycled = cycle(); !cycled) return cycled;
+    if (state_.drive != wire::DriveState::kDriving && !moves(robot_)) break;
+  }
+  if (state_.drive == wire::DriveState::kDriving)
+    stops_.push_back({elapsed_s(), "The mission has lasted too long.", {}});
+  close_stop();
+  return {};
+}
+
+Status DriveLoop::watch() {
+  constexpr double kWatch_s = 2.0;
+  constexpr double kLongestWatch_s = 8.0;
+  const double now_s = elapsed_s();
+  const double until_s = std::max(now_s + kWatch_s, std::min(faults_.ends_s(now_s) + 1.0, now_s + kLongestWatch_s));
+  while (elapsed_s() < until_s) {
+    hear_the_house(!on("link_lost"));
+    if (const Status cycled = cycle(); !cycled) return cycled;
+  }
+  close_stop();
+  return {};
+}
+
+/// What the house says in one cycle. It goes on permitting a mission that has ended: no permit may revive one.
+void DriveLoop::hear_the_house(bool link_up) {
+  if (!link_up) return;
+  if (elapsed_s() - heard_s_ <= kHeardWithin_s)
+    messages_.emplace_back(wire::Permit{order_.mission, {order_.order.epoch, ++order_.order.seq}, kPermit_ms});
+  if (on("stop")) messages_.emplace_back(wire::StopOrder{"s1", order_.order.epoch, "Stopped by hand.", "test"});
+}
+
+Status DriveLoop::cycle() {
+  const bool frozen = on("agent_frozen");
+  const bool link_up = !on("link_lost");
+  place_boxes();
+  robot_.slip(faults_.share("wheel_slip", elapsed_s()));
+  if (!frozen) {
+    const bool was_driving = state_.drive == wire::DriveState::kDriving;
+    const auto outputs = step_once(link_up);
+    if (!outputs) return pass_on(outputs);
+    if (was_driving && !state_.reason.empty()) stops_.push_back({elapsed_s(), state_.reason, {}});
+    if (state_.drive != wire::DriveState::kDriving && state_.drive != wire::DriveState::kArrived && !moves(robot_))
+      halted_ = true;
+    if (listener_.cycled) listener_.cycled(trace(*outputs));
+    robot_.command(outputs->motion);
+    commanded_s_ = elapsed_s();
+    if (link_up) heard_s_ = elapsed_s();
+  }
+  move(frozen);
+  return {};
+}
+
+Result<Outputs> DriveLoop::step_once(bool link_up) {
+  Inputs inputs;
+  inputs.odometry = robot_.odometry();
+  inputs.link_up = link_up;
+  inputs.messages = std::exchange(messages_, {});
+  PictureBytes bytes;
+  if (!on("camera_frozen")) {
+    Image picture = robot_.picture();
+    if (on("camera_occluded")) occlude(picture, faults_.share("camera_occluded", elapsed_s()));
+    constexpr Milliseconds kKeepEvery_ms = 1000;
+    constexpr std::size_t kKept = 6;
+    if (now_ms_ % kKeepEvery_ms == 0) pictures_.push_back({picture, inputs.odometry});
+    if (pictures_.size() > kKept) pictures_.pop_front();
+    CameraPicture sent = as_sent({now_ms_, std::move(picture), inputs.odometry});
+    sent.recognised = wants_features(state_.follow);
+    auto seen = look(sent, eye_);
+    if (!seen) return pass_on(seen);
+    inputs.picture = std::move(*seen);
+    bytes = sent.bytes;
+  }
+  if (!on("scan_lost")) inputs.scan = {now_ms_, robot_.sweep()};
+  const bool pictured = inputs.picture.has_value();
+  Outputs outputs =
+      recorder_ != nullptr ? recorder_->step(state_, inputs, bytes, now_ms_) : step(state_, inputs, config_, now_ms_);
+  if (state_.seen.answered && pictured) ++vectors_;
+  return outputs;
+}
+
+void DriveLoop::place_boxes() {
+  const std::vector<wire::ScenarioFault>& all = faults_.all();
+  const double t_s = elapsed_s();
+  const std::size_t before = boxes_.size();
+  std::erase_if(boxes_, [&](const auto& box) { return t_s >= all[box.first].at_s + all[box.first].for_s; });
+  bool changed = boxes_.size() != before;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].kind != "obstacle" || box_done_[i] || t_s < all[i].at_s) continue;
+    box_done_[i] = true;
+    const auto next = std::min(static_cast<std::size_t>(state_.follow.index), way_m_.size());
+    const auto box =
+        box_ahead(robot_.vehicle().pose(), {way_m_.begin() + static_cast<std::ptrdiff_t>(next), way_m_.end()});
+    if (box) boxes_.emplace_back(i, *box);
+    if (!box && listener_.told) listener_.told("no box: the way ends within 1.5 m");
+    changed = changed || box;
+  }
+  if (!changed) return;
+  std::vector<sim::Box> standing;
+  for (const auto& [number, box] : boxes_) standing.push_back(box);
+  robot_.set_boxes(std::move(standing));
+}
+
+void DriveLoop::move(bool frozen) {
+  constexpr int kParts = 5;
+  const bool must_rest = halted_;
+  bool moved = false;
+  for (int part = 0; part < kParts; ++part) {
+    const double at_s = elapsed_s() + kCycle_s * part / kParts;
+    if (frozen && at_s - commanded_s_ >= kCommandLife_s) robot_.command({});
+    robot_.advance(kCycle_s / kParts);
+    if (!moves(robot_)) continue;
+    moved = true;
+    stands_since_s_ = at_s + kCycle_s / kParts;
+  }
+  if (must_rest && moved) ++moved_after_stop_;
+  // The base has stopped by itself: that, too, only an order may end.
+  if (frozen && !moved && elapsed_s() - commanded_s_ >= kCommandLife_s) halted_ = true;
+  now_ms_ += static_cast<Milliseconds>(1000.0 * kCycle_s);
+}
+
+/// How long after the fault the wheels stood, for the latest stop.
+void DriveLoop::close_stop() {
+  if (stops_.empty()) return;
+  StopEvent& stop = stops_.back();
+  const auto fault_s = faults_.began_s(stop.t_s);
+  if (fault_s && !stop.stand_after_s) stop.stand_after_s = std::max(0.0, stands_since_s_ - *fault_s);
+}
+
+CycleTrace DriveLoop::trace(const Outputs& outputs) const {
+  CycleTrace now;
+  now.t_s = elapsed_s();
+  now.pose = robot_.vehicle().pose();
+  now.index = state_.follow.index;
+  now.views = state_.mission ? static_cast<int>(state_.mission->path.views.size()) : 0;
+  const auto index = static_cast<std::size_t>(now.index);
+  now.view = (index + 1 < static_cast<std::size_t>(now.views) ? order_.path[index].image : order_.final_image).str();
+  now.answered = state_.seen.answered;
+  if (state_.seen.vector) {
+    now.parallax_rad = state_.seen.vector->median_parallax_rad;
+    now.bearing_rad = state_.seen.vector->bearing_rad;
+    now.confidence = state_.seen.vector->confidence;
+    now.inliers = state_.seen.vector->inliers;
+  }
+  if (const auto goal_m = goal(state_.follow, robot_.odometry(), config_.follow)) {
+    now.goal_x_m = goal_m->x();
+    now.goal_y_m = goal_m->y();
+  }
+  now.speed_mps = outputs.motion.speed_mps;
+  now.turn_radps = outputs.motion.turn_radps;
+  now.min_range_m = state_.min_range_m.value_or(0.0);
+  now.state = wire::drive_state_name(state_.drive);
+  return now;
+}
+
+}  // namespace homeward::agent

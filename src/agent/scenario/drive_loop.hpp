@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <utility>
+#include <vector>
+
+#include "agent/drivers/simulated_robot.hpp"
+#include "agent/driving/step.hpp"
+#include "agent/recording/look.hpp"
+#include "agent/scenario/fault_schedule.hpp"
+#include "agent/scenario/scenario_run.hpp"
+#include "pipeline/eye.hpp"
+
+namespace homeward::agent {
+
+class Recorder;
+
+/// A picture of the drive with the odometry where it was taken.
+struct DrivenPicture {
+  Image picture;
+  Pose2 odometry;
+};
+
+/// The loop of one mission: world, sensors and heart, cycle by cycle, and the house that permits it, with all that goes
+/// wrong. The robot's base stops the wheels by itself 0.5 s after the last command.
+class DriveLoop {
+ public:
+  /// Everything but the faults must outlive the loop. `recorder`: may be null.
+  DriveLoop(SimulatedRobot& robot, const pipeline::Eye& eye, FaultSchedule faults, const DrivingConfig& config,
+            const ScenarioListener& listener, Recorder* recorder);
+
+  /// Drives an order, numbered later than all before, until the robot stands, however that came about.
+  /// `way_m`: the true places of its pictures, one for each place and the destination's own; may be empty.
+  Status run(wire::MissionOrder order, std::vector<Eigen::Vector2d> way_m = {});
+  /// Goes on for a while after a stop and counts what moves without an order.
+  Status watch();
+
+  [[nodiscard]] const DrivingState& state() const { return state_; }
+  [[nodiscard]] int vectors() const { return vectors_; }
+  [[nodiscard]] double elapsed_s() const { return 0.001 * static_cast<double>(now_ms_); }
+  [[nodiscard]] std::vector<StopEvent>& stops() { return stops_; }
+  [[nodiscard]] int moved_after_stop() const { return moved_after_stop_; }
+  /// About the last seconds' pictures, one a second, oldest first.
+  [[nodiscard]] const std::deque<DrivenPicture>& pictures() const { return pictures_; }
+
+ private:
+  Status cycle();
+  Result<Outputs> step_once(bool link_up);
+  void hear_the_house(bool link_up);
+  void place_boxes();
+  void move(bool frozen);
+  void close_stop();
+  [[nodiscard]] bool on(const char* kind) const { return faults_.active(kind, elapsed_s()); }
+  [[nodiscard]] CycleTrace trace(const Outputs& outputs) const;
+
+  SimulatedRobot& robot_;
+  const pipeline::Eye& eye_;
+  FaultSchedule faults_;
+  const DrivingConfig& config_;
+  const ScenarioListener& listener_;
+  Recorder* recorder_;
+  wire::MissionOrder order_;
+  std::vector<Eigen::Vector2d> way_m_;
+  DrivingState state_;
+  std::vector<wire::ServerMessage> messages_;
+  std::vector<StopEvent> stops_;
+  std::deque<DrivenPicture> pictures_;
+  std::vector<std::pair<std::size_t, sim::Box>> boxes_;  // by the number of their fault
+  std::vector<bool> box_done_;
+  Milliseconds now_ms_ = 0;
+  double commanded_s_ = 0.0;  // the last command that reached the base
+  double heard_s_ = 0.0;      // when the house last heard of the agent
+  double stands_since_s_ = 0.0;
+  bool halted_ = false;  // stopped, and no order since
+  int vectors_ = 0;
+  int moved_after_stop_ = 0;
+};
+
+}  // namespace homeward::agent

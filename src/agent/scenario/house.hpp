@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "agent/scenario/drive_loop.hpp"
+#include "agent/scenario/taught_world.hpp"
+#include "pipeline/belief_tracker.hpp"
+#include "planning/route.hpp"
+#include "wire/mission_order.hpp"
+
+namespace homeward::agent {
+
+/// What a server does for a mission, without one: says where the robot is, plans its way, and after a drive has failed
+/// looks again and gives an order for another way, as `planning::detour_after` decides.
+class House {
+ public:
+  /// `destination` must be of the map of `taught`, which outlives this. Errors: those of BeliefTracker::create.
+  static Result<House> create(const TaughtWorld& taught, const map::Destination& destination);
+
+  /// Looks around from where the robot stands. Nothing: lost.
+  Result<std::optional<PlaceId>> find_place(SimulatedRobot& robot);
+  /// The way to the destination, with what has failed closed. Errors: those of plan_route.
+  Result<wire::MissionOrder> order_from(const PlaceId& place);
+  /// The next order after a drive that failed at view `index`. Nothing: a person decides, `why` says what for.
+  Result<std::optional<wire::MissionOrder>> order_after(SimulatedRobot& robot, const DriveLoop& drive,
+                                                        std::string& why);
+  /// Where an order's pictures were truly taken, one for each of its views.
+  [[nodiscard]] std::vector<Eigen::Vector2d> way_of(const wire::MissionOrder& order) const;
+  [[nodiscard]] int detours() const { return detours_; }
+
+ private:
+  House(const TaughtWorld& taught, const map::Destination& destination, pipeline::BeliefTracker tracker)
+      : taught_(&taught), destination_(&destination), tracker_(std::move(tracker)) {}
+
+  const TaughtWorld* taught_;
+  const map::Destination* destination_;
+  pipeline::BeliefTracker tracker_;
+  std::vector<PlaceId> path_;
+  std::vector<planning::Way> closed_;
+  int detours_ = 0;
+  std::int64_t orders_ = 0;
+};
+
+}  // namespace homeward::agent

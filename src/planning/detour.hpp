@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "planning/route.hpp"
+
+namespace homeward::planning {
+
+/// A drive over the places of a path that failed on its way to `path[index]`, and where the robot is believed to be.
+struct FailedDrive {
+  std::vector<PlaceId> path;
+  std::int64_t index = 0;
+  PlaceId here;
+  PlaceId destination;
+  int detours = 0;  // that the mission has made already
+};
+
+/// What not to drive again after a failed drive: the edge that was being driven, and where the robot is known to be
+/// further already, the edge after that; both directions of them. Nothing where no edge can be blamed.
+std::vector<Way> failed_ways(const FailedDrive& failed);
+
+/// Whether another way is worth looking for, and what to close for it beside what is closed already. Nothing: a person
+/// decides, because the destination's own place is reached, no edge can be blamed, or the mission has had its detours.
+std::optional<std::vector<Way>> detour_after(const FailedDrive& failed);
+
+}  // namespace homeward::planning

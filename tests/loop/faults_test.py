@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""What goes wrong on the way, each with its expected outcome, in simulated time: cameras, laser, link, the agent itself,
+wheels, a box in the way, furniture moved. Nothing is ever touched, and nothing moves after a stop.
+
+usage: faults_test.py BIN_FOLDER WEB_FOLDER
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BIN = pathlib.Path(sys.argv[1]).resolve()
+ARRIVED_WITHIN_M = 0.5
+STANDS_WITHIN_S = 0.5
+# The robot's base stops by itself half a second after the last command; then it brakes from 0.45 m/s at 1 m/s2.
+FROZEN_STANDS_WITHIN_S = 1.0
+AT_S = 5
+
+
+def fault(kind, **more):
+    return {"from": "hall", "to": "kitchen", "faults": [{"kind": kind, "at_s": AT_S, **more}]}
+
+
+MISSIONS = {
+    "a third covered": fault("camera_occluded", for_s=5, share=0.34),
+    "tracking lost": fault("camera_occluded", for_s=2, share=1.0),
+    "laser silent": fault("scan_lost", for_s=3),
+    "link cut": fault("link_lost", for_s=3),
+    "agent frozen": fault("agent_frozen", for_s=2),
+    "agent frozen for a moment": fault("agent_frozen", for_s=0.7),
+    "wheels slip": fault("wheel_slip", for_s=4, share=0.5),
+    "box in the way": fault("obstacle"),
+    "box for a while": fault("obstacle", for_s=8),
+    "stopped by hand": fault("stop", for_s=0.2),
+    "moved furniture": {"from": "kitchen", "to": "hall", "moved_furniture": 1},
+}
+REASONS = {
+    "laser silent": "range sensor",
+    "link cut": "connection",
+    "agent frozen": "computer stood still",
+    "agent frozen for a moment": "computer stood still",
+    "stopped by hand": "by hand",
+}
+
+
+def run(folder, name, content):
+    file = folder / name
+    file.write_text(json.dumps(content))
+    return subprocess.run([BIN / "homeward", "simulate", "run", "--scenario", file, "--json"], capture_output=True,
+                          text=True)
+
+
+class Faults(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        scenario = {"format": "homeward-scenario", "version": 1, "world": "house:1", "seed": 1,
+                    "camera": {"model": "hyperbolic_mirror"},
+                    "tour": {"rooms": ["kitchen", "hall", "living_room", "hall"], "light": "day"},
+                    "missions": list(MISSIONS.values())}
+        with tempfile.TemporaryDirectory(prefix="homeward-faults-") as folder:
+            done = run(pathlib.Path(folder), "scenario.json", scenario)
+        if done.returncode != 0:
+            raise AssertionError(done.stderr)
+        lines = [json.loads(line) for line in done.stdout.splitlines()]
+        cls.results = dict(zip(MISSIONS, lines, strict=True))
+        for name, result in cls.results.items():
+            print(f"{name}: {json.dumps(result)}", file=sys.stderr)
+
+    def expect_arrival(self, name):
+        result = self.results[name]
+        self.assertTrue(result["arrived"], result)
+        self.assertLessEqual(result["final_error_m"], ARRIVED_WITHIN_M, result)
+
+    def test_nothing_is_touched(self):
+        for name, result in self.results.items():
+            with self.subTest(name):
+                self.assertEqual(result["collisions"], 0, result)
+
+    def test_nothing_moves_after_a_stop(self):
+        for name, result in self.results.items():
+            with self.subTest(name):
+                self.assertEqual(result["moved_after_stop"], 0, result)
+
+    def test_a_covered_part_of_the_picture_does_not_keep_it_from_arriving(self):
+        self.expect_arrival("a third covered")
+
+    def test_it_arrives_although_it_sees_nothing_for_two_seconds(self):
+        self.expect_arrival("tracking lost")
+        self.assertEqual(self.results["tracking lost"]["stops"], [])
+
+    def test_what_must_stop_it_does_and_says_why(self):
+        for name, word in REASONS.items():
+            with self.subTest(name):
+                result = self.results[name]
+                self.assertFalse(result["arrived"], result)
+                self.assertEqual(len(result["stops"]), 1, result)
+                self.assertIn(word, result["stops"][0]["reason"])
+                self.assertEqual(result["detours"], 0, "only a person sets it going again")
+
+    def test_it_stands_in_time(self):
+        for name in REASONS:
+            limit_s = FROZEN_STANDS_WITHIN_S if name.startswith("agent") else STANDS_WITHIN_S
+            with self.subTest(name):
+                stand_after_s = self.results[name]["stops"][0]["stand_after_s"]
+                self.assertGreater(stand_after_s, 0.0, "it stood before anything happened")
+                self.assertLessEqual(stand_after_s, limit_s)
+
+    def test_it_arrives_although_its_wheels_slip(self):
+        self.expect_arrival("wheels slip")
+
+    def test_a_box_in_the_way_is_passed_or_named(self):
+        for name in ("box in the way", "box for a while"):
+            with self.subTest(name):
+                result = self.results[name]
+                if result["arrived"]:
+                    self.expect_arrival(name)
+                else:
+                    self.assertIn("blocked", result["stops"][-1]["reason"], result)
+
+    def test_moved_furniture_is_seen_and_driven_round(self):
+        result = self.results["moved furniture"]
+        self.assertGreaterEqual(result["moved_furniture"], 8, result)
+        self.expect_arrival("moved furniture")
+
+    def test_furniture_of_a_mesh_cannot_be_moved_and_that_is_said(self):
+        with tempfile.TemporaryDirectory(prefix="homeward-faults-") as name:
+            done = run(pathlib.Path(name), "scenario.json", {
+                "format": "homeward-scenario", "version": 1, "world": "world.json", "seed": 1,
+                "camera": {"model": "hyperbolic_mirror"}, "tour": {"rooms": ["a", "b"]},
+                "missions": [{"from": "a", "to": "b", "moved_furniture": 1}]})
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("generated worlds alone", done.stderr)
+        self.assertNotIn("teaching", done.stderr, "refused before anything costly is done")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
