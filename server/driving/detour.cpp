@@ -97,10 +97,7 @@ void Driving::send_detour(const Unit& found, const MissionId& mission, const std
   planned->mission.state = wire::MissionState::kAccepted;
   planned->mission.reason = reason + (planned->again ? " There is no other way; the robot tries it once more."
                                                      : " The robot takes another way.");
-  if (planned->again) {
-    unit.tried_again = true;
-    unit.closed.clear();
-  }
+  unit.tried_again = unit.tried_again || planned->again;
   planned->mission.epoch = unit.epoch;
   planned->mission.seq = ++unit.seq;
   planned->order.order = {unit.epoch, unit.seq};

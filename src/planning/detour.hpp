@@ -29,7 +29,7 @@ std::optional<std::vector<Way>> detour_after(const FailedDrive& failed);
 /// The way after a failed drive.
 struct Detour {
   Route route;
-  bool again = false;  // there is no other: the ways that were closed are opened and tried once more
+  bool again = false;  // there is no other: what is closed is tried once more
 };
 
 /// The way round what `request` closes. Where there is none and `may_try_again`, the way that there is: somebody who

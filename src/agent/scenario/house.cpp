@@ -41,10 +41,7 @@ Result<wire::MissionOrder> House::order_from(const PlaceId& place) {
   request.closed = closed_;
   const auto detour = planning::plan_detour(*taught_->map, request, !tried_again_);
   if (!detour) return pass_on(detour);
-  if (detour->again) {
-    tried_again_ = true;
-    closed_.clear();
-  }
+  tried_again_ = tried_again_ || detour->again;
   path_ = detour->route.places;
   wire::MissionOrder order = wire::order_for_route(*taught_->map, path_, *destination_);
   order.mission = MissionId("simulated");
