@@ -42,6 +42,7 @@ bool Driving::begin_detour(const Unit& found, const std::string& reason) {
 Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mission) {
   Plan plan;
   planning::RouteRequest asked;
+  bool tried_again = false;
   {
     const std::scoped_lock lock(unit->mutex);
     if (!unit->looking_for_detour || !unit->mission || unit->mission->id != mission || !unit->belief ||
@@ -51,6 +52,7 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
     plan.mission = *unit->mission;
     asked.from = *unit->belief->place;
     asked.closed = unit->closed;
+    tried_again = unit->tried_again;
   }
   const auto loaded = maps_.load(plan.mission.map);
   if (!loaded) return pass_on(loaded);
@@ -60,15 +62,17 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   std::erase_if(asked.closed, [&](const planning::Way& way) {
     return map::find_place(map, way.from) == nullptr || map::find_place(map, way.to) == nullptr;
   });
-  const auto route = planning::plan_route(map, asked);
-  if (!route) return pass_on(route);
+  const auto detour = planning::plan_detour(map, asked, !tried_again);
+  if (!detour) return pass_on(detour);
+  const std::vector<PlaceId>& places = detour->route.places;
   const auto destination = std::ranges::find_if(map.destinations, [&](const map::Destination& candidate) {
     return plan.mission.destination && candidate.id == *plan.mission.destination;
   });
-  plan.order = destination != map.destinations.end() ? wire::order_for_route(map, route->places, *destination)
-                                                     : wire::order_for_route(map, route->places);
+  plan.order = destination != map.destinations.end() ? wire::order_for_route(map, places, *destination)
+                                                     : wire::order_for_route(map, places);
   plan.mission.revision = map.revision;
-  plan.mission.path = route->places;
+  plan.mission.path = places;
+  plan.again = detour->again;
   plan.mission.path_index = 0;
   plan.order.mission = mission;
   plan.order.map = plan.mission.map;
@@ -91,7 +95,9 @@ void Driving::send_detour(const Unit& found, const MissionId& mission, const std
     return tell(unit);
   }
   planned->mission.state = wire::MissionState::kAccepted;
-  planned->mission.reason = reason + " The robot takes another way.";
+  planned->mission.reason = reason + (planned->again ? " There is no other way; the robot tries it once more."
+                                                     : " The robot takes another way.");
+  unit.tried_again = unit.tried_again || planned->again;
   planned->mission.epoch = unit.epoch;
   planned->mission.seq = ++unit.seq;
   planned->order.order = {unit.epoch, unit.seq};

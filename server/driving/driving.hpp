@@ -68,6 +68,7 @@ class Driving : public LinkListener {
   struct Plan {
     wire::MissionView mission;
     wire::MissionOrder order;
+    bool again = false;  // a detour that is the way that failed, once more
   };
 
   Result<Unit> find(const RobotId& id);

@@ -32,4 +32,15 @@ std::optional<std::vector<Way>> detour_after(const FailedDrive& failed) {
   return ways;
 }
 
+Result<Detour> plan_detour(const map::TopologicalMap& map, const RouteRequest& request, bool may_try_again) {
+  auto route = plan_route(map, request);
+  if (route) return Detour{std::move(*route), false};
+  if (!may_try_again || request.closed.empty() || route.error().code != ErrorCode::kNoRoute) return pass_on(route);
+  RouteRequest open = request;
+  open.closed.clear();
+  auto again = plan_route(map, open);
+  if (!again) return pass_on(route);
+  return Detour{std::move(*again), true};
+}
+
 }  // namespace homeward::planning

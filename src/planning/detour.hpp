@@ -26,4 +26,15 @@ std::vector<Way> failed_ways(const FailedDrive& failed);
 /// decides, because the destination's own place is reached, no edge can be blamed, or the mission has had its detours.
 std::optional<std::vector<Way>> detour_after(const FailedDrive& failed);
 
+/// The way after a failed drive.
+struct Detour {
+  Route route;
+  bool again = false;  // there is no other: what is closed is tried once more
+};
+
+/// The way round what `request` closes. Where there is none and `may_try_again`, the way that there is: somebody who
+/// stood in the door has gone on, and a way that was lost is recognised from where the robot stands now. Errors: those
+/// of plan_route with everything closed.
+Result<Detour> plan_detour(const map::TopologicalMap& map, const RouteRequest& request, bool may_try_again);
+
 }  // namespace homeward::planning

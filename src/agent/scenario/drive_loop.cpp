@@ -63,12 +63,24 @@ Status DriveLoop::watch() {
   return {};
 }
 
+Result<std::optional<DrivenPicture>> DriveLoop::look_again() {
+  constexpr int kCycles = 3;
+  newest_.reset();
+  for (int cycle_number = 0; cycle_number < kCycles; ++cycle_number) {
+    hear_the_house(!on("link_lost"));
+    if (const Status cycled = cycle(); !cycled) return pass_on(cycled);
+  }
+  return newest_;
+}
+
 /// What the house says in one cycle. It goes on permitting a mission that has ended: no permit may revive one.
 void DriveLoop::hear_the_house(bool link_up) {
   if (!link_up) return;
   if (elapsed_s() - heard_s_ <= kHeardWithin_s)
     messages_.emplace_back(wire::Permit{order_.mission, {order_.order.epoch, ++order_.order.seq}, kPermit_ms});
-  if (on("stop")) messages_.emplace_back(wire::StopOrder{"s1", order_.order.epoch, "Stopped by hand.", "test"});
+  if (!on("stop")) return;
+  messages_.emplace_back(wire::StopOrder{"s1", order_.order.epoch, "Stopped by hand.", "test"});
+  stopped_by_hand_ = true;
 }
 
 Status DriveLoop::cycle() {
@@ -103,7 +115,8 @@ Result<Outputs> DriveLoop::step_once(bool link_up) {
     if (on("camera_occluded")) occlude(picture, faults_.share("camera_occluded", elapsed_s()));
     constexpr Milliseconds kKeepEvery_ms = 1000;
     constexpr std::size_t kKept = 6;
-    if (now_ms_ % kKeepEvery_ms == 0) pictures_.push_back({picture, inputs.odometry});
+    newest_ = DrivenPicture{picture, inputs.odometry};
+    if (now_ms_ % kKeepEvery_ms == 0) pictures_.push_back(*newest_);
     if (pictures_.size() > kKept) pictures_.pop_front();
     CameraPicture sent = as_sent({now_ms_, std::move(picture), inputs.odometry});
     sent.recognised = wants_features(state_.follow);
@@ -113,10 +126,10 @@ Result<Outputs> DriveLoop::step_once(bool link_up) {
     bytes = sent.bytes;
   }
   if (!on("scan_lost")) inputs.scan = {now_ms_, robot_.sweep()};
-  const bool pictured = inputs.picture.has_value();
+  const bool looks = inputs.picture.has_value() && state_.drive == wire::DriveState::kDriving;
   Outputs outputs =
       recorder_ != nullptr ? recorder_->step(state_, inputs, bytes, now_ms_) : step(state_, inputs, config_, now_ms_);
-  if (state_.seen.answered && pictured) ++vectors_;
+  if (state_.seen.answered && looks) ++vectors_;
   return outputs;
 }
 

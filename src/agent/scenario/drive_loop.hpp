@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -35,12 +36,17 @@ class DriveLoop {
   Status run(wire::MissionOrder order, std::vector<Eigen::Vector2d> way_m = {});
   /// Goes on for a while after a stop and counts what moves without an order.
   Status watch();
+  /// Goes on for a moment while the robot stands, and gives what the camera has shown in it: nothing while it shows
+  /// nothing.
+  Result<std::optional<DrivenPicture>> look_again();
 
   [[nodiscard]] const DrivingState& state() const { return state_; }
   [[nodiscard]] int vectors() const { return vectors_; }
   [[nodiscard]] double elapsed_s() const { return 0.001 * static_cast<double>(now_ms_); }
   [[nodiscard]] std::vector<StopEvent>& stops() { return stops_; }
   [[nodiscard]] int moved_after_stop() const { return moved_after_stop_; }
+  /// Whether somebody pressed stop.
+  [[nodiscard]] bool stopped_by_hand() const { return stopped_by_hand_; }
   /// About the last seconds' pictures, one a second, oldest first.
   [[nodiscard]] const std::deque<DrivenPicture>& pictures() const { return pictures_; }
 
@@ -66,12 +72,14 @@ class DriveLoop {
   std::vector<wire::ServerMessage> messages_;
   std::vector<StopEvent> stops_;
   std::deque<DrivenPicture> pictures_;
+  std::optional<DrivenPicture> newest_;
   std::vector<std::pair<std::size_t, sim::Box>> boxes_;  // by the number of their fault
   std::vector<bool> box_done_;
   Milliseconds now_ms_ = 0;
   double commanded_s_ = 0.0;  // the last command that reached the base
   double heard_s_ = 0.0;      // when the house last heard of the agent
   double stands_since_s_ = 0.0;
+  bool stopped_by_hand_ = false;
   bool halted_ = false;  // stopped, and no order since
   int vectors_ = 0;
   int moved_after_stop_ = 0;

@@ -39,10 +39,11 @@ Result<wire::MissionOrder> House::order_from(const PlaceId& place) {
   request.from = place;
   request.to = destination_->place;
   request.closed = closed_;
-  const auto route = planning::plan_route(*taught_->map, request);
-  if (!route) return pass_on(route);
-  path_ = route->places;
-  wire::MissionOrder order = wire::order_for_route(*taught_->map, route->places, *destination_);
+  const auto detour = planning::plan_detour(*taught_->map, request, !tried_again_);
+  if (!detour) return pass_on(detour);
+  tried_again_ = tried_again_ || detour->again;
+  path_ = detour->route.places;
+  wire::MissionOrder order = wire::order_for_route(*taught_->map, path_, *destination_);
   order.mission = MissionId("simulated");
   order.order = {1, ++orders_ * kOrderStep};
   order.map = MapId("taught");
@@ -51,29 +52,42 @@ Result<wire::MissionOrder> House::order_from(const PlaceId& place) {
   return order;
 }
 
-Result<std::optional<wire::MissionOrder>> House::order_after(SimulatedRobot& robot, const DriveLoop& drive,
-                                                             std::string& why) {
-  // The last seconds' pictures say more than the last place alone; where they do not, as at the beginning.
+/// Where the robot stands after a failed drive: by the last seconds' pictures and some more, which look first beside
+/// the places that it has just passed; where that says nothing, anew among all places.
+Result<std::optional<PlaceId>> House::find_again(DriveLoop& drive) {
+  constexpr int kLeastLooks = 3;
+  constexpr int kMostLooks = 16;
+  constexpr int kAnewAfter = 8;
   tracker_.restart();
-  std::optional<PlaceId> here;
   for (const DrivenPicture& driven : drive.pictures()) {
-    const auto belief = tracker_.update(driven.picture, driven.odometry);
+    if (const auto belief = tracker_.update(driven.picture, driven.odometry); !belief) return pass_on(belief);
+  }
+  std::optional<PlaceId> here;
+  for (int look = 0; look < kMostLooks && !(here && look >= kLeastLooks); ++look) {
+    const auto seen = drive.look_again();
+    if (!seen) return pass_on(seen);
+    if (look == kAnewAfter) tracker_.restart();
+    if (!*seen) continue;
+    const auto belief = tracker_.update((*seen)->picture, (*seen)->odometry);
     if (!belief) return pass_on(belief);
     here = place_of(*belief);
   }
-  if (!here) {
-    const auto found = find_place(robot);
-    if (!found) return pass_on(found);
-    here = *found;
-  }
-  if (!here) {
+  return here;
+}
+
+Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, std::string& why) {
+  const std::int64_t index = drive.state().follow.index;
+  const auto here = find_again(drive);
+  if (!here) return pass_on(here);
+  if (drive.stopped_by_hand()) return std::nullopt;
+  if (!*here) {
     why = "I do not know where I am.";
     return std::nullopt;
   }
-  const auto ways = planning::detour_after({path_, drive.state().follow.index, *here, destination_->place, detours_});
+  const auto ways = planning::detour_after({path_, index, **here, destination_->place, detours_});
   if (!ways) return std::nullopt;
   closed_.insert(closed_.end(), ways->begin(), ways->end());
-  auto order = order_from(*here);
+  auto order = order_from(**here);
   if (!order) {
     why = order.error().message;
     return std::nullopt;

@@ -22,16 +22,16 @@ class House {
 
   /// Looks around from where the robot stands. Nothing: lost.
   Result<std::optional<PlaceId>> find_place(SimulatedRobot& robot);
-  /// The way to the destination, with what has failed closed. Errors: those of plan_route.
+  /// The way to the destination, round what has failed. Errors: those of plan_detour.
   Result<wire::MissionOrder> order_from(const PlaceId& place);
-  /// The next order after a drive that failed at view `index`. Nothing: a person decides, `why` says what for.
-  Result<std::optional<wire::MissionOrder>> order_after(SimulatedRobot& robot, const DriveLoop& drive,
-                                                        std::string& why);
+  /// The next order after a drive that failed. Nothing: a person decides, and `why` may say what for.
+  Result<std::optional<wire::MissionOrder>> order_after(DriveLoop& drive, std::string& why);
   /// Where an order's pictures were truly taken, one for each of its views.
   [[nodiscard]] std::vector<Eigen::Vector2d> way_of(const wire::MissionOrder& order) const;
   [[nodiscard]] int detours() const { return detours_; }
 
  private:
+  Result<std::optional<PlaceId>> find_again(DriveLoop& drive);
   House(const TaughtWorld& taught, const map::Destination& destination, pipeline::BeliefTracker tracker)
       : taught_(&taught), destination_(&destination), tracker_(std::move(tracker)) {}
 
@@ -41,6 +41,7 @@ class House {
   std::vector<PlaceId> path_;
   std::vector<planning::Way> closed_;
   int detours_ = 0;
+  bool tried_again_ = false;
   std::int64_t orders_ = 0;
 };
 

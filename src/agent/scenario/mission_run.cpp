@@ -25,7 +25,8 @@ const map::Destination* destination_named(const map::TopologicalMap& map, const 
   return found == map.destinations.end() ? nullptr : &*found;
 }
 
-MissionResult result_of(DriveLoop& drive, double ended_s) {
+MissionResult result_of(DriveLoop& drive) {
+  const double ended_s = drive.elapsed_s();
   MissionResult result;
   result.arrived = drive.state().drive == wire::DriveState::kArrived;
   result.stops = drive.stops();
@@ -36,24 +37,24 @@ MissionResult result_of(DriveLoop& drive, double ended_s) {
 }
 
 /// Drives a mission with all the orders that it takes.
-Result<MissionResult> drive_mission(DriveLoop& drive, House& house, SimulatedRobot& robot, wire::MissionOrder order) {
+Result<MissionResult> drive_mission(DriveLoop& drive, House& house, wire::MissionOrder order) {
   for (;;) {
     std::vector<Eigen::Vector2d> way_m = house.way_of(order);
     if (const Status driven = drive.run(std::move(order), std::move(way_m)); !driven) return pass_on(driven);
     // What a person or a fault has stopped, only a person sets going again.
     if (drive.state().drive != wire::DriveState::kFailed) break;
     std::string why;
-    auto next = house.order_after(robot, drive, why);
+    auto next = house.order_after(drive, why);
     if (!next) return pass_on(next);
     if (!why.empty() && !drive.stops().empty()) drive.stops().back().reason += " " + why;
     if (!*next) break;
     order = std::move(**next);
   }
-  const double ended_s = drive.elapsed_s();
+  MissionResult result = result_of(drive);
   if (drive.state().drive == wire::DriveState::kFailed || drive.state().drive == wire::DriveState::kStopped) {
     if (const Status watched = drive.watch(); !watched) return pass_on(watched);
   }
-  MissionResult result = result_of(drive, ended_s);
+  result.moved_after_stop = drive.moved_after_stop();
   result.detours = house.detours();
   return result;
 }
@@ -65,7 +66,7 @@ Result<MissionResult> drive_order(SimulatedRobot& robot, const pipeline::Eye& ey
                                   const ScenarioListener& listener, Recorder* recorder) {
   DriveLoop drive(robot, eye, FaultSchedule(plan.faults), config, listener, recorder);
   if (const Status driven = drive.run(order); !driven) return pass_on(driven);
-  return result_of(drive, drive.elapsed_s());
+  return result_of(drive);
 }
 
 void judge(const sim::Vehicle& vehicle, const Pose2& target, MissionResult& result) {
@@ -138,7 +139,7 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
       recorder = std::move(*created);
     }
     DriveLoop drive(*robot, *eye, FaultSchedule(plan.faults), config, listener, recorder.get());
-    auto driven = drive_mission(drive, *house, *robot, *order);
+    auto driven = drive_mission(drive, *house, *order);
     if (!driven) return pass_on(driven);
     result = std::move(*driven);
   }

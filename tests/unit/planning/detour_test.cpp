@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/ascii_map.hpp"
+
 namespace homeward::planning {
 namespace {
 
@@ -37,6 +39,40 @@ TEST(Detour, IsLookedForThreeTimesAtMost) {
 TEST(Detour, IsNotLookedForAtTheDestinationOrWithoutAnEdgeToBlame) {
   EXPECT_FALSE(detour_after(failed(3, "p4")));
   EXPECT_FALSE(detour_after(failed(0, "p9")));
+}
+
+TEST(Detour, GoesRoundWhatIsClosed) {
+  const auto map = homeward::testing::ascii_map(R"(
+A-B
+| |
+C-D
+)");
+  const auto detour =
+      plan_detour(map, {.from = PlaceId("A"), .to = PlaceId("B"), .avoid = {}, .closed = {way("A", "B")}}, true);
+  ASSERT_TRUE(detour);
+  EXPECT_EQ(homeward::testing::spelled(detour->route.places), "A C D B");
+  EXPECT_FALSE(detour->again);
+}
+
+TEST(Detour, TriesTheOnlyWayOnceMore) {
+  const auto map = homeward::testing::ascii_map("A-B-C");
+  const RouteRequest request{
+      .from = PlaceId("A"), .to = PlaceId("C"), .avoid = {}, .closed = {way("A", "B"), way("B", "A")}};
+  const auto again = plan_detour(map, request, true);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(homeward::testing::spelled(again->route.places), "A B C");
+  EXPECT_TRUE(again->again);
+  const auto enough = plan_detour(map, request, false);
+  ASSERT_FALSE(enough);
+  EXPECT_EQ(enough.error().code, ErrorCode::kNoRoute);
+}
+
+TEST(Detour, DoesNotTryAgainWhereThereWasNeverAWay) {
+  const auto map = homeward::testing::ascii_map("A-B C-D");
+  const auto none =
+      plan_detour(map, {.from = PlaceId("A"), .to = PlaceId("D"), .avoid = {}, .closed = {way("A", "B")}}, true);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::kNoRoute);
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ TEST_F(DrivingTest, AStopOvertakesAndALostLinkStops) {
   EXPECT_FALSE(reborn.await<wire::MissionOrder>(milliseconds(400))) << "nothing moves before a person says so";
 }
 
-TEST_F(DrivingTest, AFailedWayIsDrivenRoundAndWithoutAnotherTheMissionFails) {
+TEST_F(DrivingTest, AFailedWayIsDrivenRoundWithoutAnotherTriedOnceMoreAndThenTheMissionFails) {
   add_robot();
   put_on_map();
   add_second_way();
@@ -195,6 +195,16 @@ TEST_F(DrivingTest, AFailedWayIsDrivenRoundAndWithoutAnotherTheMissionFails) {
   agent.look(1);
   ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
   agent.status(wire::DriveState::kFailed, second, 1);
+  const auto third = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(third) << mission_now(sent.json()).dump();
+  EXPECT_GT(third->order, second->order);
+  now = mission_now(sent.json());
+  EXPECT_NE(now.at("reason").get<std::string>().find("once more"), std::string::npos) << now.dump();
+  agent.status(wire::DriveState::kDriving, third, 1);
+  wait_for_state(sent.json(), "driving");
+  agent.look(1);
+  ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
+  agent.status(wire::DriveState::kFailed, third, 1);
   now = wait_for_state(sent.json(), "failed");
   EXPECT_EQ(now.at("state"), "failed");
   EXPECT_NE(now.at("reason").get<std::string>().find("has just failed"), std::string::npos) << now.dump();
