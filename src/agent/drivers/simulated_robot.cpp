@@ -57,8 +57,7 @@ Scan SimulatedRobot::sweep() {
 
 Body body_of(const sim::RobotProfile& profile) {
   Body body;
-  body.radius_m = profile.radius_m;
-  body.disc_x_m = profile.disc_x_m;
+  body.outline = profile.outline;
   body.max_speed_mps = profile.max_speed_mps;
   body.max_turn_radps = profile.max_turn_radps;
   body.deceleration_mps2 = profile.deceleration_mps2;

@@ -59,11 +59,7 @@ std::vector<Eigen::Vector2d> hit_points(const Scan& scan) {
 
 double clearance_m(const Body& body, std::span<const Eigen::Vector2d> points_m) {
   double nearest_m = 100.0;
-  for (const double x_m : body.disc_x_m) {
-    for (const Eigen::Vector2d& point : points_m) {
-      nearest_m = std::min(nearest_m, (point - Eigen::Vector2d(x_m, 0.0)).norm() - body.radius_m);
-    }
-  }
+  for (const Eigen::Vector2d& point : points_m) nearest_m = std::min(nearest_m, distance_m(body.outline, point));
   return nearest_m;
 }
 

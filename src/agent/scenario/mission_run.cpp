@@ -39,13 +39,21 @@ void occlude(Image& picture, double share) {
   }
 }
 
-/// A pose in a room, near its point, any heading.
-Pose2 starting_pose(const sim::World& world, const Eigen::Vector2d& point_m, std::uint64_t seed) {
+/// A pose in a room, near its point, any heading that has room for the body.
+Pose2 starting_pose(const sim::World& world, const sim::RobotProfile& profile, const Eigen::Vector2d& point_m,
+                    std::uint64_t seed) {
+  constexpr double kRoom_m = 0.05;
+  const sim::Obstacles obstacles(world);
+  const auto has_room = [&](const Pose2& pose) {  // where a disc may be, whatever its heading, the world says
+    return is_round(profile.outline) || obstacles.clearance_m(profile, pose, {}) > kRoom_m;
+  };
   sim::Random random(seed);
   for (int attempt = 0; attempt < 50; ++attempt) {
     const Eigen::Vector2d at_m =
         point_m + Eigen::Vector2d(sim::uniform(random, -0.3, 0.3), sim::uniform(random, -0.3, 0.3));
-    if (sim::is_set(world.drivable, at_m)) return {at_m.x(), at_m.y(), sim::uniform(random, -kPi, kPi)};
+    if (!sim::is_set(world.drivable, at_m)) continue;
+    const Pose2 pose{at_m.x(), at_m.y(), sim::uniform(random, -kPi, kPi)};
+    if (has_room(pose)) return pose;
   }
   return {point_m.x(), point_m.y(), sim::uniform(random, -kPi, kPi)};
 }
@@ -233,7 +241,7 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
   robot_config.profile = profile;
   robot_config.people = plan.people;
   robot_config.seed = plan.seed;
-  const Pose2 start = starting_pose(world, *from_m, plan.seed);
+  const Pose2 start = starting_pose(world, profile, *from_m, plan.seed);
   auto robot = SimulatedRobot::create(*taught.world, robot_config, start);
   if (!robot) return pass_on(robot);
   const auto eye = pipeline::Eye::create(taught.camera, taught.map->feature_config);
