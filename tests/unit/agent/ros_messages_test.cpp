@@ -204,7 +204,9 @@ TEST(RosBodies, CoverTheirOutline) {
         const std::vector<Eigen::Vector2d> point = {{-back_m + along * (front_m + back_m), side * width_m}};
         EXPECT_LE(clearance_m(body, point), 1e-9) << along;
         const std::vector<Eigen::Vector2d> beside = {{point[0].x(), point[0].y() + std::copysign(0.1, side)}};
-        if (side != 0.0) EXPECT_NEAR(clearance_m(body, beside), 0.1, 1e-9) << along;
+        if (side != 0.0) {
+          EXPECT_NEAR(clearance_m(body, beside), 0.1, 1e-9) << along;
+        }
       }
     }
   }
