@@ -14,10 +14,13 @@
 
 namespace homeward::sim {
 
-/// What a robot is like: what it covers of the floor, and how it moves.
+enum class RangeSensor { kLaser, kUltrasound };
+
+/// What a robot is like: what it covers of the floor, how it measures ranges, and how it moves.
 struct RobotProfile {
   std::string name;
   Outline outline;
+  RangeSensor ranges = RangeSensor::kLaser;
   double max_speed_mps = 0.8;
   double max_turn_radps = 1.2;
   double acceleration_mps2 = 0.5;

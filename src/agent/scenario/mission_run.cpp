@@ -39,23 +39,25 @@ void occlude(Image& picture, double share) {
   }
 }
 
-/// A pose in a room, near its point, any heading that has room for the body.
+/// A pose in a room, near its point, any heading: one with room for the body, or else the roomiest of many.
 Pose2 starting_pose(const sim::World& world, const sim::RobotProfile& profile, const Eigen::Vector2d& point_m,
                     std::uint64_t seed) {
   constexpr double kRoom_m = 0.05;
   const sim::Obstacles obstacles(world);
-  const auto has_room = [&](const Pose2& pose) {  // where a disc may be, whatever its heading, the world says
-    return is_round(profile.outline) || obstacles.clearance_m(profile, pose, {}) > kRoom_m;
-  };
   sim::Random random(seed);
-  for (int attempt = 0; attempt < 50; ++attempt) {
+  Pose2 best{point_m.x(), point_m.y(), 0.0};
+  double most_m = -1e9;
+  for (int attempt = 0; attempt < 50 && most_m < kRoom_m; ++attempt) {
     const Eigen::Vector2d at_m =
         point_m + Eigen::Vector2d(sim::uniform(random, -0.3, 0.3), sim::uniform(random, -0.3, 0.3));
     if (!sim::is_set(world.drivable, at_m)) continue;
     const Pose2 pose{at_m.x(), at_m.y(), sim::uniform(random, -kPi, kPi)};
-    if (has_room(pose)) return pose;
+    const double clear_m = obstacles.clearance_m(profile, pose, {});
+    if (clear_m <= most_m) continue;
+    most_m = clear_m;
+    best = pose;
   }
-  return {point_m.x(), point_m.y(), sim::uniform(random, -kPi, kPi)};
+  return best;
 }
 
 const map::Destination* destination_named(const map::TopologicalMap& map, const std::string& label) {
