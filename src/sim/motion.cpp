@@ -37,8 +37,7 @@ RobotProfile disc_profile() {
 RobotProfile chair_profile() {
   RobotProfile profile;
   profile.name = "chair";
-  profile.radius_m = 0.34;
-  profile.disc_x_m = {0.075, 0.2, 0.35, 0.525};
+  profile.outline = {0.0, 0.25, 0.85, 0.325};
   return profile;
 }
 
@@ -59,18 +58,55 @@ std::optional<double> Obstacles::distance_at(const Eigen::Vector2d& point_m) con
          share.y() * ((1.0 - share.x()) * at(0, 1) + share.x() * at(1, 1));
 }
 
-double Obstacles::clearance_m(const RobotProfile& robot, const Pose2& pose, const std::vector<Person>& people) const {
-  double nearest_m = 1e9;
-  for (const double x_m : robot.disc_x_m) {
-    const Pose2 disc = pose * Pose2{x_m, 0.0, 0.0};
-    const auto distance_m = distance_at({disc.x_m, disc.y_m});
-    if (!distance_m) return -1.0;
-    // Things are known to half a cell.
-    nearest_m = std::min(nearest_m, *distance_m - 0.5 * grid_.resolution_m - robot.radius_m);
-    for (const Person& person : people) {
-      const double apart_m = std::hypot(person.x_m - disc.x_m, person.y_m - disc.y_m);
-      nearest_m = std::min(nearest_m, apart_m - kPersonRadius_m - robot.radius_m);
+double Obstacles::clearance_of_box_m(const Outline& outline, const Pose2& pose) const {
+  for (const double x_m : {-outline.back_m, outline.front_m}) {
+    for (const double y_m : {-outline.side_m, outline.side_m}) {
+      const Pose2 corner = pose * Pose2{x_m, y_m, 0.0};
+      if (!distance_at({corner.x_m, corner.y_m})) return -1.0;
     }
+  }
+  const Pose2 middle = pose * Pose2{0.5 * (outline.front_m - outline.back_m), 0.0, 0.0};
+  const auto from_middle_m = distance_at({middle.x_m, middle.y_m});
+  if (!from_middle_m) return -1.0;
+  // The cell nearest to the middle bounds how far from it the cell nearest to the outline can be.
+  const double half_length_m = 0.5 * (outline.front_m + outline.back_m);
+  const double reach_m = *from_middle_m + grid_.resolution_m - std::min(half_length_m, outline.side_m) +
+                         std::hypot(half_length_m, outline.side_m);
+  const Eigen::Vector2i centre = cell_of(grid_, {middle.x_m, middle.y_m});
+  const int reach = static_cast<int>(std::ceil(reach_m / grid_.resolution_m));
+  const Pose2 from_world = inverse(pose);
+  const double c = std::cos(from_world.theta_rad);
+  const double s = std::sin(from_world.theta_rad);
+  double nearest_m = 1e9;
+  for (int row = std::max(0, centre.y() - reach); row <= std::min(grid_.height - 1, centre.y() + reach); ++row) {
+    for (int column = std::max(0, centre.x() - reach); column <= std::min(grid_.width - 1, centre.x() + reach);
+         ++column) {
+      const auto slot = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.width);
+      if (grid_.cells[slot + static_cast<std::size_t>(column)] == 0) continue;
+      const Eigen::Vector2d at_m = centre_of(grid_, {column, row});
+      const Eigen::Vector2d seen_m(from_world.x_m + c * at_m.x() - s * at_m.y(),
+                                   from_world.y_m + s * at_m.x() + c * at_m.y());
+      nearest_m = std::min(nearest_m, distance_m(outline, seen_m));
+    }
+  }
+  return nearest_m;
+}
+
+double Obstacles::clearance_m(const RobotProfile& robot, const Pose2& pose, const std::vector<Person>& people) const {
+  double thing_m = -1.0;
+  if (is_round(robot.outline)) {
+    const auto distance = distance_at({pose.x_m, pose.y_m});
+    if (!distance) return -1.0;
+    thing_m = *distance - robot.outline.radius_m;
+  } else {
+    thing_m = clearance_of_box_m(robot.outline, pose);
+    if (thing_m == -1.0) return thing_m;
+  }
+  // Things are known to half a cell.
+  double nearest_m = thing_m - 0.5 * grid_.resolution_m;
+  for (const Person& person : people) {
+    const Pose2 seen = inverse(pose) * Pose2{person.x_m, person.y_m, 0.0};
+    nearest_m = std::min(nearest_m, distance_m(robot.outline, {seen.x_m, seen.y_m}) - kPersonRadius_m);
   }
   return nearest_m;
 }

@@ -7,17 +7,20 @@
 #include <string>
 #include <vector>
 
+#include "core/outline.hpp"
 #include "core/pose2.hpp"
 #include "sim/people.hpp"
 #include "sim/scene.hpp"
 
 namespace homeward::sim {
 
-/// What a robot is like: its body as discs along its x axis, and how it moves.
+enum class RangeSensor { kLaser, kUltrasound };
+
+/// What a robot is like: what it covers of the floor, how it measures ranges, and how it moves.
 struct RobotProfile {
   std::string name;
-  double radius_m = 0.35;                // of each disc of the body
-  std::vector<double> disc_x_m = {0.0};  // where the discs' centres are
+  Outline outline;
+  RangeSensor ranges = RangeSensor::kLaser;
   double max_speed_mps = 0.8;
   double max_turn_radps = 1.2;
   double acceleration_mps2 = 0.5;
@@ -46,6 +49,8 @@ class Obstacles {
  private:
   /// To the nearest occupied cell's centre, between the cells' centres interpolated; nothing outside the grid.
   [[nodiscard]] std::optional<double> distance_at(const Eigen::Vector2d& point_m) const;
+  /// From an outline that is not round to the nearest thing.
+  [[nodiscard]] double clearance_of_box_m(const Outline& outline, const Pose2& pose) const;
 
   FloorGrid grid_;
   std::vector<float> distance_m_;

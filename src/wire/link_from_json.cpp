@@ -39,7 +39,7 @@ Hello read_hello(ObjectReader& reader) {
   m.robot_name = reader.text("robot_name", 200);
   m.session = reader.text("session", 200);
   m.camera = reader.take(camera_from_json(reader.value("camera"), reader.path_of("camera")));
-  m.radius_m = reader.number("radius_m", 0.05, 3.0);
+  m.radius_m = reader.number("radius_m", 0.05, kMostRadius_m);
   m.max_speed_mps = reader.number("max_speed_mps", 0.0, 5.0);
   return m;
 }

@@ -32,12 +32,14 @@ struct Order {
 
 // From the agent.
 
+inline constexpr double kMostRadius_m = 3.0;
+
 struct Hello {
   std::string agent;  // "homeward-agent/0.1.0"
   std::string robot_name;
   std::string session;  // random for each start of the process
   camera::CameraConfig camera;
-  double radius_m = 0.35;
+  double radius_m = 0.35;  // of the circle about its turning point that holds the whole body
   double max_speed_mps = 0.8;
 };
 

@@ -101,6 +101,7 @@ Result<ScenarioFile> scenario_from_json(const json& value, const std::string& pa
   scenario.seed = reader.integer("seed", 0, 1'000'000'000);
   read_camera(reader, scenario);
   if (reader.has("robot")) scenario.robot = reader.choice("robot", {"disc", "chair"});
+  if (reader.has("ranges")) scenario.ranges = reader.choice("ranges", {"laser", "ultrasound"});
   read_tour(reader, scenario);
   const std::vector<json> missions = reader.array("missions", 10'000);
   for (std::size_t i = 0; i < missions.size(); ++i) {

@@ -40,6 +40,7 @@ struct ScenarioFile {
   std::optional<camera::CameraConfig> camera;  // ... or a whole camera ...
   std::string camera_file;                     // ... or a camera.json relative to the scenario
   std::string robot = "disc";                  // "disc" or "chair"
+  std::string ranges = "laser";                // or "ultrasound"
   std::vector<std::string> tour_rooms;
   std::string tour_light = "day";
   double tour_step_m = 0.4;

@@ -235,17 +235,10 @@ Body body_of(const wire::RosBody& outline) {
   body.max_turn_radps = outline.max_turn_radps;
   body.deceleration_mps2 = outline.deceleration_mps2;
   body.turn_deceleration_radps2 = outline.turn_deceleration_radps2;
-  body.radius_m = outline.radius_m;
-  if (outline.radius_m > 0.0) return body;
-  // Cut across into slices about half as long as wide; a disc about each covers the whole.
-  const double length_m = outline.front_m + outline.back_m;
-  constexpr double kMostDiscs = 16.0;
-  const double slices = std::clamp(std::ceil(2.0 * length_m / outline.width_m), 1.0, kMostDiscs);
-  const double slice_m = length_m / slices;
-  body.radius_m = 0.5 * std::hypot(outline.width_m, slice_m);
-  body.disc_x_m.clear();
-  for (int i = 0; i < static_cast<int>(slices); ++i) {
-    body.disc_x_m.push_back(-outline.back_m + (i + 0.5) * slice_m);
+  if (outline.radius_m > 0.0) {
+    body.outline = {outline.radius_m, 0.0, 0.0, 0.0};
+  } else {
+    body.outline = {0.0, outline.back_m, outline.front_m, 0.5 * outline.width_m};
   }
   return body;
 }

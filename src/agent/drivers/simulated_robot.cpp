@@ -12,6 +12,24 @@ sim::LaserConfig safety_scanner() {
   return laser;
 }
 
+sim::UltrasoundConfig safety_ring() {
+  sim::UltrasoundConfig ring;
+  ring.heights_m = safety_scanner().heights_m;
+  return ring;
+}
+
+namespace {
+
+SonarConfig sonar_of(const sim::UltrasoundConfig& ring) {
+  SonarConfig sonar;
+  sonar.half_cone_rad = 0.5 * ring.cone_rad;
+  sonar.range_min_m = ring.range_min_m;
+  sonar.range_max_m = ring.range_max_m;
+  return sonar;
+}
+
+}  // namespace
+
 Result<SimulatedRobot> SimulatedRobot::create(sim::LitWorld& world, const SimulatedRobotConfig& config,
                                               const Pose2& start) {
   auto camera = camera::Camera::create(config.camera);
@@ -26,7 +44,9 @@ SimulatedRobot::SimulatedRobot(sim::LitWorld& world, const SimulatedRobotConfig&
       renderer_(world, config.light, std::move(camera)),
       obstacles_(world.world()),
       walkers_(world.world(), config.people, config.seed + 7, start),
-      vehicle_(config.profile, start, config.seed + 13) {}
+      vehicle_(config.profile, start, config.seed + 13),
+      ring_(sim::ultrasound_ring(config.profile.outline, config.ultrasound)),
+      sonar_map_(sonar_of(config.ultrasound)) {}
 
 void SimulatedRobot::advance(double seconds) {
   constexpr double kStep_s = 0.02;
@@ -63,6 +83,13 @@ Image SimulatedRobot::render(const View& view) const {
 }
 
 Scan SimulatedRobot::sweep() {
+  if (config_.profile.ranges == sim::RangeSensor::kUltrasound) {
+    const std::vector<float> ranges_m = sim::ultrasound(world_->rays(), vehicle_.pose(), ring_, walkers_.people(),
+                                                        config_.ultrasound, config_.seed * 104'729 + ++readings_);
+    std::vector<SonarReading> readings;
+    for (std::size_t i = 0; i < ring_.size(); ++i) readings.push_back({ring_[i], ranges_m[i]});
+    return sonar_map_.update(readings, vehicle_.odometry());
+  }
   Scan scan;
   scan.ranges_m = sim::scan(world_->rays(), vehicle_.pose(), walkers_.people(), config_.laser,
                             config_.seed * 104'729 + ++readings_, boxes_);
@@ -73,8 +100,7 @@ Scan SimulatedRobot::sweep() {
 
 Body body_of(const sim::RobotProfile& profile) {
   Body body;
-  body.radius_m = profile.radius_m;
-  body.disc_x_m = profile.disc_x_m;
+  body.outline = profile.outline;
   body.max_speed_mps = profile.max_speed_mps;
   body.max_turn_radps = profile.max_turn_radps;
   body.deceleration_mps2 = profile.deceleration_mps2;

@@ -8,6 +8,7 @@
 
 #include "agent/driving/body.hpp"
 #include "agent/driving/scan.hpp"
+#include "agent/driving/sonar_map.hpp"
 #include "camera/camera_config.hpp"
 #include "core/image.hpp"
 #include "core/result.hpp"
@@ -16,18 +17,22 @@
 #include "sim/motion.hpp"
 #include "sim/people.hpp"
 #include "sim/renderer.hpp"
+#include "sim/ultrasound.hpp"
 
 namespace homeward::agent {
 
 /// The simulated chair's range sensor: layers from the floor to head height, because a single plane at 0.3 m sees the
 /// legs of a table and not its top.
 sim::LaserConfig safety_scanner();
+/// A ring of ultrasound sensors that hears as high up.
+sim::UltrasoundConfig safety_ring();
 
 struct SimulatedRobotConfig {
   camera::CameraConfig camera;
   sim::LightPreset light = sim::LightPreset::kDay;
   sim::RobotProfile profile = sim::disc_profile();
   sim::LaserConfig laser = safety_scanner();
+  sim::UltrasoundConfig ultrasound = safety_ring();  // where the profile has it in place of the laser
   int people = 0;
   std::uint64_t seed = 1;
 };
@@ -51,6 +56,7 @@ class SimulatedRobot {
   [[nodiscard]] View view();
   [[nodiscard]] Image render(const View& view) const;
   [[nodiscard]] Image picture() { return render(view()); }
+  /// Of the laser; or, with ultrasound, of what its readings up to now say.
   [[nodiscard]] Scan sweep();
 
   [[nodiscard]] const sim::Vehicle& vehicle() const { return vehicle_; }
@@ -75,6 +81,8 @@ class SimulatedRobot {
   sim::Obstacles obstacles_;
   sim::Walkers walkers_;
   sim::Vehicle vehicle_;
+  std::vector<Pose2> ring_;
+  SonarMap sonar_map_;
   sim::MotionCommand command_;
   std::vector<sim::Box> boxes_;
   double slip_ = 0.0;

@@ -114,6 +114,7 @@ Result<std::unique_ptr<Driver>> make_simulator_driver(const SimulatorDriverConfi
   robot_config.people = config.people;
   robot_config.seed = config.seed;
   robot_config.profile = config.robot == "chair" ? sim::chair_profile() : sim::disc_profile();
+  if (config.ranges == "ultrasound") robot_config.profile.ranges = sim::RangeSensor::kUltrasound;
   if (const auto usual = usual_camera(config.camera)) {
     robot_config.camera = *usual;
   } else {

@@ -12,8 +12,9 @@ namespace homeward::agent {
 struct SimulatorDriverConfig {
   std::string world = "house:1";
   std::string light = "day";
-  std::string robot = "disc";  // or "chair"
-  std::string start_room;      // empty: the world's start
+  std::string robot = "disc";    // or "chair"
+  std::string ranges = "laser";  // or "ultrasound"
+  std::string start_room;        // empty: the world's start
   std::string camera = "hyperbolic_mirror";
   std::string truth_file;  // empty: none. Else a JSON line with the true pose and the collisions so far, 10 a second
   int people = 0;

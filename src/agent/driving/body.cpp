@@ -41,6 +41,31 @@ bool is_safe(const Motion& motion, const Body& body, std::span<const Eigen::Vect
   return true;
 }
 
+/// The safe motion most like one that is not, in the same direction: a dynamic window (Fox, Burgard and Thrun, "The
+/// dynamic window approach to collision avoidance", IEEE RAM 4(1), 1997) about it. A long body beside a wall often gets
+/// on by a little more or less of a bend. Standing still where there is none.
+Motion safe_near(const Motion& wanted, const Body& body, std::span<const Eigen::Vector2d> points_m, double now_m) {
+  constexpr double kSlow_mps = 0.06;
+  constexpr double kBend_radps = 0.1;
+  constexpr int kBends = 4;
+  const bool turns_only = std::abs(wanted.speed_mps) < 0.01;
+  const double slow_mps = turns_only ? kSlow_mps : std::copysign(kSlow_mps, wanted.speed_mps);
+  const double slow_radps = std::clamp(wanted.turn_radps, -2.0 * kBend_radps, 2.0 * kBend_radps);
+  for (int bend = 0; bend <= kBends; ++bend) {
+    for (const double side : {1.0, -1.0}) {
+      const double turn_radps = slow_radps + side * bend * kBend_radps;
+      if (turns_only && turn_radps * wanted.turn_radps <= 0.0) continue;
+      for (const double way : {1.0, -1.0}) {
+        if (way < 0.0 && !turns_only) continue;
+        const Motion motion{way * slow_mps, turn_radps};
+        if (is_safe(motion, body, points_m, now_m)) return motion;
+      }
+      if (bend == 0) break;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector2d> hit_points(const Scan& scan) {
@@ -59,11 +84,7 @@ std::vector<Eigen::Vector2d> hit_points(const Scan& scan) {
 
 double clearance_m(const Body& body, std::span<const Eigen::Vector2d> points_m) {
   double nearest_m = 100.0;
-  for (const double x_m : body.disc_x_m) {
-    for (const Eigen::Vector2d& point : points_m) {
-      nearest_m = std::min(nearest_m, (point - Eigen::Vector2d(x_m, 0.0)).norm() - body.radius_m);
-    }
-  }
+  for (const Eigen::Vector2d& point : points_m) nearest_m = std::min(nearest_m, distance_m(body.outline, point));
   return nearest_m;
 }
 
@@ -88,7 +109,8 @@ Motion made_safe(const Motion& wanted, const Body& body, std::span<const Eigen::
   }
   const Motion turning{0.0, motion.turn_radps};
   if (is_safe(turning, body, near, now_m)) return turning;
-  return {};
+  if (is_round(body.outline)) return {};  // it can always turn in place
+  return safe_near(motion, body, near, now_m);
 }
 
 }  // namespace homeward::agent

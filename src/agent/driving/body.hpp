@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "agent/driving/scan.hpp"
+#include "core/outline.hpp"
 
 namespace homeward::agent {
 
-/// A robot's body as discs of one radius along its x axis, and how fast it may move.
+/// A robot's body and how fast it may move.
 struct Body {
-  double radius_m = 0.35;
-  std::vector<double> disc_x_m = {0.0};
+  Outline outline;
   double max_speed_mps = 0.8;
   double max_turn_radps = 1.2;
   double deceleration_mps2 = 1.0;

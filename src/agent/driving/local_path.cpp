@@ -100,7 +100,7 @@ std::optional<LocalWay> local_way(const Body& body, std::span<const Eigen::Vecto
                                   const Eigen::Vector2d& goal_m, double heading_rad) {
   // The grid keeps its axes while the robot turns: what is free must not change by turning, or it would dither.
   const Eigen::Rotation2Dd from_robot(heading_rad);
-  const double blocked_m = body.radius_m + kSpare_m;
+  const double blocked_m = body.outline.radius_m + kSpare_m;
   const std::vector<Eigen::Vector2d> near = thinned(points_m, from_robot);
   const std::vector<float> distance = distances(near, blocked_m + kComfort_m);
   const Cell start{kHalfCells, kHalfCells};

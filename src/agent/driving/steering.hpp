@@ -9,7 +9,8 @@
 namespace homeward::agent {
 
 /// The motion that leads round what the sweep saw to a goal in the robot frame, slower in turns; standing still when
-/// the robot is walled in. Beside things it heads where there is more room first. `heading_rad`: the robot's, in any
+/// the robot is walled in. A round body heads where there is more room first, beside things; one that is not round also
+/// turns in place and reverses (`long_way`). `heading_rad`: the robot's, in any
 /// frame that does not turn with it. `turn_gain`: turn rate for each radian towards the next point of the way. It is no
 /// promise that the motion is safe: `made_safe` has the last word.
 Motion steer_round(const Body& body, std::span<const Eigen::Vector2d> points_m, const Eigen::Vector2d& goal_m,

@@ -14,9 +14,12 @@ using nlohmann::json;
 
 template <class Fields, class Config>
 void body_fields(Fields& fields, Config& body) {
-  auto& [radius_m, disc_x_m, max_speed_mps, max_turn_radps, deceleration_mps2, turn_deceleration_radps2] = body;
+  auto& [outline, max_speed_mps, max_turn_radps, deceleration_mps2, turn_deceleration_radps2] = body;
+  auto& [radius_m, back_m, front_m, side_m] = outline;
   fields("body_radius_m", radius_m);
-  fields("body_disc_x_m", disc_x_m);
+  fields("body_back_m", back_m);
+  fields("body_front_m", front_m);
+  fields("body_side_m", side_m);
   fields("body_max_speed_mps", max_speed_mps);
   fields("body_max_turn_radps", max_turn_radps);
   fields("body_deceleration_mps2", deceleration_mps2);

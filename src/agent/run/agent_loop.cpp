@@ -3,6 +3,7 @@
 
 #include <sodium.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -80,8 +81,13 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
   config.body = driver.body();
   config.feature_config_id = features::feature_config_id(features);
 
-  wire::Hello hello{kAgent,          options.robot_name,   random_session(),
-                    driver.camera(), config.body.radius_m, config.body.max_speed_mps};
+  wire::Hello hello;
+  hello.agent = kAgent;
+  hello.robot_name = options.robot_name;
+  hello.session = random_session();
+  hello.camera = driver.camera();
+  hello.radius_m = std::min(wire::kMostRadius_m, swept_radius_m(config.body.outline));
+  hello.max_speed_mps = config.body.max_speed_mps;
   const StandStill at_the_end(driver);
   LinkClient link(options.server, options.robot, options.token, std::move(hello), options.told);
   std::int64_t frame_seq = 0;

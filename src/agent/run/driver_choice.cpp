@@ -29,6 +29,9 @@ void add_driver_options(CLI::App& command, DriverOptions& options) {
   command.add_option("--profile", options.simulator.robot, "Simulator: disc or chair")
       ->check(CLI::IsMember({"disc", "chair"}))
       ->capture_default_str();
+  command.add_option("--ranges", options.simulator.ranges, "Simulator: laser or ultrasound")
+      ->check(CLI::IsMember({"laser", "ultrasound"}))
+      ->capture_default_str();
   command.add_option("--start-room", options.simulator.start_room, "Simulator: room to start in");
   command.add_option("--people", options.simulator.people, "Simulator: people who walk about")
       ->check(CLI::Range(0, 50));

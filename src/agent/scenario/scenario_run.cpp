@@ -59,7 +59,8 @@ Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folde
   }
   told(std::to_string(taught->map->images.size()) + " pictures, " + std::to_string(taught->map->places.size()) +
        " places");
-  const sim::RobotProfile profile = scenario.robot == "chair" ? sim::chair_profile() : sim::disc_profile();
+  sim::RobotProfile profile = scenario.robot == "chair" ? sim::chair_profile() : sim::disc_profile();
+  if (scenario.ranges == "ultrasound") profile.ranges = sim::RangeSensor::kUltrasound;
   int number = 0;
   for (const MissionPlan& plan : expanded(scenario, *taught)) {
     told("from " + plan.from + " to " + plan.to);

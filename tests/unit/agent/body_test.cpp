@@ -15,8 +15,7 @@ using Points = std::vector<Eigen::Vector2d>;
 
 Body chair() {
   Body body;
-  body.radius_m = 0.34;
-  body.disc_x_m = {0.075, 0.2, 0.35, 0.525};
+  body.outline = {0.0, 0.25, 0.85, 0.325};
   return body;
 }
 
@@ -139,8 +138,13 @@ TEST(MadeSafe, TurnsAChairOnlyWhereItsNoseHasRoom) {
   EXPECT_LT(made_safe({0.0, -0.8}, chair(), post).turn_radps, -0.3);
 }
 
-TEST(ClearanceOfABody, IsToTheNearestDisc) {
-  EXPECT_NEAR(clearance_m(chair(), Points{{1.525, 0.0}}), 0.66, 1e-12);
+TEST(ClearanceOfABody, IsToItsOutline) {
+  EXPECT_NEAR(clearance_m(chair(), Points{{1.51, 0.0}}), 0.66, 1e-12);
+  EXPECT_NEAR(clearance_m(chair(), Points{{0.3, -0.425}}), 0.1, 1e-12);
+  EXPECT_NEAR(clearance_m(chair(), Points{{-0.29, 0.355}}), 0.05, 1e-12);  // off a rear corner
+  EXPECT_NEAR(clearance_m(chair(), Points{{0.88, -0.365}}), 0.05, 1e-12);  // off a front corner
+  EXPECT_NEAR(clearance_m(chair(), Points{{-0.2, 0.3}}), -0.025, 1e-12);   // inside: to the nearest edge
+  EXPECT_NEAR(clearance_m({{0.1, 0.25, 0.85, 0.225}}, Points{{0.88, -0.365}}), std::hypot(0.03, 0.14) - 0.1, 1e-12);
   EXPECT_NEAR(clearance_m({}, Points{{0.1, 0.0}}), -0.25, 1e-12);
   EXPECT_GT(clearance_m({}, {}), 10.0);
 }

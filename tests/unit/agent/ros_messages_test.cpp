@@ -191,8 +191,7 @@ TEST(RosMotion, IsATwistOrAStampedOne) {
 
 TEST(RosBodies, CoverTheirOutline) {
   wire::RosBody outline = sample_rosbridge().body;
-  EXPECT_EQ(body_of(outline).disc_x_m, std::vector<double>{0.0});
-  EXPECT_DOUBLE_EQ(body_of(outline).radius_m, 0.35);
+  EXPECT_EQ(body_of(outline).outline, (Outline{0.35, 0.0, 0.0, 0.0}));
   for (const auto& [front_m, back_m, width_m] :
        {std::tuple(0.85, 0.25, 0.65), std::tuple(0.2, 0.2, 0.9), std::tuple(3.0, 3.0, 0.3)}) {
     outline.radius_m = 0.0;
@@ -200,11 +199,14 @@ TEST(RosBodies, CoverTheirOutline) {
     outline.back_m = back_m;
     outline.width_m = width_m;
     const Body body = body_of(outline);
-    EXPECT_LT(body.radius_m, 0.75 * std::max(width_m, 0.8));
     for (double along = 0.0; along <= 1.0; along += 0.01) {
       for (const double side : {-0.5, 0.0, 0.5}) {
         const std::vector<Eigen::Vector2d> point = {{-back_m + along * (front_m + back_m), side * width_m}};
         EXPECT_LE(clearance_m(body, point), 1e-9) << along;
+        const std::vector<Eigen::Vector2d> beside = {{point[0].x(), point[0].y() + std::copysign(0.1, side)}};
+        if (side != 0.0) {
+          EXPECT_NEAR(clearance_m(body, beside), 0.1, 1e-9) << along;
+        }
       }
     }
   }

@@ -83,11 +83,11 @@ TEST(SteerRound, GetsAwayFromFurnitureItStandsCloseToAndReachesItsGoal) {
   for (std::uint64_t seed = 91; seed <= 140; ++seed) {  // the 115th stood still for good, heading past a corner
     std::mt19937_64 random(seed);
     const double room_m = std::uniform_real_distribution<double>(0.01, 0.06)(random);
-    const Points world = furniture(Body().radius_m + room_m, random);
+    const Points world = furniture(Body().outline.radius_m + room_m, random);
     std::uniform_real_distribution<double> across_m(-1.5, 1.5);
     const Eigen::Vector2d goal_m(across_m(random), across_m(random));
     Body wider;  // so that it is no matter of a sweep's noise whether a gap is wide enough
-    wider.radius_m += 0.04;
+    wider.outline.radius_m += 0.04;
     const auto way = local_way(wider, world, goal_m);
     if (!way || !way->reaches_goal) continue;
     ++reachable;

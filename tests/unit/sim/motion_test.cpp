@@ -83,6 +83,32 @@ TEST(Vehicle, RandomDrivingStaysOutsideThings) {
   }
 }
 
+TEST(Obstacles, MeasureARectangleFromItsEdgesAndCorners) {
+  const World world = homeward::testing::box_world(true);
+  const Obstacles obstacles(world);
+  const RobotProfile chair = chair_profile();
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> across_m(-0.55, 0.55);
+  std::uniform_real_distribution<double> heading_rad(-kPi, kPi);
+  const FloorGrid& grid = world.occupied;
+  for (int k = 0; k < 200; ++k) {
+    const Pose2 pose{across_m(random), across_m(random), heading_rad(random)};
+    double nearest_m = 1e9;
+    for (int y = 0; y < grid.height; ++y) {
+      for (int x = 0; x < grid.width; ++x) {
+        if (grid.cells[static_cast<std::size_t>(y * grid.width + x)] == 0) continue;
+        const Eigen::Vector2d at_m = centre_of(grid, {x, y});
+        const Pose2 seen = inverse(pose) * Pose2{at_m.x(), at_m.y(), 0.0};
+        nearest_m = std::min(nearest_m, distance_m(chair.outline, {seen.x_m, seen.y_m}) - 0.5 * grid.resolution_m);
+      }
+    }
+    EXPECT_NEAR(obstacles.clearance_m(chair, pose, {}), nearest_m, 1e-9);
+  }
+  // Its rear corners count, which no disc along its middle reaches, and so do people beside its front.
+  const std::vector<Person> beside = {{0.85, 0.325 + kPersonRadius_m + 0.02, 7}};
+  EXPECT_NEAR(Obstacles(homeward::testing::box_world()).clearance_m(chair, {0.0, 0.0, 0.0}, beside), 0.02, 1e-9);
+}
+
 TEST(Vehicle, SomebodyWhoWalksIntoAStandingRobotIsNoCollision) {
   const World world = homeward::testing::box_world();
   const Obstacles obstacles(world);

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/driving/lattice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "agent/driving/steering.hpp"
+#include "core/angles.hpp"
+#include "core/pose2.hpp"
+
+namespace homeward::agent {
+namespace {
+
+using Points = std::vector<Eigen::Vector2d>;
+
+constexpr double kCycle_s = 0.1;
+
+Body chair() {
+  Body body;
+  body.outline = {0.0, 0.25, 0.85, 0.325};
+  return body;
+}
+
+void add_wall(Points& points, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const int count = static_cast<int>((to - from).norm() / 0.01);
+  for (int i = 0; i <= count; ++i) points.emplace_back(from + (to - from) * i / std::max(1, count));
+}
+
+/// What a sweep of 360 rays from the turning point sees of them: in each direction the nearest, with noise.
+Points swept(const Points& world, const Pose2& robot, std::mt19937_64& random) {
+  std::normal_distribution<double> noise_m(0.0, 0.01);
+  std::vector<double> ranges_m(360, 1e9);
+  const Pose2 from_world = inverse(robot);
+  for (const Eigen::Vector2d& point : world) {
+    const Pose2 at = from_world * Pose2{point.x(), point.y(), 0.0};
+    const int ray = static_cast<int>(std::lround(std::atan2(at.y_m, at.x_m) * 180.0 / kPi) + 360) % 360;
+    double& range_m = ranges_m[static_cast<std::size_t>(ray)];
+    range_m = std::min(range_m, std::hypot(at.x_m, at.y_m));
+  }
+  Points seen;
+  for (int ray = 0; ray < 360; ++ray) {
+    const double range_m = ranges_m[static_cast<std::size_t>(ray)] + noise_m(random);
+    if (range_m < 12.0) seen.emplace_back(range_m * std::cos(ray * kPi / 180.0), range_m * std::sin(ray * kPi / 180.0));
+  }
+  return seen;
+}
+
+struct Drive {
+  std::optional<double> arrived_s;
+  double least_clearance_m = 1e9;
+  double reversed_m = 0.0;
+  Pose2 end;
+};
+
+/// A chair from a pose to a goal, as `step` drives it: a noisy sweep every 100 ms, motion with bounded acceleration.
+Drive drive(const Body& body, const Points& world, Pose2 pose, const Eigen::Vector2d& goal_m, double longest_s = 60.0) {
+  std::mt19937_64 random(5);
+  Drive result;
+  Motion motion;
+  for (double t_s = 0.0; t_s < longest_s; t_s += kCycle_s) {
+    const Pose2 to = inverse(pose) * Pose2{goal_m.x(), goal_m.y(), 0.0};
+    const Eigen::Vector2d aim_m(to.x_m, to.y_m);
+    result.end = pose;
+    if (aim_m.norm() < 0.25) {
+      result.arrived_s = t_s;
+      return result;
+    }
+    const Points seen = swept(world, pose, random);
+    const Motion wanted = made_safe(steer_round(body, seen, aim_m, pose.theta_rad, 0.45, 1.8), body, seen);
+    const auto nearer = [](double now, double then, double step) { return now + std::clamp(then - now, -step, step); };
+    for (int k = 0; k < 5; ++k) {
+      constexpr double kStep_s = kCycle_s / 5.0;
+      motion.speed_mps = nearer(motion.speed_mps, wanted.speed_mps, 1.0 * kStep_s);
+      motion.turn_radps = nearer(motion.turn_radps, wanted.turn_radps, 2.5 * kStep_s);
+      const Pose2 half{0.0, 0.0, 0.5 * motion.turn_radps * kStep_s};
+      pose = pose * half * Pose2{motion.speed_mps * kStep_s, 0.0, 0.0} * half;
+      result.reversed_m += std::max(0.0, -motion.speed_mps * kStep_s);
+      Points around;
+      const Pose2 from_world = inverse(pose);
+      for (const Eigen::Vector2d& point : world) {
+        const Pose2 at = from_world * Pose2{point.x(), point.y(), 0.0};
+        around.emplace_back(at.x_m, at.y_m);
+      }
+      result.least_clearance_m = std::min(result.least_clearance_m, clearance_m(body, around));
+    }
+  }
+  return result;
+}
+
+/// A corridor of 1.5 m along x, and in its left wall a door of 0.85 m, 0.12 m deep, into a room.
+Points corridor_with_door() {
+  Points points;
+  add_wall(points, {-2.5, -0.75}, {4.5, -0.75});
+  add_wall(points, {-2.5, 0.75}, {1.575, 0.75});
+  add_wall(points, {2.425, 0.75}, {4.5, 0.75});
+  add_wall(points, {1.575, 0.75}, {1.575, 0.87});
+  add_wall(points, {2.425, 0.75}, {2.425, 0.87});
+  add_wall(points, {0.0, 0.87}, {1.575, 0.87});
+  add_wall(points, {2.425, 0.87}, {4.0, 0.87});
+  add_wall(points, {0.0, 0.87}, {0.0, 4.0});
+  add_wall(points, {4.0, 0.87}, {4.0, 4.0});
+  add_wall(points, {0.0, 4.0}, {4.0, 4.0});
+  add_wall(points, {4.5, -0.75}, {4.5, 0.75});
+  add_wall(points, {-2.5, -0.75}, {-2.5, 0.75});
+  return points;
+}
+
+TEST(LongWay, IsStraightWhereNothingStands) {
+  const auto way = long_way(chair().outline, {}, {2.0, 0.0});
+  ASSERT_TRUE(way);
+  EXPECT_TRUE(way->reaches_goal);
+  EXPECT_EQ(way->gear, Gear::kForward);
+  EXPECT_NEAR(way->length_m, 2.0, 0.2);
+  EXPECT_NEAR(way->aim_m.y(), 0.0, 0.02);
+}
+
+TEST(LongWay, DoesNotDependOnTheAxesOfOdometry) {
+  const Points world = corridor_with_door();
+  std::mt19937_64 random(1);
+  const Points seen = swept(world, {0.0, 0.0, 0.3}, random);
+  for (double heading_rad = -3.0; heading_rad < 3.0; heading_rad += 0.37) {
+    const auto way = long_way(chair().outline, seen, {1.5, -0.3}, heading_rad);
+    ASSERT_TRUE(way) << heading_rad;
+    EXPECT_TRUE(way->reaches_goal) << heading_rad;
+    EXPECT_EQ(way->gear, Gear::kForward) << heading_rad;
+  }
+}
+
+TEST(ALongBody, PassesADoorOf85CentimetresFromACorridor) {
+  for (const double heading_rad : {0.0, kPi, 0.4}) {
+    const Drive driven = drive(chair(), corridor_with_door(), {0.0, 0.0, heading_rad}, {2.0, 2.5});
+    EXPECT_TRUE(driven.arrived_s) << heading_rad << ": stands at " << driven.end.x_m << ", " << driven.end.y_m << ", "
+                                  << driven.end.theta_rad;
+    EXPECT_GT(driven.least_clearance_m, 0.02) << heading_rad;
+    std::printf("door %.2f: %.1f s, %.3f m, reversed %.2f m\n", heading_rad, driven.arrived_s.value_or(-1.0),
+                driven.least_clearance_m, driven.reversed_m);
+  }
+}
+
+TEST(ALongBody, ReversesOutOfADeadEnd) {
+  Points points;  // too narrow to turn round in: 1 m wide, closed ahead; the goal lies behind and aside
+  add_wall(points, {-0.6, -0.5}, {1.3, -0.5});
+  add_wall(points, {-0.6, 0.5}, {1.3, 0.5});
+  add_wall(points, {1.3, -0.5}, {1.3, 0.5});
+  const Drive driven = drive(chair(), points, {0.0, 0.0, 0.0}, {-1.8, 1.5});
+  EXPECT_TRUE(driven.arrived_s);
+  EXPECT_GT(driven.reversed_m, 0.3);
+  EXPECT_GT(driven.least_clearance_m, 0.03);
+}
+
+TEST(ALongBody, StandsWhereItIsWalledIn) {
+  Points points;
+  add_wall(points, {-0.35, -0.42}, {0.95, -0.42});
+  add_wall(points, {-0.35, 0.42}, {0.95, 0.42});
+  add_wall(points, {-0.35, -0.42}, {-0.35, 0.42});
+  add_wall(points, {0.95, -0.42}, {0.95, 0.42});
+  const Drive driven = drive(chair(), points, {0.0, 0.0, 0.0}, {2.0, 0.0}, 10.0);
+  EXPECT_FALSE(driven.arrived_s);
+  EXPECT_GT(driven.least_clearance_m, 0.02);
+}
+
+TEST(ALongBody, TurnsRoundInACorridorForWhatLiesBehind) {
+  Points points;  // 2.2 m wide: it can turn in the middle
+  add_wall(points, {-3.0, -1.1}, {3.0, -1.1});
+  add_wall(points, {-3.0, 1.1}, {3.0, 1.1});
+  const Drive driven = drive(chair(), points, {0.0, 0.3, 0.0}, {-2.5, 0.0});
+  EXPECT_TRUE(driven.arrived_s);
+  EXPECT_GT(driven.least_clearance_m, 0.03);
+}
+
+TEST(ALongBody, LeavesAWallItStandsBeside) {
+  for (const double room_m : {0.04, 0.06}) {
+    Points points;
+    add_wall(points, {-2.5, 0.325 + room_m}, {2.5, 0.325 + room_m});
+    const Drive driven = drive(chair(), points, {0.0, 0.0, 0.0}, {1.5, -1.5});
+    EXPECT_TRUE(driven.arrived_s) << room_m;
+    EXPECT_GT(driven.least_clearance_m, room_m - 0.015) << room_m;
+  }
+}
+
+TEST(LongWay, TakesNoLongerThanACycleHasTime) {
+  const Points world = corridor_with_door();
+  std::mt19937_64 random(1);
+  double longest_ms = 0.0;
+  int most = 0;
+  for (const Pose2& at : {Pose2{0.0, 0.0, 0.0}, Pose2{0.0, 0.0, 3.0}, Pose2{1.0, 0.2, 0.5}, Pose2{2.0, 0.0, 1.5}}) {
+    const Points seen = swept(world, at, random);
+    const Pose2 to = inverse(at) * Pose2{2.0, 2.5, 0.0};
+    const auto begun = std::chrono::steady_clock::now();
+    const auto way = long_way(chair().outline, seen, {to.x_m, to.y_m}, at.theta_rad);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begun;
+    std::printf("%.2f ms %d\n", took.count(), way ? way->expanded : -1);
+    ASSERT_TRUE(way);
+    longest_ms = std::max(longest_ms, took.count());
+    most = std::max(most, way->expanded);
+  }
+  RecordProperty("longest_us", static_cast<int>(1000.0 * longest_ms));
+  std::printf("longest %.2f ms, most expanded %d\n", longest_ms, most);
+  EXPECT_LT(most, 6000);
+}
+
+}  // namespace
+}  // namespace homeward::agent
