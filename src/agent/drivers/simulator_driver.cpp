@@ -25,8 +25,13 @@ constexpr auto kCommandLife = std::chrono::milliseconds(100);
 class SimulatorDriver final : public Driver {
  public:
   SimulatorDriver(std::unique_ptr<sim::LitWorld> world, SimulatedRobot robot, SimulatedRobotConfig config, Body body,
-                  const std::string& truth_file)
-      : world_(std::move(world)), robot_(std::move(robot)), config_(std::move(config)), body_(std::move(body)) {
+                  const SimulatorDriverConfig& driver)
+      : world_(std::move(world)),
+        robot_(std::move(robot)),
+        config_(std::move(config)),
+        body_(std::move(body)),
+        rider_(driver.rider) {
+    const std::string& truth_file = driver.truth_file;
     if (!truth_file.empty()) truth_.open(truth_file, std::ios::app);
   }
 
@@ -48,8 +53,12 @@ class SimulatorDriver final : public Driver {
     until_picture_s_ -= seconds;
     if (seconds > 0.0) robot_.advance(seconds);
     tell_truth(now);
-    return {simulated_ms(), robot_.vehicle().odometry(), robot_.vehicle().motion().speed_mps, robot_.sweep(),
-            std::nullopt};
+    return {simulated_ms(),
+            robot_.vehicle().odometry(),
+            robot_.vehicle().motion().speed_mps,
+            robot_.sweep(),
+            std::nullopt,
+            rider_ ? rider_(simulated_ms()) : std::nullopt};
   }
 
   void command(const Motion& motion) override {
@@ -96,6 +105,7 @@ class SimulatorDriver final : public Driver {
   SimulatedRobot robot_;
   SimulatedRobotConfig config_;
   Body body_;
+  std::function<std::optional<RiderHand>(Milliseconds)> rider_;
   std::ofstream truth_;
   std::mutex mutex_;
   std::condition_variable_any pause_;
@@ -138,7 +148,7 @@ Result<std::unique_ptr<Driver>> make_simulator_driver(const SimulatorDriverConfi
   if (!robot) return pass_on(robot);
   Body body = body_of(robot_config.profile);
   return std::make_unique<SimulatorDriver>(std::move(world), std::move(*robot), std::move(robot_config),
-                                           std::move(body), config.truth_file);
+                                           std::move(body), config);
 }
 
 }  // namespace homeward::agent

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "agent/drivers/driver.hpp"
@@ -18,6 +20,7 @@ struct SimulatorDriverConfig {
   std::string truth_file;  // empty: none. Else a JSON line with the true pose and the collisions so far, 10 a second
   int people = 0;
   std::uint64_t seed = 1;
+  std::function<std::optional<RiderHand>(Milliseconds)> rider = {};  // the joystick at a simulated time; empty: none
 };
 
 /// A simulated robot whose time is the machine's own; when the machine is too slow, simulated time falls behind.

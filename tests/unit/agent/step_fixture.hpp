@@ -116,7 +116,7 @@ class StepTest : public ::testing::Test {
     EXPECT_EQ(state_.drive, wire::DriveState::kDriving) << state_.reason;
     EXPECT_LE(left_m(), near_m);
     ranges_m_.assign(ranges_m_.size(), 0.4F);
-    const Milliseconds from_ms = now_ms_;
+    const Milliseconds from_ms = state_.near_since_ms.value_or(now_ms_);
     while (state_.drive == wire::DriveState::kDriving && now_ms_ - from_ms < config_.near_ms + 4000) {
       tick({permit("m1", 1, ++seq_)});
     }
