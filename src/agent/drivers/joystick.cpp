@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace homeward::agent {
 namespace {
@@ -67,13 +68,15 @@ std::optional<RiderHand> Joystick::read(const Body& body, Milliseconds now_ms, M
   }
   const double forward = -beyond_dead_zone(axes_[1]);
   const double left = -beyond_dead_zone(axes_[0]);
-  RiderHand hand{said_ms, forward != 0.0 || left != 0.0, {}};
-  rested_ = rested_ || !hand.deflected;
+  const bool at_rest = forward == 0.0 && left == 0.0;
+  // A touch that is over already counts too.
+  RiderHand hand{said_ms, std::exchange(touched_, false) || !at_rest, {}};
+  rested_ = rested_ || at_rest;
   if (!there_) {
     told_("the joystick " + device_ + (rested_ ? " is there" : " is there, but not at rest: release it"));
     there_ = true;
   }
-  if (rested_ && hand.deflected) hand.wanted = {forward * body.max_speed_mps, left * body.max_turn_radps};
+  if (rested_ && !at_rest) hand.wanted = {forward * body.max_speed_mps, left * body.max_turn_radps};
   return hand;
 }
 
@@ -84,7 +87,7 @@ void Joystick::forget(Milliseconds now_ms) {
   tried_ms_ = now_ms;
   have_ = 0;
   axes_ = {};
-  there_ = rested_ = false;
+  there_ = rested_ = touched_ = false;
 }
 
 /// Takes what has come; false when the device is gone.
@@ -109,6 +112,7 @@ void Joystick::take_event() {
   // What stands when the device comes is told as events marked as initial.
   if ((event.type & ~JS_EVENT_INIT) != JS_EVENT_AXIS || event.number >= axes_.size()) return;
   axes_[event.number] = std::clamp(event.value / kFullDeflection, -1.0, 1.0);
+  touched_ = touched_ || beyond_dead_zone(axes_[event.number]) != 0.0;
 }
 
 }  // namespace homeward::agent

@@ -44,6 +44,7 @@ class Joystick {
   std::size_t have_ = 0;
   std::array<double, 2> axes_{};  // -1..1
   bool there_ = false;            // and that was told
+  bool touched_ = false;          // deflected at some moment since the last reading
   bool rested_ = false;           // it has been at rest since it came
 };
 

@@ -97,6 +97,8 @@ class RosbridgeDriver final : public Driver {
     reading.odometry = track_.at(std::nullopt);
     reading.speed_mps = speed_mps_;
     reading.rider = rider_;
+    // A touch that is over already counts too.
+    if (std::exchange(touched_, false) && reading.rider) reading.rider->deflected = true;
     std::optional<Scan> sweep = std::exchange(sweep_, std::nullopt);
     if (!live || interrupted_ || reading.t_ms - odom_.arrived_ms > kOdometrySilence_ms) return reading;
     reading.scan = std::move(sweep);
@@ -206,6 +208,7 @@ class RosbridgeDriver final : public Driver {
   /// The mutex is held.
   void take_hand(const Motion& motion, Milliseconds now) {
     const bool deflected = std::abs(motion.speed_mps) > kAtRest_mps || std::abs(motion.turn_radps) > kAtRest_radps;
+    touched_ = touched_ || deflected;
     rider_ = RiderHand{now, deflected, deflected && robot_.rider->relayed ? motion : Motion{}};
   }
 
@@ -276,6 +279,7 @@ class RosbridgeDriver final : public Driver {
   std::optional<Scan> sweep_;
   std::optional<RosPicture> picture_;
   std::optional<RiderHand> rider_;
+  bool touched_ = false;  // the hand was there at some moment since the last reading
   Motion command_;
   Milliseconds commanded_ms_ = 0;
   Milliseconds connected_ms_ = 0;

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "agent/drivers/usual_cameras.hpp"
 #include "agent/files/read_file.hpp"
@@ -42,8 +43,7 @@ class SimulatorDriver final : public Driver {
     const std::lock_guard lock(mutex_);
     const auto now = Clock::now();
     if (now - commanded_ > kCommandLife) {
-      moves_ = false;
-      robot_.command({});
+      obey({}, now);
     }
     constexpr double kLongestStep_s = 0.1;
     double seconds = std::min(kLongestStep_s, std::chrono::duration<double>(now - advanced_).count());
@@ -64,8 +64,7 @@ class SimulatorDriver final : public Driver {
   void command(const Motion& motion) override {
     const std::lock_guard lock(mutex_);
     commanded_ = Clock::now();
-    moves_ = motion.speed_mps != 0.0 || motion.turn_radps != 0.0;
-    robot_.command(motion);
+    obey(motion, commanded_);
   }
 
   Result<std::optional<TakenPicture>> next_picture(std::stop_token stop) override {
@@ -84,6 +83,14 @@ class SimulatorDriver final : public Driver {
  private:
   [[nodiscard]] Milliseconds simulated_ms() const { return static_cast<Milliseconds>(1000.0 * robot_.seconds()); }
 
+  void obey(const Motion& motion, Clock::time_point now) {
+    const bool moved = std::exchange(moves_, motion.speed_mps != 0.0 || motion.turn_radps != 0.0);
+    commanded_motion_ = motion;
+    robot_.command(motion);
+    if (moved && !moves_) told_ = {};  // the moment of a stop is told at once
+    if (moved != moves_) tell_truth(now);
+  }
+
   void tell_truth(Clock::time_point now) {
     if (!truth_.is_open() || now - told_ < kTruthPeriod) return;
     told_ = now;
@@ -97,6 +104,8 @@ class SimulatorDriver final : public Driver {
                                  {"theta_rad", vehicle.pose().theta_rad},
                                  {"speed_mps", vehicle.motion().speed_mps},
                                  {"turn_radps", vehicle.motion().turn_radps},
+                                 {"commanded_mps", commanded_motion_.speed_mps},
+                                 {"commanded_radps", commanded_motion_.turn_radps},
                                  {"collisions", vehicle.collisions()}};
     truth_ << line.dump() << std::endl;
   }
@@ -113,6 +122,7 @@ class SimulatorDriver final : public Driver {
   Clock::time_point commanded_ = Clock::now();
   Clock::time_point pictured_ = Clock::now();
   Clock::time_point told_;
+  Motion commanded_motion_;
   bool moves_ = false;
   double until_picture_s_ = kPictureLife_s;  // that simulated time may still pass before the next picture
 };

@@ -17,7 +17,7 @@ struct SimulatorDriverConfig {
   std::string robot = "disc";  // or "chair"
   std::string start_room;      // empty: the world's start
   std::string camera = "hyperbolic_mirror";
-  std::string truth_file;  // empty: none. Else a JSON line with the true pose and the collisions so far, 10 a second
+  std::string truth_file;  // empty: none. Else JSON lines with the true pose, the command, collisions so far
   int people = 0;
   std::uint64_t seed = 1;
   std::function<std::optional<RiderHand>(Milliseconds)> rider = {};  // the joystick at a simulated time; empty: none

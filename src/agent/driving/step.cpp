@@ -22,6 +22,7 @@ void take_picture(DrivingState& state, const SeenPicture& picture, const Driving
   if (!state.pictured && (picture.taken_ms < state.last_picture_ms || age_ms > config.frame_silence_ms)) return;
   // A clock that is ahead must not hide a camera that falls silent.
   state.last_picture_ms = std::min(picture.taken_ms, now_ms);
+  state.picture_came_ms = now_ms;
   const int index_before = state.follow.index;
   state.pictured = true;
   state.seen = picture.appearance ? follow(state.follow, state.mission->path, *picture.appearance, picture.frame,
@@ -59,7 +60,8 @@ std::optional<std::string> reason_to_stop(const DrivingState& state, const Input
 /// No faster than what still comes to rest in time should the silence that has begun go on.
 Motion slowed_by_silence(const Motion& wanted, const DrivingState& state, const DrivingConfig& config,
                          Milliseconds now_ms, Milliseconds sensors_ms) {
-  const Milliseconds silence_ms = std::max(now_ms - state.last_message_ms, sensors_ms - state.scan->taken_ms);
+  const Milliseconds silence_ms =
+      std::max({now_ms - state.last_message_ms, sensors_ms - state.picture_came_ms, sensors_ms - state.scan->taken_ms});
   const Milliseconds braking_ms = config.stands_within_ms - config.reaction_ms - silence_ms;
   const double braking_s = 0.001 * static_cast<double>(std::max<Milliseconds>(0, braking_ms));
   const double speed_mps = config.body.deceleration_mps2 * braking_s;

@@ -32,7 +32,7 @@ struct DrivingConfig {
   Milliseconds rider_silence_ms = 300;   // a joystick that says nothing for so long counts as released
   Milliseconds loop_silence_ms = 400;    // no step for so long while driving: stop
   Milliseconds held_up_ms = 1000;        // no step for so long: missions that waited meanwhile are refused
-  Milliseconds stands_within_ms = 500;   // after the last message or sweep the robot is at rest by itself
+  Milliseconds stands_within_ms = 500;   // after the last message, picture or sweep it is at rest by itself
   Milliseconds reaction_ms = 120;        // of it, from an arrival to the wheels
   Milliseconds blind_ms = 4000;          // nothing recognised for so long: the mission fails
   Milliseconds stuck_ms = 20'000;        // no way gained for so long: the mission fails
@@ -97,6 +97,7 @@ struct DrivingState {
   Milliseconds refuses_until_ms = 0;  // missions that waited while no step was made
   Milliseconds last_message_ms = 0;
   Milliseconds last_picture_ms = 0;  // at first, when the mission began
+  Milliseconds picture_came_ms = 0;  // the latest one that counted
   Milliseconds last_answer_ms = 0;
   std::optional<Milliseconds> near_since_ms;  // how long it has been right beside the destination
   Milliseconds last_gain_ms = 0;              // when way was last gained
@@ -114,12 +115,12 @@ struct Outputs {
 };
 
 /// The heart of the agent: no clock, thread, socket or device. Same state, inputs and time, same result.
-/// The older the newest message or sweep, the slower it goes, so that braking ends `stands_within_ms` after a silence
-/// begins although only `link_silence_ms` or `scan_silence_ms` of it end the mission.
-/// It drives only under a permit that is counted from its receipt on the robot's own clock, with link, pictures and
-/// sweeps fresh; everything else is a stop, after which only a newer mission moves it again (design §3.10).
-/// The rider's joystick wins at any time: deflected, it ends the mission and the rider drives, with or without link and
-/// permit, slowed by the range sensors as missions are; released, the robot stands.
+/// The longer no message, picture or sweep has come, the slower it goes, so that braking ends `stands_within_ms` after
+/// a silence begins although only `link_silence_ms`, `frame_silence_ms` or `scan_silence_ms` of it end the mission. It
+/// drives only under a permit that is counted from its receipt on the robot's own clock, with link, pictures and sweeps
+/// fresh; everything else is a stop, after which only a newer mission moves it again (design §3.10). The rider's
+/// joystick wins at any time: deflected, it ends the mission and the rider drives, with or without link and permit,
+/// slowed by the range sensors as missions are; released, the robot stands.
 Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds now_ms);
 
 /// A mission as the heart needs it, its views decoded. Errors: kFeatureConfigMismatch, kCorruptFile,

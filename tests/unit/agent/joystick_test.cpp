@@ -86,6 +86,17 @@ TEST_F(JoystickTest, AHeldOneSaysSoAtEachReadingAndAReleasedOneIsAtRest) {
   EXPECT_DOUBLE_EQ(hand().wanted.speed_mps, 0.0);
 }
 
+TEST_F(JoystickTest, ATouchBetweenTwoReadingsIsNotMissed) {
+  open();
+  read();
+  push(0, 20000);
+  push(0, 0);
+  const RiderHand said = hand();
+  EXPECT_TRUE(said.deflected);
+  EXPECT_DOUBLE_EQ(said.wanted.turn_radps, 0.0);
+  EXPECT_FALSE(hand().deflected);
+}
+
 TEST_F(JoystickTest, NoiseAroundItsRestIsNoHand) {
   open();
   for (const int value : {4000, -4000, 300, 4900}) {

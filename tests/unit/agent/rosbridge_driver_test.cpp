@@ -370,6 +370,17 @@ TEST_F(RiderOnABridge, IsHeardWithTheTimeOfItsLastWord) {
   EXPECT_TRUE(says(false, {}));
 }
 
+TEST_F(RiderOnABridge, ATouchBetweenTwoReadingsIsNotMissed) {
+  push(0.25, 0.0);
+  push(0.0, 0.0);
+  std::this_thread::sleep_for(300ms);
+  const auto rider = driver_->read().rider;
+  ASSERT_TRUE(rider);
+  EXPECT_TRUE(rider->deflected);
+  EXPECT_DOUBLE_EQ(rider->wanted.speed_mps, 0.0);
+  EXPECT_FALSE(driver_->read().rider->deflected);
+}
+
 TEST_F(RiderOnABridge, NoiseIsNoHandAndNonsenseIsNoWord) {
   push(0.004, -0.009);
   EXPECT_TRUE(says(false, {}));

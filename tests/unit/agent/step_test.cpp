@@ -80,6 +80,21 @@ TEST_F(StepTest, ASilentRangeSensorSlowsItSoThatItRestsHalfASecondAfterTheLastSw
   EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
 }
 
+TEST_F(StepTest, ASilentCameraSlowsItSoThatItRestsHalfASecondAfterTheLastPicture) {
+  set_off();
+  pictures_ = false;
+  for (Milliseconds silence_ms = kTick_ms; silence_ms <= 400; silence_ms += kTick_ms) {
+    const Outputs outputs = tick({permit("m1", 1, ++seq_)});
+    EXPECT_LE(outputs.motion.speed_mps, fastest_mps(config_, silence_ms) + 1e-9) << silence_ms;
+  }
+  EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
+  EXPECT_EQ(state_.drive, DriveState::kDriving) << "it waits for pictures, standing";
+  pictures_ = true;
+  double speed_mps = 0.0;
+  for (int k = 0; k < 3; ++k) speed_mps = tick({permit("m1", 1, ++seq_)}).motion.speed_mps;
+  EXPECT_GT(speed_mps, 0.05);
+}
+
 TEST_F(StepTest, AShortSilenceSlowsItAndTheNextWordLetsItGoOn) {
   set_off();
   const double before_mps = tick({permit("m1", 1, ++seq_)}).motion.speed_mps;
