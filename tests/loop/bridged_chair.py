@@ -118,10 +118,12 @@ class BridgedChair:
         return self.server.call("GET", f"/api/v1/robots/{self.robot}/missions/{self.mission_id}")
 
     def order(self, room):
-        """Asks for a mission; its id, or the refusal."""
+        """Asks for a mission; gives its path."""
         self.lease = self.server.call("POST", f"/api/v1/robots/{self.robot}/lease", {"take_over": True})["lease"]["id"]
-        self.mission_id = self.server.call("POST", f"/api/v1/robots/{self.robot}/missions", {
-            "lease_id": self.lease, "destination": self.destinations[room]})["id"]
+        mission = self.server.call("POST", f"/api/v1/robots/{self.robot}/missions", {
+            "lease_id": self.lease, "destination": self.destinations[room]})
+        self.mission_id = mission["id"]
+        return mission["path"]
 
     def wait_until_located(self):
         def located():
@@ -129,10 +131,12 @@ class BridgedChair:
             return self.state()["online"] and belief and not belief["lost"] and belief["updates"] >= 3
         self.wait("it knows where it is", located, 120)
 
-    def set_off(self, room):
-        """A mission, well under way."""
+    def set_off(self, *rooms):
+        """A mission to one of the rooms, the first that is not right here, well under way."""
         self.wait_until_located()
-        self.order(room)
+        for room in rooms:
+            if len(self.order(room)) > 3:
+                break
         renewed = time.monotonic()
         end = renewed + 60
         while abs(self.truth()["speed_mps"]) < UNDER_WAY_MPS:

@@ -39,14 +39,14 @@ class Frozen(unittest.TestCase):
         return self.chair.log("agent")[before:]
 
     def test_1_awake_again_it_stands_until_a_person_says_so(self):
-        self.chair.set_off("kitchen")
+        self.chair.set_off("kitchen", "hall")
         self.assertIn("The robot's computer was held up.", self.freeze(1.2))
         self.assertEqual(self.chair.mission()["state"], "stopped")
-        self.chair.set_off("kitchen")  # a person's word
+        self.chair.set_off("kitchen", "hall")  # a person's word
 
     def test_2_a_long_sleep_changes_nothing_of_that(self):
         if self.chair.mission()["state"] != "driving":
-            self.chair.set_off("hall")
+            self.chair.set_off("hall", "kitchen")
         self.freeze(8.0)
         self.assertEqual(self.chair.mission()["state"], "stopped")
 
@@ -61,7 +61,7 @@ class Frozen(unittest.TestCase):
         self.assertIn(self.chair.mission()["state"], ("stopped", "refused"))
 
     def test_4_a_hand_on_the_joystick_ends_the_mission_and_drives(self):
-        self.chair.set_off("hall")
+        self.chair.set_off("hall", "kitchen")
         self.chair.push(1, FULL)  # backwards
         self.chair.wait("it drives backwards", lambda: self.chair.truth()["commanded_mps"] < 0, 1.0)
         self.chair.wait("the server knows", lambda: self.chair.mission()["state"] == "stopped", 2.0)

@@ -79,9 +79,9 @@ class Latencies:
             raise SystemExit(f"it moved again by itself after {what}: {moved[0]}")
 
     def run(self, what):
-        room = self.rooms[self.count % len(self.rooms)]
         self.count += 1
-        self.chair.set_off(room)
+        first = self.count % len(self.rooms)
+        self.chair.set_off(*self.rooms[first:], *self.rooms[:first])
         speed_mps = self.chair.truth()["speed_mps"]
         since_us = time.time_ns() // 1000
         getattr(self, what)()
