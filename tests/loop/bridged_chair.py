@@ -132,8 +132,16 @@ class BridgedChair:
         self.wait("it knows where it is", located, 120)
 
     def set_off(self, *rooms):
-        """A mission to one of the rooms, the first that is not right here, well under way."""
-        self.wait_until_located()
+        """A mission to one of the rooms, the first that is not right here, well under way. A machine that does other
+        work may be too slow for pictures; it is tried again then."""
+        for _ in range(3):
+            self.wait_until_located()
+            if self.gets_under_way(rooms):
+                return
+            print(f"it did not get under way: {self.mission()}", file=sys.stderr, flush=True)
+        raise Failed(f"it did not get under way: {self.mission()}")
+
+    def gets_under_way(self, rooms):
         for room in rooms:
             if len(self.order(room)) > 3:
                 break
@@ -141,11 +149,12 @@ class BridgedChair:
         end = renewed + 60
         while abs(self.truth()["speed_mps"]) < UNDER_WAY_MPS:
             if time.monotonic() > end or self.mission()["state"] not in ("accepted", "driving"):
-                raise Failed(f"it did not get under way: {self.mission()}")
+                return False
             if time.monotonic() - renewed > 1:
                 self.server.call("PUT", f"/api/v1/robots/{self.robot}/lease", {"lease_id": self.lease})
                 renewed = time.monotonic()
             time.sleep(0.02)
+        return True
 
     def moved(self, seconds):
         """The truths of so long in which it moved or was told to."""
@@ -166,5 +175,5 @@ class BridgedChair:
         if not moving or max([*told, *moving]) + 1 >= len(after):
             raise Failed("it stood before anything happened" if not moving else "it never stood")
         def at(last):
-            return max(0.0, (after[last[-1] + 1]["t_us"] - since_us) / 1e6) if last else 0.0
+            return (after[last[-1] + 1 if last else 0]["t_us"] - since_us) / 1e6
         return at(told), at(moving)
