@@ -47,6 +47,14 @@ struct RecordedPicture {
   bool recognised = true;                                  // its features were looked for; else it was only tracked
 };
 
+/// What the rider's joystick said.
+struct RecordedRider {
+  std::int64_t said_ms = 0;
+  bool deflected = false;
+  double speed_mps = 0.0;
+  double turn_radps = 0.0;
+};
+
 struct RecordedVector {
   double bearing_rad = 0.0;
   double turn_rad = 0.0;
@@ -68,6 +76,7 @@ struct RecordedStep {
   std::vector<wire::ServerMessage> heard;
   std::optional<RecordedSweep> sweep;
   std::optional<RecordedPicture> picture;
+  std::optional<RecordedRider> rider = {};
   // Out.
   double speed_mps = 0.0;
   double turn_radps = 0.0;
@@ -132,7 +141,7 @@ struct WhyStopped {
 class RecordingReader {
  public:
   /// Errors: kNotFound, kCorruptFile (no SQLite file, no recording, ends early), kUnsupportedFormat (newer version),
-  /// kIo.
+  /// kIo. Version 1, which knew no joysticks, is read.
   static Result<std::unique_ptr<RecordingReader>> open(const std::filesystem::path& file);
   RecordingReader(const RecordingReader&) = delete;
   RecordingReader& operator=(const RecordingReader&) = delete;

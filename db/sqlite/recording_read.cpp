@@ -142,10 +142,11 @@ class SqliteRecordingReader final : public RecordingReader {
       refuse(ErrorCode::kCorruptFile, "This SQLite file is not a recording of Homeward.");
     }
     const int version = database_.execAndGet("PRAGMA user_version").getInt();
-    if (version != kRecordingVersion) {
-      refuse(ErrorCode::kUnsupportedFormat, "The recording has version " + std::to_string(version) +
-                                                "; this program reads version " + std::to_string(kRecordingVersion) +
-                                                ". A newer Homeward wrote it: read it with that one.");
+    if (version < kOldestRecordingVersion || version > kRecordingVersion) {
+      refuse(ErrorCode::kUnsupportedFormat,
+             "The recording has version " + std::to_string(version) + "; this program reads versions " +
+                 std::to_string(kOldestRecordingVersion) + " to " + std::to_string(kRecordingVersion) +
+                 ". A newer Homeward wrote it: read it with that one.");
     }
   }
 

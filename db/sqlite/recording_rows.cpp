@@ -11,6 +11,17 @@ namespace {
 constexpr std::uint8_t kHasVector = 1;
 constexpr std::uint8_t kHasMinRange = 2;
 constexpr std::uint8_t kHasNearness = 4;
+constexpr std::uint8_t kHasRider = 8;
+
+bool get_rider(ByteReader& reader, RecordedRider& rider) {
+  std::uint8_t deflected = 0;
+  if (!reader.get(&rider.said_ms) || !reader.get(&deflected) || deflected > 1 || !reader.get(&rider.speed_mps) ||
+      !reader.get(&rider.turn_radps)) {
+    return false;
+  }
+  rider.deflected = deflected == 1;
+  return true;
+}
 
 }  // namespace
 
@@ -29,10 +40,16 @@ std::vector<std::uint8_t> pack_step(const RecordedStep& step) {
                                           step.min_range_m.value_or(0.0)};
   ByteWriter writer;
   writer.put(static_cast<std::uint8_t>((step.vector ? kHasVector : 0) | (step.min_range_m ? kHasMinRange : 0) |
-                                       (vector.nearness ? kHasNearness : 0)));
+                                       (vector.nearness ? kHasNearness : 0) | (step.rider ? kHasRider : 0)));
   writer.put(numbers.data(), numbers.size());
   writer.put(vector.matches);
   writer.put(vector.inliers);
+  if (step.rider) {
+    writer.put(step.rider->said_ms);
+    writer.put(static_cast<std::uint8_t>(step.rider->deflected ? 1 : 0));
+    writer.put(step.rider->speed_mps);
+    writer.put(step.rider->turn_radps);
+  }
   return writer.take();
 }
 
@@ -41,10 +58,16 @@ bool unpack_step(std::span<const std::uint8_t> bytes, RecordedStep& step) {
   std::uint8_t flags = 0;
   std::array<double, 11> n{};
   RecordedVector vector;
+  RecordedRider rider;
   if (!reader.get(&flags) || !reader.get(n.data(), n.size()) || !reader.get(&vector.matches) ||
-      !reader.get(&vector.inliers) || reader.left() != 0) {
+      !reader.get(&vector.inliers)) {
     return false;
   }
+  if ((flags & kHasRider) != 0) {
+    if (!get_rider(reader, rider)) return false;
+    step.rider = rider;
+  }
+  if (reader.left() != 0) return false;
   step.odometry = {n[0], n[1], n[2]};
   step.speed_mps = n[3];
   step.turn_radps = n[4];

@@ -6,7 +6,9 @@ namespace homeward::db {
 /// "HWRC" in SQLite's application_id field: what makes an SQLite file the recording of a mission.
 inline constexpr int kRecordingApplicationId = 0x48575243;
 /// user_version of the file. A released schema is never edited; a newer file is refused.
-inline constexpr int kRecordingVersion = 1;
+inline constexpr int kRecordingVersion = 2;
+/// Version 1 has no word of joysticks.
+inline constexpr int kOldestRecordingVersion = 1;
 
 /// Columns in units are for people and their queries; what must come back bit for bit stands in `exact` as well (SQLite
 /// keeps neither -0.0 nor NaN).
@@ -18,7 +20,8 @@ CREATE TABLE steps (
   speed_mps REAL, turn_radps REAL, state TEXT NOT NULL, reason TEXT NOT NULL, path_index INTEGER NOT NULL,
   answered INTEGER NOT NULL, docking INTEGER NOT NULL, covered INTEGER NOT NULL,
   bearing_rad REAL, turn_rad REAL, confidence REAL, parallax_rad REAL, inliers INTEGER, min_range_m REAL,
-  has_sweep INTEGER NOT NULL, has_picture INTEGER NOT NULL, messages INTEGER NOT NULL, exact BLOB NOT NULL) STRICT;
+  has_sweep INTEGER NOT NULL, has_picture INTEGER NOT NULL, messages INTEGER NOT NULL, exact BLOB NOT NULL,
+  rider_deflected INTEGER, rider_speed_mps REAL, rider_turn_radps REAL) STRICT;
 CREATE TABLE messages (
   step INTEGER NOT NULL, position INTEGER NOT NULL, sender TEXT NOT NULL, type TEXT NOT NULL, cbor BLOB NOT NULL,
   PRIMARY KEY (step, position)) STRICT;

@@ -32,7 +32,7 @@ std::vector<Pose2> ultrasound_ring(const Outline& outline, const UltrasoundConfi
 
 std::vector<float> ultrasound(const RayScene& rays, const Pose2& robot, const std::vector<Pose2>& ring,
                               const std::vector<Person>& people, const UltrasoundConfig& config,
-                              std::uint64_t noise_seed) {
+                              std::uint64_t noise_seed, const std::vector<Box>& boxes) {
   std::mt19937_64 random(noise_seed);
   std::normal_distribution<float> noise_m(0.0F, static_cast<float>(config.noise_m));
   std::vector<float> ranges_m;
@@ -51,6 +51,10 @@ std::vector<float> ultrasound(const RayScene& rays, const Pose2& robot, const st
         if (const auto hit = rays.first_hit(origin_m, direction, far_m)) nearest_m = hit->distance_m;
         for (const Person& person : people) {
           const auto met = hit_person(person, origin_m, direction);
+          if (met && met->distance_m < nearest_m) nearest_m = met->distance_m;
+        }
+        for (const Box& box : boxes) {
+          const auto met = hit_box(box, origin_m, direction);
           if (met && met->distance_m < nearest_m) nearest_m = met->distance_m;
         }
       }

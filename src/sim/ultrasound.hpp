@@ -6,6 +6,7 @@
 
 #include "core/outline.hpp"
 #include "core/pose2.hpp"
+#include "sim/box.hpp"
 #include "sim/people.hpp"
 #include "sim/ray_scene.hpp"
 
@@ -29,6 +30,6 @@ std::vector<Pose2> ultrasound_ring(const Outline& outline, const UltrasoundConfi
 /// Their readings at a robot pose, metres; infinity where nothing is within range. People are seen.
 std::vector<float> ultrasound(const RayScene& rays, const Pose2& robot, const std::vector<Pose2>& ring,
                               const std::vector<Person>& people, const UltrasoundConfig& config,
-                              std::uint64_t noise_seed);
+                              std::uint64_t noise_seed, const std::vector<Box>& boxes = {});
 
 }  // namespace homeward::sim

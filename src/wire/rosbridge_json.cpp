@@ -48,6 +48,15 @@ void read_scan(ObjectReader& reader, RosbridgeFile& file) {
   if (const Status status = inner.finish(); !status) reader.take<double>(pass_on(status));
 }
 
+RosRider read_rider(ObjectReader& reader, const std::vector<std::string>& types) {
+  ObjectReader inner(reader.value("rider"), reader.path_of("rider"));
+  RosRider rider;
+  read_topic(inner, rider.topic, types);
+  rider.relayed = inner.choice("motion", {"relayed", "own"}) == "relayed";
+  if (const Status status = inner.finish(); !status) return reader.take<RosRider>(pass_on(status));
+  return rider;
+}
+
 RosBody read_body(ObjectReader& reader) {
   ObjectReader inner(reader.value("body"), reader.path_of("body"));
   RosBody body;
@@ -89,15 +98,20 @@ json rosbridge_to_json(const RosbridgeFile& file) {
   } else {
     body["rectangle"] = {{"front_m", file.body.front_m}, {"back_m", file.body.back_m}, {"width_m", file.body.width_m}};
   }
-  return {{"format", "homeward-rosbridge"},
-          {"version", 1},
-          {"address", file.address},
-          {"camera", file.camera},
-          {"cmd_vel", topic_to_json(file.cmd_vel)},
-          {"odom", topic_to_json(file.odom)},
-          {"scan", scan},
-          {"image", topic_to_json(file.image)},
-          {"body", body}};
+  json value = {{"format", "homeward-rosbridge"},
+                {"version", 1},
+                {"address", file.address},
+                {"camera", file.camera},
+                {"cmd_vel", topic_to_json(file.cmd_vel)},
+                {"odom", topic_to_json(file.odom)},
+                {"scan", scan},
+                {"image", topic_to_json(file.image)},
+                {"body", body}};
+  if (file.rider) {
+    value["rider"] = topic_to_json(file.rider->topic);
+    value["rider"]["motion"] = file.rider->relayed ? "relayed" : "own";
+  }
+  return value;
 }
 
 Result<RosbridgeFile> rosbridge_from_json(const json& value, const std::string& path) {
@@ -116,6 +130,11 @@ Result<RosbridgeFile> rosbridge_from_json(const json& value, const std::string& 
   file.odom = topic_at(reader, "odom", both("nav_msgs", "Odometry"));
   read_scan(reader, file);
   file.image = topic_at(reader, "image", both("sensor_msgs", "CompressedImage"));
+  if (reader.has("rider")) file.rider = read_rider(reader, twists);
+  if (file.rider && file.rider->topic.topic == file.cmd_vel.topic) {
+    reader.problem("rider",
+                   "The rider's topic must be another than cmd_vel: the agent would take its own Twists for a hand.");
+  }
   file.body = read_body(reader);
   if (const Status status = reader.finish(); !status) return pass_on(status);
   return file;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "core/pose2.hpp"
@@ -26,6 +27,12 @@ struct RosBody {
   double turn_deceleration_radps2 = 3.0;
 };
 
+/// The rider's own joystick.
+struct RosRider {
+  RosTopic topic;
+  bool relayed = true;  // false: the base obeys it by itself
+};
+
 /// A robot behind a rosbridge (proto/schemas/rosbridge.schema.json), format "homeward-rosbridge", version 1.
 struct RosbridgeFile {
   std::string address;  // ws://HOST:PORT
@@ -36,6 +43,7 @@ struct RosbridgeFile {
   RosTopic image;
   Pose2 robot_from_scan;
   RosBody body;
+  std::optional<RosRider> rider = {};
 };
 
 nlohmann::json rosbridge_to_json(const RosbridgeFile& file);

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What survives SIGKILL: the server is killed during an upload, a build and a mission, and frozen during another.
+"""What survives SIGKILL: the server is killed during an upload, a build, while a map learns, and during a mission, and
+frozen during another.
 
 Nothing that was acknowledged may be lost, the killed build must end, the chair must stop by itself within 0.5 s, and
 nothing may move again until a person says so. Then the robot is killed, and what it recorded is replayed. Real
@@ -98,26 +99,60 @@ class Kill(unittest.TestCase):
     def test_2_a_killed_build_ends_after_the_restart(self):
         answer = self.server.call("POST", "/api/v1/maps", {"name": "house", "tours": [self.tour_id]})
         job = answer["job"]["id"]
+        state = self.killed_while_it_runs(job)
+        self.assertEqual(state["state"], "done", state)
+        type(self).map_id = answer["map"]["id"]
+        graph = self.server.call("GET", f"/api/v1/maps/{self.map_id}/graph")
+        self.assertEqual(sum(len(place["members"]) for place in graph["places"]), len(self.pictures))
+
+    def killed_while_it_runs(self, job):
+        """Kills the server well within a job and starts it again. Gives the job as it ended."""
         end = time.monotonic() + 60
         while time.monotonic() < end:
             state = self.server.call("GET", f"/api/v1/jobs/{job}")
             if state["state"] == "running" and (state["progress"] or {}).get("share", 0) > 0.05:
                 break
-            self.assertNotEqual(state["state"], "done", "the build was over before it could be killed")
+            self.assertIn(state["state"], ("queued", "running"), "the job was over before it could be killed")
             time.sleep(0.02)
         self.kill_server()
         self.start_server()
         end = time.monotonic() + 300
-        state = {}
         while time.monotonic() < end:
             state = self.server.call("GET", f"/api/v1/jobs/{job}")
             if state["state"] in ("done", "failed", "cancelled"):
-                break
+                return state
             time.sleep(0.5)
+        return self.fail(f"the job never ended: {state}")
+
+    def test_2b_a_map_that_was_killed_while_it_learnt_is_whole_and_learns_again(self):
+        again = self.data / "again"
+        subprocess.run([BIN / "homeward", "simulate", "tour", "--world", "house:1", "--rooms",
+                        "hall,kitchen,living_room,hall", "--seed", "8", "--out", again], check=True,
+                       stdout=subprocess.DEVNULL)
+        type(self).pictures, first = sorted(again.glob("*.jpg")), self.pictures
+        camera = json.loads((again / "camera.json").read_text())
+        tour = self.server.call("POST", "/api/v1/tours", {"name": "again", "camera": camera})["id"]
+        for number in range(len(self.pictures)):
+            self.assertIn(self.put(tour, number), (200, 201))
+        self.server.call("POST", f"/api/v1/tours/{tour}/complete", {})
+        type(self).pictures = first
+        before = self.server.call("GET", f"/api/v1/maps/{self.map_id}/graph")
+        job = self.server.call("POST", f"/api/v1/maps/{self.map_id}/builds",
+                               {"kind": "refine", "tours": [tour]})["job"]["id"]
+        state = self.killed_while_it_runs(job)
         self.assertEqual(state["state"], "done", state)
-        type(self).map_id = answer["map"]["id"]
-        graph = self.server.call("GET", f"/api/v1/maps/{self.map_id}/graph")
-        self.assertEqual(sum(len(place["members"]) for place in graph["places"]), len(self.pictures))
+        after = self.server.call("GET", f"/api/v1/maps/{self.map_id}/graph")
+        info = self.server.call("GET", f"/api/v1/maps/{self.map_id}")
+        # Learnt once, not twice, and nothing of the map was lost.
+        self.assertEqual(info["revision"], 1 + (state["gained"] > 0), state)
+        self.assertEqual(info["state"], "ready")
+        self.assertEqual([place["id"] for place in after["places"]], [place["id"] for place in before["places"]])
+        self.assertEqual([place["members"] for place in after["places"]],
+                         [place["members"] for place in before["places"]])
+        file = self.data / "server" / "maps" / f"{self.map_id}.r{info['revision']}.homeward"
+        inspected = subprocess.run([BIN / "homeward", "map", "inspect", file, "--json"], capture_output=True, text=True)
+        self.assertEqual(inspected.returncode, 0, inspected.stderr)
+        print(f"gained {state['gained']} appearances after the kill, revision {info['revision']}", file=sys.stderr)
 
     def truths(self):
         file = self.data / "truth.jsonl"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulated robot behind the tests' rosbridge: odometry, sweeps and pictures ten times a second; it obeys the last
-// Twist until the next one comes, as most bases do.
-// usage: homeward-rosbridge-robot PORT WORLD START_ROOM disc|chair TRUTH_FILE CAMERA_FILE
+// A simulated robot behind the tests' rosbridge: odometry, sweeps and pictures ten times a second. It obeys the last
+// Twist until the next one comes, or for so many seconds where TIMEOUT_S is given. SIGUSR1 silences its camera and
+// SIGUSR2 its range sensor, until the signal comes again.
+// usage: homeward-rosbridge-robot PORT WORLD START_ROOM disc|chair TRUTH_FILE CAMERA_FILE [TIMEOUT_S]
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -22,12 +23,15 @@ using namespace homeward;  // NOLINT(google-build-using-namespace): a program's 
 using Clock = std::chrono::steady_clock;
 
 std::atomic<bool> ended{false};
+std::atomic<bool> camera_silent{false};
+std::atomic<bool> scanner_silent{false};
 
 void send_pictures(agent::Driver& robot, testing::RosbridgeServer& bridge, const std::stop_token& stop) {
   constexpr int kQuality = 90;
   while (!stop.stop_requested()) {
     const auto taken = robot.next_picture(stop);
     if (!taken || !*taken) return;
+    if (camera_silent) continue;
     bridge.publish("/image", testing::picture_message(1000 * (*taken)->t_ms + 1,
                                                       imageio::encode_jpeg((*taken)->picture, kQuality)));
   }
@@ -46,12 +50,15 @@ int run(const std::vector<std::string>& arguments) {
   }
   agent::Driver& robot = **made;
 
+  const double timeout_s = arguments.size() > 7 ? std::stod(arguments[7]) : 1e9;
   std::mutex mutex;
   agent::Motion twist;
+  Clock::time_point heard = Clock::now();
   testing::RosbridgeServer bridge(static_cast<unsigned short>(std::stoi(arguments[1])),
                                   {[&](const std::string& topic, const nlohmann::json& msg) {
                                     if (topic != "/cmd_vel") return;
                                     const std::lock_guard lock(mutex);
+                                    heard = Clock::now();
                                     twist = {msg["linear"]["x"].get<double>(), msg["angular"]["z"].get<double>()};
                                   }});
   const wire::RosbridgeFile described = testing::sample_rosbridge();
@@ -68,6 +75,7 @@ int run(const std::vector<std::string>& arguments) {
   for (int tick = 0; !ended; ++tick) {
     {
       const std::lock_guard lock(mutex);
+      if (std::chrono::duration<double>(Clock::now() - heard).count() > timeout_s) twist = {};
       robot.command(twist);
     }
     const agent::Reading reading = robot.read();
@@ -75,7 +83,8 @@ int run(const std::vector<std::string>& arguments) {
       const std::int64_t stamp_us = 1000 * reading.t_ms + 1;
       bridge.publish("/odom", testing::odometry_message(stamp_us, reading.odometry, reading.speed_mps));
       const std::vector<double> ranges_m(reading.scan->ranges_m.begin(), reading.scan->ranges_m.end());
-      bridge.publish("/scan", testing::sweep_message(stamp_us, ranges_m, reading.scan->range_max_m));
+      if (!scanner_silent)
+        bridge.publish("/scan", testing::sweep_message(stamp_us, ranges_m, reading.scan->range_max_m));
     }
     next = std::max(next + kTick, Clock::now());
     std::this_thread::sleep_until(next);
@@ -87,11 +96,14 @@ int run(const std::vector<std::string>& arguments) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv, argv + argc);
-  if (arguments.size() != 7) {
-    std::cerr << "usage: homeward-rosbridge-robot PORT WORLD START_ROOM disc|chair TRUTH_FILE CAMERA_FILE\n";
+  if (arguments.size() != 7 && arguments.size() != 8) {
+    std::cerr
+        << "usage: homeward-rosbridge-robot PORT WORLD START_ROOM disc|chair TRUTH_FILE CAMERA_FILE [TIMEOUT_S]\n";
     return 2;
   }
   std::signal(SIGTERM, [](int) { ended = true; });
   std::signal(SIGINT, [](int) { ended = true; });
+  std::signal(SIGUSR1, [](int) { camera_silent = !camera_silent; });
+  std::signal(SIGUSR2, [](int) { scanner_silent = !scanner_silent; });
   return run(arguments);
 }

@@ -23,6 +23,7 @@ struct Reading {
   double speed_mps = 0.0;
   std::optional<Scan> scan;               // a new sweep, when there is one
   std::optional<Milliseconds> scan_t_ms;  // when it was taken; nothing: now
+  std::optional<RiderHand> rider = {};    // the newest word of the rider's joystick, where the robot has one
 };
 
 /// A picture with the odometry of the moment at which it was taken, of a robot that has it.
@@ -40,7 +41,8 @@ class Driver {
   [[nodiscard]] virtual const camera::CameraConfig& camera() const = 0;
   [[nodiscard]] virtual Body body() const = 0;
   virtual Reading read() = 0;
-  /// Obeyed until the next one; a driver stops by itself when none comes for half a second.
+  /// Obeyed until the next one; a driver stops by itself when none comes for so long that the robot stands half a
+  /// second after the last one.
   virtual void command(const Motion& motion) = 0;
   /// Waits for the next picture; nothing when `stop` was asked for or there are no more.
   /// Errors: a picture that cannot be read (kIo and those of imageio::decode), a camera that is gone (kIo).

@@ -162,9 +162,15 @@ std::string text_at(const json& value, const char* key) {
   return found != value.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-json vector3(double x, double z_or_zero) { return {{"x", x}, {"y", 0.0}, {"z", z_or_zero}}; }
-
 bool is_stamped(const std::string& type) { return type.ends_with("Stamped"); }
+
+RosTwist twist_of(Fields twist) {
+  Fields linear = twist.inside("linear");
+  Fields angular = twist.inside("angular");
+  return {{linear.number("x"), angular.number("z")}};
+}
+
+json vector3(double x, double z_or_zero) { return {{"x", x}, {"y", 0.0}, {"z", z_or_zero}}; }
 
 }  // namespace
 
@@ -188,6 +194,9 @@ Result<RosMessage> decode_ros_message(std::string_view text, const wire::Rosbrid
     RosPicture picture{stamp_of(message), bytes_of(message, "data")};
     result = std::move(picture);
   }
+  if (robot.rider && topic == robot.rider->topic.topic) {
+    result = twist_of(is_stamped(robot.rider->topic.type) ? message.inside("twist") : message);
+  }
   if (message.error()) return tl::unexpected<Error>(*message.error());
   return result;
 }
@@ -197,6 +206,18 @@ std::vector<std::string> ros_greeting(const wire::RosbridgeFile& robot) {
   texts.push_back(json{
       {"op", "advertise"}, {"id", "homeward:cmd_vel"}, {"topic", robot.cmd_vel.topic}, {"type", robot.cmd_vel.type}}
                       .dump());
+  if (robot.rider) {
+    // Each word of the hand, at once.
+    texts.push_back(json{
+        {"op", "subscribe"},
+        {"id", "homeward:" + robot.rider->topic.topic},
+        {"topic", robot.rider->topic.topic},
+        {"type", robot.rider->topic.type},
+        {"throttle_rate", 0},
+        {"queue_length", 1},
+        {"compression",
+         "none"}}.dump());
+  }
   // Ten pictures a second are enough, and of what waits only the newest matters.
   for (const auto& [topic, least_ms] :
        {std::pair(&robot.odom, 20), std::pair(&robot.scan, 40), std::pair(&robot.image, 90)}) {
@@ -217,6 +238,10 @@ std::vector<std::string> ros_farewell(const wire::RosbridgeFile& robot) {
   std::vector<std::string> texts = {ros_motion(robot, {})};
   for (const wire::RosTopic* topic : {&robot.odom, &robot.scan, &robot.image}) {
     texts.push_back(json{{"op", "unsubscribe"}, {"id", "homeward:" + topic->topic}, {"topic", topic->topic}}.dump());
+  }
+  if (robot.rider) {
+    const std::string& topic = robot.rider->topic.topic;
+    texts.push_back(json{{"op", "unsubscribe"}, {"id", "homeward:" + topic}, {"topic", topic}}.dump());
   }
   texts.push_back(json{{"op", "unadvertise"}, {"id", "homeward:cmd_vel"}, {"topic", robot.cmd_vel.topic}}.dump());
   return texts;

@@ -33,12 +33,15 @@ struct RosPicture {
   RosStamp stamp_us;
   std::vector<std::uint8_t> bytes;  // a JPEG or PNG, not looked at
 };
+struct RosTwist {  // of the rider's joystick
+  Motion motion;
+};
 struct RosStatus {
   std::string level;  // "error", "warning", "info" or "none"
   std::string text;
 };
 struct RosOther {};  // a message that the agent has no use for
-using RosMessage = std::variant<RosOther, RosSweep, RosOdometry, RosPicture, RosStatus>;
+using RosMessage = std::variant<RosOther, RosSweep, RosOdometry, RosPicture, RosTwist, RosStatus>;
 
 inline constexpr std::size_t kMaxRosMessageBytes = 16UL * 1024 * 1024;
 inline constexpr std::size_t kMaxRosRanges = 20'000;

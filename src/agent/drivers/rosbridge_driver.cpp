@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
@@ -19,8 +20,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kPublishPeriod = std::chrono::milliseconds(50);
-constexpr Milliseconds kCommandLife_ms = 500;
+// Some cycles of the agent's: a loop above that hangs has the robot brake, long before the base does so by itself.
+constexpr Milliseconds kCommandLife_ms = 150;
 constexpr Milliseconds kZerosAfterMotion_ms = 1000;  // said again and again: the bridge keeps no count
+constexpr double kAtRest_mps = 0.005;                // of a joystick; what is less is no hand
+constexpr double kAtRest_radps = 0.01;
 constexpr Milliseconds kOdometrySilence_ms = 400;
 constexpr Milliseconds kMostLag_ms = 300;
 // Longer than the agent bears without sweeps: after a lost connection it stops for certain.
@@ -92,6 +96,9 @@ class RosbridgeDriver final : public Driver {
     reading.t_ms = now_ms();
     reading.odometry = track_.at(std::nullopt);
     reading.speed_mps = speed_mps_;
+    reading.rider = rider_;
+    // A touch that is over already counts too.
+    if (std::exchange(touched_, false) && reading.rider) reading.rider->deflected = true;
     std::optional<Scan> sweep = std::exchange(sweep_, std::nullopt);
     if (!live || interrupted_ || reading.t_ms - odom_.arrived_ms > kOdometrySilence_ms) return reading;
     reading.scan = std::move(sweep);
@@ -166,6 +173,7 @@ class RosbridgeDriver final : public Driver {
     withheld_until_ms_ = now_ms() + kWithheld_ms;
     command_ = {};
     sweep_.reset();
+    rider_.reset();
     track_.clear();
   }
 
@@ -186,6 +194,8 @@ class RosbridgeDriver final : public Driver {
         blind = std::none_of(sweep->scan.ranges_m.begin(), sweep->scan.ranges_m.end(),
                              [](float range_m) { return std::isfinite(range_m); });
         if (!blind && scan_.take(sweep->stamp_us, now)) sweep_ = std::move(sweep->scan);
+      } else if (const auto* twist = std::get_if<RosTwist>(&*message)) {
+        take_hand(twist->motion, now);
       } else if (auto* picture = std::get_if<RosPicture>(&*message)) {
         if (!image_.take(picture->stamp_us, now)) return;
         picture_ = std::move(*picture);
@@ -193,6 +203,13 @@ class RosbridgeDriver final : public Driver {
       }
     }
     if (blind) complain({ErrorCode::kEmptyInput, "The sweep saw nothing at all.", robot_.scan.topic});
+  }
+
+  /// The mutex is held.
+  void take_hand(const Motion& motion, Milliseconds now) {
+    const bool deflected = std::abs(motion.speed_mps) > kAtRest_mps || std::abs(motion.turn_radps) > kAtRest_radps;
+    touched_ = touched_ || deflected;
+    rider_ = RiderHand{now, deflected, deflected && robot_.rider->relayed ? motion : Motion{}};
   }
 
   void tell_status(const RosStatus& status) {
@@ -261,6 +278,8 @@ class RosbridgeDriver final : public Driver {
   double speed_mps_ = 0.0;
   std::optional<Scan> sweep_;
   std::optional<RosPicture> picture_;
+  std::optional<RiderHand> rider_;
+  bool touched_ = false;  // the hand was there at some moment since the last reading
   Motion command_;
   Milliseconds commanded_ms_ = 0;
   Milliseconds connected_ms_ = 0;

@@ -84,11 +84,12 @@ Image SimulatedRobot::render(const View& view) const {
 
 Scan SimulatedRobot::sweep() {
   if (config_.profile.ranges == sim::RangeSensor::kUltrasound) {
-    const std::vector<float> ranges_m = sim::ultrasound(world_->rays(), vehicle_.pose(), ring_, walkers_.people(),
-                                                        config_.ultrasound, config_.seed * 104'729 + ++readings_);
+    const std::vector<float> ranges_m =
+        sim::ultrasound(world_->rays(), vehicle_.pose(), ring_, walkers_.people(), config_.ultrasound,
+                        config_.seed * 104'729 + ++readings_, boxes_);
     std::vector<SonarReading> readings;
     for (std::size_t i = 0; i < ring_.size(); ++i) readings.push_back({ring_[i], ranges_m[i]});
-    return sonar_map_.update(readings, vehicle_.odometry());
+    return sonar_map_.update(readings, odometry());
   }
   Scan scan;
   scan.ranges_m = sim::scan(world_->rays(), vehicle_.pose(), walkers_.people(), config_.laser,

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "agent/drivers/usual_cameras.hpp"
 #include "agent/files/read_file.hpp"
@@ -25,8 +26,13 @@ constexpr auto kCommandLife = std::chrono::milliseconds(100);
 class SimulatorDriver final : public Driver {
  public:
   SimulatorDriver(std::unique_ptr<sim::LitWorld> world, SimulatedRobot robot, SimulatedRobotConfig config, Body body,
-                  const std::string& truth_file)
-      : world_(std::move(world)), robot_(std::move(robot)), config_(std::move(config)), body_(std::move(body)) {
+                  const SimulatorDriverConfig& driver)
+      : world_(std::move(world)),
+        robot_(std::move(robot)),
+        config_(std::move(config)),
+        body_(std::move(body)),
+        rider_(driver.rider) {
+    const std::string& truth_file = driver.truth_file;
     if (!truth_file.empty()) truth_.open(truth_file, std::ios::app);
   }
 
@@ -37,8 +43,7 @@ class SimulatorDriver final : public Driver {
     const std::lock_guard lock(mutex_);
     const auto now = Clock::now();
     if (now - commanded_ > kCommandLife) {
-      moves_ = false;
-      robot_.command({});
+      obey({}, now);
     }
     constexpr double kLongestStep_s = 0.1;
     double seconds = std::min(kLongestStep_s, std::chrono::duration<double>(now - advanced_).count());
@@ -48,15 +53,14 @@ class SimulatorDriver final : public Driver {
     until_picture_s_ -= seconds;
     if (seconds > 0.0) robot_.advance(seconds);
     tell_truth(now);
-    return {simulated_ms(), robot_.odometry(), robot_.vehicle().motion().speed_mps, robot_.sweep(),
-            std::nullopt};
+    return {simulated_ms(), robot_.odometry(), robot_.vehicle().motion().speed_mps,
+            robot_.sweep(), std::nullopt,      rider_ ? rider_(simulated_ms()) : std::nullopt};
   }
 
   void command(const Motion& motion) override {
     const std::lock_guard lock(mutex_);
     commanded_ = Clock::now();
-    moves_ = motion.speed_mps != 0.0 || motion.turn_radps != 0.0;
-    robot_.command(motion);
+    obey(motion, commanded_);
   }
 
   Result<std::optional<TakenPicture>> next_picture(std::stop_token stop) override {
@@ -75,6 +79,14 @@ class SimulatorDriver final : public Driver {
  private:
   [[nodiscard]] Milliseconds simulated_ms() const { return static_cast<Milliseconds>(1000.0 * robot_.seconds()); }
 
+  void obey(const Motion& motion, Clock::time_point now) {
+    const bool moved = std::exchange(moves_, motion.speed_mps != 0.0 || motion.turn_radps != 0.0);
+    commanded_motion_ = motion;
+    robot_.command(motion);
+    if (moved && !moves_) told_ = {};  // the moment of a stop is told at once
+    if (moved != moves_) tell_truth(now);
+  }
+
   void tell_truth(Clock::time_point now) {
     if (!truth_.is_open() || now - told_ < kTruthPeriod) return;
     told_ = now;
@@ -88,6 +100,8 @@ class SimulatorDriver final : public Driver {
                                  {"theta_rad", vehicle.pose().theta_rad},
                                  {"speed_mps", vehicle.motion().speed_mps},
                                  {"turn_radps", vehicle.motion().turn_radps},
+                                 {"commanded_mps", commanded_motion_.speed_mps},
+                                 {"commanded_radps", commanded_motion_.turn_radps},
                                  {"collisions", vehicle.collisions()}};
     truth_ << line.dump() << std::endl;
   }
@@ -96,6 +110,7 @@ class SimulatorDriver final : public Driver {
   SimulatedRobot robot_;
   SimulatedRobotConfig config_;
   Body body_;
+  std::function<std::optional<RiderHand>(Milliseconds)> rider_;
   std::ofstream truth_;
   std::mutex mutex_;
   std::condition_variable_any pause_;
@@ -103,6 +118,7 @@ class SimulatorDriver final : public Driver {
   Clock::time_point commanded_ = Clock::now();
   Clock::time_point pictured_ = Clock::now();
   Clock::time_point told_;
+  Motion commanded_motion_;
   bool moves_ = false;
   double until_picture_s_ = kPictureLife_s;  // that simulated time may still pass before the next picture
 };
@@ -139,7 +155,7 @@ Result<std::unique_ptr<Driver>> make_simulator_driver(const SimulatorDriverConfi
   if (!robot) return pass_on(robot);
   Body body = body_of(robot_config.profile);
   return std::make_unique<SimulatorDriver>(std::move(world), std::move(*robot), std::move(robot_config),
-                                           std::move(body), config.truth_file);
+                                           std::move(body), config);
 }
 
 }  // namespace homeward::agent

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "agent/drivers/driver.hpp"
@@ -16,9 +18,10 @@ struct SimulatorDriverConfig {
   std::string ranges = "laser";  // or "ultrasound"
   std::string start_room;        // empty: the world's start
   std::string camera = "hyperbolic_mirror";
-  std::string truth_file;  // empty: none. Else a JSON line with the true pose and the collisions so far, 10 a second
+  std::string truth_file;  // empty: none. Else JSON lines with the true pose, the command, collisions so far
   int people = 0;
   std::uint64_t seed = 1;
+  std::function<std::optional<RiderHand>(Milliseconds)> rider = {};  // the joystick at a simulated time; empty: none
 };
 
 /// A simulated robot whose time is the machine's own; when the machine is too slow, simulated time falls behind.

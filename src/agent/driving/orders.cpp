@@ -8,9 +8,12 @@
 namespace homeward::agent {
 namespace {
 
+constexpr const char* kRiderSteers = "The rider is steering with the joystick.";
+
 /// Obeys one message after the other.
 struct Clerk {
   DrivingState& state;
+  bool rider_steers;
   const DrivingConfig& config;
   Milliseconds now_ms;
   Outputs& outputs;
@@ -26,6 +29,12 @@ struct Clerk {
   void operator()(const wire::MissionOrder& order) const {
     if (order.order <= state.newest || order.order.epoch < state.least_epoch) return;
     state.newest = order.order;
+    if (rider_steers || now_ms < state.refuses_until_ms) {
+      outputs.messages.emplace_back(
+          wire::MissionRefused{order.mission, order.order,
+                               rider_steers ? kRiderSteers : "The robot's computer was held up; send it again."});
+      return;
+    }
     auto mission = decode_mission(order, config);
     if (!mission) {
       if (state.drive == wire::DriveState::kDriving) {
@@ -74,11 +83,11 @@ void end_mission(DrivingState& state, wire::DriveState how, std::string reason) 
   state.docking = false;
 }
 
-void obey(DrivingState& state, const std::vector<wire::ServerMessage>& messages, const DrivingConfig& config,
-          Milliseconds now_ms, Outputs& outputs) {
+void obey(DrivingState& state, const std::vector<wire::ServerMessage>& messages, bool rider_steers,
+          const DrivingConfig& config, Milliseconds now_ms, Outputs& outputs) {
   for (const wire::ServerMessage& message : messages) {
     state.last_message_ms = now_ms;
-    std::visit(Clerk{state, config, now_ms, outputs}, message);
+    std::visit(Clerk{state, rider_steers, config, now_ms, outputs}, message);
   }
 }
 

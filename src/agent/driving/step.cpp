@@ -6,19 +6,24 @@
 
 #include "agent/driving/orders.hpp"
 #include "agent/driving/pursuit.hpp"
+#include "agent/driving/rider.hpp"
 #include "agent/driving/steering.hpp"
 
 namespace homeward::agent {
 namespace {
 
-// After such a pause between two steps the robot's base has stopped by itself, and what it drives by is old.
-constexpr Milliseconds kPause_ms = 500;
 constexpr int kFewestFeatures = 20;  // with fewer the camera is taken to be covered
 
 void take_picture(DrivingState& state, const SeenPicture& picture, const DrivingConfig& config, Milliseconds now_ms) {
-  state.last_picture_ms = picture.taken_ms;
   ++state.pictures;
   if (state.drive != wire::DriveState::kDriving) return;
+  // A picture of before the mission, or one that was looked at for so long, says nothing of whether more will come: the
+  // robot goes on standing until a better one does.
+  const Milliseconds age_ms = now_ms - picture.taken_ms;
+  if (!state.pictured && (picture.taken_ms < state.last_picture_ms || age_ms > config.frame_silence_ms)) return;
+  // A clock that is ahead must not hide a camera that falls silent.
+  state.last_picture_ms = std::min(picture.taken_ms, now_ms);
+  state.picture_came_ms = now_ms;
   const int index_before = state.follow.index;
   state.pictured = true;
   state.seen = picture.appearance ? follow(state.follow, state.mission->path, *picture.appearance, picture.frame,
@@ -56,7 +61,8 @@ std::optional<std::string> reason_to_stop(const DrivingState& state, const Input
 /// No faster than what still comes to rest in time should the silence that has begun go on.
 Motion slowed_by_silence(const Motion& wanted, const DrivingState& state, const DrivingConfig& config,
                          Milliseconds now_ms, Milliseconds sensors_ms) {
-  const Milliseconds silence_ms = std::max(now_ms - state.last_message_ms, sensors_ms - state.scan->taken_ms);
+  const Milliseconds silence_ms =
+      std::max({now_ms - state.last_message_ms, sensors_ms - state.picture_came_ms, sensors_ms - state.scan->taken_ms});
   const Milliseconds braking_ms = config.stands_within_ms - config.reaction_ms - silence_ms;
   const double braking_s = 0.001 * static_cast<double>(std::max<Milliseconds>(0, braking_ms));
   const double speed_mps = config.body.deceleration_mps2 * braking_s;
@@ -155,22 +161,35 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   }
 }
 
+/// A loop that was held up stops, and what was ordered meanwhile is refused: who ordered it no longer expects it.
+void notice_gap(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
+  const Milliseconds gap_ms = now_ms - state.last_step_ms.value_or(now_ms);
+  state.last_step_ms = now_ms;
+  if (gap_ms > config.held_up_ms) state.refuses_until_ms = now_ms + config.held_up_ms;
+  if (gap_ms > config.loop_silence_ms && state.drive == wire::DriveState::kDriving) {
+    end_mission(state, wire::DriveState::kStopped, "The robot's computer was held up.");
+  }
+}
+
 }  // namespace
 
 Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds now_ms) {
   Outputs outputs;
   const Milliseconds sensors_ms = inputs.sensors_now_ms.value_or(now_ms);
   const std::shared_ptr<const Mission> before = state.mission;
-  // Permits that piled up in a pause must not set it going again: only an order does.
-  if (state.drive == wire::DriveState::kDriving && now_ms - state.last_step_ms > kPause_ms)
-    end_mission(state, wire::DriveState::kStopped, "The robot's own computer stood still for a while.");
-  state.last_step_ms = now_ms;
-  obey(state, inputs.messages, config, now_ms, outputs);
+  notice_gap(state, config, now_ms);
+  const bool rider = rider_steers(inputs, config, sensors_ms);
+  if (rider && state.drive == wire::DriveState::kDriving)
+    end_mission(state, wire::DriveState::kStopped, kRiderTookOver);
+  obey(state, inputs.messages, rider, config, now_ms, outputs);
   if (state.mission != before) {
     state.last_answer_ms = state.last_gain_ms = state.last_picture_ms = sensors_ms;
     state.gain_from = inputs.odometry;
   }
-  if (inputs.scan) state.scan = inputs.scan;
+  if (inputs.scan) {
+    state.scan = inputs.scan;
+    state.scan->taken_ms = std::min(state.scan->taken_ms, sensors_ms);
+  }
   std::vector<Eigen::Vector2d> points_m;
   if (state.scan) points_m = hit_points(state.scan->scan);
   state.min_range_m.reset();
@@ -179,6 +198,7 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   }
   if (inputs.picture) take_picture(state, *inputs.picture, config, sensors_ms);
   std::erase_if(state.answers_ms, [&](Milliseconds then) { return sensors_ms - then > 1000; });
+  if (rider) outputs.motion = rider_motion(*inputs.rider, state.scan, points_m, config, sensors_ms);
   if (state.drive != wire::DriveState::kDriving) return outputs;
   if (auto reason = reason_to_stop(state, inputs, config, now_ms, sensors_ms)) {
     end_mission(state, wire::DriveState::kStopped, std::move(*reason));

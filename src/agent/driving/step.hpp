@@ -29,7 +29,10 @@ struct DrivingConfig {
   Milliseconds frame_silence_ms = 1000;  // no picture for so long while driving: stop
   Milliseconds first_frame_ms = 4000;    // a mission waits so long, standing, for its first picture
   Milliseconds scan_silence_ms = 400;    // no sweep for so long while driving: stop
-  Milliseconds stands_within_ms = 500;   // after the last message or sweep the robot is at rest by itself
+  Milliseconds rider_silence_ms = 300;   // a joystick that says nothing for so long counts as released
+  Milliseconds loop_silence_ms = 400;    // no step for so long while driving: stop
+  Milliseconds held_up_ms = 1000;        // no step for so long: missions that waited meanwhile are refused
+  Milliseconds stands_within_ms = 500;   // after the last message, picture or sweep it is at rest by itself
   Milliseconds reaction_ms = 120;        // of it, from an arrival to the wheels
   Milliseconds blind_ms = 4000;          // nothing recognised for so long: the mission fails
   Milliseconds stuck_ms = 20'000;        // no way gained for so long: the mission fails
@@ -51,6 +54,13 @@ struct SeenScan {
   Milliseconds taken_ms = 0;
   Scan scan;
 };
+/// What the rider's own joystick says. A deflected one may want no motion of the agent: the base obeys it by itself, or
+/// it has not been at rest yet.
+struct RiderHand {
+  Milliseconds said_ms = 0;  // by the sensors' clock
+  bool deflected = false;
+  Motion wanted;
+};
 struct Inputs {
   std::optional<SeenPicture> picture;
   std::optional<SeenScan> scan;
@@ -58,6 +68,7 @@ struct Inputs {
   std::vector<wire::ServerMessage> messages;  // in the order of their arrival
   bool link_up = false;
   std::optional<Milliseconds> sensors_now_ms;  // by the sensors' clock; nothing: it is the machine's own
+  std::optional<RiderHand> rider;              // the newest word of the joystick, when there is one
 };
 
 /// One mission that was permitted.
@@ -79,12 +90,14 @@ struct DrivingState {
   Milliseconds permit_ends_ms = 0;
   FollowState follow;
   FollowResult seen;      // of the latest picture
-  bool pictured = false;  // a picture has come since the mission began
+  bool pictured = false;  // a picture taken since the mission began has come in time
   bool docking = false;
   bool covered = false;  // the latest picture shows next to nothing
-  Milliseconds last_step_ms = 0;
+  std::optional<Milliseconds> last_step_ms;
+  Milliseconds refuses_until_ms = 0;  // missions that waited while no step was made
   Milliseconds last_message_ms = 0;
-  Milliseconds last_picture_ms = 0;
+  Milliseconds last_picture_ms = 0;  // at first, when the mission began
+  Milliseconds picture_came_ms = 0;  // the latest one that counted
   Milliseconds last_answer_ms = 0;
   std::optional<Milliseconds> near_since_ms;  // how long it has been right beside the destination
   Milliseconds last_gain_ms = 0;              // when way was last gained
@@ -102,10 +115,12 @@ struct Outputs {
 };
 
 /// The heart of the agent: no clock, thread, socket or device. Same state, inputs and time, same result.
-/// The older the newest message or sweep, the slower it goes, so that braking ends `stands_within_ms` after a silence
-/// begins although only `link_silence_ms` or `scan_silence_ms` of it end the mission.
-/// It drives only under a permit that is counted from its receipt on the robot's own clock, with link, pictures and
-/// sweeps fresh; everything else is a stop, after which only a newer mission moves it again (design §3.10).
+/// The longer no message, picture or sweep has come, the slower it goes, so that braking ends `stands_within_ms` after
+/// a silence begins although only `link_silence_ms`, `frame_silence_ms` or `scan_silence_ms` of it end the mission. It
+/// drives only under a permit that is counted from its receipt on the robot's own clock, with link, pictures and sweeps
+/// fresh; everything else is a stop, after which only a newer mission moves it again (design §3.10). The rider's
+/// joystick wins at any time: deflected, it ends the mission and the rider drives, with or without link and permit,
+/// slowed by the range sensors as missions are; released, the robot stands.
 Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds now_ms);
 
 /// A mission as the heart needs it, its views decoded. Errors: kFeatureConfigMismatch, kCorruptFile,

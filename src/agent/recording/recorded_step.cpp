@@ -45,6 +45,10 @@ db::RecordedStep to_recorded(std::int64_t seq, const Inputs& inputs, const Pictu
   if (inputs.picture)
     step.picture = db::RecordedPicture{inputs.picture->taken_ms, inputs.picture->odometry, bytes,
                                        inputs.picture->appearance != nullptr};
+  if (inputs.rider) {
+    step.rider = db::RecordedRider{inputs.rider->said_ms, inputs.rider->deflected, inputs.rider->wanted.speed_mps,
+                                   inputs.rider->wanted.turn_radps};
+  }
   put_outcome(step, state, outputs);
   return step;
 }
@@ -56,6 +60,10 @@ Inputs inputs_of(const db::RecordedStep& step) {
   inputs.link_up = step.link_up;
   inputs.messages = step.heard;
   if (step.sweep) inputs.scan = from_recorded(*step.sweep);
+  if (step.rider) {
+    inputs.rider =
+        RiderHand{step.rider->said_ms, step.rider->deflected, {step.rider->speed_mps, step.rider->turn_radps}};
+  }
   return inputs;
 }
 

@@ -117,7 +117,8 @@ void follow_fields(Fields& fields, Config& follow) {
 template <class Fields, class Config>
 void driving_fields(Fields& fields, Config& driving) {
   auto& [body, follow, feature_config_id, link_silence_ms, frame_silence_ms, first_frame_ms, scan_silence_ms,
-         stands_within_ms, reaction_ms, blind_ms, stuck_ms, near_m, near_ms, turn_gain, dock_within_rad] = driving;
+         rider_silence_ms, loop_silence_ms, held_up_ms, stands_within_ms, reaction_ms, blind_ms, stuck_ms, near_m,
+         near_ms, turn_gain, dock_within_rad] = driving;
   body_fields(fields, body);
   follow_fields(fields, follow);
   fields("feature_config_id", feature_config_id);
@@ -125,6 +126,9 @@ void driving_fields(Fields& fields, Config& driving) {
   fields("frame_silence_ms", frame_silence_ms);
   fields("first_frame_ms", first_frame_ms);
   fields("scan_silence_ms", scan_silence_ms);
+  fields("rider_silence_ms", rider_silence_ms);
+  fields("loop_silence_ms", loop_silence_ms);
+  fields("held_up_ms", held_up_ms);
   fields("stands_within_ms", stands_within_ms);
   fields("reaction_ms", reaction_ms);
   fields("blind_ms", blind_ms);

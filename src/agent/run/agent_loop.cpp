@@ -2,12 +2,14 @@
 #include "agent/run/agent_loop.hpp"
 
 #include <sodium.h>
+#include <time.h>
 
 #include <algorithm>
 #include <chrono>
 #include <memory>
 #include <thread>
 
+#include "agent/drivers/joystick.hpp"
 #include "agent/driving/step.hpp"
 #include "agent/link/link_client.hpp"
 #include "agent/recording/recorder.hpp"
@@ -22,8 +24,11 @@ constexpr auto kCycle = std::chrono::milliseconds(40);
 constexpr Milliseconds kStatusPeriod_ms = 250;
 constexpr const char* kAgent = "homeward-agent/0.1.0";
 
+/// Goes on while the machine sleeps, unlike the steady clock: one that wakes up knows that its permit has run out.
 Milliseconds now_ms() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now().time_since_epoch()).count();
+  timespec now{};
+  ::clock_gettime(CLOCK_BOOTTIME, &now);
+  return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
 }
 
 TimeUs now_us() {
@@ -57,6 +62,14 @@ wire::AgentStatus status_of(const DrivingState& state, const Reading& reading, s
   return status;
 }
 
+/// What the rider's hand says: of two joysticks the one that is deflected.
+std::optional<RiderHand> rider_hand(const Reading& reading, Joystick* joystick, const Body& body) {
+  std::optional<RiderHand> hand = reading.rider;
+  if (joystick == nullptr) return hand;
+  const auto own = joystick->read(body, now_ms(), reading.t_ms);
+  return own && (!hand || own->deflected) ? own : hand;
+}
+
 /// The driver stands still however the loop is left.
 class StandStill {
  public:
@@ -80,6 +93,13 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
   DrivingConfig config;
   config.body = driver.body();
   config.feature_config_id = features::feature_config_id(features);
+
+  std::unique_ptr<Joystick> joystick;
+  if (!options.joystick.empty()) {
+    auto opened = Joystick::open(options.joystick, options.told);
+    if (!opened) return pass_on(opened);
+    joystick = std::move(*opened);
+  }
 
   wire::Hello hello;
   hello.agent = kAgent;
@@ -111,6 +131,7 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
     const Reading reading = driver.read();
     Inputs inputs;
     inputs.odometry = reading.odometry;
+    inputs.rider = rider_hand(reading, joystick.get(), config.body);
     inputs.link_up = link.up();
     inputs.messages = link.take_messages();
     PictureBytes picture;

@@ -21,12 +21,13 @@ struct AgentOptions {
   std::string robot_name;
   std::function<void(const std::string&)> told;  // what happens, for a log; called from any thread
   std::optional<RecordingOptions> record;        // each mission in a file of its own
+  std::string joystick = {};                     // the rider's, at this machine (/dev/input/js0); empty: none
 };
 
 /// Runs a robot until `stop` is asked for: one thread looks at pictures, one (the caller's) decides 25 times a second
 /// and commands the driver, one speaks with the server. The driver is commanded to zero at the end, however it ends.
-/// Errors: those of the eye and of pictures, and of Recorder::create. A recording that cannot go on is given up, and
-/// the robot drives on.
+/// Errors: those of the eye and of pictures, of Recorder::create and of Joystick::open. A recording that cannot go on
+/// is given up, and the robot drives on.
 Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_token& stop);
 
 }  // namespace homeward::agent

@@ -40,6 +40,7 @@ struct RunOptions {
   std::string robot;
   std::string robot_name = "Homeward robot";
   agent::DriverOptions driver;
+  std::string joystick;
   std::string record;
   std::int64_t record_limit_mb = 512;
   std::int64_t record_folder_limit_mb = 4096;
@@ -89,7 +90,8 @@ Status run(const RunOptions& options) {
                                     *token,
                                     options.robot_name,
                                     [](const std::string& what) { spdlog::info("{}", what); },
-                                    std::nullopt};
+                                    std::nullopt,
+                                    options.joystick};
   if (!options.record.empty()) {
     agent::RecordingOptions& record = agent_options.record.emplace();
     record.folder = options.record;
@@ -141,6 +143,8 @@ void register_run(CLI::App& program) {
   command->add_option("--robot", options->robot, "The robot's id on the server")->required();
   command->add_option("--name", options->robot_name, "The robot's name, for the log")->capture_default_str();
   agent::add_driver_options(*command, options->driver);
+  command->add_option("--joystick", options->joystick,
+                      "The rider's joystick at this machine (/dev/input/js0): deflected, it ends a mission and drives");
   command->add_option("--record", options->record, "Record each mission as a file in this folder (homeward replay)");
   command
       ->add_option("--record-limit-mb", options->record_limit_mb,

@@ -83,6 +83,8 @@ class RecordedDrive : public ::testing::Test {
       bytes = sent.bytes;
     }
     inputs.scan = SeenScan{now_ms_, {std::vector<float>(60, 3.0F), 0.0, kPi / 30.0, 12.0, {}}};
+    inputs.rider = hand_;
+    if (hand_) inputs.rider->said_ms = now_ms_;
     const Outputs outputs = recorder_->step(state_, inputs, bytes, now_ms_);
     pose_ = pose_ * Pose2{0.1 * outputs.motion.speed_mps, 0.0, 0.1 * outputs.motion.turn_radps};
     return outputs;
@@ -125,6 +127,7 @@ class RecordedDrive : public ::testing::Test {
   std::int64_t seq_ = 1;
   Pose2 pose_;
   bool pictures_ = true;
+  std::optional<RiderHand> hand_;
 
  private:
   std::mutex mutex_;

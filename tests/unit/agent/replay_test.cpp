@@ -46,6 +46,27 @@ TEST_F(Replay, ReproducesEveryVectorDecisionAndCommand) {
   EXPECT_EQ(replayed->header.label, "end of the corridor");
 }
 
+TEST_F(Replay, ReproducesARiderWhoTakesOver) {
+  open_recorder();
+  hand_ = RiderHand{};  // a joystick is there, at rest
+  tick({mission("m1", 1)});
+  for (int i = 0; i < 5; ++i) tick();
+  ASSERT_EQ(state_.drive, wire::DriveState::kDriving) << state_.reason;
+  hand_ = RiderHand{0, true, {1.0 / 7.0, -0.1}};
+  EXPECT_DOUBLE_EQ(tick().motion.speed_mps, 1.0 / 7.0);
+  close_recorder();
+  const auto replayed = result();
+  ASSERT_TRUE(replayed) << replayed.error().message << " " << replayed.error().where;
+  EXPECT_TRUE(replayed->same()) << replayed->differing.front().what;
+  EXPECT_TRUE(replayed->complete);
+  EXPECT_EQ(replayed->compared, 7);
+  EXPECT_EQ(replayed->why->state, "stopped");
+  EXPECT_EQ(replayed->why->reason, "The rider has taken over.");
+  SQLite::Database database(recording().string());
+  const SQLite::Column deflected = database.execAndGet("SELECT sum(rider_deflected) FROM steps");
+  EXPECT_EQ(deflected.getInt(), 1);
+}
+
 TEST_F(Replay, TellsWhatCameOutOtherwise) {
   record();
   change("UPDATE steps SET path_index = 7, reason = 'Nothing.' WHERE seq = 3");

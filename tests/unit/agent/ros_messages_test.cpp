@@ -56,6 +56,28 @@ TEST(RosSweeps, BearTheStampsOfBothRosVersions) {
   EXPECT_FALSE(decoded<RosSweep>("/scan", msg).stamp_us);
 }
 
+TEST(RosTwists, OfTheRidersJoystickComePlainOrStamped) {
+  const json twist = {{"linear", {{"x", 0.3}, {"y", 9.0}, {"z", 9.0}}},
+                      {"angular", {{"x", 9.0}, {"y", 9.0}, {"z", -0.4}}}};
+  for (const bool stamped : {false, true}) {
+    wire::RosbridgeFile robot = sample_rosbridge();
+    robot.rider =
+        wire::RosRider{{"/joy_vel", stamped ? "geometry_msgs/msg/TwistStamped" : "geometry_msgs/Twist"}, true};
+    const json msg = stamped ? json{{"header", ros_header(5)}, {"twist", twist}} : twist;
+    const auto message = decode_ros_message(published("/joy_vel", msg), robot);
+    ASSERT_TRUE(message) << message.error().message;
+    ASSERT_TRUE(std::holds_alternative<RosTwist>(*message));
+    EXPECT_DOUBLE_EQ(std::get<RosTwist>(*message).motion.speed_mps, 0.3);
+    EXPECT_DOUBLE_EQ(std::get<RosTwist>(*message).motion.turn_radps, -0.4);
+    const auto other = decode_ros_message(published("/joy_vel", stamped ? twist : json{{"twist", twist}}), robot);
+    EXPECT_FALSE(other);
+    const auto greeting = ros_greeting(robot);
+    EXPECT_TRUE(std::any_of(greeting.begin(), greeting.end(), [](const std::string& text) {
+      return text.find("subscribe") != std::string::npos && text.find("/joy_vel") != std::string::npos;
+    }));
+  }
+}
+
 TEST(RosSweeps, AreRefusedWhenTheyDoNotHoldTogether) {
   const json good = sweep_message(1'000'000, {1.0, 2.0});
   const auto with = [&](const char* key, const json& value) {

@@ -62,14 +62,17 @@ class StepTest : public ::testing::Test {
     if (pictures_) {
       const auto count = static_cast<std::uint64_t>(now_ms_);
       auto seen = covered_ ? features::Appearance() : seen_from(landmarks_, pose_, count);
-      inputs.picture = SeenPicture{now_ms_, std::make_shared<const features::Appearance>(std::move(seen)), {}, pose_};
+      inputs.picture = SeenPicture{
+          now_ms_ - picture_age_ms_, std::make_shared<const features::Appearance>(std::move(seen)), {}, pose_};
     }
     if (sweeps_) {
       Scan scan;
       scan.ranges_m = ranges_m_;
       scan.angle_step_rad = 2.0 * kPi / static_cast<double>(ranges_m_.size());
-      inputs.scan = SeenScan{now_ms_, scan};
+      inputs.scan = SeenScan{now_ms_ - sweep_age_ms_, scan};
     }
+    if (hand_)
+      inputs.rider = RiderHand{now_ms_ - hand_age_ms_, hand_->speed_mps != 0.0 || hand_->turn_radps != 0.0, *hand_};
     const Outputs outputs = step(state_, inputs, config_, now_ms_);
     const double seconds = static_cast<double>(kTick_ms) / 1000.0;
     pose_ = pose_ * Pose2{outputs.motion.speed_mps * seconds, 0.0, outputs.motion.turn_radps * seconds};
@@ -104,6 +107,22 @@ class StepTest : public ::testing::Test {
     return -1;
   }
 
+  /// Drives on to `near_m` of the destination, where something stands in the way; gives when that was. Goes on until
+  /// the mission ends, or long enough to be taken for arrived.
+  Milliseconds drive_beside_destination(double near_m) {
+    const Pose2 there = views().back();
+    const auto left_m = [&] { return std::hypot(there.x_m - pose_.x_m, there.y_m - pose_.y_m); };
+    for (int k = 0; k < 400 && left_m() > near_m; ++k) tick({permit("m1", 1, ++seq_)});
+    EXPECT_EQ(state_.drive, wire::DriveState::kDriving) << state_.reason;
+    EXPECT_LE(left_m(), near_m);
+    ranges_m_.assign(ranges_m_.size(), 0.4F);
+    const Milliseconds from_ms = state_.near_since_ms.value_or(now_ms_);
+    while (state_.drive == wire::DriveState::kDriving && now_ms_ - from_ms < config_.near_ms + 4000) {
+      tick({permit("m1", 1, ++seq_)});
+    }
+    return from_ms;
+  }
+
   /// Everything is fine again, and permits come: it must not move.
   void expect_stays() {
     link_up_ = server_talks_ = pictures_ = sweeps_ = true;
@@ -122,6 +141,10 @@ class StepTest : public ::testing::Test {
   Milliseconds now_ms_ = 1'000'000;
   std::int64_t seq_ = 1;
   Pose2 pose_;
+  std::optional<Motion> hand_;  // the rider's, on a joystick; zero: it is at rest
+  Milliseconds hand_age_ms_ = 0;
+  Milliseconds picture_age_ms_ = 0;  // when it is given
+  Milliseconds sweep_age_ms_ = 0;
   bool link_up_ = true;
   bool server_talks_ = true;
   bool pictures_ = true;

@@ -80,6 +80,21 @@ TEST_F(StepTest, ASilentRangeSensorSlowsItSoThatItRestsHalfASecondAfterTheLastSw
   EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
 }
 
+TEST_F(StepTest, ASilentCameraSlowsItSoThatItRestsHalfASecondAfterTheLastPicture) {
+  set_off();
+  pictures_ = false;
+  for (Milliseconds silence_ms = kTick_ms; silence_ms <= 400; silence_ms += kTick_ms) {
+    const Outputs outputs = tick({permit("m1", 1, ++seq_)});
+    EXPECT_LE(outputs.motion.speed_mps, fastest_mps(config_, silence_ms) + 1e-9) << silence_ms;
+  }
+  EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
+  EXPECT_EQ(state_.drive, DriveState::kDriving) << "it waits for pictures, standing";
+  pictures_ = true;
+  double speed_mps = 0.0;
+  for (int k = 0; k < 3; ++k) speed_mps = tick({permit("m1", 1, ++seq_)}).motion.speed_mps;
+  EXPECT_GT(speed_mps, 0.05);
+}
+
 TEST_F(StepTest, AShortSilenceSlowsItAndTheNextWordLetsItGoOn) {
   set_off();
   const double before_mps = tick({permit("m1", 1, ++seq_)}).motion.speed_mps;
@@ -100,26 +115,6 @@ TEST_F(StepTest, APermitThatIsNotRenewedRunsOut) {
   EXPECT_LE(after_ms, 1500 + kTick_ms);
   EXPECT_EQ(state_.reason, "The permit to drive has run out.");
   expect_stays();
-}
-
-TEST_F(StepTest, AComputerThatStoodStillStopsWhateverHasPiledUpMeanwhile) {
-  set_off();
-  now_ms_ += 600;
-  std::vector<wire::ServerMessage> piled_up;
-  for (int k = 0; k < 6; ++k) piled_up.emplace_back(permit("m1", 1, ++seq_));
-  EXPECT_TRUE(stands(tick(piled_up)));
-  EXPECT_EQ(state_.drive, DriveState::kStopped);
-  EXPECT_EQ(state_.reason, "The robot's own computer stood still for a while.");
-  expect_stays();
-  tick({mission("m2", 1, seq_ + 1)});
-  EXPECT_EQ(state_.drive, DriveState::kDriving) << "a new order sets it going";
-}
-
-TEST_F(StepTest, AShortPauseOfTheComputerChangesNothing) {
-  set_off();
-  now_ms_ += 400;
-  tick({permit("m1", 1, ++seq_)});
-  EXPECT_EQ(state_.drive, DriveState::kDriving) << state_.reason;
 }
 
 TEST_F(StepTest, ACameraThatFallsSilentStops) {
@@ -146,6 +141,95 @@ TEST_F(StepTest, PicturesThatComeTooLateAreAsGoodAsNone) {
   EXPECT_TRUE(stands(step(state_, inputs, config_, now_ms_ + 10)));
   EXPECT_EQ(state_.drive, DriveState::kStopped);
   EXPECT_EQ(state_.reason, "The camera gives no pictures.");
+}
+
+TEST_F(StepTest, AFirstPictureOfBeforeTheMissionIsNoReasonToStopNorToDrive) {
+  picture_age_ms_ = 2 * config_.frame_silence_ms;
+  tick({mission("m1", 1, 1)});
+  for (int k = 0; k < 30; ++k) {
+    EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
+    ASSERT_EQ(state_.drive, DriveState::kDriving) << state_.reason << " after " << k * kTick_ms << " ms";
+  }
+  picture_age_ms_ = 0;
+  double speed_mps = 0.0;
+  for (int k = 0; k < 4; ++k) speed_mps = tick({permit("m1", 1, ++seq_)}).motion.speed_mps;
+  EXPECT_GT(speed_mps, 0.05);
+  // From now on old pictures are as good as none.
+  picture_age_ms_ = config_.frame_silence_ms + kTick_ms;
+  EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
+  EXPECT_EQ(state_.reason, "The camera gives no pictures.");
+}
+
+TEST_F(StepTest, PicturesThatAreAlwaysTooOldEndTheMissionWhenTheFirstOneIsDue) {
+  picture_age_ms_ = config_.frame_silence_ms + kTick_ms;
+  tick({mission("m1", 1, 1)});
+  const Milliseconds after_ms = until_stopped(true, 10'000);
+  EXPECT_GE(after_ms, config_.first_frame_ms);
+  EXPECT_LE(after_ms, config_.first_frame_ms + kTick_ms);
+  EXPECT_EQ(state_.reason, "The camera gives no pictures.");
+  expect_stays();
+}
+
+TEST_F(StepTest, ClocksThatAreAheadHideNoSilence) {
+  picture_age_ms_ = sweep_age_ms_ = -60'000;
+  set_off();
+  pictures_ = false;
+  EXPECT_LE(until_stopped(true), config_.frame_silence_ms + kTick_ms);
+  EXPECT_EQ(state_.reason, "The camera gives no pictures.");
+  pictures_ = true;
+  set_off(1, seq_ + 1);
+  sweeps_ = false;
+  EXPECT_LE(until_stopped(true), config_.scan_silence_ms + kTick_ms);
+  EXPECT_EQ(state_.reason, "The range sensor gives no readings.");
+}
+
+TEST_F(StepTest, ALoopThatWasHeldUpStops) {
+  set_off();
+  now_ms_ += config_.loop_silence_ms;  // and the usual step on top of it
+  EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
+  EXPECT_EQ(state_.drive, DriveState::kStopped);
+  EXPECT_EQ(state_.reason, "The robot's computer was held up.");
+  expect_stays();
+  set_off(1, seq_ + 1);
+}
+
+TEST_F(StepTest, AStepThatComesJustInTimeDrivesOn) {
+  set_off();
+  now_ms_ += config_.loop_silence_ms - kTick_ms;
+  tick({permit("m1", 1, ++seq_)});
+  EXPECT_EQ(state_.drive, DriveState::kDriving) << state_.reason;
+}
+
+TEST_F(StepTest, WhatWasOrderedWhileTheProcessWasFrozenMovesNothing) {
+  tick();
+  now_ms_ += 10'000;
+  // The order may be read from the socket some steps after waking.
+  for (int k = 0; k < 3; ++k) EXPECT_TRUE(stands(tick()));
+  const Outputs outputs = tick({mission("m1", 1, 1)});
+  EXPECT_TRUE(stands(outputs));
+  EXPECT_EQ(state_.drive, DriveState::kIdle);
+  ASSERT_EQ(outputs.messages.size(), 1U);
+  ASSERT_TRUE(std::holds_alternative<wire::MissionRefused>(outputs.messages[0]));
+  EXPECT_NE(std::get<wire::MissionRefused>(outputs.messages[0]).reason.find("held up"), std::string::npos);
+  expect_stays();
+  set_off(1, seq_ + 1);  // that was two seconds later
+}
+
+TEST_F(StepTest, BesideADestinationThatMayNotBeDrivenIntoItArrivesAfterAWhile) {
+  set_off();
+  // Right beside the destination, measured, and no nearer to be had: something stands on it.
+  const Milliseconds from_ms = drive_beside_destination(0.1);
+  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+  EXPECT_GT(now_ms_ - from_ms, config_.near_ms);
+  EXPECT_LE(now_ms_ - from_ms, config_.near_ms + 2 * kTick_ms);
+  expect_stays();
+}
+
+TEST_F(StepTest, BesideADestinationButNotThatNearItDoesNotArrive) {
+  config_.stuck_ms = 60'000;
+  set_off();
+  drive_beside_destination(config_.near_m + 0.1);
+  EXPECT_NE(state_.drive, DriveState::kArrived);
 }
 
 TEST_F(StepTest, ARangeSensorThatFallsSilentStops) {

@@ -80,6 +80,11 @@ TEST_F(RecordingFile, GivesEveryNumberBackBitForBit) {
   EXPECT_EQ(step.vector->inliers, 40);
   EXPECT_EQ(step.vector->matches, 80);
   EXPECT_FALSE(step.vector->nearness);
+  ASSERT_TRUE(step.rider);
+  EXPECT_EQ(step.rider->said_ms, expected.rider->said_ms);
+  EXPECT_TRUE(step.rider->deflected);
+  EXPECT_EQ(bits(step.rider->speed_mps), bits(-0.0));
+  EXPECT_EQ(bits(step.rider->turn_radps), bits(expected.rider->turn_radps));
   ASSERT_TRUE(step.sweep);
   EXPECT_EQ(bits(step.sweep->angle_min_rad), bits(-0.0));
   EXPECT_TRUE(std::isinf(step.sweep->ranges_m[1]));
@@ -197,9 +202,26 @@ TEST_F(RecordingFile, ThatIsAnotherSqliteFile) {
 
 TEST_F(RecordingFile, OfANewerVersion) {
   record();
-  change("PRAGMA user_version = 2");
+  change("PRAGMA user_version = 3");
   EXPECT_EQ(trouble().code, ErrorCode::kUnsupportedFormat);
-  EXPECT_THAT(trouble().message, HasSubstr("version 2"));
+  EXPECT_THAT(trouble().message, HasSubstr("version 3"));
+  EXPECT_THAT(trouble().message, HasSubstr("versions 1 to 2"));
+}
+
+TEST_F(RecordingFile, OfTheVersionBeforeJoysticksIsRead) {
+  record();
+  // What version 1 wrote: steps without columns of the rider, and nothing of one among their exact numbers.
+  change(
+      "PRAGMA user_version = 1; ALTER TABLE steps DROP COLUMN rider_deflected;"
+      "ALTER TABLE steps DROP COLUMN rider_speed_mps; ALTER TABLE steps DROP COLUMN rider_turn_radps;"
+      "UPDATE steps SET exact = CAST(X'01' || substr(exact, 2, 104) AS BLOB)");
+  auto reader = RecordingReader::open(file());
+  ASSERT_TRUE(reader) << reader.error().message;
+  const auto step = (*reader)->next();
+  ASSERT_TRUE(step) << step.error().message << " " << step.error().where;
+  ASSERT_TRUE(*step);
+  EXPECT_FALSE((*step)->rider);
+  EXPECT_EQ((*step)->vector->inliers, 40);
 }
 
 TEST_F(RecordingFile, ThatWasCutShort) {

@@ -155,6 +155,34 @@ TEST_F(LearningTest, AToursPicturesJoinAMap) {
   EXPECT_EQ(admin->get(at(map)).json().at("images"), 24);
 }
 
+TEST_F(LearningTest, AMapThatIsEditedWhileItLearnsKeepsTheEditAndLearnsOnceMore) {
+  HOMEWARD_NOT_UNDER_THREAD_SANITIZER();
+  map = built_map(3);
+  const std::string first = graph(map).at("places")[0].at("id");
+  const std::string tour = complete_tour(6);
+  const std::string job = learn(map, "add", {tour}).json().at("job").at("id");
+  // Under way: the job has the map as it was in its hands.
+  bool under_way = false;
+  for (int i = 0; i < 2000 && !under_way; ++i) {
+    const json state = admin->get("/api/v1/jobs/" + job).json();
+    under_way = state.at("state") == "running" && state.at("progress").is_object() &&
+                state.at("progress").at("share").get<double>() > 0.02;
+    if (!under_way) std::this_thread::sleep_for(milliseconds(5));
+  }
+  ASSERT_TRUE(under_way);
+  // Taken on the revision of before, so the job cannot have kept anything yet: what it is about to keep is stale.
+  const json rename = {{"edits", {{{"kind", "rename"}, {"place", first}, {"label", "porch"}}}}};
+  ASSERT_EQ(admin->post(at(map) + "/edits", rename, {{"If-Match", "\"r1\""}}).status, 200);
+  const json done = wait_for_job(job);
+  EXPECT_EQ(done.at("state"), "done") << done.dump();
+  const json info = admin->get(at(map)).json();
+  EXPECT_EQ(info.at("revision"), 3);
+  EXPECT_EQ(info.at("images"), 27);
+  EXPECT_EQ(info.at("tours").size(), 2U);
+  EXPECT_EQ(graph(map).at("places")[0].at("label"), "porch");
+  EXPECT_EQ(admin->get(at(map) + "/history").json().at("edits").size(), 1U);
+}
+
 TEST_F(LearningTest, WhatCannotBeLearntFromIsSaid) {
   map = built_map(3);
   const std::string open_tour = add_tour();

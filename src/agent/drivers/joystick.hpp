@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "agent/driving/step.hpp"
+#include "core/result.hpp"
+
+namespace homeward::agent {
+
+/// A joystick of Linux's joystick interface (Documentation/input/joydev/joystick-api.rst of the kernel): axis 1 drives,
+/// forward is up, axis 0 turns. It may be unplugged and plugged in again at any time.
+class Joystick {
+ public:
+  /// `told` hears of it coming and going. Errors: kNotFound, kIo (it may not be read), kInvalidInput (neither a device
+  /// nor a pipe).
+  static Result<std::unique_ptr<Joystick>> open(const std::string& device,
+                                                std::function<void(const std::string&)> told);
+  ~Joystick();
+  Joystick(const Joystick&) = delete;
+  Joystick& operator=(const Joystick&) = delete;
+
+  /// What it says now, full deflection being the body's greatest speed; nothing while it is not there. Never waits.
+  /// `now_ms`: by a clock that never jumps, for looking whether it is back; `said_ms`: what the hand is stamped with.
+  /// One that is deflected when it comes wants no motion until it has been at rest once: it may lie on its side.
+  std::optional<RiderHand> read(const Body& body, Milliseconds now_ms, Milliseconds said_ms);
+
+ private:
+  Joystick(std::string device, int descriptor, std::function<void(const std::string&)> told);
+  bool drain();
+  void forget(Milliseconds now_ms);
+  void take_event();
+
+  std::string device_;
+  std::function<void(const std::string&)> told_;
+  int descriptor_ = -1;
+  Milliseconds tried_ms_ = 0;
+  std::array<std::uint8_t, 8> event_{};  // as much of one as has come
+  std::size_t have_ = 0;
+  std::array<double, 2> axes_{};  // -1..1
+  bool there_ = false;            // and that was told
+  bool touched_ = false;          // deflected at some moment since the last reading
+  bool rested_ = false;           // it has been at rest since it came
+};
+
+}  // namespace homeward::agent
