@@ -10,6 +10,7 @@
 
 #include "agent/driving/body.hpp"
 #include "agent/driving/follow.hpp"
+#include "agent/driving/long_plan.hpp"
 #include "agent/driving/scan.hpp"
 #include "core/pose2.hpp"
 #include "features/appearance.hpp"
@@ -81,6 +82,7 @@ struct DrivingState {
   FollowResult seen;      // of the latest picture
   bool pictured = false;  // a picture has come since the mission began
   bool docking = false;
+  LongPlan plan;         // of a body that is not round
   bool covered = false;  // the latest picture shows next to nothing
   Milliseconds last_message_ms = 0;
   Milliseconds last_picture_ms = 0;
