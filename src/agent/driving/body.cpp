@@ -32,7 +32,11 @@ std::vector<Eigen::Vector2d> seen_after(std::span<const Eigen::Vector2d> points_
 }
 
 bool is_safe(const Motion& motion, const Body& body, std::span<const Eigen::Vector2d> points_m, double now_m) {
-  const double horizon_s = kReaction_s + std::abs(motion.speed_mps) / body.deceleration_mps2;
+  double braking_s = std::abs(motion.speed_mps) / body.deceleration_mps2;
+  if (!is_round(body.outline)) {
+    braking_s = std::max(braking_s, std::abs(motion.turn_radps) / body.turn_deceleration_radps2);
+  }
+  const double horizon_s = kReaction_s + braking_s;
   for (double t_s = kStep_s; t_s < horizon_s + kStep_s; t_s += kStep_s) {
     const double then_m = clearance_m(body, seen_after(points_m, motion, std::min(t_s, horizon_s)));
     // Already too close: leaving is fine, coming nearer is not.
@@ -64,6 +68,21 @@ Motion safe_near(const Motion& wanted, const Body& body, std::span<const Eigen::
     }
   }
   return {};
+}
+
+/// A long body keeps to the bend that was chosen for it, slower; its front may move sideways hardly faster than things
+/// beside it allow it to drive.
+Motion made_safe_long(const Motion& wanted, const Body& body, std::span<const Eigen::Vector2d> points_m, double now_m,
+                      double closeness_mps) {
+  constexpr double kSwing = 1.5;
+  const double swing_mps = std::abs(wanted.turn_radps) * swept_radius_m(body.outline);
+  const double most = std::min({1.0, closeness_mps / std::max(1e-6, std::abs(wanted.speed_mps)),
+                                kSwing * closeness_mps / std::max(1e-6, swing_mps)});
+  for (const double share : {1.0, 0.75, 0.5, 0.25}) {
+    const Motion slower{wanted.speed_mps * most * share, wanted.turn_radps * most * share};
+    if (is_safe(slower, body, points_m, now_m)) return slower;
+  }
+  return safe_near(wanted, body, points_m, now_m);
 }
 
 }  // namespace
@@ -102,6 +121,7 @@ Motion made_safe(const Motion& wanted, const Body& body, std::span<const Eigen::
   // Closeness limits speed even beside things: 1 m/s for each metre of room, but creeping is always allowed.
   constexpr double kCreep_mps = 0.12;
   const double closeness_mps = std::max(kCreep_mps, 0.1 + 1.2 * std::max(0.0, now_m));
+  if (!is_round(body.outline)) return made_safe_long(motion, body, near, now_m, closeness_mps);
   motion.speed_mps = std::min(motion.speed_mps, closeness_mps);
   for (const double share : {1.0, 0.75, 0.5, 0.25}) {
     const Motion slower{motion.speed_mps * share, motion.turn_radps * (share < 1.0 ? std::max(share, 0.5) : 1.0)};
@@ -109,8 +129,7 @@ Motion made_safe(const Motion& wanted, const Body& body, std::span<const Eigen::
   }
   const Motion turning{0.0, motion.turn_radps};
   if (is_safe(turning, body, near, now_m)) return turning;
-  if (is_round(body.outline)) return {};  // it can always turn in place
-  return safe_near(motion, body, near, now_m);
+  return {};
 }
 
 }  // namespace homeward::agent

@@ -216,34 +216,6 @@ class Search {
   bool there_ = false;
 };
 
-/// The farthest of the first poses to which one arc leads with as much room as the way itself has.
-Pose aim_on(const Search& search, std::span<const Node> way, Gear gear) {
-  constexpr float kLook_m = 0.45F;
-  std::size_t end = 1;
-  while (end + 1 < way.size() && kMoves[static_cast<std::size_t>(way[end + 1].move)].gear == gear &&
-         static_cast<float>(end + 1) * kArc_m <= kLook_m) {
-    ++end;
-  }
-  const Pose& start = way[0].pose;
-  for (; end > 1; --end) {
-    float room_m = kSpare_m;
-    for (std::size_t i = 0; i <= end; ++i) room_m = std::min(room_m, way[i].clear_m);
-    const float dx = way[end].pose.x_m - start.x_m;
-    const float dy = way[end].pose.y_m - start.y_m;
-    const double straight_rad = double{std::atan2(dy, dx)} + (gear == Gear::kReverse ? kPi : 0.0);
-    const auto half_rad = static_cast<float>(wrap_angle(straight_rad - double{search.angle_rad(start.heading)}));
-    const float chord_m = std::hypot(dx, dy) * (gear == Gear::kReverse ? -1.0F : 1.0F);
-    const float length_m = std::abs(half_rad) < 1e-6F ? chord_m : chord_m * half_rad / std::sin(half_rad);
-    bool clear = true;
-    for (float share = 0.2F; share < 1.01F && clear; share += 0.2F) {
-      const int turn = 2 * static_cast<int>(std::lround(share * half_rad / kHeading_rad));
-      clear = search.clearance_m(search.along(start, share * length_m, turn), room_m - 0.01F) > room_m - 0.01F;
-    }
-    if (clear) break;
-  }
-  return way[end].pose;
-}
-
 }  // namespace
 
 std::optional<LongWay> long_way(const Outline& outline, std::span<const Eigen::Vector2d> points_m,
@@ -261,32 +233,17 @@ std::optional<LongWay> long_way(const Outline& outline, std::span<const Eigen::V
   Search search(outline, turned, goal, heading_rad);
   const auto last = search.run();
   if (!last) return std::nullopt;
-  std::vector<Node> way;
+  LongWay way;
+  way.reaches_goal = search.reaches_goal();
+  way.expanded = search.expanded();
   for (int i = static_cast<int>(*last); i >= 0; i = search.nodes()[static_cast<std::size_t>(i)].parent) {
-    way.push_back(search.nodes()[static_cast<std::size_t>(i)]);
+    const Node& node = search.nodes()[static_cast<std::size_t>(i)];
+    const Pose2 pose{double{node.pose.x_m}, double{node.pose.y_m}, double{search.angle_rad(node.pose.heading)}};
+    const Gear gear = node.move < 0 ? Gear::kForward : kMoves[static_cast<std::size_t>(node.move)].gear;
+    way.poses.push_back({Pose2{0.0, 0.0, -heading_rad} * pose, gear, double{node.cost_m}, double{node.clear_m}});
   }
-  std::reverse(way.begin(), way.end());
-  LongWay result;
-  result.reaches_goal = search.reaches_goal();
-  result.expanded = search.expanded();
-  if (way.size() == 1) {  // it is there
-    result.aim_m = goal_m;
-    result.gear = goal_m.x() < 0.0 ? Gear::kReverse : Gear::kForward;
-    return result;
-  }
-  result.gear = kMoves[static_cast<std::size_t>(way[1].move)].gear;
-  bool first = true;
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    const Move& move = kMoves[static_cast<std::size_t>(way[i].move)];
-    result.length_m += std::abs(double{move.length_m});
-    first = first && move.gear == Gear::kTurn;
-    if (first) result.turn_rad += move.turn * double{kHeading_rad};
-  }
-  if (result.gear != Gear::kTurn) {
-    const Pose aim = aim_on(search, way, result.gear);
-    result.aim_m = from_robot.inverse() * Eigen::Vector2d(double{aim.x_m}, double{aim.y_m});
-  }
-  return result;
+  std::reverse(way.poses.begin(), way.poses.end());
+  return way;
 }
 
 }  // namespace homeward::agent

@@ -31,9 +31,10 @@ Scan SonarMap::update(const std::vector<SonarReading>& readings, const Pose2& od
     const auto range_m = static_cast<double>(reading.range_m);
     if (!(range_m < config_.range_max_m)) continue;
     const Pose2 sonar = odometry * reading.robot_from_sonar;
-    const int steps = std::max(1, static_cast<int>(std::ceil(config_.half_cone_rad * range_m / kApart_m)));
+    const double half_rad = std::min(config_.half_cone_rad, config_.half_arc_m / range_m);
+    const int steps = std::max(1, static_cast<int>(std::ceil(half_rad * range_m / kApart_m)));
     for (int i = -steps; i <= steps; ++i) {
-      const double angle_rad = config_.half_cone_rad * i / steps;
+      const double angle_rad = half_rad * i / steps;
       arcs.push_back(placed(sonar, range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)));
     }
   }

@@ -19,14 +19,16 @@ struct SonarConfig {
   double half_cone_rad = 0.2618;  // 30 degrees in all
   double range_min_m = 0.2;       // nearer things read as this
   double range_max_m = 3.0;
-  double tolerance_m = 0.04;  // of a reading
+  double tolerance_m = 0.03;  // of a reading
+  double half_arc_m = 0.15;   // from the middle of an arc on no more than this counts
 };
 
 /// A short memory of what a ring of ultrasound sensors said, as a sweep that the rest of the agent understands. A
 /// reading says that something is on its arc and nothing before it, but not where on the arc; so all of the arc counts
 /// as things until another reading's cone shows part of it to be free (arcs and cones: Elfes, "Sonar-based real-world
 /// mapping and navigation", IEEE J. Robotics and Automation 3(3), 1987, section III, here without probabilities: what
-/// may be there counts as there).
+/// may be there counts as there). Of arcs far away only the middle counts, or no door would seem open; on the way there
+/// they are heard again from so near that all of them counts.
 class SonarMap {
  public:
   explicit SonarMap(SonarConfig config = {}) : config_(config) {}

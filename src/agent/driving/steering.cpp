@@ -7,7 +7,6 @@
 #include <iterator>
 #include <vector>
 
-#include "agent/driving/lattice.hpp"
 #include "agent/driving/local_path.hpp"
 #include "core/angles.hpp"
 
@@ -56,38 +55,10 @@ double heading_with_room(const Body& body, std::span<const Eigen::Vector2d> poin
   return wrap_angle(best_rad);
 }
 
-/// Along the arc that begins as the body heads and leads to where the way goes on.
-Motion steer_long(const Body& body, const LongWay& way, double speed_mps, double turn_gain) {
-  if (way.gear == Gear::kTurn) {
-    constexpr double kLeast_radps = 0.15;
-    const double turn_radps = std::max(kLeast_radps, turn_gain * std::abs(way.turn_rad));
-    return {0.0, std::copysign(std::min(turn_radps, 0.6 * body.max_turn_radps), way.turn_rad)};
-  }
-  constexpr double kSharpest_per_m = 3.5;
-  const double squared = std::max(1e-4, way.aim_m.squaredNorm());
-  const double bend_per_m = std::clamp(2.0 * way.aim_m.y() / squared, -kSharpest_per_m, kSharpest_per_m);
-  if (way.gear == Gear::kReverse) {
-    constexpr double kReverse_mps = 0.15;
-    const double backwards_mps = -std::min(speed_mps, kReverse_mps);
-    return {backwards_mps, backwards_mps * bend_per_m};
-  }
-  // Its front swings wide: no faster in a bend than the front may move sideways.
-  constexpr double kSideways_mps = 0.35;
-  const double front_m = std::max(0.3, body.outline.front_m + body.outline.radius_m);
-  const double bent_mps = kSideways_mps / std::max(1e-3, std::abs(bend_per_m) * front_m);
-  const double forward_mps =
-      std::min({speed_mps, bent_mps, body.max_turn_radps / std::max(1e-3, std::abs(bend_per_m))});
-  return {forward_mps, forward_mps * bend_per_m};
-}
-
 }  // namespace
 
 Motion steer_round(const Body& body, std::span<const Eigen::Vector2d> points_m, const Eigen::Vector2d& goal_m,
                    double heading_rad, double speed_mps, double turn_gain) {
-  if (!is_round(body.outline)) {
-    const auto way = long_way(body.outline, points_m, goal_m, heading_rad);
-    return way ? steer_long(body, *way, speed_mps, turn_gain) : Motion{};
-  }
   const auto way = local_way(body, points_m, goal_m, heading_rad);
   if (!way) return {};
   const double angle_rad = heading_with_room(body, points_m, std::atan2(way->carrot_m.y(), way->carrot_m.x()));
@@ -96,6 +67,12 @@ Motion steer_round(const Body& body, std::span<const Eigen::Vector2d> points_m, 
   if (std::abs(angle_rad) > kTurnFirst_rad) return {0.0, turn_radps};
   const double straightness = std::cos(angle_rad * 1.57 / kTurnFirst_rad);
   return {speed_mps * std::max(0.15, straightness), turn_radps};
+}
+
+Motion steer_round(LongPlan& plan, const Body& body, std::span<const Eigen::Vector2d> points_m,
+                   const Eigen::Vector2d& goal_m, const Pose2& odometry, double speed_mps, double turn_gain) {
+  if (is_round(body.outline)) return steer_round(body, points_m, goal_m, odometry.theta_rad, speed_mps, turn_gain);
+  return steer_long(plan, body, points_m, goal_m, odometry, speed_mps, turn_gain);
 }
 
 }  // namespace homeward::agent

@@ -5,15 +5,21 @@
 #include <span>
 
 #include "agent/driving/body.hpp"
+#include "agent/driving/long_plan.hpp"
+#include "core/pose2.hpp"
 
 namespace homeward::agent {
 
-/// The motion that leads round what the sweep saw to a goal in the robot frame, slower in turns; standing still when
-/// the robot is walled in. A round body heads where there is more room first, beside things; one that is not round also
-/// turns in place and reverses (`long_way`). `heading_rad`: the robot's, in any
-/// frame that does not turn with it. `turn_gain`: turn rate for each radian towards the next point of the way. It is no
-/// promise that the motion is safe: `made_safe` has the last word.
+/// The motion that leads a round body round what the sweep saw to a goal in the robot frame, slower in turns; standing
+/// still when the robot is walled in. Beside things it heads where there is more room first. `heading_rad`: the
+/// robot's, in any frame that does not turn with it. `turn_gain`: turn rate for each radian towards the next point of
+/// the way. It is no promise that the motion is safe: `made_safe` has the last word.
 Motion steer_round(const Body& body, std::span<const Eigen::Vector2d> points_m, const Eigen::Vector2d& goal_m,
                    double heading_rad, double speed_mps, double turn_gain);
+
+/// The same for any body; one that is not round also turns in place and reverses, along a plan that is kept from call
+/// to call (`steer_long`).
+Motion steer_round(LongPlan& plan, const Body& body, std::span<const Eigen::Vector2d> points_m,
+                   const Eigen::Vector2d& goal_m, const Pose2& odometry, double speed_mps, double turn_gain);
 
 }  // namespace homeward::agent

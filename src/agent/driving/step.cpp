@@ -124,7 +124,7 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   const double doubt_m = state.follow.tracks[static_cast<std::size_t>(state.follow.index)].doubt_m();
   speed_mps *= std::clamp(1.2 - 0.4 * doubt_m, 0.4, 1.0);
   if (const auto straight = pursue(config.body, points_m, aim_m, speed_mps)) return *straight;
-  return steer_round(config.body, points_m, aim_m, inputs.odometry.theta_rad, speed_mps, config.turn_gain);
+  return steer_round(state.plan, config.body, points_m, aim_m, inputs.odometry, speed_mps, config.turn_gain);
 }
 
 /// Whether the destination is measured to be right here.
@@ -185,6 +185,7 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   if (state.mission != before) {
     state.last_answer_ms = state.last_gain_ms = state.last_picture_ms = sensors_ms;
     state.gain_from = inputs.odometry;
+    state.plan = {};
   }
   if (inputs.scan) {
     state.scan = inputs.scan;

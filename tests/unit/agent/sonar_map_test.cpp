@@ -22,23 +22,30 @@ double nearest_m(const Scan& scan, double from_rad, double to_rad) {
   return nearest;
 }
 
-TEST(SonarMap, TakesAllOfAnArcForThings) {
+TEST(SonarMap, TakesAllOfAnArcNearbyForThings) {
   SonarMap map;
-  const Scan scan = map.update({{{0.15, 0.0, 0.0}, 1.0F}}, {});
+  const Scan scan = map.update({{{0.15, 0.0, 0.0}, 0.55F}}, {});
   for (const double angle_rad : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
     const double there_m = nearest_m(scan, angle_rad - 0.02, angle_rad + 0.02);
-    EXPECT_GT(there_m, 1.05) << angle_rad;
-    EXPECT_LT(there_m, 1.2) << angle_rad;
+    EXPECT_GT(there_m, 0.66) << angle_rad;
+    EXPECT_LT(there_m, 0.71) << angle_rad;
   }
   EXPECT_GT(nearest_m(scan, 0.4, kPi), 100.0);
   EXPECT_GT(nearest_m(scan, -kPi, -0.4), 100.0);
 }
 
+TEST(SonarMap, TakesOnlyTheMiddleOfAnArcFarAway) {
+  SonarMap map;
+  const Scan scan = map.update({{{0.15, 0.0, 0.0}, 2.0F}}, {});
+  EXPECT_NEAR(nearest_m(scan, -0.05, 0.05), 2.15, 0.01);
+  EXPECT_GT(nearest_m(scan, 0.12, kPi), 100.0);
+}
+
 TEST(SonarMap, FreesWhatAnotherConeSeesThrough) {
   SonarMap map;
   // The thing is on the left of the first cone: the second, turned to the right, looks past it.
-  const Scan scan = map.update({{{0.0, 0.0, 0.0}, 1.0F}, {{0.0, 0.0, -0.3927}, 2.5F}}, {});
-  EXPECT_LT(nearest_m(scan, 0.0, 0.25), 1.1);
+  const Scan scan = map.update({{{0.0, 0.0, 0.0}, 0.55F}, {{0.0, 0.0, -0.3927}, 2.5F}}, {});
+  EXPECT_LT(nearest_m(scan, 0.0, 0.25), 0.6);
   EXPECT_GT(nearest_m(scan, -0.25, -0.16), 2.0);
 }
 
