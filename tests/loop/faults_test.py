@@ -26,6 +26,7 @@ def fault(kind, **more):
 MISSIONS = {
     "a third covered": fault("camera_occluded", for_s=5, share=0.34),
     "tracking lost": fault("camera_occluded", for_s=2, share=1.0),
+    "lost for long": fault("camera_occluded", for_s=6, share=1.0),
     "laser silent": fault("scan_lost", for_s=3),
     "link cut": fault("link_lost", for_s=3),
     "agent frozen": fault("agent_frozen", for_s=2),
@@ -89,6 +90,12 @@ class Faults(unittest.TestCase):
     def test_it_arrives_although_it_sees_nothing_for_two_seconds(self):
         self.expect_arrival("tracking lost")
         self.assertEqual(self.results["tracking lost"]["stops"], [])
+
+    def test_it_looks_again_where_it_is_and_goes_on_after_it_was_lost(self):
+        self.expect_arrival("lost for long")
+        result = self.results["lost for long"]
+        self.assertGreaterEqual(result["detours"], 1, result)
+        self.assertIn("recognise", result["stops"][0]["reason"])
 
     def test_what_must_stop_it_does_and_says_why(self):
         for name, word in REASONS.items():
