@@ -58,7 +58,8 @@ Motion safe_near(const Motion& wanted, const Body& body, std::span<const Eigen::
   for (int bend = 0; bend <= kBends; ++bend) {
     for (const double side : {1.0, -1.0}) {
       const double turn_radps = slow_radps + side * bend * kBend_radps;
-      if (turns_only && turn_radps * wanted.turn_radps <= 0.0) continue;
+      // Bending the other way would only lead away from the way.
+      if (turn_radps * wanted.turn_radps < 0.0 || (turns_only && turn_radps == 0.0)) continue;
       for (const double way : {1.0, -1.0}) {
         if (way < 0.0 && !turns_only) continue;
         const Motion motion{way * slow_mps, turn_radps};

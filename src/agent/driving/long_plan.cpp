@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kCompareEvery = 5;        // calls
 constexpr double kCheaper_m = 0.5;      // by so much another way has to be
-constexpr int kStillFor = 15;           // calls without getting on, after which another way is looked for
+constexpr int kStillFor = 8;            // calls without getting on, after which another way is looked for
 constexpr double kAstray_m = 0.12;      // from the way,
 constexpr double kAstray_rad = 0.35;    // then it is another one
 constexpr double kThere_rad = 0.05;     // from the heading that a turn in place is for

@@ -138,6 +138,25 @@ TEST(MadeSafe, TurnsAChairOnlyWhereItsNoseHasRoom) {
   EXPECT_LT(made_safe({0.0, -0.8}, chair(), post).turn_radps, -0.2);
 }
 
+TEST(MadeSafe, LetsAChairBesideAWallGetOnByAnotherBend) {
+  Points wall;  // 6 cm beside it; the bend that is wanted would bring a corner into the margin
+  for (int i = -60; i <= 60; ++i) wall.emplace_back(0.03 * i, 0.385);
+  const Motion safe = made_safe({0.2, 0.6}, chair(), wall);
+  EXPECT_GT(safe.speed_mps, 0.02);
+  EXPECT_LT(std::abs(safe.turn_radps), 0.3);
+  // Between two walls so near that no bend is free it may still go straight, either way.
+  for (int i = -60; i <= 60; ++i) wall.emplace_back(0.03 * i, -0.385);
+  EXPECT_GT(made_safe({0.2, 0.6}, chair(), wall).speed_mps, 0.02);
+  EXPECT_LT(made_safe({-0.2, 0.6}, chair(), wall).speed_mps, -0.02);
+}
+
+TEST(MadeSafe, KeepsTheBendOfALongBodyThatItSlows) {
+  const Points beside = {{0.3, 0.6}};
+  const Motion safe = made_safe({0.8, -0.8}, chair(), beside);
+  ASSERT_LT(safe.speed_mps, 0.7);
+  EXPECT_NEAR(safe.turn_radps / safe.speed_mps, -1.0, 1e-9);
+}
+
 TEST(ClearanceOfABody, IsToItsOutline) {
   EXPECT_NEAR(clearance_m(chair(), Points{{1.51, 0.0}}), 0.66, 1e-12);
   EXPECT_NEAR(clearance_m(chair(), Points{{0.3, -0.425}}), 0.1, 1e-12);
