@@ -2,9 +2,9 @@
 #include "agent/run/agent_loop.hpp"
 
 #include <sodium.h>
-#include <time.h>
 
 #include <chrono>
+#include <ctime>
 #include <memory>
 #include <thread>
 
