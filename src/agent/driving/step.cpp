@@ -23,7 +23,8 @@ void take_picture(DrivingState& state, const SeenPicture& picture, const Driving
   if (!state.pictured && (picture.taken_ms < state.last_picture_ms || age_ms > config.frame_silence_ms)) return;
   // A clock that is ahead must not hide a camera that falls silent.
   state.last_picture_ms = std::min(picture.taken_ms, now_ms);
-  state.picture_came_ms = now_ms;
+  // Looking at it for a moment is part of reacting; one that was looked at for long is as old as it is.
+  state.picture_came_ms = std::min(now_ms, state.last_picture_ms + config.reaction_ms);
   const int index_before = state.follow.index;
   state.pictured = true;
   state.seen = picture.appearance ? follow(state.follow, state.mission->path, *picture.appearance, picture.frame,

@@ -99,7 +99,7 @@ struct DrivingState {
   Milliseconds refuses_until_ms = 0;  // missions that waited while no step was made
   Milliseconds last_message_ms = 0;
   Milliseconds last_picture_ms = 0;  // at first, when the mission began
-  Milliseconds picture_came_ms = 0;  // the latest one that counted
+  Milliseconds picture_came_ms = 0;  // the latest one that counted, less what it was looked at for too long
   Milliseconds last_answer_ms = 0;
   std::optional<Milliseconds> near_since_ms;  // how long it has been right beside the destination
   Milliseconds last_gain_ms = 0;              // when way was last gained

@@ -2,10 +2,10 @@
 #include "agent/run/agent_loop.hpp"
 
 #include <sodium.h>
-#include <time.h>
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <memory>
 #include <thread>
 

@@ -92,7 +92,8 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
   std::optional<sim::LitWorld> changed;
   int moved_furniture = 0;
   if (plan.moved_furniture > 0) {
-    auto moved = sim::move_furniture(world->world(), plan.moved_furniture, profile.radius_m, plan.seed + 29);
+    const double half_width_m = profile.outline.radius_m + profile.outline.side_m;
+    auto moved = sim::move_furniture(world->world(), plan.moved_furniture, half_width_m, plan.seed + 29);
     if (!moved) return pass_on(moved);
     moved_furniture = moved->moved;
     changed.emplace(std::move(moved->world));

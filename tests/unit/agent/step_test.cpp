@@ -95,6 +95,15 @@ TEST_F(StepTest, ASilentCameraSlowsItSoThatItRestsHalfASecondAfterTheLastPicture
   EXPECT_GT(speed_mps, 0.05);
 }
 
+TEST_F(StepTest, PicturesThatAreLookedAtForLongSlowIt) {
+  set_off();
+  picture_age_ms_ = 400;
+  for (int k = 0; k < 10; ++k) {
+    EXPECT_LE(tick({permit("m1", 1, ++seq_)}).motion.speed_mps, fastest_mps(config_, 400 - config_.reaction_ms) + 1e-9);
+  }
+  EXPECT_EQ(state_.drive, DriveState::kDriving) << state_.reason;
+}
+
 TEST_F(StepTest, AShortSilenceSlowsItAndTheNextWordLetsItGoOn) {
   set_off();
   const double before_mps = tick({permit("m1", 1, ++seq_)}).motion.speed_mps;

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <mutex>
+#include <thread>
+
+#include "agent/drivers/ros_messages.hpp"
+#include "agent/drivers/rosbridge_driver.hpp"
+#include "imageio/decode.hpp"
+#include "support/rosbridge_server.hpp"
+#include "support/sample_cameras.hpp"
+#include "support/sample_rosbridge.hpp"
+#include "support/scratch_folder.hpp"
+#include "wire/camera_json.hpp"
+
+namespace homeward::agent {
+
+using namespace std::chrono_literals;
+using namespace homeward::testing;  // NOLINT(google-build-using-namespace): the sample messages
+using Clock = std::chrono::steady_clock;
+using nlohmann::json;
+
+constexpr int kWidth_px = 64;
+
+struct Heard {
+  Clock::time_point at;
+  double speed_mps = 0.0;
+  double turn_radps = 0.0;
+  [[nodiscard]] bool zero() const { return speed_mps == 0.0 && turn_radps == 0.0; }
+};
+
+/// Waits up to four seconds; slow machines need them, others do not.
+inline bool eventually(const std::function<bool()>& holds) {
+  const auto end = Clock::now() + 4s;
+  while (!holds()) {
+    if (Clock::now() > end) return false;
+    std::this_thread::sleep_for(5ms);
+  }
+  return true;
+}
+
+inline std::vector<std::uint8_t> sample_jpeg(int width_px = kWidth_px) {
+  Image image(width_px, width_px / 2, 3);
+  for (std::size_t i = 0; i < image.data.size(); ++i) image.data[i] = static_cast<std::uint8_t>(i * 7 % 251);
+  return imageio::encode_jpeg(image, 90);
+}
+
+/// A driver connected with a bridge whose robot does what the test says.
+class RosbridgeDriverTest : public ::testing::Test {
+ protected:
+  explicit RosbridgeDriverTest(const std::optional<wire::RosRider>& rider = std::nullopt)
+      : bridge_(std::make_unique<RosbridgeServer>(
+            static_cast<unsigned short>(0),
+            RosbridgeServer::Events{[this](const std::string& topic, const json& msg) { heard(topic, msg); }})) {
+    wire::RosbridgeFile robot = sample_rosbridge(bridge_->port());
+    robot.rider = rider;
+    if (rider) bridge_->serve_topic(rider->topic.topic, rider->topic.type);
+    bridge_->serve_topic("/odom", robot.odom.type);
+    bridge_->serve_topic("/scan", robot.scan.type);
+    bridge_->serve_topic("/image", robot.image.type);
+    bridge_->serve_topic("/cmd_vel", robot.cmd_vel.type);
+    folder_.put("camera.json", wire::camera_to_json(sphere_camera(kWidth_px)).dump());
+    folder_.put("robot.json", wire::rosbridge_to_json(robot).dump());
+    auto driver = make_rosbridge_driver((folder_.path() / "robot.json").string(), [this](const std::string& what) {
+      const std::lock_guard lock(mutex_);
+      told_.push_back(what);
+    });
+    EXPECT_TRUE(driver) << (driver ? "" : driver.error().message + " " + driver.error().where);
+    driver_ = std::move(*driver);
+    EXPECT_TRUE(eventually([&] { return bridge_->subscribed().size() == (rider ? 4U : 3U); }));
+  }
+
+  void heard(const std::string& topic, const json& msg) {
+    const std::lock_guard lock(mutex_);
+    if (topic == "/cmd_vel") heard_.push_back({Clock::now(), msg["linear"]["x"], msg["angular"]["z"]});
+  }
+  std::vector<Heard> heard_since(Clock::time_point then) {
+    const std::lock_guard lock(mutex_);
+    std::vector<Heard> result;
+    for (const Heard& one : heard_) {
+      if (one.at >= then) result.push_back(one);
+    }
+    return result;
+  }
+  bool told(const std::string& part) {
+    const std::lock_guard lock(mutex_);
+    return std::any_of(told_.begin(), told_.end(),
+                       [&](const std::string& what) { return what.find(part) != std::string::npos; });
+  }
+  /// Sends odometry and a sweep, as a live robot does ten times a second.
+  void sense() {
+    stamp_us_ += 100'000;
+    bridge_->publish("/odom", odometry_message(stamp_us_, {0.001 * static_cast<double>(++sensed_), 0.0, 0.0}, 0.2));
+    bridge_->publish("/scan", sweep_message(stamp_us_, {1.0, 2.0, 3.0, 4.0}));
+  }
+  /// Whether a sweep comes through within a while of a live robot. Meanwhile the agent commands `motion`.
+  bool sweeps_come(std::chrono::milliseconds within, const Motion& motion = {}) {
+    const auto end = Clock::now() + within;
+    while (Clock::now() < end) {
+      sense();
+      std::this_thread::sleep_for(30ms);
+      driver_->command(motion);
+      if (driver_->read().scan) return true;
+    }
+    return false;
+  }
+  /// The next picture, or nothing within four seconds.
+  std::optional<TakenPicture> picture() {
+    std::stop_source stop;
+    const std::jthread ender([&stop](const std::stop_token& over) {
+      const auto end = Clock::now() + 4s;
+      while (!over.stop_requested() && Clock::now() < end) std::this_thread::sleep_for(5ms);
+      stop.request_stop();
+    });
+    auto taken = driver_->next_picture(stop.get_token());
+    EXPECT_TRUE(taken);
+    return taken ? std::move(*taken) : std::nullopt;
+  }
+  void drive(const Motion& motion, std::chrono::milliseconds duration) {
+    const auto end = Clock::now() + duration;
+    while (Clock::now() < end) {
+      driver_->command(motion);
+      std::this_thread::sleep_for(40ms);
+    }
+  }
+
+  ScratchFolder folder_;
+  std::mutex mutex_;
+  std::vector<Heard> heard_;
+  std::vector<std::string> told_;
+  std::unique_ptr<RosbridgeServer> bridge_;
+  std::unique_ptr<Driver> driver_;
+  std::int64_t stamp_us_ = 50'000'000;  // the robot's clock has nothing to do with ours
+  int sensed_ = 0;
+};
+
+}  // namespace homeward::agent
