@@ -14,17 +14,17 @@ BIN = pathlib.Path(sys.argv[1]).resolve()
 ARRIVED_WITHIN_M = 0.5
 
 
-def scenario(missions):
-    return {"format": "homeward-scenario", "version": 1, "world": "house:1", "seed": 1,
+def scenario(missions, robot):
+    return {**robot, "format": "homeward-scenario", "version": 1, "world": "house:1", "seed": 1,
             "camera": {"model": "hyperbolic_mirror"},
             "tour": {"rooms": ["hall", "kitchen", "living_room", "bathroom", "hall"], "light": "day"},
             "missions": missions}
 
 
-def drive(missions):
+def drive(missions, **robot):
     with tempfile.TemporaryDirectory(prefix="homeward-missions-") as folder:
         file = pathlib.Path(folder) / "scenario.json"
-        file.write_text(json.dumps(scenario(missions)))
+        file.write_text(json.dumps(scenario(missions, robot)))
         done = subprocess.run([BIN / "homeward", "simulate", "run", "--scenario", file, "--json"], check=True,
                               capture_output=True, text=True)
         return [json.loads(line) for line in done.stdout.splitlines()]
@@ -65,6 +65,20 @@ class Missions(unittest.TestCase):
                 self.assertFalse(result["arrived"], result)
                 self.assertEqual(len(result["stops"]), 1, result)
                 self.assertIn(word, result["stops"][0]["reason"])
+
+
+class OtherRobots(unittest.TestCase):
+    def arrives(self, **robot):
+        for result in drive([{"from": "kitchen", "to": "living_room"}], **robot):
+            self.assertTrue(result["arrived"], result)
+            self.assertLessEqual(result["final_error_m"], ARRIVED_WITHIN_M, result)
+            self.assertEqual(result["collisions"], 0, result)
+
+    def test_a_wheelchair_gets_its_whole_length_through_the_doors(self):
+        self.arrives(robot="chair")
+
+    def test_a_ring_of_ultrasound_sensors_does_in_place_of_a_laser(self):
+        self.arrives(ranges="ultrasound")
 
 
 if __name__ == "__main__":

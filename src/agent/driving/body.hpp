@@ -29,7 +29,8 @@ struct Motion {
 double clearance_m(const Body& body, std::span<const Eigen::Vector2d> points_m);
 
 /// The wanted motion, slowed or stopped so that the body could still brake before touching any point: range sensors
-/// have the last word. What only turns a body away from contact stays allowed.
+/// have the last word. What only turns a body away from contact stays allowed. One that is not round keeps to its bend
+/// when it is slowed, and where that is not safe takes the safe motion most like it.
 Motion made_safe(const Motion& wanted, const Body& body, std::span<const Eigen::Vector2d> points_m);
 
 }  // namespace homeward::agent

@@ -28,7 +28,8 @@ struct SonarConfig {
 /// as things until another reading's cone shows part of it to be free (arcs and cones: Elfes, "Sonar-based real-world
 /// mapping and navigation", IEEE J. Robotics and Automation 3(3), 1987, section III, here without probabilities: what
 /// may be there counts as there). Of arcs far away only the middle counts, or no door would seem open; on the way there
-/// they are heard again from so near that all of them counts.
+/// they are heard again from so near that all of them counts. Nor does what was seen to be free a moment ago, if the
+/// rest of the arc can be where the thing is.
 class SonarMap {
  public:
   explicit SonarMap(SonarConfig config = {}) : config_(config) {}
@@ -43,6 +44,16 @@ class SonarMap {
   };
   SonarConfig config_;
   std::vector<Maybe> maybe_;
+  /// What one reading showed to be free.
+  struct Free {
+    Eigen::Vector2d from_m;
+    Eigen::Vector2d direction;
+    double reach_m = 0.0;
+    int update = 0;
+  };
+  [[nodiscard]] bool was_free(const Eigen::Vector2d& at_m) const;
+  [[nodiscard]] std::vector<Eigen::Vector2d> arc(const Pose2& sonar, double range_m) const;
+  std::vector<Free> free_;
   int updates_ = 0;
 };
 

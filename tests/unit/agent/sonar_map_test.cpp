@@ -41,6 +41,18 @@ TEST(SonarMap, TakesOnlyTheMiddleOfAnArcFarAway) {
   EXPECT_GT(nearest_m(scan, 0.12, kPi), 100.0);
 }
 
+TEST(SonarMap, KeepsADoorOpenThatItHasSeenThrough) {
+  SonarMap map;
+  map.update({{{0.0, 0.0, 0.0}, 2.5F}}, {});
+  // Turned a little, the same cone meets a post on its left; ahead it is as free as before.
+  const Scan scan = map.update({{{0.0, 0.0, 0.2}, 1.0F}}, {});
+  EXPECT_GT(nearest_m(scan, -0.1, 0.22), 2.0);
+  EXPECT_LT(nearest_m(scan, 0.26, 0.4), 1.1);
+  // Somebody who steps into the middle of it is no post.
+  const Scan person = map.update({{{0.0, 0.0, 0.0}, 1.0F}}, {});
+  EXPECT_LT(nearest_m(person, -0.1, 0.1), 1.1);
+}
+
 TEST(SonarMap, FreesWhatAnotherConeSeesThrough) {
   SonarMap map;
   // The thing is on the left of the first cone: the second, turned to the right, looks past it.
