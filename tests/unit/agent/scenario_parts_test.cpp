@@ -19,7 +19,7 @@ class StartingPose : public ::testing::TestWithParam<bool> {
 
 TEST_P(StartingPose, LeavesRoomInEveryRoomOfAHouseAlsoWhereFurnitureWasMoved) {
   const sim::World house = sim::generate_house(1);
-  const auto moved = sim::move_furniture(house, 1, robot_.radius_m, 4);
+  const auto moved = sim::move_furniture(house, 1, robot_.outline.radius_m + robot_.outline.side_m, 4);
   ASSERT_TRUE(moved);
   for (const sim::World* world : {&house, &moved->world}) {
     const sim::Obstacles obstacles(*world);
