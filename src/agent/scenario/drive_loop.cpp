@@ -13,7 +13,7 @@ constexpr double kCycle_s = 0.1;
 constexpr double kLongest_s = 600.0;
 constexpr Milliseconds kPermit_ms = 1500;
 constexpr double kHeardWithin_s = 1.0;  // the house permits no robot that was silent for longer
-constexpr double kCommandLife_s = 0.5;  // the base's own watch over its commands
+constexpr double kCommandLife_s = 0.1;  // the base's own watch over its commands, as of the simulator's driver
 
 bool moves(const SimulatedRobot& robot) {
   constexpr double kAtRest = 1e-3;
