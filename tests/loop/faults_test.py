@@ -14,7 +14,6 @@ import unittest
 BIN = pathlib.Path(sys.argv[1]).resolve()
 ARRIVED_WITHIN_M = 0.5
 STANDS_WITHIN_S = 0.5
-# The robot's base stops by itself half a second after the last command; then it brakes from 0.45 m/s at 1 m/s2.
 AT_S = 5
 
 
