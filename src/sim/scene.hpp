@@ -69,7 +69,7 @@ struct World {
   std::vector<Room> rooms;
   std::vector<Lamp> lamps;
   std::vector<Furniture> furniture;  // known of generated worlds alone
-  FloorGrid occupied;  // 255 = something stands there between knee and head
+  FloorGrid occupied;                // 255 = something stands there between knee and head
   FloorGrid
       drivable;  // 255 = the centre of a disc robot of robot_radius_m may be here, and can get here from the start
 };

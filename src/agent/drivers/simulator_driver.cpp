@@ -48,8 +48,7 @@ class SimulatorDriver final : public Driver {
     until_picture_s_ -= seconds;
     if (seconds > 0.0) robot_.advance(seconds);
     tell_truth(now);
-    return {simulated_ms(), robot_.odometry(), robot_.vehicle().motion().speed_mps, robot_.sweep(),
-            std::nullopt};
+    return {simulated_ms(), robot_.odometry(), robot_.vehicle().motion().speed_mps, robot_.sweep(), std::nullopt};
   }
 
   void command(const Motion& motion) override {
