@@ -101,6 +101,10 @@ def main():
         pairs = [(a, b) for a in names for b in names if a != b]
         result = {"world": asked.world, "part": part[1:], "light": asked.light, "points": len(names),
                   "pairs": len(pairs)}
+        exact = {(a, b): math.atan2(poses[b][1] - poses[a][1], poses[b][0] - poses[a][0]) - poses[a][2] for a, b in pairs}
+        # What furniture in the way leaves to any method that only follows its vectors.
+        result["return_ratio_of_exact_vectors"] = round(
+            statistics.mean(returns(poses, exact, goal, asked.step_m) for goal in names), 4)
         for method in ("epipolar", "scale-space", "compass"):
             command, more = ("compass", ()) if method == "compass" else ("home", ("--method", method))
             turns, vectors, ms, errors = [], {}, [], {}
