@@ -8,6 +8,7 @@
 #include "agent/files/csv.hpp"
 #include "agent/files/read_file.hpp"
 #include "cli/command.hpp"
+#include "cli/recent.hpp"
 #include "homing/visual_compass.hpp"
 #include "pipeline/eye.hpp"
 
@@ -23,24 +24,36 @@ struct Options {
   std::string pairs;
 };
 
-Result<camera::Panorama> panorama_of(const pipeline::Eye& eye, const fs::path& file) {
-  const auto picture = agent::read_picture(file);
-  if (!picture) return pass_on(picture);
-  auto panorama = eye.unwrap(*picture);
-  if (panorama) return panorama;
-  Error error = panorama.error();
-  error.where = file.string();
-  return tl::unexpected<Error>(error);
-}
+/// Panoramas of pictures; some 2 MB each.
+class Gallery {
+ public:
+  explicit Gallery(pipeline::Eye eye) : eye_(std::move(eye)) {}
+
+  Result<std::shared_ptr<const camera::Panorama>> look(const fs::path& file) {
+    return seen_.get(file, [&](const fs::path& path) -> Result<camera::Panorama> {
+      const auto picture = agent::read_picture(path);
+      if (!picture) return pass_on(picture);
+      auto panorama = eye_.unwrap(*picture);
+      if (panorama) return panorama;
+      Error error = panorama.error();
+      error.where = path.string();
+      return tl::unexpected<Error>(error);
+    });
+  }
+
+ private:
+  pipeline::Eye eye_;
+  Recent<camera::Panorama> seen_{150};
+};
 
 /// What is not known is null; a pair without a reading says why.
-Status answer(const pipeline::Eye& eye, const std::string& current, const std::string& target, const fs::path& folder) {
-  const auto here = panorama_of(eye, folder / current);
+Status answer(Gallery& gallery, const std::string& current, const std::string& target, const fs::path& folder) {
+  const auto here = gallery.look(folder / current);
   if (!here) return pass_on(here);
-  const auto there = panorama_of(eye, folder / target);
+  const auto there = gallery.look(folder / target);
   if (!there) return pass_on(there);
   const auto begin = std::chrono::steady_clock::now();
-  const auto reading = homing::visual_compass(*here, *there);
+  const auto reading = homing::visual_compass(**here, **there);
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   nlohmann::json line = {{"current", current},  {"target", target},     {"turn_rad", nullptr},
                          {"residual", nullptr}, {"sharpness", nullptr}, {"ms", ms}};
@@ -64,9 +77,10 @@ Status compass(const Options& options) {
   if (!config) return pass_on(config);
   const auto camera = camera::Camera::create(*config);
   if (!camera) return pass_on(camera);
-  const auto eye = pipeline::Eye::create(*config, pipeline::suited_feature_config(**camera));
+  auto eye = pipeline::Eye::create(*config, pipeline::suited_feature_config(**camera));
   if (!eye) return pass_on(eye);
-  if (one_pair) return answer(*eye, options.current, options.target, {});
+  Gallery gallery(std::move(*eye));
+  if (one_pair) return answer(gallery, options.current, options.target, {});
   const auto table = agent::read_csv(options.pairs);
   if (!table) return pass_on(table);
   const auto current = table->column("current");
@@ -76,7 +90,7 @@ Status compass(const Options& options) {
   }
   const fs::path folder = fs::path(options.pairs).parent_path();
   for (const std::vector<std::string>& row : table->rows) {
-    if (const Status told = answer(*eye, row[*current], row[*target], folder); !told) return told;
+    if (const Status told = answer(gallery, row[*current], row[*target], folder); !told) return told;
   }
   return {};
 }

@@ -4,13 +4,13 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "agent/files/csv.hpp"
 #include "agent/files/read_file.hpp"
 #include "cli/command.hpp"
+#include "cli/recent.hpp"
 #include "homing/scale_space.hpp"
 #include "pipeline/eye.hpp"
 
@@ -28,28 +28,26 @@ struct Options {
   std::uint64_t seed = 1;
 };
 
-/// Appearances of pictures that were looked at already: a list of pairs names most pictures often.
+/// Appearances of pictures; some 50 kB each.
 class Gallery {
  public:
   explicit Gallery(pipeline::Eye eye) : eye_(std::move(eye)) {}
 
-  Result<const features::Appearance*> look(const fs::path& file) {
-    const auto known = seen_.find(file);
-    if (known != seen_.end()) return &known->second;
-    const auto picture = agent::read_picture(file);
-    if (!picture) return pass_on(picture);
-    auto appearance = eye_.look(*picture);
-    if (!appearance) {
+  Result<std::shared_ptr<const features::Appearance>> look(const fs::path& file) {
+    return seen_.get(file, [&](const fs::path& path) -> Result<features::Appearance> {
+      const auto picture = agent::read_picture(path);
+      if (!picture) return pass_on(picture);
+      auto appearance = eye_.look(*picture);
+      if (appearance) return appearance;
       Error error = appearance.error();
-      error.where = file.string();
+      error.where = path.string();
       return tl::unexpected<Error>(error);
-    }
-    return &seen_.emplace(file, std::move(*appearance)).first->second;
+    });
   }
 
  private:
   pipeline::Eye eye_;
-  std::map<fs::path, features::Appearance> seen_;
+  Recent<features::Appearance> seen_{2000};
 };
 
 /// What is not known is null; a pair without an answer says why.

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <iostream>
 #include <memory>
+#include <random>
+#include <vector>
 
 #include "cli/command.hpp"
 #include "cli/simulate.hpp"
+#include "core/angles.hpp"
 #include "sim/floor.hpp"
 #include "sim/tour_path.hpp"
 
@@ -14,8 +18,16 @@ struct Options {
   StageOptions stage;
   double step_m = 0.5;
   double theta_rad = 0.0;
+  bool turned = false;
   std::string room;
+  std::vector<double> within_m;  // x and y of one corner, x and y of the opposite one; empty: everywhere
 };
+
+bool is_within(const std::vector<double>& corners_m, const Eigen::Vector2d& at) {
+  if (corners_m.empty()) return true;
+  return at.x() >= std::min(corners_m[0], corners_m[2]) && at.x() <= std::max(corners_m[0], corners_m[2]) &&
+         at.y() >= std::min(corners_m[1], corners_m[3]) && at.y() <= std::max(corners_m[1], corners_m[3]);
+}
 
 Status make_grid(const Options& options) {
   if (!(options.step_m >= 0.05)) return fail(ErrorCode::kInvalidInput, "The step must be at least 0.05 m.", "--step-m");
@@ -28,12 +40,15 @@ Status make_grid(const Options& options) {
   const Eigen::Vector2d size_m =
       world.drivable.resolution_m * Eigen::Vector2d(world.drivable.width, world.drivable.height);
   std::vector<std::pair<Pose2, std::string>> poses;
+  std::mt19937_64 random(options.stage.seed);
   for (double y = 0.5 * options.step_m; y < size_m.y(); y += options.step_m) {
     for (double x = 0.5 * options.step_m; x < size_m.x(); x += options.step_m) {
       const Eigen::Vector2d at = world.drivable.origin_m + Eigen::Vector2d(x, y);
       const std::string room = sim::room_at(world, at).value_or("");
       if (!sim::is_set(world.drivable, at) || (!options.room.empty() && room != options.room)) continue;
-      poses.emplace_back(Pose2{at.x(), at.y(), options.theta_rad}, room);
+      if (!is_within(options.within_m, at)) continue;
+      const double by_rad = options.turned ? 2.0 * kPi * static_cast<double>(random() >> 11) * 0x1p-53 : 0.0;
+      poses.emplace_back(Pose2{at.x(), at.y(), wrap_angle(options.theta_rad + by_rad)}, room);
     }
   }
   if (poses.empty())
@@ -51,12 +66,14 @@ Status make_grid(const Options& options) {
 }  // namespace
 
 void register_simulate_grid(CLI::App& simulate) {
-  CLI::App* command = simulate.add_subcommand("grid", "Pictures on a grid of the free floor, all with one heading");
+  CLI::App* command = simulate.add_subcommand("grid", "Pictures on a grid of the free floor");
   const auto options = std::make_shared<Options>();
   add_stage_options(*command, options->stage);
   command->add_option("--step-m", options->step_m, "Distance of neighbours")->capture_default_str();
   command->add_option("--theta-rad", options->theta_rad, "Heading of all pictures")->capture_default_str();
+  command->add_flag("--turned", options->turned, "Each picture with a heading of its own, by the seed");
   command->add_option("--room", options->room, "Only this room");
+  command->add_option("--within", options->within_m, "Only this part of the floor: X0 Y0 X1 Y1, metres")->expected(4);
   run_on(*command, [options] { return make_grid(*options); });
 }
 

@@ -5,14 +5,15 @@ Renders a grid of one room, asks `homeward home` (and `compass`) for every pair,
 answered, the mean and median angular error of the direction, the mean error of the turn, and the return ratio: the share
 of starts from which following the vectors from grid point to grid point leads to the goal.
 
-usage: homing_grid.py [--homeward PROGRAM] [--world W] [--room R] [--step-m S] [--most N] [--light L] [--work DIR]
+No answer counts as 90 degrees. Headings are random. Means are over goals of the mean over starts.
+
+usage: homing_grid.py [--homeward PROGRAM] [--world W] [--room R | --within X0 Y0 X1 Y1] [--step-m S] [--light L] [--work DIR]
 """
 import argparse
 import csv
 import json
 import math
 import pathlib
-import random
 import statistics
 import subprocess
 import tempfile
@@ -22,9 +23,9 @@ def wrap(angle):
     return math.remainder(angle, 2 * math.pi)
 
 
-def grid(program, folder, world, room, step_m, light):
+def grid(program, folder, world, part, step_m, light):
     if not (folder / "poses.csv").exists():
-        subprocess.run([program, "simulate", "grid", "--world", world, "--room", room, "--step-m", str(step_m),
+        subprocess.run([program, "simulate", "grid", "--world", world, *part, "--turned", "--step-m", str(step_m),
                         "--light", light, "--out", folder], check=True)
     with open(folder / "poses.csv", newline="") as table:
         return {row["filename"]: (float(row["x_m"]), float(row["y_m"]), float(row["theta_rad"]))
@@ -44,6 +45,8 @@ def returns(poses, vectors, goal, step_m):
     """The share of starts that reach the goal, each step to the grid point that lies best in the vector's direction."""
     home = 0
     for start in poses:
+        if start == goal:
+            continue
         here = start
         seen = set()
         while here != goal and here not in seen:
@@ -64,7 +67,17 @@ def returns(poses, vectors, goal, step_m):
                 break
             here = best
         home += here == goal
-    return home / len(poses)
+    return home / (len(poses) - 1)
+
+
+def by_distance(poses, errors):
+    """Pairs, mean and median error for each metre apart."""
+    bands = {}
+    for (a, b), error in errors.items():
+        apart_m = math.hypot(poses[a][0] - poses[b][0], poses[a][1] - poses[b][1])
+        bands.setdefault(int(apart_m), []).append(error)
+    return {f"{m}-{m + 1}m": {"n": len(e), "mean_deg": round(statistics.mean(e), 2),
+                              "median_deg": round(statistics.median(e), 2)} for m, e in sorted(bands.items())}
 
 
 def main():
@@ -72,47 +85,56 @@ def main():
     options.add_argument("--homeward", default="build/release/bin/homeward")
     options.add_argument("--world", default="house:1")
     options.add_argument("--room", default="living_room")
+    options.add_argument("--within", type=float, nargs=4, default=None, help="a part of the floor instead of a room")
     options.add_argument("--step-m", type=float, default=0.5)
     options.add_argument("--light", default="day")
-    options.add_argument("--goals", type=int, default=8, help="goals whose return ratio is taken")
-    options.add_argument("--most", type=int, default=4000, help="pairs; more are sampled")
     options.add_argument("--work", default=None)
     asked = options.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         work = pathlib.Path(asked.work or scratch)
-        folder = work / f"grid-{asked.world.replace(':', '_').replace('/', '_')}-{asked.room}-{asked.light}"
+        part = ["--within", *map(str, asked.within)] if asked.within else ["--room", asked.room]
+        name = "_".join([asked.world, *part[1:], asked.light]).replace(":", "_").replace("/", "_")
+        folder = work / f"grid-{name}"
         folder.parent.mkdir(parents=True, exist_ok=True)
-        poses = grid(asked.homeward, folder, asked.world, asked.room, asked.step_m, asked.light)
-        chance = random.Random(1)
+        poses = grid(asked.homeward, folder, asked.world, part, asked.step_m, asked.light)
         names = sorted(poses)
-        goals = chance.sample(names, min(asked.goals, len(names)))
         pairs = [(a, b) for a in names for b in names if a != b]
-        if len(pairs) > asked.most:
-            pairs = chance.sample(pairs, asked.most)
-        pairs = sorted(set(pairs) | {(a, b) for a in names for b in goals if a != b})
-        result = {"world": asked.world, "room": asked.room, "light": asked.light, "points": len(names),
+        result = {"world": asked.world, "part": part[1:], "light": asked.light, "points": len(names),
                   "pairs": len(pairs)}
+        exact = {(a, b): math.atan2(poses[b][1] - poses[a][1], poses[b][0] - poses[a][0]) - poses[a][2] for a, b in pairs}
+        # What furniture in the way leaves to any method that only follows its vectors.
+        result["return_ratio_of_exact_vectors"] = round(
+            statistics.mean(returns(poses, exact, goal, asked.step_m) for goal in names), 4)
         for method in ("epipolar", "scale-space", "compass"):
             command, more = ("compass", ()) if method == "compass" else ("home", ("--method", method))
-            errors, turns, vectors, ms = [], [], {}, []
+            turns, vectors, ms, errors = [], {}, [], {}
             for answer in ask(asked.homeward, command, folder, pairs, more):
-                ax, ay, atheta = poses[answer["current"]]
-                bx, by, btheta = poses[answer["target"]]
+                pair = answer["current"], answer["target"]
+                ax, ay, atheta = poses[pair[0]]
+                bx, by, btheta = poses[pair[1]]
                 ms.append(answer["ms"])
                 if answer["turn_rad"] is not None:
                     turns.append(abs(wrap(answer["turn_rad"] - wrap(btheta - atheta))))
-                if answer.get("bearing_rad") is None:
+                if method == "compass":
                     continue
-                vectors[answer["current"], answer["target"]] = answer["bearing_rad"]
-                errors.append(abs(wrap(answer["bearing_rad"] - wrap(math.atan2(by - ay, bx - ax) - atheta))))
-            told = {"answered": round(max(len(turns), len(errors)) / len(pairs), 3),
+                errors[pair] = 90.0
+                if answer["bearing_rad"] is None:
+                    continue
+                vectors[pair] = answer["bearing_rad"]
+                truth = math.atan2(by - ay, bx - ax) - atheta
+                errors[pair] = math.degrees(abs(wrap(answer["bearing_rad"] - truth)))
+            told = {"answered": round(max(len(turns), len(vectors)) / len(pairs), 4),
                     "turn_error_mean_deg": round(math.degrees(statistics.mean(turns)), 2) if turns else None,
+                    "turn_error_median_deg": round(math.degrees(statistics.median(turns)), 2) if turns else None,
                     "ms_median": round(statistics.median(ms), 2)}
             if errors:
-                told["error_mean_deg"] = round(math.degrees(statistics.mean(errors)), 2)
-                told["error_median_deg"] = round(math.degrees(statistics.median(errors)), 2)
+                # Every goal has as many starts, so the mean over goals of their means is the mean.
+                told["error_mean_deg"] = round(statistics.mean(errors.values()), 2)
+                told["error_median_deg"] = round(statistics.median(errors.values()), 2)
+                told["below_15_deg"] = round(sum(e < 15 for e in errors.values()) / len(errors), 4)
                 told["return_ratio"] = round(
-                    statistics.mean(returns(poses, vectors, goal, asked.step_m) for goal in goals), 3)
+                    statistics.mean(returns(poses, vectors, goal, asked.step_m) for goal in names), 4)
+                told["by_distance"] = by_distance(poses, errors)
             result[method] = told
         print(json.dumps(result))
 
