@@ -3,11 +3,12 @@
 
 Renders a grid of one room, asks `homeward home` (and `compass`) for every pair, and prints for each method: the share
 answered, the mean and median angular error of the direction, the mean error of the turn, and the return ratio: the share
-of starts from which following the vectors from grid point to grid point leads to the goal.
+of starts from which following the vectors from grid point to grid point leads to the goal, with those of true vectors.
 
 No answer counts as 90 degrees. Headings are random. Means are over goals of the mean over starts.
 
-usage: homing_grid.py [--homeward PROGRAM] [--world W] [--room R | --within X0 Y0 X1 Y1] [--step-m S] [--light L] [--work DIR]
+usage: homing_grid.py [--homeward PROGRAM] [--world W] [--room R | --within X0 Y0 X1 Y1] [--step-m S] [--light L]
+                      [--work DIR]
 """
 import argparse
 import csv
@@ -42,30 +43,26 @@ def ask(program, command, folder, pairs, more=()):
 
 
 def returns(poses, vectors, goal, step_m):
-    """The share of starts that reach the goal, each step to the grid point that lies best in the vector's direction."""
+    """The share of starts that reach the goal, each step to the neighbour that lies best in the vector's direction among
+    those where it has not been: where furniture stands in that direction, round it."""
     home = 0
     for start in poses:
         if start == goal:
             continue
         here = start
         seen = set()
-        while here != goal and here not in seen:
+        while here != goal:
             seen.add(here)
             bearing = vectors.get((here, goal))
             if bearing is None:
                 break
             x, y, theta = poses[here]
-            best, least = None, math.pi / 3
-            for there, (tx, ty, _) in poses.items():
-                apart = math.hypot(tx - x, ty - y)
-                if there == here or apart > 1.5 * step_m:
-                    continue
-                off = abs(wrap(math.atan2(ty - y, tx - x) - theta - bearing))
-                if off < least:
-                    best, least = there, off
-            if best is None:
+            near = [(abs(wrap(math.atan2(ty - y, tx - x) - theta - bearing)), there)
+                    for there, (tx, ty, _) in poses.items()
+                    if there not in seen and math.hypot(tx - x, ty - y) <= 1.5 * step_m]
+            if not near:
                 break
-            here = best
+            here = min(near)[1]
         home += here == goal
     return home / (len(poses) - 1)
 
@@ -105,6 +102,7 @@ def main():
         # What furniture in the way leaves to any method that only follows its vectors.
         result["return_ratio_of_exact_vectors"] = round(
             statistics.mean(returns(poses, exact, goal, asked.step_m) for goal in names), 4)
+        answered = {}
         for method in ("epipolar", "scale-space", "compass"):
             command, more = ("compass", ()) if method == "compass" else ("home", ("--method", method))
             turns, vectors, ms, errors = [], {}, [], {}
@@ -135,7 +133,14 @@ def main():
                 told["return_ratio"] = round(
                     statistics.mean(returns(poses, vectors, goal, asked.step_m) for goal in names), 4)
                 told["by_distance"] = by_distance(poses, errors)
+                answered[method] = vectors
             result[method] = told
+        # What no epipolar answer is given for, scale space answers.
+        both = answered["scale-space"] | answered["epipolar"]
+        errors = [abs(wrap(both[pair] - exact[pair])) if pair in both else math.pi / 2 for pair in pairs]
+        result["epipolar, else scale-space"] = {
+            "error_mean_deg": round(math.degrees(statistics.mean(errors)), 2),
+            "return_ratio": round(statistics.mean(returns(poses, both, goal, asked.step_m) for goal in names), 4)}
         print(json.dumps(result))
 
 
