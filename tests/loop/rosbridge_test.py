@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The demo's three missions with a robot behind a rosbridge, and what happens when its connection is cut.
+"""Missions of the demo with a robot behind a rosbridge, and what happens when its connection is cut.
 
 The same agent as everywhere, but all it knows of the simulated robot comes over the WebSocket of the tests' rosbridge.
 usage: rosbridge_test.py BIN_FOLDER WEB_FOLDER
@@ -27,6 +27,12 @@ AT_REST = 0.01
 
 
 class Rosbridge(unittest.TestCase):
+    """A disc of 0.35 m radius."""
+
+    PROFILE = "disc"
+    BODY = {"radius_m": 0.35}
+    ROOMS = ("kitchen", "living_room")
+
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="homeward-rosbridge-")
@@ -42,7 +48,7 @@ class Rosbridge(unittest.TestCase):
         cls.map_id = demo.teach(cls.server, BIN, cls.data, token_file)
         cls.server.call("PUT", f"/api/v1/robots/{cls.robot}/map", {"map": cls.map_id})
         cls.bridge = cls.start("bridge", BIN.parent / "tests" / "homeward-rosbridge-robot", str(BRIDGE_PORT),
-                               demo.WORLD, "bedroom", "disc", cls.data / "truth.jsonl", cls.data / "camera.json")
+                               demo.WORLD, "bedroom", cls.PROFILE, cls.data / "truth.jsonl", cls.data / "camera.json")
         end = time.monotonic() + 120
         while not (cls.data / "camera.json").exists() and time.monotonic() < end:
             time.sleep(0.2)
@@ -51,7 +57,7 @@ class Rosbridge(unittest.TestCase):
         robot["address"] = f"ws://127.0.0.1:{BRIDGE_PORT}"
         robot["image"]["topic"] = "/image"
         robot["scan"]["robot_from_scan"]["x_m"] = 0.0
-        robot["body"] = {"radius_m": 0.35, "max_speed_mps": 0.8, "max_turn_radps": 1.2, "deceleration_mps2": 1.0,
+        robot["body"] = {**cls.BODY, "max_speed_mps": 0.8, "max_turn_radps": 1.2, "deceleration_mps2": 1.0,
                          "turn_deceleration_radps2": 5.0}
         (cls.data / "robot.json").write_text(json.dumps(robot))
         cls.start("agent", BIN / "homeward-agent", "run", "--server", cls.server.address, "--robot", cls.robot,
@@ -90,7 +96,7 @@ class Rosbridge(unittest.TestCase):
         self.fail(f"within {limit_s} s not so: {what}")
 
     def test_1_missions_arrive_as_with_the_simulator(self):
-        for room in ("kitchen", "study", "living_room"):
+        for room in self.ROOMS:
             with self.subTest(to=room):
                 self.assertTrue(demo.drive(self.server, self.robot, self.map_id, room, self.data))
 
@@ -122,6 +128,15 @@ class Rosbridge(unittest.TestCase):
         self.assertEqual(after["collisions"], 0)
         ended = self.server.call("GET", f"/api/v1/robots/{self.robot}/missions/{mission['id']}")
         self.assertIn("range sensor", ended["reason"])
+
+
+class Wheelchair(Rosbridge):
+    """A chair of 1.10 m x 0.65 m that turns about its rear axle."""
+
+    PROFILE = "chair"
+    BODY = {"rectangle": {"front_m": 0.85, "back_m": 0.25, "width_m": 0.65}}
+    ROOMS = ("study", "living_room")
+    test_2_a_silent_robot_ends_the_mission_and_nothing_moves_when_it_speaks_again = None
 
 
 if __name__ == "__main__":
