@@ -73,8 +73,19 @@ Motion slowed_by_silence(const Motion& wanted, const DrivingState& state, const 
 
 constexpr double kFinal_m = 0.35;  // so near, the destination is driven to straight, backwards where it lies behind
 
+/// Whether a little more straight ahead, or back, leaves the body more room than it needs to pass a door: the last
+/// centimetres to a destination are not worth going as near to things as that.
+bool leaves_room(const Body& body, const std::vector<Eigen::Vector2d>& points_m, double speed_mps) {
+  constexpr double kRoom_m = 0.08;
+  constexpr double kAhead_m = 0.05;
+  std::vector<Eigen::Vector2d> then_m = points_m;
+  for (Eigen::Vector2d& point : then_m) point.x() -= std::copysign(kAhead_m, speed_mps);
+  const double room_m = clearance_m(body, then_m);
+  return room_m >= kRoom_m || room_m >= clearance_m(body, points_m);
+}
+
 /// The last bit of the way: turning towards the destination, or away from it where it lies behind, then straight.
-Motion approach(const Eigen::Vector2d& goal_m, const Body& body) {
+Motion approach(const Eigen::Vector2d& goal_m, const Body& body, const std::vector<Eigen::Vector2d>& points_m) {
   constexpr double kSlowest_mps = 0.05;
   constexpr double kGain_per_s = 0.7;
   constexpr double kAhead_rad = 0.25;  // driven only with the destination that much ahead or behind
@@ -88,6 +99,7 @@ Motion approach(const Eigen::Vector2d& goal_m, const Body& body) {
     const double speed_mps = std::max(kSlowest_mps, kGain_per_s * goal_m.norm());
     motion.speed_mps = behind ? -std::min(speed_mps, 0.1) : std::min(speed_mps, 0.2);
   }
+  if (!leaves_room(body, points_m, motion.speed_mps)) motion.speed_mps = 0.0;
   return motion;
 }
 
@@ -111,7 +123,7 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   if (last_view) {
     // The destination is approached so slowly that one picture's way is a fraction of the tolerance. How near it is, is
     // known roughly; its direction is known well, so that is driven until it lies abeam.
-    if (state.follow.measured && goal_m->norm() < kFinal_m) return approach(*goal_m, config.body);
+    if (state.follow.measured && goal_m->norm() < kFinal_m) return approach(*goal_m, config.body, points_m);
     const bool alike = state.follow.alike > 0.25;
     speed_mps = std::min(speed_mps, std::max(alike ? 0.12 : 0.18, 0.6 * goal_m->norm()));
     constexpr double kLeastAim_m = 0.4;
