@@ -140,20 +140,20 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   return steer_round(state.plan, config.body, points_m, aim_m, inputs.odometry, speed_mps, config.turn_gain);
 }
 
-/// Whether the destination is measured to be right here.
-bool is_near(const DrivingState& state, const DrivingConfig& config) {
+/// Whether the destination is right here; nothing where the latest picture does not measure it.
+std::optional<bool> is_near(const DrivingState& state, const DrivingConfig& config) {
   if (state.follow.tracks.empty() || state.follow.index + 1 != static_cast<int>(state.follow.tracks.size()))
     return false;
+  if (!state.follow.measured) return std::nullopt;
   const auto goal_m = goal(state.follow, state.follow.odometry, config.follow);
-  return state.follow.measured && goal_m && goal_m->norm() < config.near_m;
+  return goal_m && goal_m->norm() < config.near_m;
 }
 
 void judge_progress(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
-  if (is_near(state, config)) {
-    state.near_since_ms = state.near_since_ms.value_or(now_ms);
-  } else {
-    state.near_since_ms.reset();
-  }
+  // Somebody who stands before the camera for a moment does not move the robot away.
+  const auto near = is_near(state, config);
+  if (near && *near) state.near_since_ms = state.near_since_ms.value_or(now_ms);
+  if (near && !*near) state.near_since_ms.reset();
   const bool near_enough = state.near_since_ms && now_ms - *state.near_since_ms > config.near_ms;
   if ((state.seen.at_end || near_enough) && !state.docking) {
     if (!state.mission->dock) return end_mission(state, wire::DriveState::kArrived, "");

@@ -37,7 +37,7 @@ struct DrivingConfig {
   Milliseconds reaction_ms = 120;        // of it, from an arrival to the wheels
   Milliseconds blind_ms = 4000;          // nothing recognised for so long: the mission fails
   Milliseconds stuck_ms = 20'000;        // no way gained for so long: the mission fails
-  double near_m = 0.2;                   // of the destination: what is in the way there may stay in the way
+  double near_m = 0.25;                  // of the destination: what is in the way there may stay in the way
   Milliseconds near_ms = 8000;           // so long it tries to come nearer than that
   double turn_gain = 1.8;                // turn rate for each radian towards the carrot
   double dock_within_rad = 0.02;         // heading at the end
