@@ -140,11 +140,12 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   return steer_round(state.plan, config.body, points_m, aim_m, inputs.odometry, speed_mps, config.turn_gain);
 }
 
-/// Whether the destination is right here; nothing where the latest picture does not measure it.
+/// Whether the destination is right here; nothing where that is not known well enough.
 std::optional<bool> is_near(const DrivingState& state, const DrivingConfig& config) {
   if (state.follow.tracks.empty() || state.follow.index + 1 != static_cast<int>(state.follow.tracks.size()))
     return false;
-  if (!state.follow.measured) return std::nullopt;
+  constexpr double kKnownTo_m = 0.1;  // from pictures before, where somebody stands before the camera
+  if (!state.follow.measured && state.follow.tracks.back().doubt_m() > kKnownTo_m) return std::nullopt;
   const auto goal_m = goal(state.follow, state.follow.odometry, config.follow);
   return goal_m && goal_m->norm() < config.near_m;
 }
