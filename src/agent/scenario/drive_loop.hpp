@@ -24,7 +24,7 @@ struct DrivenPicture {
 };
 
 /// The loop of one mission: world, sensors and heart, cycle by cycle, and the house that permits it, with all that goes
-/// wrong. The robot's base stops the wheels by itself 0.5 s after the last command.
+/// wrong. The robot's base brakes by itself 0.1 s after the last command.
 class DriveLoop {
  public:
   /// Everything but the faults must outlive the loop. `recorder`: may be null.
