@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/laser.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "core/angles.hpp"
+#include "sim/nearest.hpp"
 
 namespace homeward::sim {
 
@@ -21,16 +23,8 @@ std::vector<float> scan(const RayScene& rays, const Pose2& robot, const std::vec
     for (const double height_m : config.heights_m) {
       const Eigen::Vector3f origin_m(static_cast<float>(robot.x_m), static_cast<float>(robot.y_m),
                                      static_cast<float>(height_m));
-      const auto far_m = static_cast<float>(config.range_max_m);
-      if (const auto hit = rays.first_hit(origin_m, direction, std::min(far_m, range_m))) range_m = hit->distance_m;
-      for (const Person& person : people) {
-        const auto met = hit_person(person, origin_m, direction);
-        if (met && met->distance_m < range_m) range_m = met->distance_m;
-      }
-      for (const Box& box : boxes) {
-        const auto met = hit_box(box, origin_m, direction);
-        if (met && met->distance_m < range_m) range_m = met->distance_m;
-      }
+      const float far_m = std::min(static_cast<float>(config.range_max_m), range_m);
+      range_m = std::min(range_m, nearest_m(rays, people, boxes, origin_m, direction, far_m));
     }
     const float error_m = noise_m(random);  // drawn always: a ray's noise does not depend on what others meet
     if (static_cast<double>(range_m) <= config.range_max_m) {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/angles.hpp"
+#include "sim/nearest.hpp"
 
 namespace homeward::sim {
 
@@ -38,7 +39,7 @@ std::vector<float> ultrasound(const RayScene& rays, const Pose2& robot, const st
   std::vector<float> ranges_m;
   for (const Pose2& mount : ring) {
     const Pose2 sensor = robot * mount;
-    float nearest_m = std::numeric_limits<float>::infinity();
+    float range_m = std::numeric_limits<float>::infinity();
     for (int ray = 0; ray < config.rays; ++ray) {
       const double angle_rad =
           sensor.theta_rad + config.cone_rad * (static_cast<double>(ray) / (config.rays - 1) - 0.5);
@@ -47,21 +48,13 @@ std::vector<float> ultrasound(const RayScene& rays, const Pose2& robot, const st
       for (const double height_m : config.heights_m) {
         const Eigen::Vector3f origin_m(static_cast<float>(sensor.x_m), static_cast<float>(sensor.y_m),
                                        static_cast<float>(height_m));
-        const auto far_m = std::min(nearest_m, static_cast<float>(config.range_max_m));
-        if (const auto hit = rays.first_hit(origin_m, direction, far_m)) nearest_m = hit->distance_m;
-        for (const Person& person : people) {
-          const auto met = hit_person(person, origin_m, direction);
-          if (met && met->distance_m < nearest_m) nearest_m = met->distance_m;
-        }
-        for (const Box& box : boxes) {
-          const auto met = hit_box(box, origin_m, direction);
-          if (met && met->distance_m < nearest_m) nearest_m = met->distance_m;
-        }
+        const float far_m = std::min(static_cast<float>(config.range_max_m), range_m);
+        range_m = std::min(range_m, nearest_m(rays, people, boxes, origin_m, direction, far_m));
       }
     }
     const float error_m = noise_m(random);
-    const bool heard = static_cast<double>(nearest_m) <= config.range_max_m;
-    ranges_m.push_back(heard ? std::max(static_cast<float>(config.range_min_m), nearest_m + error_m)
+    const bool heard = static_cast<double>(range_m) <= config.range_max_m;
+    ranges_m.push_back(heard ? std::max(static_cast<float>(config.range_min_m), range_m + error_m)
                              : std::numeric_limits<float>::infinity());
   }
   return ranges_m;

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/box.hpp"
+#include "sim/people.hpp"
+#include "sim/ray_scene.hpp"
+
+namespace homeward::sim {
+
+/// How far along a ray the nearest of the world, its people and its boxes is: at most `far_m`, infinite where the ray
+/// meets nothing that near.
+float nearest_m(const RayScene& rays, const std::vector<Person>& people, const std::vector<Box>& boxes,
+                const Eigen::Vector3f& origin_m, const Eigen::Vector3f& direction, float far_m);
+
+}  // namespace homeward::sim
