@@ -73,6 +73,8 @@ Motion slowed_by_silence(const Motion& wanted, const DrivingState& state, const 
 
 constexpr double kFinal_m = 0.35;  // so near, the destination is driven to straight, backwards where it lies behind
 
+constexpr double kBack_mps = 0.25;  // when it makes room for somebody
+
 /// Whether a little more straight ahead, or back, leaves the body more room than it needs to pass a door: the last
 /// centimetres to a destination are not worth going as near to things as that.
 bool leaves_room(const Body& body, const std::vector<Eigen::Vector2d>& points_m, double speed_mps) {
@@ -104,7 +106,7 @@ Motion approach(const Eigen::Vector2d& goal_m, const Body& body, const std::vect
 }
 
 Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& config,
-             const std::vector<Eigen::Vector2d>& points_m) {
+             const std::vector<Eigen::Vector2d>& points_m, Milliseconds now_ms) {
   const bool last_view = state.follow.index + 1 == static_cast<int>(state.mission->path.views.size());
   if (state.docking) {
     // Heading at the end, by the latest answer and the turn made since.
@@ -117,7 +119,16 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     return {0.0, std::copysign(std::max(0.12, std::abs(turn)), left_rad)};
   }
   const auto goal_m = goal(state.follow, inputs.odometry, config.follow);
-  if (!goal_m || state.covered) return {};
+  if (!goal_m || state.covered) {
+    forget_standing(state.give_way);
+    return {};
+  }
+  if (state.near_since_ms) {
+    forget_standing(state.give_way);
+  } else if (const auto back_m = give_way(state.give_way, inputs.odometry, now_ms)) {
+    if (back_m->isZero()) return {};
+    return steer_round(state.plan, config.body, points_m, *back_m, inputs.odometry, kBack_mps, config.turn_gain);
+  }
   double speed_mps = std::min(state.mission->speed_limit_mps, config.body.max_speed_mps);
   Eigen::Vector2d aim_m = *goal_m;
   if (last_view) {
@@ -147,7 +158,9 @@ std::optional<bool> is_near(const DrivingState& state, const DrivingConfig& conf
   constexpr double kKnownTo_m = 0.1;  // from pictures before, where somebody stands before the camera
   if (!state.follow.measured && state.follow.tracks.back().doubt_m() > kKnownTo_m) return std::nullopt;
   const auto goal_m = goal(state.follow, state.follow.odometry, config.follow);
-  return goal_m && goal_m->norm() < config.near_m;
+  constexpr double kStaysNear_m = 0.05;  // measured a little farther off, it is still near
+  const double near_m = config.near_m + (state.near_since_ms ? kStaysNear_m : 0.0);
+  return goal_m && goal_m->norm() < near_m;
 }
 
 void judge_progress(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
@@ -170,7 +183,8 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   if (now_ms - state.last_answer_ms > config.blind_ms) {
     return end_mission(state, wire::DriveState::kFailed, "I do not recognise the way any more.");
   }
-  if (now_ms - state.last_gain_ms > config.stuck_ms) {
+  // Beside its destination it waits for `near_ms` and has then arrived.
+  if (!state.near_since_ms && now_ms - state.last_gain_ms > config.stuck_ms) {
     return end_mission(state, wire::DriveState::kFailed, "The way is blocked.");
   }
 }
@@ -200,7 +214,9 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     state.last_answer_ms = state.last_gain_ms = state.last_picture_ms = sensors_ms;
     state.gain_from = inputs.odometry;
     state.plan = {};
+    forget_standing(state.give_way);
   }
+  remember_trail(state.give_way, inputs.odometry);
   if (inputs.scan) {
     state.scan = inputs.scan;
     state.scan->taken_ms = std::min(state.scan->taken_ms, sensors_ms);
@@ -221,7 +237,7 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   }
   judge_progress(state, config, sensors_ms);
   if (state.drive != wire::DriveState::kDriving) return outputs;
-  const Motion wanted = drive(state, inputs, config, points_m);
+  const Motion wanted = drive(state, inputs, config, points_m, sensors_ms);
   if (state.drive != wire::DriveState::kDriving) return outputs;
   const Motion heard = slowed_by_silence(wanted, state, config, now_ms, sensors_ms);
   outputs.motion = made_safe(heard, config.body, points_m);

@@ -10,6 +10,7 @@
 
 #include "agent/driving/body.hpp"
 #include "agent/driving/follow.hpp"
+#include "agent/driving/give_way.hpp"
 #include "agent/driving/long_plan.hpp"
 #include "agent/driving/scan.hpp"
 #include "core/pose2.hpp"
@@ -94,6 +95,7 @@ struct DrivingState {
   bool pictured = false;  // a picture taken since the mission began has come in time
   bool docking = false;
   LongPlan plan;         // of a body that is not round
+  GiveWay give_way;      // to whoever stands in the way
   bool covered = false;  // the latest picture shows next to nothing
   std::optional<Milliseconds> last_step_ms;
   Milliseconds refuses_until_ms = 0;  // missions that waited while no step was made

@@ -61,7 +61,8 @@ class StepTest : public ::testing::Test {
     if (server_talks_) inputs.messages.emplace_back(wire::BeliefReport{});
     if (pictures_) {
       const auto count = static_cast<std::uint64_t>(now_ms_);
-      auto seen = covered_ ? features::Appearance() : seen_from(landmarks_, pose_, count);
+      const bool covered = covered_ || (covered_now_and_then_ && (now_ms_ / kTick_ms) % 8 == 0);
+      auto seen = covered ? features::Appearance() : seen_from(landmarks_, pose_, count);
       inputs.picture = SeenPicture{
           now_ms_ - picture_age_ms_, std::make_shared<const features::Appearance>(std::move(seen)), {}, pose_};
     }
@@ -123,6 +124,16 @@ class StepTest : public ::testing::Test {
     return from_ms;
   }
 
+  /// From the next tick on the sweep shows a wall across the way, at x in the frame of the views.
+  void see_wall_across(double wall_x_m) {
+    const double step_rad = 2.0 * kPi / static_cast<double>(ranges_m_.size());
+    for (std::size_t i = 0; i < ranges_m_.size(); ++i) {
+      const double towards = std::cos(pose_.theta_rad + step_rad * static_cast<double>(i));
+      const double range_m = towards > 0.0 ? (wall_x_m - pose_.x_m) / towards : 5.0;
+      ranges_m_[i] = static_cast<float>(std::min(range_m, 5.0));
+    }
+  }
+
   /// Everything is fine again, and permits come: it must not move.
   void expect_stays() {
     link_up_ = server_talks_ = pictures_ = sweeps_ = true;
@@ -150,6 +161,7 @@ class StepTest : public ::testing::Test {
   bool pictures_ = true;
   bool sweeps_ = true;
   bool covered_ = false;
+  bool covered_now_and_then_ = false;
   std::vector<float> ranges_m_ = std::vector<float>(90, 5.0F);
 };
 

@@ -224,23 +224,6 @@ TEST_F(StepTest, WhatWasOrderedWhileTheProcessWasFrozenMovesNothing) {
   set_off(1, seq_ + 1);  // that was two seconds later
 }
 
-TEST_F(StepTest, BesideADestinationThatMayNotBeDrivenIntoItArrivesAfterAWhile) {
-  set_off();
-  // Right beside the destination, measured, and no nearer to be had: something stands on it.
-  const Milliseconds from_ms = drive_beside_destination(0.1);
-  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
-  EXPECT_GT(now_ms_ - from_ms, config_.near_ms);
-  EXPECT_LE(now_ms_ - from_ms, config_.near_ms + 2 * kTick_ms);
-  expect_stays();
-}
-
-TEST_F(StepTest, BesideADestinationButNotThatNearItDoesNotArrive) {
-  config_.stuck_ms = 60'000;
-  set_off();
-  drive_beside_destination(config_.near_m + 0.1);
-  EXPECT_NE(state_.drive, DriveState::kArrived);
-}
-
 TEST_F(StepTest, ARangeSensorThatFallsSilentStops) {
   set_off();
   sweeps_ = false;
@@ -362,17 +345,6 @@ TEST_F(StepTest, TheRangeSensorHasTheLastWord) {
   for (int k = 0; k < 5; ++k) EXPECT_LE(tick({permit("m1", 1, ++seq_)}).motion.speed_mps, 0.0);
   ASSERT_TRUE(state_.min_range_m);
   EXPECT_NEAR(*state_.min_range_m, 0.4, 1e-6);
-}
-
-TEST_F(StepTest, AWayThatStaysBlockedFailsTheMission) {
-  config_.stuck_ms = 2000;
-  set_off();
-  ranges_m_.assign(90, 0.4F);
-  const Milliseconds after_ms = until_stopped(true, 10'000);
-  EXPECT_GT(after_ms, 0);
-  EXPECT_LE(after_ms, 2 * config_.stuck_ms);  // the nearest view may count as passed in the meantime
-  EXPECT_EQ(state_.reason, "The way is blocked.");
-  expect_stays();
 }
 
 TEST_F(StepTest, IsTheSameForTheSameInputs) {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "core/pose2.hpp"
+
+namespace homeward::agent {
+
+/// Making room for somebody who stands in the way and cannot get past either: back along the way that the robot came,
+/// a moment's wait, and on again. Of a thing that stays the robot so backs off twice, and then waits before it.
+struct GiveWay {
+  enum class Phase : std::uint8_t { kOnTheWay, kBacking, kWaiting };
+
+  std::deque<Eigen::Vector2d> trail_m;  // where it came along, odometry's frame, oldest first
+  Phase phase = Phase::kOnTheWay;
+  std::int64_t phase_since_ms = 0;
+  std::optional<Pose2> still_at;  // where it has been since `still_since_ms`
+  std::int64_t still_since_ms = 0;
+  Eigen::Vector2d back_to_m = Eigen::Vector2d::Zero();     // odometry's frame
+  Eigen::Vector2d blocked_at_m = Eigen::Vector2d::Zero();  // where it last backed off,
+  int times = 0;                                           // so many times from about there
+};
+
+/// Notes where the robot is: at every step, whoever drives it.
+void remember_trail(GiveWay& state, const Pose2& odometry);
+
+/// Where to back off to, robot frame; zero: it waits where it is; nothing: it drives on. To be asked at every step at
+/// which the robot knows where to and wants to go there; `forget_standing` at the others.
+std::optional<Eigen::Vector2d> give_way(GiveWay& state, const Pose2& odometry, std::int64_t now_ms);
+
+/// The robot has a reason of its own to stand still.
+void forget_standing(GiveWay& state);
+
+}  // namespace homeward::agent

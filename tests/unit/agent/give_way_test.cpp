@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/driving/give_way.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/angles.hpp"
+
+namespace homeward::agent {
+namespace {
+
+/// A robot on a straight way along x that drives wherever it is told to, without things to heed.
+class GiveWayTest : public ::testing::Test {
+ protected:
+  static constexpr std::int64_t kTick_ms = 100;
+
+  void drive_to(double x_m) {
+    for (; pose_.x_m < x_m; pose_.x_m += 0.03) tick();
+  }
+  /// One tick later; true when it is free to go on.
+  bool tick() {
+    now_ms_ += kTick_ms;
+    remember_trail(state_, pose_);
+    const auto told_m = give_way(state_, pose_, now_ms_);
+    if (!told_m) return true;
+    const double step_m = std::min(0.03, told_m->norm());
+    if (step_m > 0.0) {
+      const Pose2 moved =
+          pose_ * Pose2{step_m * told_m->x() / told_m->norm(), step_m * told_m->y() / told_m->norm(), 0};
+      pose_.x_m = moved.x_m;
+      pose_.y_m = moved.y_m;
+    }
+    return false;
+  }
+  /// Stands, blocked, until it backs off or `at_most_ms` are over; milliseconds that took, or -1.
+  std::int64_t until_it_backs_off(std::int64_t at_most_ms = 20'000) {
+    for (const std::int64_t from_ms = now_ms_; now_ms_ - from_ms < at_most_ms;) {
+      if (!tick()) return now_ms_ - from_ms;
+    }
+    return -1;
+  }
+  /// Lets it back off and wait; milliseconds that took.
+  std::int64_t until_it_goes_on() {
+    const std::int64_t from_ms = now_ms_;
+    while (!tick() && now_ms_ - from_ms < 60'000) {
+    }
+    return now_ms_ - from_ms;
+  }
+
+  GiveWay state_;
+  Pose2 pose_;
+  std::int64_t now_ms_ = 1'000'000;
+};
+
+TEST_F(GiveWayTest, WhoGetsOnBacksOffNever) {
+  for (; pose_.x_m < 5.0; pose_.x_m += 0.005) ASSERT_TRUE(tick());
+}
+
+TEST_F(GiveWayTest, WhoTurnsInPlaceBacksOffNever) {
+  drive_to(2.0);
+  for (int k = 0; k < 200; ++k) {
+    pose_.theta_rad = wrap_angle(pose_.theta_rad + 0.02);
+    ASSERT_TRUE(tick());
+  }
+}
+
+TEST_F(GiveWayTest, BacksOffAlongTheWayItCameWaitsAndGoesOn) {
+  drive_to(3.0);
+  pose_.theta_rad = 1.0;  // whichever way it looks
+  EXPECT_NEAR(static_cast<double>(until_it_backs_off()), 5000.0, 300.0);
+  EXPECT_LT(until_it_goes_on(), 12'000);
+  EXPECT_NEAR(pose_.x_m, 1.8, 0.3);
+  EXPECT_NEAR(pose_.y_m, 0.0, 0.01);
+}
+
+TEST_F(GiveWayTest, KeepsToTheCornersOfTheWayItCame) {
+  drive_to(2.0);
+  for (; pose_.y_m < 0.6; pose_.y_m += 0.03) tick();
+  ASSERT_GT(until_it_backs_off(), 0);
+  EXPECT_NEAR(state_.back_to_m.x(), 1.4, 0.15);
+  EXPECT_NEAR(state_.back_to_m.y(), 0.0, 1e-9);
+}
+
+TEST_F(GiveWayTest, BacksOffTwiceFromOneThingAndThenStays) {
+  drive_to(3.0);
+  for (int time = 0; time < 2; ++time) {
+    ASSERT_GT(until_it_backs_off(), 0);
+    until_it_goes_on();
+    drive_to(3.0);
+  }
+  EXPECT_EQ(until_it_backs_off(60'000), -1);
+  forget_standing(state_);  // another mission from the same spot: the thing is the same
+  EXPECT_EQ(until_it_backs_off(60'000), -1);
+}
+
+TEST_F(GiveWayTest, BacksOffAgainFromAnotherThingFartherOn) {
+  drive_to(3.0);
+  for (int time = 0; time < 2; ++time) {
+    ASSERT_GT(until_it_backs_off(), 0);
+    until_it_goes_on();
+    drive_to(3.0);
+  }
+  drive_to(6.0);
+  EXPECT_GT(until_it_backs_off(), 0);
+}
+
+TEST_F(GiveWayTest, WhereItHasNotComeFromAnywhereItStays) {
+  EXPECT_EQ(until_it_backs_off(60'000), -1);
+  drive_to(0.3);
+  EXPECT_EQ(until_it_backs_off(60'000), -1);
+}
+
+TEST_F(GiveWayTest, WhatIsBehindItEndsTheBackingOffInTime) {
+  drive_to(3.0);
+  ASSERT_GT(until_it_backs_off(), 0);
+  const Pose2 blocked = pose_;
+  const std::int64_t from_ms = now_ms_;
+  do {
+    pose_ = blocked;
+  } while (!tick() && now_ms_ - from_ms < 60'000);
+  EXPECT_LE(now_ms_ - from_ms, 11'000);
+}
+
+TEST_F(GiveWayTest, StandingForAReasonOfItsOwnIsNotBeingBlocked) {
+  drive_to(3.0);
+  for (int k = 0; k < 300; ++k) {
+    ASSERT_TRUE(tick());
+    if (k % 40 == 0) forget_standing(state_);
+  }
+}
+
+}  // namespace
+}  // namespace homeward::agent

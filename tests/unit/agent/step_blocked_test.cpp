@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "agent/driving/step.hpp"
+#include "unit/agent/step_fixture.hpp"
+
+namespace homeward::agent {
+namespace {
+
+using wire::DriveState;
+
+TEST_F(StepTest, BesideADestinationThatMayNotBeDrivenIntoItArrivesAfterAWhile) {
+  set_off();
+  // Right beside the destination, measured, and no nearer to be had: something stands on it.
+  const Milliseconds from_ms = drive_beside_destination(0.1);
+  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+  EXPECT_GT(now_ms_ - from_ms, config_.near_ms);
+  EXPECT_LE(now_ms_ - from_ms, config_.near_ms + 2 * kTick_ms);
+  expect_stays();
+}
+
+TEST_F(StepTest, BesideADestinationButNotThatNearItDoesNotArrive) {
+  config_.stuck_ms = 60'000;
+  set_off();
+  drive_beside_destination(config_.near_m + 0.1);
+  EXPECT_NE(state_.drive, DriveState::kArrived);
+}
+
+TEST_F(StepTest, BesideADestinationItArrivesThoughSomebodyCoversTheCameraNowAndThen) {
+  set_off();
+  covered_now_and_then_ = true;
+  const Milliseconds from_ms = drive_beside_destination(config_.near_m - 0.02);
+  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+  EXPECT_GE(now_ms_ - from_ms, config_.near_ms);
+}
+
+TEST_F(StepTest, BesideADestinationItArrivesHoweverLongItHasBeenHeldUpBefore) {
+  config_.stuck_ms = config_.near_ms / 4;
+  set_off();
+  const Milliseconds from_ms = drive_beside_destination(0.1);
+  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+  EXPECT_GT(now_ms_ - from_ms, config_.near_ms);
+}
+
+TEST_F(StepTest, WhoStandsInTheWayIsMadeRoomForAndTheWayGoesOnOnceItIsFree) {
+  constexpr double kWall_m = 1.7;
+  set_off();
+  double farthest_m = 0.0;
+  double nearest_m = 1e9;
+  for (int k = 0; k < 400; ++k) {
+    see_wall_across(kWall_m);
+    tick({permit("m1", 1, ++seq_)});
+    ASSERT_EQ(state_.drive, DriveState::kDriving) << state_.reason;
+    farthest_m = std::max(farthest_m, pose_.x_m);
+    if (pose_.x_m > farthest_m - 0.5) continue;
+    nearest_m = pose_.x_m;
+    break;
+  }
+  EXPECT_LT(farthest_m, kWall_m - config_.body.outline.radius_m);
+  EXPECT_LT(nearest_m, farthest_m - 0.4);
+  ranges_m_.assign(ranges_m_.size(), 5.0F);
+  for (int k = 0; k < 900 && state_.drive == DriveState::kDriving; ++k) tick({permit("m1", 1, ++seq_)});
+  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+}
+
+TEST_F(StepTest, TheLastDecimetreLeavesRoomBetweenTheRobotAndAWallBehindTheDestination) {
+  constexpr double kRoomThere_m = 0.03;
+  const double wall_x_m = views().back().x_m + config_.body.outline.radius_m + kRoomThere_m;
+  set_off();
+  for (int k = 0; k < 600 && state_.drive == DriveState::kDriving; ++k) {
+    see_wall_across(wall_x_m);
+    tick({permit("m1", 1, ++seq_)});
+  }
+  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+  EXPECT_GE(wall_x_m - pose_.x_m - config_.body.outline.radius_m, 0.08);
+  EXPECT_LE(views().back().x_m - pose_.x_m, config_.near_m);
+}
+
+TEST_F(StepTest, AWayThatStaysBlockedFailsTheMission) {
+  config_.stuck_ms = 2000;
+  set_off();
+  ranges_m_.assign(90, 0.4F);
+  const Milliseconds after_ms = until_stopped(true, 10'000);
+  EXPECT_GT(after_ms, 0);
+  EXPECT_LE(after_ms, 2 * config_.stuck_ms);  // the nearest view may count as passed in the meantime
+  EXPECT_EQ(state_.reason, "The way is blocked.");
+  expect_stays();
+}
+
+}  // namespace
+}  // namespace homeward::agent
