@@ -25,6 +25,7 @@ struct Options {
   std::string target;
   std::string pairs;
   std::string method = "epipolar";
+  bool uncertain = false;
   std::uint64_t seed = 1;
 };
 
@@ -59,6 +60,7 @@ Status answer(Gallery& gallery, const std::string& current, const std::string& t
   if (!there) return pass_on(there);
   const auto begin = std::chrono::steady_clock::now();
   const auto vector = options.method == "scale-space" ? homing::scale_space_vector(**here, **there, {})
+                      : options.uncertain             ? homing::uncertain_home_vector(**here, **there, options.seed)
                                                       : homing::home_vector(**here, **there, {}, options.seed);
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   nlohmann::json line = {{"current", current},  {"target", target},    {"bearing_rad", nullptr},
@@ -82,6 +84,9 @@ Status home(const Options& options) {
   if (options.method != "epipolar" && options.method != "scale-space") {
     return fail(ErrorCode::kInvalidInput,
                 "The method '" + options.method + "' is not known; there are epipolar and scale-space.", "--method");
+  }
+  if (options.uncertain && options.method != "epipolar") {
+    return fail(ErrorCode::kInvalidInput, "Only the epipolar method knows what may be chance.", "--uncertain");
   }
   const bool one_pair = !options.current.empty() && !options.target.empty();
   if (one_pair == !options.pairs.empty()) {
@@ -120,6 +125,8 @@ void register_home(CLI::App& program) {
   command->add_option("--target", options->target, "Picture taken there");
   command->add_option("--pairs", options->pairs, "Table (CSV) with columns current and target; paths relative to it");
   command->add_option("--method", options->method, "epipolar or scale-space")->capture_default_str();
+  command->add_flag("--uncertain", options->uncertain,
+                    "Also answer where what was found may be chance, with a confidence of 0.02 (epipolar)");
   command->add_option("--seed", options->seed, "Seed of everything random");
   run_on(*command, [options] { return home(*options); });
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "agent/files/read_file.hpp"
 #include "agent/scenario/scenario_run.hpp"
@@ -21,6 +22,7 @@ struct Options {
   std::string trace;
   std::string record;
   std::int64_t record_limit_mb = 512;
+  std::vector<int> only;
 };
 
 nlohmann::json to_json(const agent::MissionResult& result) {
@@ -107,7 +109,7 @@ Status run(const Options& options) {
     record->folder_limit_bytes = std::numeric_limits<std::int64_t>::max();
   }
   return agent::run_scenario(*scenario, std::filesystem::path(options.scenario).parent_path().string(), listener,
-                             record);
+                             record, {options.only.begin(), options.only.end()});
 }
 
 }  // namespace
@@ -126,6 +128,10 @@ void register_simulate_run(CLI::App& simulate) {
                    "Size of one recording; full, it goes on without pictures")
       ->check(CLI::Range(1, 1 << 20))
       ->capture_default_str();
+  command
+      ->add_option("--only", options->only,
+                   "Drive only these of the missions, by their numbers from 1; each as among all")
+      ->expected(1, 1 << 20);
   run_on(*command, [options] { return run(*options); });
 }
 

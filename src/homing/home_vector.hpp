@@ -36,4 +36,10 @@ HomeVector vector_of(const matching::VerifiedMatch& verified);
 Result<HomeVector> home_vector(const features::Appearance& current, const features::Appearance& target,
                                const HomingConfig& config, std::uint64_t seed);
 
+/// The same for a robot that would rather follow a hint than stand: where home_vector has no answer, the motion that at
+/// least three matches agree on, which may be chance and of another place. Its confidence is 0.02 then.
+/// Errors: kTooFewFeatures, kTooLittleSupport.
+Result<HomeVector> uncertain_home_vector(const features::Appearance& current, const features::Appearance& target,
+                                         std::uint64_t seed);
+
 }  // namespace homeward::homing

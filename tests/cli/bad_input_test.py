@@ -298,6 +298,11 @@ class BadPictures(CliTest):
         self.tour()
         self.assert_refused(2, ["--target"], "home", "--camera", "tour/camera.json", "--current", "tour/00001.jpg")
 
+    def test_hints_of_a_method_that_has_none(self):
+        self.tour()
+        self.assert_refused(2, ["--uncertain", "epipolar"], "home", "--camera", "tour/camera.json", "--current",
+                            "tour/00001.jpg", "--target", "tour/00002.jpg", "--method", "scale-space", "--uncertain")
+
     def test_table_without_its_columns(self):
         self.tour()
         (self.folder / "pairs.csv").write_text("from,to\n00001.jpg,00002.jpg\n")
@@ -337,6 +342,15 @@ class WrongUse(CliTest):
         (self.folder / "scenario.json").write_text('{"format": "homeward-scenario", "version": 1, "wrold": "house:1"}')
         self.assert_refused(2, ["scenario.json"], "simulate", "run", "--scenario", "scenario.json", "--json")
         self.assert_refused(3, ["none.json"], "simulate", "run", "--scenario", "none.json", "--json")
+
+    def test_mission_that_a_scenario_does_not_have(self):
+        (self.folder / "scenario.json").write_text(
+            '{"format": "homeward-scenario", "version": 1, "world": "house:1", "seed": 1, '
+            '"camera": {"model": "hyperbolic_mirror"}, "tour": {"rooms": ["hall", "kitchen"], "light": "day"}, '
+            '"missions": [{"from": "hall", "to": "kitchen"}, {"random": 2}]}')
+        for wrong in ("0", "4"):
+            self.assert_refused(2, ["no mission " + wrong, "has 3"], "simulate", "run", "--scenario", "scenario.json",
+                                "--only", "2", wrong)
 
 
 if __name__ == "__main__":

@@ -182,6 +182,12 @@ class HappyPath(CliTest):
         self.assertEqual(len(one), 1)
         self.assertAlmostEqual(one[0]["bearing_rad"], answers[0]["bearing_rad"])
         self.assertIsNone(one[0]["nearness"])
+        for sure, hint in zip(answers, self.lines_of("home", "--camera", camera, "--pairs", "pairs.csv", "--uncertain")):
+            self.assertIsNotNone(hint["bearing_rad"])
+            if sure["bearing_rad"] is None:
+                self.assertLessEqual(hint["confidence"], 0.02)
+            else:
+                self.assertEqual(hint["bearing_rad"], sure["bearing_rad"])
 
     def test_compares_pictures_by_every_measure(self):
         self.tour()

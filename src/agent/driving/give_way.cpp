@@ -3,53 +3,43 @@
 
 #include <cmath>
 
-#include "core/angles.hpp"
-
 namespace homeward::agent {
 namespace {
 
 constexpr double kSpacing_m = 0.1;  // of the trail
-constexpr std::size_t kLongest = 40;
-constexpr double kGotOn_m = 0.12;  // since it last got on
-constexpr double kTurned_rad = 0.5;
-constexpr std::int64_t kPatience_ms = 5000;  // stands so long before it backs off
+constexpr std::size_t kLongest = 100;
+constexpr double kGotOn_m = 0.3;  // with less it has not got on, however it turned there
 constexpr double kBack_m = 1.2;
 constexpr double kLeastBack_m = 0.5;  // with less of a trail it stays
 constexpr double kThere_m = 0.15;
 constexpr std::int64_t kBacking_ms = 8000;  // at most
 constexpr std::int64_t kWaiting_ms = 2500;
-constexpr int kTimes = 2;
+constexpr int kTimes = 3;
 constexpr double kElsewhere_m = 2.0;  // from where it backed off: it has got past
 
 Eigen::Vector2d position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
 
-/// The point of the trail so far back along it, or its beginning; nothing where that is too near.
+/// The newest point of the trail that is so far off, else the farthest; nothing where that is too near. By distance,
+/// not along the trail: that leads to and fro where the robot has backed off before.
 std::optional<Eigen::Vector2d> point_behind(const std::deque<Eigen::Vector2d>& trail_m, const Eigen::Vector2d& here_m) {
-  double length_m = 0.0;
-  Eigen::Vector2d last_m = here_m;
-  for (auto point = trail_m.rbegin(); point != trail_m.rend(); ++point) {
-    length_m += (*point - last_m).norm();
-    last_m = *point;
-    if (length_m >= kBack_m) break;
+  Eigen::Vector2d behind_m = here_m;
+  for (auto point = trail_m.rbegin(); point != trail_m.rend() && (behind_m - here_m).norm() < kBack_m; ++point) {
+    if ((*point - here_m).norm() > (behind_m - here_m).norm()) behind_m = *point;
   }
-  if ((last_m - here_m).norm() < kLeastBack_m) return std::nullopt;
-  return last_m;
+  if ((behind_m - here_m).norm() < kLeastBack_m) return std::nullopt;
+  return behind_m;
 }
 
 void enter(GiveWay& state, GiveWay::Phase phase, std::int64_t now_ms) {
   state.phase = phase;
   state.phase_since_ms = now_ms;
-  state.still_at.reset();
+  state.still_at_m.reset();
 }
 
-bool has_stood(GiveWay& state, const Pose2& odometry, std::int64_t now_ms) {
-  if (state.still_at) {
-    const Pose2 moved = inverse(*state.still_at) * odometry;
-    const bool got_on =
-        std::hypot(moved.x_m, moved.y_m) > kGotOn_m || std::abs(wrap_angle(moved.theta_rad)) > kTurned_rad;
-    if (!got_on) return now_ms - state.still_since_ms >= kPatience_ms;
-  }
-  state.still_at = odometry;
+bool has_stood(GiveWay& state, const Eigen::Vector2d& here_m, std::int64_t now_ms, std::int64_t patience_ms) {
+  if (state.still_at_m && (*state.still_at_m - here_m).norm() <= kGotOn_m)
+    return now_ms - state.still_since_ms >= patience_ms;
+  state.still_at_m = here_m;
   state.still_since_ms = now_ms;
   return false;
 }
@@ -63,11 +53,12 @@ void remember_trail(GiveWay& state, const Pose2& odometry) {
   if (state.trail_m.size() > kLongest) state.trail_m.pop_front();
 }
 
-std::optional<Eigen::Vector2d> give_way(GiveWay& state, const Pose2& odometry, std::int64_t now_ms) {
+std::optional<Eigen::Vector2d> give_way(GiveWay& state, const Pose2& odometry, std::int64_t now_ms,
+                                        std::int64_t patience_ms) {
   const Eigen::Vector2d here_m = position(odometry);
   if (state.phase == GiveWay::Phase::kOnTheWay) {
     if ((here_m - state.blocked_at_m).norm() > kElsewhere_m) state.times = 0;
-    if (!has_stood(state, odometry, now_ms) || state.times >= kTimes) return std::nullopt;
+    if (!has_stood(state, here_m, now_ms, patience_ms) || state.times >= kTimes) return std::nullopt;
     const auto behind_m = point_behind(state.trail_m, here_m);
     if (!behind_m) return std::nullopt;
     if (state.times == 0) state.blocked_at_m = here_m;
@@ -89,7 +80,7 @@ std::optional<Eigen::Vector2d> give_way(GiveWay& state, const Pose2& odometry, s
 }
 
 void forget_standing(GiveWay& state) {
-  state.still_at.reset();
+  state.still_at_m.reset();
   state.phase = GiveWay::Phase::kOnTheWay;
 }
 

@@ -11,14 +11,14 @@
 namespace homeward::agent {
 
 /// Making room for somebody who stands in the way and cannot get past either: back along the way that the robot came,
-/// a moment's wait, and on again. Of a thing that stays the robot so backs off twice, and then waits before it.
+/// a moment's wait, and on again. From a thing that stays the robot so backs off three times, and then waits before it.
 struct GiveWay {
   enum class Phase : std::uint8_t { kOnTheWay, kBacking, kWaiting };
 
   std::deque<Eigen::Vector2d> trail_m;  // where it came along, odometry's frame, oldest first
   Phase phase = Phase::kOnTheWay;
   std::int64_t phase_since_ms = 0;
-  std::optional<Pose2> still_at;  // where it has been since `still_since_ms`
+  std::optional<Eigen::Vector2d> still_at_m;  // about where it has been since `still_since_ms`; odometry's frame
   std::int64_t still_since_ms = 0;
   Eigen::Vector2d back_to_m = Eigen::Vector2d::Zero();     // odometry's frame
   Eigen::Vector2d blocked_at_m = Eigen::Vector2d::Zero();  // where it last backed off,
@@ -29,8 +29,10 @@ struct GiveWay {
 void remember_trail(GiveWay& state, const Pose2& odometry);
 
 /// Where to back off to, robot frame; zero: it waits where it is; nothing: it drives on. To be asked at every step at
-/// which the robot knows where to and wants to go there; `forget_standing` at the others.
-std::optional<Eigen::Vector2d> give_way(GiveWay& state, const Pose2& odometry, std::int64_t now_ms);
+/// which the robot knows where to and wants to go there; `forget_standing` at the others. `patience_ms`: so long it may
+/// try to get on before it backs off.
+std::optional<Eigen::Vector2d> give_way(GiveWay& state, const Pose2& odometry, std::int64_t now_ms,
+                                        std::int64_t patience_ms);
 
 /// The robot has a reason of its own to stand still.
 void forget_standing(GiveWay& state);

@@ -123,9 +123,11 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     forget_standing(state.give_way);
     return {};
   }
+  // A long body may well turn to and fro for a while where it gets through in the end.
+  const Milliseconds patience_ms = is_round(config.body.outline) ? 6000 : 12'000;
   if (state.near_since_ms) {
     forget_standing(state.give_way);
-  } else if (const auto back_m = give_way(state.give_way, inputs.odometry, now_ms)) {
+  } else if (const auto back_m = give_way(state.give_way, inputs.odometry, now_ms, patience_ms)) {
     if (back_m->isZero()) return {};
     return steer_round(state.plan, config.body, points_m, *back_m, inputs.odometry, kBack_mps, config.turn_gain);
   }

@@ -11,6 +11,12 @@
 namespace homeward::agent {
 namespace {
 
+int count_missions(const wire::ScenarioFile& scenario) {
+  int count = 0;
+  for (const wire::ScenarioMission& mission : scenario.missions) count += std::max(1, mission.random);
+  return count;
+}
+
 /// The missions of a scenario, those at random drawn from the destinations.
 std::vector<MissionPlan> expanded(const wire::ScenarioFile& scenario, const TaughtWorld& taught) {
   std::vector<std::string> rooms;
@@ -39,7 +45,7 @@ std::vector<MissionPlan> expanded(const wire::ScenarioFile& scenario, const Taug
 }  // namespace
 
 Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder, const ScenarioListener& listener,
-                    const std::optional<RecordingOptions>& record) {
+                    const std::optional<RecordingOptions>& record, const std::set<int>& only) {
   const auto told = [&](const std::string& what) {
     if (listener.told) listener.told(what);
   };
@@ -50,6 +56,13 @@ Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folde
                 "Furniture can be moved in generated worlds alone: a mesh does not say which of its triangles are a "
                 "piece of furniture.",
                 "missions/moved_furniture");
+  }
+  const int missions = count_missions(scenario);
+  if (!only.empty() && (*only.begin() < 1 || *only.rbegin() > missions)) {
+    return fail(ErrorCode::kInvalidInput,
+                "There is no mission " + std::to_string(*only.begin() < 1 ? *only.begin() : *only.rbegin()) +
+                    "; the scenario has " + std::to_string(missions) + ".",
+                "missions");
   }
   told("teaching " + scenario.world);
   auto taught = teach(scenario, folder);
@@ -63,11 +76,13 @@ Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folde
   if (scenario.ranges == "ultrasound") profile.ranges = sim::RangeSensor::kUltrasound;
   int number = 0;
   for (const MissionPlan& plan : expanded(scenario, *taught)) {
+    ++number;
+    if (!only.empty() && !only.contains(number)) continue;
     told("from " + plan.from + " to " + plan.to);
     std::optional<RecordingOptions> record_one = record;
     if (record_one) {
       char count[16];
-      std::snprintf(count, sizeof count, "%03d-", ++number);
+      std::snprintf(count, sizeof count, "%03d-", number);
       record_one->name = count + plan.from + "-to-" + plan.to;
       record_one->wait_for_disk = true;
     }

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -69,8 +70,9 @@ struct ScenarioListener {
 /// as fast as the machine allows. Same scenario, same results. Errors: those of load_world, plan_tour and build_map;
 /// kInvalidInput for a destination that the tour does not visit, for furniture to move in a world from a file, and
 /// where the robot does not fit at a room's point. `record`: keeps a recording of each mission, named by number, start
-/// and destination. Errors: also those of Recorder.
+/// and destination. Errors: also those of Recorder. `only`: numbers of the missions to drive, from 1; each goes as it
+/// goes among all. Empty: all. Errors: kInvalidInput for a number that the scenario has no mission of.
 Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder, const ScenarioListener& listener,
-                    const std::optional<RecordingOptions>& record = std::nullopt);
+                    const std::optional<RecordingOptions>& record = std::nullopt, const std::set<int>& only = {});
 
 }  // namespace homeward::agent

@@ -103,8 +103,9 @@ def main():
         result["return_ratio_of_exact_vectors"] = round(
             statistics.mean(returns(poses, exact, goal, asked.step_m) for goal in names), 4)
         answered = {}
-        for method in ("epipolar", "scale-space", "compass"):
-            command, more = ("compass", ()) if method == "compass" else ("home", ("--method", method))
+        methods = {"epipolar": ("home",), "epipolar --uncertain": ("home", "--uncertain"),
+                   "scale-space": ("home", "--method", "scale-space"), "compass": ("compass",)}
+        for method, (command, *more) in methods.items():
             turns, vectors, ms, errors = [], {}, [], {}
             for answer in ask(asked.homeward, command, folder, pairs, more):
                 pair = answer["current"], answer["target"]

@@ -5,8 +5,6 @@
 
 #include <cmath>
 
-#include "core/angles.hpp"
-
 namespace homeward::agent {
 namespace {
 
@@ -14,6 +12,7 @@ namespace {
 class GiveWayTest : public ::testing::Test {
  protected:
   static constexpr std::int64_t kTick_ms = 100;
+  static constexpr std::int64_t kPatience_ms = 5000;
 
   void drive_to(double x_m) {
     for (; pose_.x_m < x_m; pose_.x_m += 0.03) tick();
@@ -22,7 +21,7 @@ class GiveWayTest : public ::testing::Test {
   bool tick() {
     now_ms_ += kTick_ms;
     remember_trail(state_, pose_);
-    const auto told_m = give_way(state_, pose_, now_ms_);
+    const auto told_m = give_way(state_, pose_, now_ms_, kPatience_ms);
     if (!told_m) return true;
     const double step_m = std::min(0.03, told_m->norm());
     if (step_m > 0.0) {
@@ -54,21 +53,24 @@ class GiveWayTest : public ::testing::Test {
 };
 
 TEST_F(GiveWayTest, WhoGetsOnBacksOffNever) {
-  for (; pose_.x_m < 5.0; pose_.x_m += 0.005) ASSERT_TRUE(tick());
+  for (; pose_.x_m < 5.0; pose_.x_m += 0.008) ASSERT_TRUE(tick());
 }
 
-TEST_F(GiveWayTest, WhoTurnsInPlaceBacksOffNever) {
+TEST_F(GiveWayTest, WhoOnlyTurnsToAndFroBacksOffToo) {
   drive_to(2.0);
-  for (int k = 0; k < 200; ++k) {
-    pose_.theta_rad = wrap_angle(pose_.theta_rad + 0.02);
-    ASSERT_TRUE(tick());
+  bool backed_off = false;
+  for (int k = 0; k < 100 && !backed_off; ++k) {
+    pose_.theta_rad = std::sin(0.3 * k);
+    pose_.x_m = 2.0 + 0.1 * std::sin(0.1 * k);
+    backed_off = !tick();
   }
+  EXPECT_TRUE(backed_off);
 }
 
 TEST_F(GiveWayTest, BacksOffAlongTheWayItCameWaitsAndGoesOn) {
   drive_to(3.0);
   pose_.theta_rad = 1.0;  // whichever way it looks
-  EXPECT_NEAR(static_cast<double>(until_it_backs_off()), 5000.0, 300.0);
+  EXPECT_NEAR(static_cast<double>(until_it_backs_off()), 5000.0, 1200.0);
   EXPECT_LT(until_it_goes_on(), 12'000);
   EXPECT_NEAR(pose_.x_m, 1.8, 0.3);
   EXPECT_NEAR(pose_.y_m, 0.0, 0.01);
@@ -78,13 +80,13 @@ TEST_F(GiveWayTest, KeepsToTheCornersOfTheWayItCame) {
   drive_to(2.0);
   for (; pose_.y_m < 0.6; pose_.y_m += 0.03) tick();
   ASSERT_GT(until_it_backs_off(), 0);
-  EXPECT_NEAR(state_.back_to_m.x(), 1.4, 0.15);
+  EXPECT_NEAR(state_.back_to_m.x(), 1.0, 0.15);
   EXPECT_NEAR(state_.back_to_m.y(), 0.0, 1e-9);
 }
 
-TEST_F(GiveWayTest, BacksOffTwiceFromOneThingAndThenStays) {
+TEST_F(GiveWayTest, BacksOffThreeTimesFromOneThingAndThenStays) {
   drive_to(3.0);
-  for (int time = 0; time < 2; ++time) {
+  for (int time = 0; time < 3; ++time) {
     ASSERT_GT(until_it_backs_off(), 0);
     until_it_goes_on();
     drive_to(3.0);
@@ -96,7 +98,7 @@ TEST_F(GiveWayTest, BacksOffTwiceFromOneThingAndThenStays) {
 
 TEST_F(GiveWayTest, BacksOffAgainFromAnotherThingFartherOn) {
   drive_to(3.0);
-  for (int time = 0; time < 2; ++time) {
+  for (int time = 0; time < 3; ++time) {
     ASSERT_GT(until_it_backs_off(), 0);
     until_it_goes_on();
     drive_to(3.0);

@@ -86,5 +86,22 @@ TEST(HomeVector, AsksForAsManyInliersAsConfigured) {
   EXPECT_FALSE(home_vector(here, there, config, 1));
 }
 
+TEST(HomeVector, AnUncertainOneIsTheSameWhereOneIsSureAndAHintOfLittleConfidenceWhereNoneIs) {
+  const features::Appearance here = seen_from({0.0, 0.0, 0.0});
+  const features::Appearance there = seen_from({0.8, 0.3, 0.4});
+  const auto sure = home_vector(here, there, {}, 1);
+  const auto asked = uncertain_home_vector(here, there, 1);
+  ASSERT_TRUE(sure && asked);
+  EXPECT_EQ(asked->bearing_rad, sure->bearing_rad);
+  EXPECT_EQ(asked->confidence, sure->confidence);
+  homeward::testing::PaintedRoom elsewhere;
+  elsewhere.seed = 9;
+  const auto foreign =
+      uncertain_home_vector(here, features::extract(homeward::testing::painted_panorama(elsewhere, {}), {}), 1);
+  ASSERT_TRUE(foreign) << foreign.error().message;
+  EXPECT_LE(foreign->confidence, 0.02);
+  EXPECT_FALSE(uncertain_home_vector(here, {}, 1));
+}
+
 }  // namespace
 }  // namespace homeward::homing
