@@ -102,7 +102,6 @@ def main():
         # What furniture in the way leaves to any method that only follows its vectors.
         result["return_ratio_of_exact_vectors"] = round(
             statistics.mean(returns(poses, exact, goal, asked.step_m) for goal in names), 4)
-        answered = {}
         methods = {"epipolar": ("home",), "epipolar --uncertain": ("home", "--uncertain"),
                    "scale-space": ("home", "--method", "scale-space"), "compass": ("compass",)}
         for method, (command, *more) in methods.items():
@@ -134,14 +133,7 @@ def main():
                 told["return_ratio"] = round(
                     statistics.mean(returns(poses, vectors, goal, asked.step_m) for goal in names), 4)
                 told["by_distance"] = by_distance(poses, errors)
-                answered[method] = vectors
             result[method] = told
-        # What no epipolar answer is given for, scale space answers.
-        both = answered["scale-space"] | answered["epipolar"]
-        errors = [abs(wrap(both[pair] - exact[pair])) if pair in both else math.pi / 2 for pair in pairs]
-        result["epipolar, else scale-space"] = {
-            "error_mean_deg": round(math.degrees(statistics.mean(errors)), 2),
-            "return_ratio": round(statistics.mean(returns(poses, both, goal, asked.step_m) for goal in names), 4)}
         print(json.dumps(result))
 
 
