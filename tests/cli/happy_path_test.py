@@ -189,6 +189,27 @@ class HappyPath(CliTest):
             else:
                 self.assertEqual(hint["bearing_rad"], sure["bearing_rad"])
 
+    def test_a_grid_of_pictures_of_one_part_each_with_a_heading_of_its_own(self):
+        middle = self.poses()[sorted(self.poses())[0]]
+        within = [middle[0] - 0.6, middle[1] - 0.6, middle[0] + 0.6, middle[1] + 0.6]
+        grid = ("simulate", "grid", "--world", "offices:1", "--within", *within, "--step-m", 0.5)
+
+        def poses_of(folder):
+            with open(self.folder / folder / "poses.csv", newline="") as table:
+                return [[float(row[key]) for key in ("x_m", "y_m", "theta_rad")] for row in csv.DictReader(table)]
+
+        self.result_of(*grid, "--out", "even", "--theta-rad", 0.5)
+        self.result_of(*grid, "--out", "turned", "--turned", "--seed", 2)
+        self.result_of(*grid, "--out", "again", "--turned", "--seed", 2)
+        even, turned, again = (poses_of(folder) for folder in ("even", "turned", "again"))
+        self.assertGreaterEqual(len(even), 4)
+        for x, y, theta in even:
+            self.assertTrue(within[0] <= x <= within[2] and within[1] <= y <= within[3])
+            self.assertAlmostEqual(theta, 0.5, places=6)
+        self.assertEqual([pose[:2] for pose in even], [pose[:2] for pose in turned])
+        self.assertEqual(len({pose[2] for pose in turned}), len(turned))
+        self.assertEqual(turned, again)
+
     def test_compares_pictures_by_every_measure(self):
         self.tour()
         near, far = sorted((self.folder / "tour").glob("*.jpg"))[1], sorted((self.folder / "tour").glob("*.jpg"))[-1]
