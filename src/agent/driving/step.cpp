@@ -241,8 +241,12 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   if (state.drive != wire::DriveState::kDriving) return outputs;
   const Motion wanted = drive(state, inputs, config, points_m, sensors_ms);
   if (state.drive != wire::DriveState::kDriving) return outputs;
-  const Motion heard = slowed_by_silence(wanted, state, config, now_ms, sensors_ms);
-  outputs.motion = made_safe(heard, config.body, points_m);
+  Motion heard = slowed_by_silence(wanted, state, config, now_ms, sensors_ms);
+  // What no sensor looks at may be anything.
+  const bool forward_only = !looks_behind(state.scan->scan);
+  if (forward_only) heard.speed_mps = std::max(0.0, heard.speed_mps);
+  const Motion safe = made_safe(heard, config.body, points_m);
+  if (!forward_only || safe.speed_mps >= 0.0) outputs.motion = safe;
   return outputs;
 }
 

@@ -192,5 +192,41 @@ TEST(HitPoints, StartWhereTheScannerSits) {
   EXPECT_LT((points[1] - Eigen::Vector2d(-2.5, -0.25)).norm(), 1e-6);
 }
 
+Scan scan_of(double from_deg, double to_deg, double scanner_deg = 0.0) {
+  Scan scan;
+  scan.ranges_m.assign(181, 3.0F);
+  scan.angle_min_rad = radians(from_deg);
+  scan.angle_step_rad = radians((to_deg - from_deg) / 180.0);
+  scan.robot_from_scan.theta_rad = radians(scanner_deg);
+  return scan;
+}
+
+TEST(LooksBehind, WhoLooksAllAround) {
+  EXPECT_TRUE(looks_behind(scan_of(0.0, 360.0)));
+  EXPECT_TRUE(looks_behind(scan_of(-180.0, 180.0, 90.0)));
+  EXPECT_TRUE(looks_behind(scan_of(180.0, -180.0)));  // clockwise
+}
+
+TEST(LooksBehind, NotWhoLooksAhead) {
+  EXPECT_FALSE(looks_behind(scan_of(-90.0, 90.0)));
+  EXPECT_FALSE(looks_behind(scan_of(-135.0, 135.0)));
+  EXPECT_FALSE(looks_behind(scan_of(135.0, -135.0)));
+  EXPECT_FALSE(looks_behind(Scan()));
+}
+
+TEST(LooksBehind, WhoIsMountedBackwards) {
+  EXPECT_TRUE(looks_behind(scan_of(-90.0, 90.0, 180.0)));
+  EXPECT_TRUE(looks_behind(scan_of(-61.0, 61.0, 180.0)));
+  EXPECT_FALSE(looks_behind(scan_of(-58.0, 58.0, 180.0)));
+  EXPECT_FALSE(looks_behind(scan_of(-90.0, 90.0, 140.0)));
+}
+
+TEST(LooksBehind, NotByAHandfulOfRays) {
+  Scan scan;
+  scan.ranges_m.assign(8, 3.0F);
+  scan.angle_step_rad = 2.0 * kPi / 8.0;
+  EXPECT_FALSE(looks_behind(scan));
+}
+
 }  // namespace
 }  // namespace homeward::agent

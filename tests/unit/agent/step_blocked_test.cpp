@@ -87,5 +87,16 @@ TEST_F(StepTest, AWayThatStaysBlockedFailsTheMission) {
   expect_stays();
 }
 
+TEST_F(StepTest, DrivesBackToADestinationThatItHasRolledPast) {
+  set_off();
+  EXPECT_LT(slowest_past_destination(), -0.02);
+}
+
+TEST_F(StepTest, DrivesNeverBackwardsWhereTheRangeSensorDoesNotLookBehind) {
+  field_rad_ = kPi;
+  set_off();
+  EXPECT_EQ(slowest_past_destination(), 0.0);
+}
+
 }  // namespace
 }  // namespace homeward::agent

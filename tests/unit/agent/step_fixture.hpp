@@ -69,7 +69,8 @@ class StepTest : public ::testing::Test {
     if (sweeps_) {
       Scan scan;
       scan.ranges_m = ranges_m_;
-      scan.angle_step_rad = 2.0 * kPi / static_cast<double>(ranges_m_.size());
+      scan.angle_step_rad = field_rad_ / static_cast<double>(ranges_m_.size());
+      if (field_rad_ < 2.0 * kPi) scan.angle_min_rad = -0.5 * field_rad_;
       inputs.scan = SeenScan{now_ms_ - sweep_age_ms_, scan};
     }
     if (hand_)
@@ -124,6 +125,17 @@ class StepTest : public ::testing::Test {
     return from_ms;
   }
 
+  /// Drives almost there, rolls on 0.2 m past it and goes on for a while; its least speed, negative: backwards.
+  double slowest_past_destination() {
+    const double there_m = views().back().x_m;
+    for (int k = 0; k < 400 && there_m - pose_.x_m > 0.2; ++k) tick({permit("m1", 1, ++seq_)});
+    EXPECT_EQ(state_.drive, wire::DriveState::kDriving) << state_.reason;
+    pose_.x_m = there_m + 0.2;
+    double slowest_mps = 0.0;
+    for (int k = 0; k < 60; ++k) slowest_mps = std::min(slowest_mps, tick({permit("m1", 1, ++seq_)}).motion.speed_mps);
+    return slowest_mps;
+  }
+
   /// From the next tick on the sweep shows a wall across the way, at x in the frame of the views.
   void see_wall_across(double wall_x_m) {
     const double step_rad = 2.0 * kPi / static_cast<double>(ranges_m_.size());
@@ -162,6 +174,7 @@ class StepTest : public ::testing::Test {
   bool sweeps_ = true;
   bool covered_ = false;
   bool covered_now_and_then_ = false;
+  double field_rad_ = 2.0 * kPi;  // of the range sensor, about straight ahead
   std::vector<float> ranges_m_ = std::vector<float>(90, 5.0F);
 };
 
