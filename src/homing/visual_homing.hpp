@@ -32,6 +32,10 @@ struct DistancePrior {
   double spread = 0.5;  // of the logarithm
 };
 
+/// The share of two views' features that agree on where one lies from the other: 0.3 and more where they coincide, by
+/// night as well.
+double shared_share(const features::Appearance& current, const features::Appearance& target, int inliers);
+
 /// Where the target is, as the robot sees it now.
 struct TargetSeen {
   HomeVector vector;
@@ -47,6 +51,9 @@ struct TargetSeen {
 /// pictures and seeds given. Copies are independent.
 class VisualHoming {
  public:
+  /// With a smaller share of its features recognised, a target is not right here, whatever the geometry says.
+  static constexpr double kLeastShare = 0.05;
+
   VisualHoming() = default;
   explicit VisualHoming(const VisualHomingConfig& config) : config_(config), map_(config.map), tracks_(config.tracks) {}
 

@@ -83,6 +83,13 @@ bool take_in(FollowState& state, const Result<homing::TargetSeen>& answer, const
   return true;
 }
 
+/// Whether an answer says that the view is right here although hardly anything of it is recognised: things far off show
+/// no parallax, and a few of them agree with any place between here and there.
+bool is_hollow(const homing::TargetSeen& answer, double share) {
+  constexpr double kHere_m = 0.6;
+  return answer.target_m && answer.target_m->norm() < kHere_m && share < homing::VisualHoming::kLeastShare;
+}
+
 /// The robot is where odometry says now.
 void drive_on(FollowState& state, const VisualPath& path, const Pose2& odometry, const FollowConfig& config) {
   if (state.tracks.size() != path.views.size()) {
@@ -126,6 +133,7 @@ void pass_views(FollowState& state, const VisualPath& path, const Pose2& odometr
   state.behind = behind ? state.behind + 1 : 0;
   const bool coincides =
       result.vector->median_parallax_rad < config.homing.arrived_parallax_rad && state.alike > config.alike_share;
+  if (state.measured && state.alike < homing::VisualHoming::kLeastShare) return;
   result.at_end =
       state.measured ? distance_m < config.reached_m : coincides || (state.behind >= 2 && distance_m < config.nearby_m);
 }
@@ -170,9 +178,14 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
   const auto prior = distance_known(state.tracks[static_cast<std::size_t>(first)], position(odometry));
   const auto answer =
       homing_of(state, config).update(seen, path.views[static_cast<std::size_t>(first)], odometry, prior, frame, seed);
-  if (take_in(state, answer, odometry, config, result)) {
-    const int fewer = std::min(seen.size(), path.views[static_cast<std::size_t>(first)].size());
-    state.alike = static_cast<double>(result.vector->inliers) / std::max(1, fewer);
+  const double share =
+      answer ? homing::shared_share(seen, path.views[static_cast<std::size_t>(first)], answer->vector.inliers) : 0.0;
+  if (answer && is_hollow(*answer, share)) {
+    state.tracks[static_cast<std::size_t>(first)] = ViewTrack();
+    state.visual_index = -1;
+    state.measured = false;
+  } else if (take_in(state, answer, odometry, config, result)) {
+    state.alike = share;
     if (is_sure(*result.vector, config)) clearest = first;
     expect_onwards(state, path, first);
     if (first == last) state.heading_left_rad = result.vector->turn_rad;
