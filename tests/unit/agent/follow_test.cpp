@@ -169,6 +169,41 @@ TEST(Follow, UnclearAnswersLeaveViewsFurtherOnWhereTheMapSaysTheyAre) {
   EXPECT_LT((state.tracks[1].position_m() - Eigen::Vector2d(expected.x_m, expected.y_m)).norm(), 1e-9);
 }
 
+/// Features of both.
+features::Appearance together(const features::Appearance& a, const features::Appearance& b) {
+  features::Appearance both;
+  const auto under = [](const auto& first, const auto& second, auto& result) {
+    result.resize(first.rows() + second.rows(), first.cols());
+    result << first, second;
+  };
+  under(a.sift.bearings, b.sift.bearings, both.sift.bearings);
+  under(a.sift.scales_rad, b.sift.scales_rad, both.sift.scales_rad);
+  under(a.sift.descriptors, b.sift.descriptors, both.sift.descriptors);
+  under(a.sift.colours, b.sift.colours, both.sift.colours);
+  return both;
+}
+
+TEST(Follow, AFewThingsFarOffAreNoSignOfBeingThere) {
+  const std::vector<Pose2> ends = {{0.0, 0.0, 0.0}, {6.0, 0.0, 0.0}};
+  const Landmarks far = homeward::testing::landmarks_around(ends, 30, 7, 25.0, 60.0);
+  // Everything near looks otherwise from the other end.
+  const Landmarks near = homeward::testing::landmarks_around(ends, 800, 8);
+  const VisualPath path = {{together(seen_from(far, ends[1], 1), seen_from(near, ends[1], 2, 1.0))}, {std::nullopt}};
+  FollowState state;
+  int answered = 0;
+  for (std::uint64_t k = 0; k < 60; ++k) {
+    const Pose2 pose{0.05 * static_cast<double>(k), 0.0, 0.0};
+    const auto seen = together(seen_from(far, pose, 100 + k), seen_from(near, pose, 200 + k, 1.0));
+    const FollowResult followed = follow(state, path, seen, {}, pose, {}, k);
+    EXPECT_FALSE(followed.at_end) << k;
+    answered += followed.answered ? 1 : 0;
+    const auto goal_m = goal(state, pose, {});
+    if (!goal_m) continue;
+    EXPECT_GT(goal_m->norm(), 0.6) << k;
+  }
+  EXPECT_GT(answered, 0);
+}
+
 TEST(Follow, IsTheSameForTheSameSeed) {
   const Landmarks landmarks = corner();
   const VisualPath path = path_through(landmarks, true);
