@@ -57,6 +57,7 @@ homing::VisualHoming& homing_of(FollowState& state, const FollowConfig& config) 
     visual.begin_confidence = config.believe;
     state.visual = homing::VisualHoming(visual);
     state.visual_index = state.index;
+    state.most_alike = 0.0;
   }
   return state.visual;
 }
@@ -84,10 +85,10 @@ bool take_in(FollowState& state, const Result<homing::TargetSeen>& answer, const
 }
 
 /// Whether an answer says that the view is right here although hardly anything of it is recognised: things far off show
-/// no parallax, and a few of them agree with any place between here and there.
-bool is_hollow(const homing::TargetSeen& answer, double share) {
+/// no parallax, and a few of them agree with any place between here and there. `most_alike`: of it so far.
+bool is_hollow(const homing::TargetSeen& answer, double most_alike) {
   constexpr double kHere_m = 0.6;
-  return answer.target_m && answer.target_m->norm() < kHere_m && share < homing::VisualHoming::kLeastShare;
+  return answer.target_m && answer.target_m->norm() < kHere_m && most_alike < homing::VisualHoming::kLeastShare;
 }
 
 /// The robot is where odometry says now.
@@ -133,7 +134,7 @@ void pass_views(FollowState& state, const VisualPath& path, const Pose2& odometr
   state.behind = behind ? state.behind + 1 : 0;
   const bool coincides =
       result.vector->median_parallax_rad < config.homing.arrived_parallax_rad && state.alike > config.alike_share;
-  if (state.measured && state.alike < homing::VisualHoming::kLeastShare) return;
+  if (state.measured && state.most_alike < homing::VisualHoming::kLeastShare) return;
   result.at_end =
       state.measured ? distance_m < config.reached_m : coincides || (state.behind >= 2 && distance_m < config.nearby_m);
 }
@@ -180,12 +181,13 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
       homing_of(state, config).update(seen, path.views[static_cast<std::size_t>(first)], odometry, prior, frame, seed);
   const double share =
       answer ? homing::shared_share(seen, path.views[static_cast<std::size_t>(first)], answer->vector.inliers) : 0.0;
-  if (answer && is_hollow(*answer, share)) {
+  if (answer && is_hollow(*answer, std::max(share, state.most_alike))) {
     state.tracks[static_cast<std::size_t>(first)] = ViewTrack();
     state.visual_index = -1;
     state.measured = false;
   } else if (take_in(state, answer, odometry, config, result)) {
     state.alike = share;
+    state.most_alike = std::max(state.most_alike, share);
     if (is_sure(*result.vector, config)) clearest = first;
     expect_onwards(state, path, first);
     if (first == last) state.heading_left_rad = result.vector->turn_rad;

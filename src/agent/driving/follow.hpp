@@ -50,7 +50,8 @@ struct FollowState {
   bool measured = false;          // the latest picture says in metres where the view homed to is
   double heading_left_rad = 0.0;  // from the heading at `odometry` to that of the destination's view
   int behind = 0;                 // answers in a row that say that the destination's view lies behind
-  double alike = 0.0;             // share of the features that agree with the view homed to, at the latest picture
+  double alike = 0.0;             // share of the features that agree with the view homed to, at the latest picture,
+  double most_alike = 0.0;        // and the most since this view is homed to: people may stand before the camera
 };
 
 struct FollowResult {

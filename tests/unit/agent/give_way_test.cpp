@@ -46,6 +46,14 @@ class GiveWayTest : public ::testing::Test {
     }
     return now_ms_ - from_ms;
   }
+  void back_off_three_times_from(double x_m) {
+    drive_to(x_m);
+    for (int time = 0; time < 3; ++time) {
+      EXPECT_GT(until_it_backs_off(), 0);
+      until_it_goes_on();
+      drive_to(x_m);
+    }
+  }
 
   GiveWay state_;
   Pose2 pose_;
@@ -85,24 +93,14 @@ TEST_F(GiveWayTest, KeepsToTheCornersOfTheWayItCame) {
 }
 
 TEST_F(GiveWayTest, BacksOffThreeTimesFromOneThingAndThenStays) {
-  drive_to(3.0);
-  for (int time = 0; time < 3; ++time) {
-    ASSERT_GT(until_it_backs_off(), 0);
-    until_it_goes_on();
-    drive_to(3.0);
-  }
+  back_off_three_times_from(3.0);
   EXPECT_EQ(until_it_backs_off(60'000), -1);
   forget_standing(state_);  // another mission from the same spot: the thing is the same
   EXPECT_EQ(until_it_backs_off(60'000), -1);
 }
 
 TEST_F(GiveWayTest, BacksOffAgainFromAnotherThingFartherOn) {
-  drive_to(3.0);
-  for (int time = 0; time < 3; ++time) {
-    ASSERT_GT(until_it_backs_off(), 0);
-    until_it_goes_on();
-    drive_to(3.0);
-  }
+  back_off_three_times_from(3.0);
   drive_to(6.0);
   EXPECT_GT(until_it_backs_off(), 0);
 }
