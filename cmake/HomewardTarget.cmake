@@ -51,13 +51,9 @@ if(HOMEWARD_TSAN)
   target_link_options(homeward_options INTERFACE -fsanitize=thread)
 endif()
 
-# Headers that nearly every source reads, compiled once.
+# Headers that nearly every source reads, compiled once; and once with what every test reads besides.
 file(WRITE ${PROJECT_BINARY_DIR}/pch.cpp "// only a carrier of the precompiled header\n")
-add_library(homeward_pch OBJECT ${PROJECT_BINARY_DIR}/pch.cpp)
-target_link_libraries(homeward_pch PRIVATE homeward_options Eigen3::Eigen Threads::Threads)
-target_precompile_headers(
-  homeward_pch
-  PRIVATE
+set(homeward_common_headers
   <algorithm>
   <array>
   <cmath>
@@ -75,10 +71,24 @@ target_precompile_headers(
   <tl/expected.hpp>
   <Eigen/Core>
   <Eigen/Geometry>)
+add_library(homeward_pch OBJECT ${PROJECT_BINARY_DIR}/pch.cpp)
+target_link_libraries(homeward_pch PRIVATE homeward_options Eigen3::Eigen Threads::Threads)
+target_precompile_headers(homeward_pch PRIVATE ${homeward_common_headers})
+if(HOMEWARD_TESTS)
+  add_library(homeward_test_pch OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/pch.cpp)
+  target_link_libraries(homeward_test_pch PRIVATE homeward_options Eigen3::Eigen Threads::Threads GTest::gtest
+                                                  GTest::gmock)
+  target_precompile_headers(homeward_test_pch PRIVATE ${homeward_common_headers} <gmock/gmock.h> <gtest/gtest.h>
+                            <nlohmann/json.hpp>)
+endif()
 
 function(_homeward_finish target)
+  cmake_parse_arguments(ARG "" "HEADERS" "" ${ARGN})
+  if(NOT ARG_HEADERS)
+    set(ARG_HEADERS homeward_pch)
+  endif()
   target_link_libraries(${target} PRIVATE homeward_options Eigen3::Eigen Threads::Threads)
-  target_precompile_headers(${target} REUSE_FROM homeward_pch)
+  target_precompile_headers(${target} REUSE_FROM ${ARG_HEADERS})
   if(HOMEWARD_TIDY)
     set_target_properties(${target} PROPERTIES CXX_CLANG_TIDY ${PROJECT_SOURCE_DIR}/cmake/tidy.sh)
   endif()
@@ -114,18 +124,26 @@ endfunction()
 add_custom_target(unit_tests)
 add_custom_target(server_tests)
 
+# homeward_add_test_support(http SOURCES a.cpp ... LINK targets): a library that several test programs share, target
+# homeward_test_<name>: what is dear to compile is compiled once.
+function(homeward_add_test_support name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  set(target homeward_test_${name})
+  add_library(${target} STATIC EXCLUDE_FROM_ALL ${ARG_SOURCES})
+  target_link_libraries(${target} PUBLIC ${ARG_LINK})
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/tests)
+  _homeward_finish(${target})
+endfunction()
+
 # homeward_add_test(camera/mirror SOURCES mirror_test.cpp LINK targets [LABELS unit]): a GoogleTest program that is one
 # ctest entry named "camera/mirror".
 function(homeward_add_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   string(REPLACE "/" "_" target "test_${name}")
   add_executable(${target} ${ARG_SOURCES})
-  target_link_libraries(${target} PRIVATE ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_link_libraries(${target} PRIVATE ${ARG_LINK} homeward_test_folders GTest::gtest GTest::gmock GTest::gtest_main)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  _homeward_finish(${target})
-  target_compile_definitions(
-    ${target} PRIVATE HOMEWARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}" HOMEWARD_BINARY_DIR="${PROJECT_BINARY_DIR}"
-                      HOMEWARD_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
+  _homeward_finish(${target} HEADERS homeward_test_pch)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   add_test(NAME ${name} COMMAND ${target})
   if(NOT ARG_LABELS)

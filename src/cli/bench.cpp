@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Options {
+struct BenchOptions {
   LocaliseBench bench;
   std::string camera = "hyperbolic_mirror";
   std::string out;
@@ -55,7 +55,7 @@ RowSink folder_sink(const fs::path& out, const camera::CameraConfig& camera) {
   };
 }
 
-Status run(const Options& options) {
+Status run(const BenchOptions& options) {
   const LocaliseBench& bench = options.bench;
   const auto config = camera_named(options.camera);
   if (!config) return pass_on(config);
@@ -88,7 +88,7 @@ void register_bench_localise(CLI::App& bench) {
       "localise",
       "Which measure finds the nearest training picture: rows further and further apart, and in changed "
       "light and with moved furniture (Ferdaus 2008, tables 3.2 and 3.3) in generated rooms");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchOptions>();
   command->add_option("--rooms", options->bench.rooms, "Rooms; the shares are means over them")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct CalibrateOptions {
   std::string images;
   std::string board;
   double square_m = 0.0;
@@ -67,7 +67,7 @@ Result<Pictures> read_all(const std::string& folder) {
   return pictures;
 }
 
-Result<camera::BoardGeometry> board_of(const Options& options) {
+Result<camera::BoardGeometry> board_of(const CalibrateOptions& options) {
   camera::BoardGeometry board;
   board.square_m = options.square_m;
   const char* end = options.board.data() + options.board.size();
@@ -82,7 +82,7 @@ Result<camera::BoardGeometry> board_of(const Options& options) {
   return board;
 }
 
-Result<camera::CalibratedModel> model_of(const Options& options) {
+Result<camera::CalibratedModel> model_of(const CalibrateOptions& options) {
   if (options.model == "mei") return camera::CalibratedModel::kMei;
   if (options.model == "fisheye") return camera::CalibratedModel::kFisheye;
   if (options.model == "pinhole") return camera::CalibratedModel::kPinhole;
@@ -145,7 +145,7 @@ std::vector<camera::BoardView> find_boards(const Pictures& pictures, const camer
   return views;
 }
 
-Status calibrate(const Options& options) {
+Status calibrate(const CalibrateOptions& options) {
   for (const auto& [name, given] : {std::pair("--images", !options.images.empty()),
                                     {"--board", !options.board.empty()},
                                     {"--square-m", options.square_m != 0.0},
@@ -206,7 +206,7 @@ Status calibrate(const Options& options) {
   return {};
 }
 
-Status find_mirror(const Options& options) {
+Status find_mirror(const CalibrateOptions& options) {
   const auto pictures = read_all(options.images);
   if (!pictures) return pass_on(pictures);
   const auto ring = camera::find_mirror_ring(pictures->images);
@@ -239,7 +239,7 @@ Status find_mirror(const Options& options) {
 
 void register_calibrate(CLI::App& program) {
   CLI::App* command = program.add_subcommand("calibrate", "A camera.json from pictures of a chessboard");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CalibrateOptions>();
   command->add_option("--images", options->images, "Folder of pictures, the board in another place in each");
   command->add_option("--board", options->board, "Inner corners of the board, COLSxROWS, as 8x6");
   command->add_option("--square-m", options->square_m, "Side of a square in metres");
@@ -249,7 +249,7 @@ void register_calibrate(CLI::App& program) {
   command->add_option("--residuals", options->residuals, "Picture (PNG) of what the corners are off, to write");
   command->add_flag("--json", options->json, "The result as a JSON line");
   CLI::App* mirror = command->add_subcommand("mirror", "The mirror's centre and ring, without a board");
-  const auto mirror_options = std::make_shared<Options>();
+  const auto mirror_options = std::make_shared<CalibrateOptions>();
   mirror->add_option("--images", mirror_options->images, "Folder of pictures of one camera")->required();
   mirror->add_flag("--json", mirror_options->json, "The result as a JSON line");
   run_on(*command, [command, options]() -> Status {

@@ -20,7 +20,7 @@
 namespace homeward::cli {
 namespace {
 
-struct Options {
+struct CompareOptions {
   std::string camera;
   std::string measure = "features";
   std::vector<std::string> pictures;
@@ -67,7 +67,7 @@ Status compare_globally(features::GlobalMeasure measure, const std::vector<View>
 }
 
 /// By aggregated descriptors, their words learnt from the pictures themselves.
-Status compare_aggregated(const pipeline::Eye& eye, const std::vector<View>& views, const Options& options) {
+Status compare_aggregated(const pipeline::Eye& eye, const std::vector<View>& views, const CompareOptions& options) {
   std::vector<features::Appearance> seen;
   for (const View& view : views) {
     if (const auto shows_something = describe(view); !shows_something) return pass_on(shows_something);
@@ -92,7 +92,7 @@ Status compare_aggregated(const pipeline::Eye& eye, const std::vector<View>& vie
   return {};
 }
 
-Status compare_by_features(const pipeline::Eye& eye, const std::vector<View>& views, const Options& options) {
+Status compare_by_features(const pipeline::Eye& eye, const std::vector<View>& views, const CompareOptions& options) {
   const auto first = eye.look(views.front().picture);
   if (!first) return pass_on(first);
   for (std::size_t i = 1; i < views.size(); ++i) {
@@ -117,7 +117,7 @@ Status compare_by_features(const pipeline::Eye& eye, const std::vector<View>& vi
   return {};
 }
 
-Status compare(const Options& options) {
+Status compare(const CompareOptions& options) {
   if (options.pictures.size() < 2) {
     return fail(ErrorCode::kTooFewImages, "Two pictures or more are needed: the first is compared with each other one.",
                 "compare");
@@ -157,7 +157,7 @@ Status compare(const Options& options) {
 void register_compare(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "compare", "How different the first picture is from each of the others: a JSON line per pair");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CompareOptions>();
   command->add_option("--camera", options->camera, "camera.json")->required();
   command->add_option("--measure", options->measure, "features, moments, jeffrey, chi2, sad, fourier or vlad")
       ->capture_default_str();

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct CompassOptions {
   std::string camera;
   std::string current;
   std::string target;
@@ -25,9 +25,9 @@ struct Options {
 };
 
 /// Panoramas of pictures; some 2 MB each.
-class Gallery {
+class PanoramaGallery {
  public:
-  explicit Gallery(pipeline::Eye eye) : eye_(std::move(eye)) {}
+  explicit PanoramaGallery(pipeline::Eye eye) : eye_(std::move(eye)) {}
 
   Result<std::shared_ptr<const camera::Panorama>> look(const fs::path& file) {
     return seen_.get(file, [&](const fs::path& path) -> Result<camera::Panorama> {
@@ -47,7 +47,7 @@ class Gallery {
 };
 
 /// What is not known is null; a pair without a reading says why.
-Status answer(Gallery& gallery, const std::string& current, const std::string& target, const fs::path& folder) {
+Status answer(PanoramaGallery& gallery, const std::string& current, const std::string& target, const fs::path& folder) {
   const auto here = gallery.look(folder / current);
   if (!here) return pass_on(here);
   const auto there = gallery.look(folder / target);
@@ -68,7 +68,7 @@ Status answer(Gallery& gallery, const std::string& current, const std::string& t
   return {};
 }
 
-Status compass(const Options& options) {
+Status compass(const CompassOptions& options) {
   const bool one_pair = !options.current.empty() && !options.target.empty();
   if (one_pair == !options.pairs.empty()) {
     return fail(ErrorCode::kInvalidInput, "Give either --current and --target, or --pairs.", "compass");
@@ -79,7 +79,7 @@ Status compass(const Options& options) {
   if (!camera) return pass_on(camera);
   auto eye = pipeline::Eye::create(*config, pipeline::suited_feature_config(**camera));
   if (!eye) return pass_on(eye);
-  Gallery gallery(std::move(*eye));
+  PanoramaGallery gallery(std::move(*eye));
   if (one_pair) return answer(gallery, options.current, options.target, {});
   const auto table = agent::read_csv(options.pairs);
   if (!table) return pass_on(table);
@@ -100,7 +100,7 @@ Status compass(const Options& options) {
 void register_compass(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "compass", "The turn from one picture's heading to another's, by the pictures as a whole: a JSON line per pair");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CompassOptions>();
   command->add_option("--camera", options->camera, "camera.json")->required();
   command->add_option("--current", options->current, "Picture taken here");
   command->add_option("--target", options->target, "Picture taken there");

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct HomeOptions {
   std::string camera;
   std::string current;
   std::string target;
@@ -30,9 +30,9 @@ struct Options {
 };
 
 /// Appearances of pictures; some 50 kB each.
-class Gallery {
+class AppearanceGallery {
  public:
-  explicit Gallery(pipeline::Eye eye) : eye_(std::move(eye)) {}
+  explicit AppearanceGallery(pipeline::Eye eye) : eye_(std::move(eye)) {}
 
   Result<std::shared_ptr<const features::Appearance>> look(const fs::path& file) {
     return seen_.get(file, [&](const fs::path& path) -> Result<features::Appearance> {
@@ -52,8 +52,8 @@ class Gallery {
 };
 
 /// What is not known is null; a pair without an answer says why.
-Status answer(Gallery& gallery, const std::string& current, const std::string& target, const fs::path& folder,
-              const Options& options) {
+Status answer(AppearanceGallery& gallery, const std::string& current, const std::string& target, const fs::path& folder,
+              const HomeOptions& options) {
   const auto here = gallery.look(folder / current);
   if (!here) return pass_on(here);
   const auto there = gallery.look(folder / target);
@@ -80,7 +80,7 @@ Status answer(Gallery& gallery, const std::string& current, const std::string& t
   return {};
 }
 
-Status home(const Options& options) {
+Status home(const HomeOptions& options) {
   if (options.method != "epipolar" && options.method != "scale-space") {
     return fail(ErrorCode::kInvalidInput,
                 "The method '" + options.method + "' is not known; there are epipolar and scale-space.", "--method");
@@ -98,7 +98,7 @@ Status home(const Options& options) {
   if (!camera) return pass_on(camera);
   auto eye = pipeline::Eye::create(*config, pipeline::suited_feature_config(**camera));
   if (!eye) return pass_on(eye);
-  Gallery gallery(std::move(*eye));
+  AppearanceGallery gallery(std::move(*eye));
   if (one_pair) return answer(gallery, options.current, options.target, {}, options);
   const auto table = agent::read_csv(options.pairs);
   if (!table) return pass_on(table);
@@ -119,7 +119,7 @@ Status home(const Options& options) {
 void register_home(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("home", "Which way to drive from one picture to another: a JSON line per pair");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<HomeOptions>();
   command->add_option("--camera", options->camera, "camera.json")->required();
   command->add_option("--current", options->current, "Picture taken here");
   command->add_option("--target", options->target, "Picture taken there");

@@ -15,7 +15,7 @@
 namespace homeward::cli {
 namespace {
 
-struct Options {
+struct LocaliseOptions {
   std::string map;
   std::string images;
   std::string camera;
@@ -37,7 +37,7 @@ nlohmann::json line_of(const std::string& image, const localisation::Belief& bel
 }
 
 /// Where each picture was taken, as far as the folder says.
-Result<std::vector<std::optional<Pose2>>> odometry_of(const Options& options, std::size_t pictures) {
+Result<std::vector<std::optional<Pose2>>> odometry_of(const LocaliseOptions& options, std::size_t pictures) {
   std::vector<std::optional<Pose2>> poses(pictures);
   if (options.no_odometry) return poses;
   const auto folder = agent::TourFolder::open(options.images);
@@ -46,7 +46,7 @@ Result<std::vector<std::optional<Pose2>>> odometry_of(const Options& options, st
   return poses;
 }
 
-Status localise(const Options& options) {
+Status localise(const LocaliseOptions& options) {
   auto stored = db::load_map(options.map);
   if (!stored) return pass_on(stored);
   const auto files = agent::pictures_in(options.images);
@@ -79,7 +79,7 @@ Status localise(const Options& options) {
 
 void register_localise(CLI::App& program) {
   CLI::App* command = program.add_subcommand("localise", "Where in a map pictures were taken: a JSON line for each");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LocaliseOptions>();
   command->add_option("--map", options->map, "Map file")->required();
   command
       ->add_option("--images", options->images,

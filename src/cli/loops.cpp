@@ -14,7 +14,7 @@
 namespace homeward::cli {
 namespace {
 
-struct Options {
+struct LoopsOptions {
   std::string images;
   std::string camera;
   int gap = pipeline::LoopConfig{}.gap;
@@ -29,7 +29,7 @@ double processor_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-Status loops(const Options& options) {
+Status loops(const LoopsOptions& options) {
   const auto files = agent::pictures_in(options.images);
   if (!files) return pass_on(files);
   const auto config = agent::read_camera(options.camera);
@@ -69,7 +69,7 @@ Status loops(const Options& options) {
 void register_loops(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "loops", "Which earlier picture shows the same place, picture by picture: a JSON line for each");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LoopsOptions>();
   command->add_option("--images", options->images, "Folder of pictures, in name order")->required();
   command->add_option("--camera", options->camera, "camera.json")->required();
   command->add_option("--gap", options->gap, "By how many pictures a match is older, at least")

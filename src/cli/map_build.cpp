@@ -21,7 +21,7 @@
 namespace homeward::cli {
 namespace {
 
-struct Options {
+struct MapBuildOptions {
   std::vector<std::string> tours;  // folders
   std::string camera;
   std::string out;
@@ -46,7 +46,8 @@ std::string today() {
 }
 
 /// Returns the file.
-Result<std::string> write_report(const Options& options, const pipeline::BuiltMap& built, const TourFolders& tours) {
+Result<std::string> write_report(const MapBuildOptions& options, const pipeline::BuiltMap& built,
+                                 const TourFolders& tours) {
   const pipeline::ReportOptions report{today(), options.report_pictures, options.threads, options.seed};
   const auto page = pipeline::report_page(built, tours.sources(), report);
   if (!page) return pass_on(page);
@@ -76,7 +77,7 @@ void tell_of_weak_edges(const mapping::MappingNotes& notes) {
             << " extra places put between them, " << notes.weak_after << " pairs left without a sound way\n";
 }
 
-Status build(const Options& options) {
+Status build(const MapBuildOptions& options) {
   const auto tours = TourFolders::open(options.tours);
   if (!tours) return pass_on(tours);
   if (!options.add_to.empty()) {
@@ -127,7 +128,7 @@ Status build(const Options& options) {
 
 void register_map_build(CLI::App& map) {
   CLI::App* command = map.add_subcommand("build", "Build a map from the pictures of tours, or add tours to a map");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MapBuildOptions>();
   command->add_option("--tour", options->tours, "Folder of a tour's pictures; once for each tour")
       ->required()
       ->allow_extra_args(false);

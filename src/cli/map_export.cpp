@@ -11,12 +11,12 @@
 namespace homeward::cli {
 namespace {
 
-struct Options {
+struct MapExportOptions {
   std::string file;
   std::string format = "json";
 };
 
-Status export_map(const Options& options) {
+Status export_map(const MapExportOptions& options) {
   const auto format = wire::export_format(options.format);
   if (!format) {
     return fail(ErrorCode::kInvalidInput, "The format has to be json, graphml or geojson, not " + options.format + ".",
@@ -33,7 +33,7 @@ Status export_map(const Options& options) {
 
 void register_map_export(CLI::App& map) {
   CLI::App* command = map.add_subcommand("export", "A map's graph as text for other programs");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MapExportOptions>();
   command->add_option("map", options->file, "Map file")->required();
   command->add_option("--format", options->format, "json, graphml or geojson")->capture_default_str();
   run_on(*command, [options] { return export_map(*options); });

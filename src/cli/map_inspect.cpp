@@ -12,7 +12,7 @@
 namespace homeward::cli {
 namespace {
 
-struct Options {
+struct MapInspectOptions {
   std::string file;
   bool json = false;
 };
@@ -35,7 +35,7 @@ void print_summary(const db::StoredMap& stored) {
   std::cout << map::tell_parts(map::parts(map));
 }
 
-Status inspect(const Options& options) {
+Status inspect(const MapInspectOptions& options) {
   const auto stored = db::load_map(options.file);
   if (!stored) return pass_on(stored);
   if (options.json) {
@@ -50,7 +50,7 @@ Status inspect(const Options& options) {
 
 void register_map_inspect(CLI::App& map) {
   CLI::App* command = map.add_subcommand("inspect", "Tell what is in a map");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MapInspectOptions>();
   command->add_option("map", options->file, "Map file")->required();
   command->add_flag("--json", options->json, "Everything, as one JSON object");
   run_on(*command, [options] { return inspect(*options); });

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kBytesPerKilobyte = 1000.0;
 
-struct Options {
+struct MapRefineOptions {
   std::string map;
   std::string images;
   std::string camera;
@@ -64,7 +64,7 @@ void print_result(const pipeline::RefinedMap& refined, const std::string& file) 
   }
 }
 
-Status refine(const Options& options) {
+Status refine(const MapRefineOptions& options) {
   auto stored = db::load_map(options.map);
   if (!stored) return pass_on(stored);
   const auto drive = agent::TourFolder::open(options.images);
@@ -106,7 +106,7 @@ Status refine(const Options& options) {
 void register_map_refine(CLI::App& map) {
   CLI::App* command = map.add_subcommand(
       "refine", "Give places new appearances, by night for example, from pictures taken while driving");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MapRefineOptions>();
   command->add_option("--map", options->map, "Map file")->required();
   command->add_option("--images", options->images, "Folder of pictures of one drive, in name order")->required();
   command->add_option("--camera", options->camera, "camera.json, when it is not the map's camera");

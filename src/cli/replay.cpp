@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct ReplayOptions {
   std::string recording;
   bool json = false;
   bool why = false;
@@ -96,7 +96,7 @@ void print(const agent::ReplayResult& result) {
   if (result.why) print(*result.why);
 }
 
-Status tell_why(const Options& options) {
+Status tell_why(const ReplayOptions& options) {
   const auto recording = db::RecordingReader::open(options.recording);
   if (!recording) return pass_on(recording);
   const auto why = (*recording)->why_stopped();
@@ -110,7 +110,7 @@ Status tell_why(const Options& options) {
   return {};
 }
 
-Status run(const Options& options) {
+Status run(const ReplayOptions& options) {
   if (options.why) return tell_why(options);
   if (!options.out.empty()) return agent::export_recording(options.recording, options.out);
   ProgressBar bar;
@@ -133,7 +133,7 @@ Status run(const Options& options) {
 void register_replay(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "replay", "Run a recorded mission through the same code again and compare every vector, decision and command");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReplayOptions>();
   command->add_option("recording", options->recording, "Recording of a mission (.hwrec)")->required();
   command->add_flag("--json", options->json, "The result as one JSON line");
   CLI::Option* why = command->add_flag("--why", options->why, "Only say why the robot stopped");

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct RetrieveOptions {
   std::string gallery;
   std::string queries;
   std::string camera;
@@ -93,7 +93,7 @@ struct Found {
 
 /// The index of a gallery by numbers as ids; nothing where it is too small or too plain to learn visual words from.
 /// Pictures without features are left out: they are like none.
-Result<std::optional<matching::RetrievalIndex>> index_of(const Gallery& gallery, const Options& options) {
+Result<std::optional<matching::RetrievalIndex>> index_of(const Gallery& gallery, const RetrieveOptions& options) {
   std::vector<const features::FeatureSet*> pictures;
   for (const features::FeatureSet& set : gallery.features) pictures.push_back(&set);
   auto vocabulary = features::train_vocabulary(pictures, matching::kRetrievalWords, options.seed);
@@ -111,7 +111,7 @@ Result<std::optional<matching::RetrievalIndex>> index_of(const Gallery& gallery,
 }
 
 std::vector<Found> best_of(const Gallery& gallery, const std::optional<matching::RetrievalIndex>& index,
-                           const features::FeatureSet& query, const Options& options) {
+                           const features::FeatureSet& query, const RetrieveOptions& options) {
   std::vector<Found> found;
   if (index) {
     const auto wanted = static_cast<std::size_t>(std::max(options.best, options.rerank));
@@ -134,7 +134,7 @@ std::vector<Found> best_of(const Gallery& gallery, const std::optional<matching:
   return found;
 }
 
-Status retrieve(const Options& options) {
+Status retrieve(const RetrieveOptions& options) {
   const auto config = agent::read_camera(options.camera);
   if (!config) return pass_on(config);
   const auto camera = camera::Camera::create(*config);
@@ -168,7 +168,7 @@ Status retrieve(const Options& options) {
 void register_retrieve(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "retrieve", "Which pictures of a gallery show the place of each query: a JSON line per query");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RetrieveOptions>();
   command->add_option("--gallery", options->gallery, "Table (CSV) with a column filename; paths relative to it")
       ->required();
   command->add_option("--queries", options->queries, "Table (CSV) with a column filename; paths relative to it")

@@ -15,7 +15,7 @@
 namespace homeward::cli {
 namespace {
 
-struct Options {
+struct RouteOptions {
   std::string map;
   std::string from;
   std::string to;
@@ -40,7 +40,7 @@ PlaceId place_named(const map::TopologicalMap& map, const std::string& name) {
   return id;
 }
 
-planning::RouteRequest request_of(const Options& options, const map::TopologicalMap& map) {
+planning::RouteRequest request_of(const RouteOptions& options, const map::TopologicalMap& map) {
   planning::RouteRequest request = options.defaults;
   request.from = place_named(map, options.from);
   request.to = place_named(map, options.to);
@@ -83,7 +83,7 @@ void print_text(const map::TopologicalMap& map, const std::vector<planning::Rout
   }
 }
 
-Status plan(const Options& options) {
+Status plan(const RouteOptions& options) {
   const auto stored = db::load_map(options.map);
   if (!stored) return pass_on(stored);
   const planning::RouteRequest request = request_of(options, stored->map);
@@ -106,7 +106,7 @@ Status plan(const Options& options) {
 
 void register_route(CLI::App& program) {
   CLI::App* command = program.add_subcommand("route", "The way from one place of a map to another");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RouteOptions>();
   planning::RouteRequest& request = options->defaults;
   command->add_option("--map", options->map, "Map file")->required();
   command->add_option("--from", options->from, "Place (id or label)")->required();

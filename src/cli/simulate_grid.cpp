@@ -14,7 +14,7 @@
 namespace homeward::cli {
 namespace {
 
-struct Options {
+struct SimulateGridOptions {
   StageOptions stage;
   double step_m = 0.5;
   double theta_rad = 0.0;
@@ -29,7 +29,7 @@ bool is_within(const std::vector<double>& corners_m, const Eigen::Vector2d& at) 
          at.y() >= std::min(corners_m[1], corners_m[3]) && at.y() <= std::max(corners_m[1], corners_m[3]);
 }
 
-Status make_grid(const Options& options) {
+Status make_grid(const SimulateGridOptions& options) {
   if (!(options.step_m >= 0.05)) return fail(ErrorCode::kInvalidInput, "The step must be at least 0.05 m.", "--step-m");
   auto writer = TourWriter::open(options.stage);
   if (!writer) return pass_on(writer);
@@ -67,7 +67,7 @@ Status make_grid(const Options& options) {
 
 void register_simulate_grid(CLI::App& simulate) {
   CLI::App* command = simulate.add_subcommand("grid", "Pictures on a grid of the free floor");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateGridOptions>();
   add_stage_options(*command, options->stage);
   command->add_option("--step-m", options->step_m, "Distance of neighbours")->capture_default_str();
   command->add_option("--theta-rad", options->theta_rad, "Heading of all pictures")->capture_default_str();

@@ -16,7 +16,7 @@
 namespace homeward::cli {
 namespace {
 
-struct Options {
+struct SimulateRunOptions {
   std::string scenario;
   bool json = false;
   std::string trace;
@@ -77,7 +77,7 @@ void print(const agent::MissionResult& result) {
   std::fflush(stdout);
 }
 
-Status run(const Options& options) {
+Status run(const SimulateRunOptions& options) {
   const auto text = agent::read_text(options.scenario);
   if (!text) return pass_on(text);
   const auto scenario = wire::parse_scenario(*text, options.scenario);
@@ -117,7 +117,7 @@ Status run(const Options& options) {
 void register_simulate_run(CLI::App& simulate) {
   CLI::App* command =
       simulate.add_subcommand("run", "Teach a world, build its map and drive missions, in simulated time");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateRunOptions>();
   command->add_option("--scenario", options->scenario, "Scenario file")->required();
   command->add_flag("--json", options->json, "One JSON line for each mission");
   command->add_option("--trace", options->trace, "Also write every control cycle as a JSON line to this file");

@@ -11,14 +11,14 @@
 namespace homeward::cli {
 namespace {
 
-struct Options {
+struct SimulateTourOptions {
   StageOptions stage;
   std::vector<std::string> rooms;
   double step_m = 0.4;
   bool marks = false;
 };
 
-Status make_tour(const Options& options) {
+Status make_tour(const SimulateTourOptions& options) {
   auto writer = TourWriter::open(options.stage);
   if (!writer) return pass_on(writer);
   const auto stops = sim::plan_tour(writer->world(), options.rooms, options.step_m);
@@ -51,7 +51,7 @@ void add_stage_options(CLI::App& command, StageOptions& options) {
 
 void register_simulate_tour(CLI::App& simulate) {
   CLI::App* command = simulate.add_subcommand("tour", "A guided tour from room to room");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateTourOptions>();
   add_stage_options(*command, options->stage);
   command->add_option("--rooms", options->rooms, "Rooms in the order of the visit")->required()->delimiter(',');
   command->add_option("--step-m", options->step_m, "Way between two pictures")->capture_default_str();

@@ -91,8 +91,7 @@ Eigen::Matrix<double, 2, 3> across(const Eigen::Vector3d& bearing, double spread
   return rows;
 }
 
-constexpr double kOdometryLoss = 3.0;  // the same of odometry: wheels slip
-constexpr double kLoss = 2.0;          // standard deviations beyond which a bearing loses weight
+constexpr double kLoss = 2.0;  // standard deviations beyond which a bearing loses weight
 
 }  // namespace
 

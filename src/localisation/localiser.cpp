@@ -36,8 +36,7 @@ std::vector<std::vector<int>> neighbours_of(const map::PlaceGraph& graph) {
   }
   for (std::vector<int>& own : neighbours) {
     std::ranges::sort(own);
-    const auto repeated = std::ranges::unique(own);
-    own.erase(repeated.begin(), repeated.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
   }
   return neighbours;
 }

@@ -65,7 +65,7 @@ PairLists by_later_image(const std::vector<std::vector<int>>& chosen) {
   }
   for (std::vector<int>& list : pairs) {
     std::ranges::sort(list);
-    list.erase(std::ranges::unique(list).begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
   }
   return pairs;
 }

@@ -85,8 +85,7 @@ std::vector<LoopTie> ties_of_edges(const map::TopologicalMap& old, const TourTra
 
 OldPlaces::OldPlaces(const map::TopologicalMap& old, const GrowthInput& input, const PairTable& pairs, bool metric,
                      const MappingConfig& config)
-    : old_(old),
-      input_(input),
+    : input_(input),
       pairs_(pairs),
       config_(config),
       adjoining_(old.places.size()),
@@ -124,7 +123,7 @@ OldPlaces::OldPlaces(const map::TopologicalMap& old, const GrowthInput& input, c
   }
   for (std::vector<int>& places : adjoining_) {
     std::ranges::sort(places);
-    places.erase(std::ranges::unique(places).begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
   }
   if (!metric_) return;
   way_.emplace(old.images, tours_of(old), unknown_, true, config.place_extent_m, config.track);

@@ -55,7 +55,6 @@ class OldPlaces {
   [[nodiscard]] std::vector<MeetingTrust> weighed(std::span<const Claim> claims, const TourTrack& open,
                                                   const ClosedWay* closed) const;
 
-  const map::TopologicalMap& old_;
   const GrowthInput& input_;
   const PairTable& pairs_;
   const MappingConfig& config_;

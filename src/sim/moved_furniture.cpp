@@ -142,12 +142,14 @@ class Mover {
         fits = other == index || !there.meets(areas_[other], kGap_m);
       for (const Room& one : world_.rooms) fits = fits && there.distance_m({one.x_m, one.y_m}) >= kFromRoomPoint_m;
       if (!fits) continue;
+      const auto before_m = world_.scene.vertices_m;
       shift(piece, by_m);
       if (joined_rooms(occupied()) == joined_) {
         areas_[index] = there;
         return true;
       }
-      shift(piece, -by_m);
+      // As it was, to the last bit: pushed back it would stand a rounding error off.
+      world_.scene.vertices_m = before_m;
     }
     return false;
   }

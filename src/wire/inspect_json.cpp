@@ -25,7 +25,7 @@ json place_to_json(const map::Place& place) {
           {"appearances", place.appearances.size()}};
 }
 
-json edge_to_json(const map::Edge& edge) {
+json inspected_edge(const map::Edge& edge) {
   return {{"from", edge.from.str()},
           {"to", edge.to.str()},
           {"bearing_rad", or_null(edge.bearing_rad)},
@@ -67,7 +67,7 @@ json inspect_to_json(const map::TopologicalMap& map, std::int64_t bytes) {
                 {"places", json::array()},     {"edges", json::array()}, {"hypotheses", json::array()},
                 {"components", json::array()}};
   for (const map::Place& place : map.places) value["places"].push_back(place_to_json(place));
-  for (const map::Edge& edge : map.edges) value["edges"].push_back(edge_to_json(edge));
+  for (const map::Edge& edge : map.edges) value["edges"].push_back(inspected_edge(edge));
   for (const map::Hypothesis& h : map.hypotheses) value["hypotheses"].push_back(hypothesis_to_json(h));
   for (const map::MapPart& part : map::parts(map)) value["components"].push_back(part_to_json(part));
   return value;

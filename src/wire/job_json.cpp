@@ -10,16 +10,16 @@
 namespace homeward::wire {
 namespace {
 
-constexpr std::array<std::string_view, 6> kStates = {"queued", "running", "offered", "done", "failed", "cancelled"};
+constexpr std::array<std::string_view, 6> kJobStates = {"queued", "running", "offered", "done", "failed", "cancelled"};
 
 }  // namespace
 
-std::string_view job_state_name(JobState state) { return kStates[static_cast<std::size_t>(state)]; }
+std::string_view job_state_name(JobState state) { return kJobStates[static_cast<std::size_t>(state)]; }
 
 std::optional<JobState> job_state(std::string_view name) {
-  const auto found = std::find(kStates.begin(), kStates.end(), name);
-  if (found == kStates.end()) return std::nullopt;
-  return static_cast<JobState>(found - kStates.begin());
+  const auto found = std::find(kJobStates.begin(), kJobStates.end(), name);
+  if (found == kJobStates.end()) return std::nullopt;
+  return static_cast<JobState>(found - kJobStates.begin());
 }
 
 nlohmann::json job_to_json(const JobView& job) {

@@ -60,6 +60,10 @@ class ObjectReader {
   }
   /// The first problem; an unknown key is one.
   Status finish();
+  /// Finishes the reader of an object inside this one: its first problem becomes this one's.
+  void close(ObjectReader& inner) {
+    if (const Status status = inner.finish(); !status) take<int>(pass_on(status));
+  }
 
  private:
   const nlohmann::json* find(const std::string& key);

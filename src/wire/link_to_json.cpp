@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "wire/camera_json.hpp"
+#include "wire/json_write.hpp"
 #include "wire/link_messages.hpp"
 
 namespace homeward::wire {
@@ -11,16 +12,6 @@ namespace {
 using nlohmann::json;
 
 json start(const char* type) { return {{"type", type}, {"v", kLinkVersion}}; }
-
-template <class T>
-json or_null(const std::optional<T>& value) {
-  return value ? json(*value) : json(nullptr);
-}
-
-template <class Tag>
-json or_null(const std::optional<Id<Tag>>& id) {
-  return id ? json(id->str()) : json(nullptr);
-}
 
 json write(const Hello& m) {
   json value = start("hello");

@@ -9,7 +9,7 @@
 namespace homeward::wire {
 namespace {
 
-constexpr std::array<std::string_view, 3> kStates = {"building", "ready", "failed"};
+constexpr std::array<std::string_view, 3> kMapStates = {"building", "ready", "failed"};
 constexpr std::array<std::string_view, 3> kRefineModes = {"off", "ask", "auto"};
 
 }  // namespace
@@ -22,12 +22,12 @@ std::optional<RefineMode> refine_mode(std::string_view name) {
   return static_cast<RefineMode>(found - kRefineModes.begin());
 }
 
-std::string_view map_state_name(MapState state) { return kStates[static_cast<std::size_t>(state)]; }
+std::string_view map_state_name(MapState state) { return kMapStates[static_cast<std::size_t>(state)]; }
 
 std::optional<MapState> map_state(std::string_view name) {
-  const auto found = std::find(kStates.begin(), kStates.end(), name);
-  if (found == kStates.end()) return std::nullopt;
-  return static_cast<MapState>(found - kStates.begin());
+  const auto found = std::find(kMapStates.begin(), kMapStates.end(), name);
+  if (found == kMapStates.end()) return std::nullopt;
+  return static_cast<MapState>(found - kMapStates.begin());
 }
 
 nlohmann::json map_info_to_json(const MapInfoView& map) {

@@ -12,8 +12,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 6> kStates = {"accepted", "driving", "arrived", "refused", "stopped", "failed"};
-constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+constexpr std::array<std::string_view, 6> kMissionStates = {"accepted", "driving", "arrived",
+                                                            "refused",  "stopped", "failed"};
+constexpr std::int64_t kMostOrders = std::numeric_limits<std::int64_t>::max();
 
 std::vector<PlaceId> read_path(ObjectReader& reader) {
   std::vector<PlaceId> path;
@@ -26,11 +27,11 @@ std::vector<PlaceId> read_path(ObjectReader& reader) {
 
 }  // namespace
 
-std::string_view mission_state_name(MissionState state) { return kStates[static_cast<std::size_t>(state)]; }
+std::string_view mission_state_name(MissionState state) { return kMissionStates[static_cast<std::size_t>(state)]; }
 
 std::optional<MissionState> mission_state(std::string_view name) {
-  for (std::size_t i = 0; i < kStates.size(); ++i) {
-    if (kStates[i] == name) return static_cast<MissionState>(i);
+  for (std::size_t i = 0; i < kMissionStates.size(); ++i) {
+    if (kMissionStates[i] == name) return static_cast<MissionState>(i);
   }
   return std::nullopt;
 }
@@ -61,17 +62,17 @@ Result<MissionView> mission_from_json(const json& value, const std::string& path
   mission.id = MissionId(reader.text("id", 100));
   mission.robot = RobotId(reader.text("robot", 100));
   mission.map = MapId(reader.text("map", 100));
-  mission.revision = reader.integer("revision", 0, kMost);
+  mission.revision = reader.integer("revision", 0, kMostOrders);
   if (!reader.value("destination").is_null()) mission.destination = DestinationId(reader.text("destination", 100));
   mission.place = PlaceId(reader.text("place", 100));
-  const std::string state = reader.choice("state", {kStates.begin(), kStates.end()});
+  const std::string state = reader.choice("state", {kMissionStates.begin(), kMissionStates.end()});
   mission.state = mission_state(state).value_or(MissionState::kFailed);
   if (!reader.value("reason").is_null()) mission.reason = reader.text("reason");
-  mission.epoch = reader.integer("epoch", 0, kMost);
-  mission.seq = reader.integer("seq", 0, kMost);
+  mission.epoch = reader.integer("epoch", 0, kMostOrders);
+  mission.seq = reader.integer("seq", 0, kMostOrders);
   mission.path = read_path(reader);
   mission.path_index = reader.integer("path_index", 0, 2000);
-  mission.created_us = reader.integer("created_us", 0, kMost);
+  mission.created_us = reader.integer("created_us", 0, kMostOrders);
   mission.by = reader.text("by", 200);
   if (const Status status = reader.finish(); !status) return pass_on(status);
   return mission;

@@ -15,10 +15,6 @@ constexpr int kMaxRandom = 10'000;
 constexpr double kUsualSlip = 0.5;
 constexpr double kMostSlip = 0.95;
 
-void close(ObjectReader& outer, ObjectReader& inner) {
-  if (const Status status = inner.finish(); !status) outer.take<int>(pass_on(status));
-}
-
 std::string light_of(ObjectReader& reader) {
   return reader.has("light") ? reader.choice("light", {"day", "night", "half"}) : "day";
 }
@@ -33,7 +29,7 @@ ScenarioFault read_fault(ObjectReader& outer, const json& value, const std::stri
   fault.at_s = reader.number("at_s", 0.0, 1e5);
   if (reader.has("for_s")) fault.for_s = reader.number("for_s", 0.0, 1e5);
   if (reader.has("share")) fault.share = reader.number("share", 0.0, slips ? kMostSlip : 1.0);
-  close(outer, reader);
+  outer.close(reader);
   return fault;
 }
 
@@ -56,7 +52,7 @@ ScenarioMission read_mission(ObjectReader& outer, const json& value, const std::
       mission.faults.push_back(read_fault(reader, faults[i], reader.path_of("faults") + "/" + std::to_string(i)));
     }
   }
-  close(outer, reader);
+  outer.close(reader);
   return mission;
 }
 
@@ -74,7 +70,7 @@ void read_camera(ObjectReader& outer, ScenarioFile& scenario) {
   }
   ObjectReader reader(value, outer.path_of("camera"));
   scenario.camera_model = reader.choice("model", {"hyperbolic_mirror", "equirectangular", "pinhole"});
-  close(outer, reader);
+  outer.close(reader);
 }
 
 void read_tour(ObjectReader& outer, ScenarioFile& scenario) {
@@ -88,7 +84,7 @@ void read_tour(ObjectReader& outer, ScenarioFile& scenario) {
   }
   scenario.tour_light = light_of(reader);
   if (reader.has("step_m")) scenario.tour_step_m = reader.number("step_m", 0.05, 5.0);
-  close(outer, reader);
+  outer.close(reader);
 }
 
 }  // namespace

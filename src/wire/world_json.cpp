@@ -14,11 +14,6 @@ constexpr std::size_t kMaxRooms = 1000;
 constexpr std::size_t kMaxLamps = 5000;
 constexpr double kFar_m = 10'000.0;
 
-/// Takes an inner object's first problem over to the outer reader.
-void close(ObjectReader& outer, ObjectReader& inner) {
-  if (const Status status = inner.finish(); !status) outer.take<int>(pass_on(status));
-}
-
 FloorPicture read_picture(ObjectReader& outer, const std::string& key) {
   ObjectReader reader(outer.value(key), outer.path_of(key));
   FloorPicture picture;
@@ -27,7 +22,7 @@ FloorPicture read_picture(ObjectReader& outer, const std::string& key) {
   const std::vector<double> origin = reader.numbers("origin_m", 2);
   picture.origin_m = {origin[0], origin[1]};
   if (reader.has("robot_radius_m")) picture.robot_radius_m = reader.number("robot_radius_m", 0.05, 3.0);
-  close(outer, reader);
+  outer.close(reader);
   return picture;
 }
 
@@ -46,7 +41,7 @@ WorldRoom read_room(ObjectReader& outer, const json& value, const std::string& p
       room.outline_m.emplace_back(corner[0].get<double>(), corner[1].get<double>());
     }
   }
-  close(outer, reader);
+  outer.close(reader);
   return room;
 }
 
@@ -54,7 +49,7 @@ WorldLamp read_lamp(ObjectReader& outer, const json& value, const std::string& p
   ObjectReader reader(value, path);
   const std::vector<double> position = reader.numbers("position_m", 3);
   const WorldLamp lamp{{position[0], position[1], position[2]}, reader.number("strength", 0.0, 1000.0)};
-  close(outer, reader);
+  outer.close(reader);
   return lamp;
 }
 
@@ -104,7 +99,7 @@ Result<WorldFile> world_from_json(const json& value, const std::string& path) {
   ObjectReader start(reader.value("start"), reader.path_of("start"));
   world.start = {start.number("x_m", -kFar_m, kFar_m), start.number("y_m", -kFar_m, kFar_m),
                  start.number("theta_rad", -7.0, 7.0)};
-  close(reader, start);
+  reader.close(start);
   const std::vector<json> rooms = reader.array("rooms", kMaxRooms);
   for (std::size_t i = 0; i < rooms.size(); ++i) {
     world.rooms.push_back(read_room(reader, rooms[i], reader.path_of("rooms") + "/" + std::to_string(i)));

@@ -7,6 +7,7 @@
 
 #include "contract/codecs.hpp"
 #include "contract/schema_library.hpp"
+#include "support/folders.hpp"
 
 namespace homeward::testing {
 namespace {
@@ -82,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Wire, EveryCodec, ::testing::ValuesIn(codec_names()),
                          [](const auto& instance) { return instance.param; });
 
 TEST(SharedData, FitsTheSchemas) {
-  const std::filesystem::path data = std::filesystem::path(HOMEWARD_SHARED_DIR) / "data";
+  const std::filesystem::path data = shared_folder() / "data";
   if (!std::filesystem::is_directory(data)) GTEST_SKIP() << data << " is not there";
   int files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(data)) {

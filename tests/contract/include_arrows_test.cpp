@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include "support/folders.hpp"
 
 namespace homeward::testing {
 namespace {
@@ -23,7 +24,7 @@ std::string read(const fs::path& file) {
 }
 
 TEST(IncludeArrows, PointOneWayInAllSources) {
-  const fs::path root = HOMEWARD_SOURCE_DIR;
+  const fs::path root = project_folder();
   int files = 0;
   for (const char* folder : {"src", "db", "server"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {

@@ -9,6 +9,7 @@
 
 #include "contract/schema_library.hpp"
 #include "contract/yaml.hpp"
+#include "support/folders.hpp"
 #include "wire/error_table.hpp"
 
 namespace homeward::testing {
@@ -21,7 +22,7 @@ using ::testing::Not;
 
 std::string read(const std::string& name) {
   std::ostringstream text;
-  text << std::ifstream(std::string(HOMEWARD_SOURCE_DIR) + "/proto/" + name).rdbuf();
+  text << std::ifstream(project_folder() / "proto" / name).rdbuf();
   return text.str();
 }
 

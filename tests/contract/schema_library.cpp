@@ -10,6 +10,7 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validation_results.hpp>
 #include <valijson/validator.hpp>
+#include "support/folders.hpp"
 
 namespace homeward::testing {
 namespace {
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using valijson::adapters::NlohmannJsonAdapter;
 
-const fs::path kProto = fs::path(HOMEWARD_SOURCE_DIR) / "proto";
+const fs::path kProto = project_folder() / "proto";
 const std::string kEnding = ".schema.json";
 
 json read(const fs::path& file) {

@@ -9,6 +9,7 @@
 #include "agent/files/tour_folder.hpp"
 #include "camera/camera.hpp"
 #include "fuzz/mutate.hpp"
+#include "support/folders.hpp"
 #include "support/scratch_folder.hpp"
 #include "wire/camera_json.hpp"
 #include "wire/edit_json.hpp"
@@ -24,7 +25,7 @@ using testing::Mutator;
 using testing::ScratchFolder;
 
 std::vector<std::string> examples(const std::string& kind) {
-  auto texts = testing::texts_in(std::string(HOMEWARD_SOURCE_DIR) + "/proto/examples/" + kind + "/valid");
+  auto texts = testing::texts_in(testing::project_folder() / "proto/examples" / kind / "valid");
   EXPECT_FALSE(texts.empty());
   return texts;
 }

@@ -8,6 +8,7 @@
 #include "agent/files/read_file.hpp"
 #include "camera/calibrate.hpp"
 #include "camera/mirror_ring.hpp"
+#include "support/folders.hpp"
 
 namespace homeward::camera {
 namespace {
@@ -61,7 +62,7 @@ class RealMirrors : public ::testing::Test {
     EXPECT_GT(ring->radius_min_px, 0.0);
   }
 
-  fs::path folder_ = fs::path(HOMEWARD_SHARED_DIR) / "data/real/ocam_catadioptric_calib";
+  fs::path folder_ = testing::shared_folder() / "data/real/ocam_catadioptric_calib";
   std::vector<std::string> names_;
   std::vector<Image> pictures_;
   std::vector<BoardView> views_;

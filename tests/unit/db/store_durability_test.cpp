@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "support/folders.hpp"
 #include "unit/db/store_fixture.hpp"
 
 namespace homeward::db {
@@ -111,7 +112,7 @@ TEST_F(StoreDurability, AnOlderDatabaseKeepsItsMapsAndJobs) {
     SQLite::Database database((folder() / "homeward.db").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     for (const char* file : {"0001_first.sql", "0002_job_notes.sql"}) {
       std::ostringstream sql;
-      sql << std::ifstream(std::filesystem::path(HOMEWARD_SOURCE_DIR) / "db/migrations" / file).rdbuf();
+      sql << std::ifstream(testing::project_folder() / "db/migrations" / file).rdbuf();
       database.exec(sql.str());
     }
     database.exec(

@@ -11,12 +11,13 @@
 #include "imageio/decode.hpp"
 #include "matching/verify.hpp"
 #include "pipeline/eye.hpp"
+#include "support/folders.hpp"
 #include "wire/camera_json.hpp"
 
 namespace homeward::homing {
 namespace {
 
-const std::filesystem::path kTour = std::filesystem::path(HOMEWARD_SHARED_DIR) / "data" / "sim" / "home" / "train";
+const std::filesystem::path kTour = testing::shared_folder() / "data" / "sim" / "home" / "train";
 
 std::string read_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
