@@ -14,7 +14,7 @@ using nlohmann::json;
 
 constexpr std::array<std::string_view, 6> kMissionStates = {"accepted", "driving", "arrived",
                                                             "refused",  "stopped", "failed"};
-constexpr std::int64_t kMostOrders = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
 
 std::vector<PlaceId> read_path(ObjectReader& reader) {
   std::vector<PlaceId> path;
@@ -62,17 +62,17 @@ Result<MissionView> mission_from_json(const json& value, const std::string& path
   mission.id = MissionId(reader.text("id", 100));
   mission.robot = RobotId(reader.text("robot", 100));
   mission.map = MapId(reader.text("map", 100));
-  mission.revision = reader.integer("revision", 0, kMostOrders);
+  mission.revision = reader.integer("revision", 0, kLargest);
   if (!reader.value("destination").is_null()) mission.destination = DestinationId(reader.text("destination", 100));
   mission.place = PlaceId(reader.text("place", 100));
   const std::string state = reader.choice("state", {kMissionStates.begin(), kMissionStates.end()});
   mission.state = mission_state(state).value_or(MissionState::kFailed);
   if (!reader.value("reason").is_null()) mission.reason = reader.text("reason");
-  mission.epoch = reader.integer("epoch", 0, kMostOrders);
-  mission.seq = reader.integer("seq", 0, kMostOrders);
+  mission.epoch = reader.integer("epoch", 0, kLargest);
+  mission.seq = reader.integer("seq", 0, kLargest);
   mission.path = read_path(reader);
   mission.path_index = reader.integer("path_index", 0, 2000);
-  mission.created_us = reader.integer("created_us", 0, kMostOrders);
+  mission.created_us = reader.integer("created_us", 0, kLargest);
   mission.by = reader.text("by", 200);
   if (const Status status = reader.finish(); !status) return pass_on(status);
   return mission;

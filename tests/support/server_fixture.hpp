@@ -117,7 +117,7 @@ class ServerTest : public ::testing::Test {
     return tour;
   }
   nlohmann::json wait_for_job(const std::string& job) {
-    for (int i = 0; i < 6000; ++i) {
+    for (int i = 0; i < 2400; ++i) {
       nlohmann::json state = admin->get("/api/v1/jobs/" + job).json();
       if (state.at("state") != "queued" && state.at("state") != "running") return state;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
