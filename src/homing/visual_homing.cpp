@@ -30,14 +30,6 @@ double log_odds(double probability) {
 
 double probability(double odds_log) { return 1.0 / (1.0 + std::exp(-odds_log)); }
 
-/// How far a target is at least of which so little is recognised: far things alone show no parallax at any distance.
-/// Rendered houses: 0.05 of the features at 3 m, 0.02 at 6 m.
-double distance_of_few_m(double share) {
-  constexpr double kMetres = 0.14;
-  constexpr double kFarthest_m = 8.0;
-  return share < VisualHoming::kLeastShare ? std::min(kFarthest_m, kMetres / std::max(share, 1e-3)) : 0.0;
-}
-
 /// The probability that a bearing with this spread is right within 15 degrees.
 double within_bound(double spread_rad) {
   constexpr double kBound_rad = 15.0 * kPi / 180.0;
@@ -45,6 +37,13 @@ double within_bound(double spread_rad) {
 }
 
 }  // namespace
+
+// Rendered houses: 0.05 of the features at 3 m, 0.02 at 6 m.
+double distance_of_few_m(double share) {
+  constexpr double kMetres = 0.14;
+  constexpr double kFarthest_m = 8.0;
+  return share < VisualHoming::kLeastShare ? std::min(kFarthest_m, kMetres / std::max(share, 1e-3)) : 0.0;
+}
 
 double shared_share(const features::Appearance& current, const features::Appearance& target, int inliers) {
   return static_cast<double>(inliers) / std::max(1, std::min(current.size(), target.size()));
@@ -172,12 +171,14 @@ Result<TargetSeen> VisualHoming::recognise(const features::Appearance& current, 
   TargetSeen seen;
   seen.vector = vector;
   if (vector.confidence < config_.begin_confidence) return seen;
+  const double share = shared_share(current, target, vector.inliers);
+  if (share < kLeastShare && !(prior && prior->mapped)) return seen;
   std::vector<matching::Match> inliers;
   for (const int inlier : verified->pose.inliers)
     inliers.push_back(verified->matches[static_cast<std::size_t>(inlier)]);
   const std::vector<Sighting> sightings = sightings_of(current, target, inliers);
   const double guess_m = std::max(std::clamp(config_.metres_per_parallax * vector.median_parallax_rad, 0.05, 6.0),
-                                  distance_of_few_m(shared_share(current, target, vector.inliers)));
+                                  distance_of_few_m(share));
   const DistancePrior distance = prior.value_or(DistancePrior{guess_m, 0.7});
   first_distance_ = distance.distance_m;
   const Pose2 target_in_robot{distance.distance_m * std::cos(vector.bearing_rad),

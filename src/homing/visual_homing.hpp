@@ -30,7 +30,12 @@ struct VisualHomingConfig {
 struct DistancePrior {
   double distance_m = 1.0;
   double spread = 0.5;  // of the logarithm
+  bool mapped = true;   // by a map; not by nothing but bearings to the target itself
 };
+
+/// How far a target is at least of which so little is recognised: far things alone show no parallax at any distance.
+/// 0 from VisualHoming::kLeastShare on.
+double distance_of_few_m(double share);
 
 /// The share of two views' features that agree on where one lies from the other: 0.3 and more where they coincide, by
 /// night as well.
@@ -58,7 +63,9 @@ class VisualHoming {
   explicit VisualHoming(const VisualHomingConfig& config) : config_(config), map_(config.map), tracks_(config.tracks) {}
 
   /// One more picture, recognised anew. `target`: always the same. `frame`: the picture itself, for `track` to go on
-  /// from. Errors: those of home_vector, where neither the map nor two views alone say where the target is.
+  /// from. Of less than kLeastShare of its features no map is begun unless a map says how far the target is: an answer
+  /// is a bearing alone then. Errors: those of home_vector, where neither the map nor two views alone say where the
+  /// target is.
   Result<TargetSeen> update(const features::Appearance& current, const features::Appearance& target,
                             const std::optional<Pose2>& odometry, const std::optional<DistancePrior>& prior,
                             const tracking::TrackingFrame& frame, std::uint64_t seed);

@@ -41,11 +41,11 @@ void expect_onwards(FollowState& state, const VisualPath& path, int from) {
   }
 }
 
-/// How far the view homed to is, as the map's edges and other pictures say.
-std::optional<homing::DistancePrior> distance_known(const ViewTrack& track, const Eigen::Vector2d& here) {
+/// How far the view homed to is, as the map's edges and other pictures say; `mapped`: not these pictures alone.
+std::optional<homing::DistancePrior> distance_known(const ViewTrack& track, const Eigen::Vector2d& here, bool mapped) {
   if (!track.known()) return std::nullopt;
   const double distance_m = std::max(0.1, (track.position_m() - here).norm());
-  return homing::DistancePrior{distance_m, std::clamp(track.doubt_m() / distance_m, 0.1, 0.8)};
+  return homing::DistancePrior{distance_m, std::clamp(track.doubt_m() / distance_m, 0.1, 0.8), mapped};
 }
 
 /// The homing to the view homed to, begun anew when that is another one.
@@ -57,6 +57,7 @@ homing::VisualHoming& homing_of(FollowState& state, const FollowConfig& config) 
     visual.begin_confidence = config.believe;
     state.visual = homing::VisualHoming(visual);
     state.visual_index = state.index;
+    state.votes.clear();
     state.most_alike = 0.0;
   }
   return state.visual;
@@ -82,6 +83,35 @@ bool take_in(FollowState& state, const Result<homing::TargetSeen>& answer, const
   result.answered = true;
   state.blind_m = 0.0;
   return true;
+}
+
+/// One more bearing, or a hint at one, to the view homed to, which nothing else says anything of; false while they say
+/// nothing together or this one is none of those that do.
+bool take_vote(FollowState& state, const VisualPath& path, const features::Appearance& seen,
+               const Result<homing::TargetSeen>& answer, const FollowConfig& config, std::uint64_t seed,
+               FollowResult& result) {
+  state.measured = false;
+  const features::Appearance& view = path.views[static_cast<std::size_t>(state.index)];
+  std::optional<homing::HomeVector> vector;
+  if (answer) vector = answer->vector;
+  // Of a path somebody knows where else it can be looked for; of one view only its picture says anything.
+  if (!vector && path.views.size() == 1) {
+    if (const auto hint = homing::uncertain_home_vector(seen, view, seed)) vector = *hint;
+  }
+  if (!vector) return false;
+  const double share = homing::shared_share(seen, view, vector->inliers);
+  const double guess_m = std::max(1.0, homing::distance_of_few_m(share));
+  state.votes.add(state.odometry, *vector, answer.has_value(), guess_m);
+  const auto voted = state.votes.best();
+  if (!voted) return false;
+  state.tracks[static_cast<std::size_t>(state.index)].settle(voted->position_m, voted->covariance_m2,
+                                                             voted->heading_rad);
+  const bool agrees = BearingVotes::agrees(*voted, state.odometry, *vector);
+  if (agrees) result.vector = *vector;
+  if (agrees && answer) state.blind_m = 0.0;
+  // Hints, and what was voted before, are followed as far as odometry alone, and no farther.
+  result.answered = state.blind_m < config.blind_m;
+  return agrees;
 }
 
 /// Whether an answer says that the view is right here although hardly anything of it is recognised: things far off show
@@ -134,7 +164,7 @@ void pass_views(FollowState& state, const VisualPath& path, const Pose2& odometr
   state.behind = behind ? state.behind + 1 : 0;
   const bool coincides =
       result.vector->median_parallax_rad < config.homing.arrived_parallax_rad && state.alike > config.alike_share;
-  if (state.measured && state.most_alike < homing::VisualHoming::kLeastShare) return;
+  if (state.most_alike < homing::VisualHoming::kLeastShare) return;
   result.at_end =
       state.measured ? distance_m < config.reached_m : coincides || (state.behind >= 2 && distance_m < config.nearby_m);
 }
@@ -176,16 +206,20 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
   drive_on(state, path, odometry, config);
   const int first = state.index;
   int clearest = -1;
-  const auto prior = distance_known(state.tracks[static_cast<std::size_t>(first)], position(odometry));
-  const auto answer =
-      homing_of(state, config).update(seen, path.views[static_cast<std::size_t>(first)], odometry, prior, frame, seed);
+  homing::VisualHoming& visual = homing_of(state, config);
+  const ViewTrack& homed = state.tracks[static_cast<std::size_t>(first)];
+  const bool bearings_alone = visual.map().empty() && (!homed.known() || !state.votes.empty());
+  const auto prior = distance_known(homed, position(odometry), !bearings_alone);
+  const auto answer = visual.update(seen, path.views[static_cast<std::size_t>(first)], odometry, prior, frame, seed);
   const double share =
       answer ? homing::shared_share(seen, path.views[static_cast<std::size_t>(first)], answer->vector.inliers) : 0.0;
   if (answer && is_hollow(*answer, std::max(share, state.most_alike))) {
     state.tracks[static_cast<std::size_t>(first)] = ViewTrack();
     state.visual_index = -1;
     state.measured = false;
-  } else if (take_in(state, answer, odometry, config, result)) {
+  } else if (bearings_alone && !(answer && answer->target_m)
+                 ? take_vote(state, path, seen, answer, config, seed, result)
+                 : take_in(state, answer, odometry, config, result)) {
     state.alike = share;
     state.most_alike = std::max(state.most_alike, share);
     if (is_sure(*result.vector, config)) clearest = first;

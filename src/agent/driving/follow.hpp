@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "agent/driving/bearing_votes.hpp"
 #include "agent/driving/view_track.hpp"
 #include "core/pose2.hpp"
 #include "features/appearance.hpp"
@@ -47,6 +48,7 @@ struct FollowState {
   double blind_m = 0.0;           // driven since the last answer that was believed
   homing::VisualHoming visual;    // to the view homed to
   int visual_index = -1;          // which one that is
+  BearingVotes votes;             // where it is, while nothing but bearings to it says so
   bool measured = false;          // the latest picture says in metres where the view homed to is
   double heading_left_rad = 0.0;  // from the heading at `odometry` to that of the destination's view
   int behind = 0;                 // answers in a row that say that the destination's view lies behind

@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
   double distance_m = 3.0;
   std::uint64_t seed = 1;
   int only = -1;
+  bool elsewhere = false;
   bool trace = false;
   CLI::App app("Homing to single views from random starts");
   app.add_option("--world", world_name);
@@ -63,6 +64,7 @@ int main(int argc, char** argv) {
   app.add_option("--distance", distance_m);
   app.add_option("--seed", seed);
   app.add_option("--only", only, "one start alone");
+  app.add_flag("--elsewhere", elsewhere, "the picture driven to is of a spot out of sight");
   app.add_flag("--trace", trace, "each cycle on standard error");
   CLI11_PARSE(app, argc, argv);
 
@@ -95,6 +97,10 @@ int main(int argc, char** argv) {
       target = {at_m.x(), at_m.y(), angle(random)};
       start = {from_m.x(), from_m.y(), angle(random)};
       if (in_sight(drivable, from_m, at_m)) break;
+    }
+    while (elsewhere && in_sight(drivable, {start.x_m, start.y_m}, {target.x_m, target.y_m})) {
+      const Eigen::Vector2d other_m = sim::random_free_point(drivable, random);
+      target = {other_m.x(), other_m.y(), angle(random)};
     }
     const std::uint64_t own_seed = random();
     if (only >= 0 && i != only) continue;
@@ -138,6 +144,7 @@ int main(int argc, char** argv) {
                        {"final_error_m", result.final_error_m},
                        {"final_error_rad", result.final_error_rad},
                        {"duration_s", result.duration_s},
+                       {"path_m", result.path_m},
                        {"collisions", result.collisions},
                        {"stop", result.stops.empty() ? "" : result.stops.back().reason}};
     std::cout << line.dump() << std::endl;

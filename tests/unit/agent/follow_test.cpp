@@ -204,6 +204,65 @@ TEST(Follow, AFewThingsFarOffAreNoSignOfBeingThere) {
   EXPECT_GT(answered, 0);
 }
 
+/// What is seen from `pose` of a target of which only things far off are the same from here, and the target's view.
+struct FarSeen {
+  Landmarks far;
+  Landmarks near;
+  Pose2 target{6.0, 0.0, 1.0};
+
+  explicit FarSeen(int shared)
+      : far(homeward::testing::landmarks_around({{0.0, 0.0, 0.0}, {6.0, 0.0, 0.0}}, shared, 7, 6.0, 14.0)),
+        near(homeward::testing::landmarks_around({{0.0, 0.0, 0.0}, {6.0, 0.0, 0.0}}, 600, 8)) {}
+  [[nodiscard]] features::Appearance from(const Pose2& pose, std::uint64_t seed) const {
+    return together(seen_from(far, pose, seed), seen_from(near, pose, seed + 1, 1.0));
+  }
+};
+
+TEST(Follow, ABearingOfFewFeaturesLeadsTheRightWayAndClaimsNoDistance) {
+  const FarSeen far(25);
+  const VisualPath path = {{far.from(far.target, 1)}, {std::nullopt}};
+  FollowState state;
+  int led = 0;
+  for (std::uint64_t k = 0; k < 40; ++k) {
+    const Pose2 pose{0.05 * static_cast<double>(k), 0.0, 0.3};
+    const FollowResult followed = follow(state, path, far.from(pose, 100 + 2 * k), {}, pose, {}, k);
+    EXPECT_FALSE(followed.at_end) << k;
+    EXPECT_FALSE(state.measured) << k;
+    const auto goal_m = goal(state, pose, {});
+    if (!goal_m) continue;
+    ++led;
+    EXPECT_NEAR(std::atan2(goal_m->y(), goal_m->x()), -0.3, 0.15) << k;
+    EXPECT_GT(goal_m->norm(), 1.5) << k;
+  }
+  EXPECT_GT(led, 30);
+}
+
+TEST(Follow, OnHintsItDrivesNoFartherThanByOdometryAlone) {
+  const FarSeen far(6);  // too few for an answer
+  const VisualPath path = {{far.from(far.target, 1)}, {std::nullopt}};
+  const FollowConfig config;
+  FollowState state;
+  int led = 0;
+  for (std::uint64_t k = 0; k < 80; ++k) {
+    const Pose2 pose{0.05 * static_cast<double>(k), 0.0, 0.0};
+    const FollowResult followed = follow(state, path, far.from(pose, 100 + 2 * k), {}, pose, config, k);
+    led += followed.answered ? 1 : 0;
+    if (pose.x_m <= config.blind_m) continue;
+    EXPECT_FALSE(followed.answered) << k;
+    EXPECT_FALSE(goal(state, pose, config)) << k;
+  }
+  EXPECT_GT(led, 0);
+}
+
+TEST(Follow, OfAPathWithMoreViewsNoHintIsFollowed) {
+  const FarSeen far(6);
+  const VisualPath path = {{far.from(far.target, 1), far.from(far.target, 3)}, {std::nullopt, std::nullopt}};
+  FollowState state;
+  for (std::uint64_t k = 0; k < 20; ++k) {
+    EXPECT_FALSE(follow(state, path, far.from({}, 100 + 2 * k), {}, {}, {}, k).answered) << k;
+  }
+}
+
 TEST(Follow, IsTheSameForTheSameSeed) {
   const Landmarks landmarks = corner();
   const VisualPath path = path_through(landmarks, true);
