@@ -24,6 +24,7 @@ bool Driving::begin_detour(const Unit& found, const std::string& reason) {
   const auto ways = planning::detour_after(
       {unit.mission->path, unit.mission->path_index, *unit.belief->place, unit.mission->place, unit.detours});
   if (!ways) return false;
+  unit.fails_again = planning::fails_again(unit.closed, *ways);
   unit.closed.insert(unit.closed.end(), ways->begin(), ways->end());
   ++unit.detours;
   unit.looking_for_detour = true;
@@ -42,7 +43,7 @@ bool Driving::begin_detour(const Unit& found, const std::string& reason) {
 Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mission) {
   Plan plan;
   planning::RouteRequest asked;
-  bool tried_again = false;
+  bool fails_again = false;
   {
     const std::scoped_lock lock(unit->mutex);
     if (!unit->looking_for_detour || !unit->mission || unit->mission->id != mission || !unit->belief ||
@@ -52,7 +53,7 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
     plan.mission = *unit->mission;
     asked.from = *unit->belief->place;
     asked.closed = unit->closed;
-    tried_again = unit->tried_again;
+    fails_again = unit->fails_again;
   }
   const auto loaded = maps_.load(plan.mission.map);
   if (!loaded) return pass_on(loaded);
@@ -62,7 +63,7 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   std::erase_if(asked.closed, [&](const planning::Way& way) {
     return map::find_place(map, way.from) == nullptr || map::find_place(map, way.to) == nullptr;
   });
-  const auto detour = planning::plan_detour(map, asked, !tried_again);
+  const auto detour = planning::plan_detour(map, asked, !fails_again);
   if (!detour) return pass_on(detour);
   const std::vector<PlaceId>& places = detour->route.places;
   const auto destination = std::ranges::find_if(map.destinations, [&](const map::Destination& candidate) {
@@ -97,7 +98,6 @@ void Driving::send_detour(const Unit& found, const MissionId& mission, const std
   planned->mission.state = wire::MissionState::kAccepted;
   planned->mission.reason = reason + (planned->again ? " There is no other way; the robot tries it once more."
                                                      : " The robot takes another way.");
-  unit.tried_again = unit.tried_again || planned->again;
   planned->mission.epoch = unit.epoch;
   planned->mission.seq = ++unit.seq;
   planned->order.order = {unit.epoch, unit.seq};

@@ -68,7 +68,7 @@ class Driving : public LinkListener {
   struct Plan {
     wire::MissionView mission;
     wire::MissionOrder order;
-    bool again = false;  // a detour that is the way that failed, once more
+    bool again = false;  // a detour that is the way that failed, again
   };
 
   Result<Unit> find(const RobotId& id);

@@ -69,7 +69,7 @@ struct RobotUnit {
   // Another way after a part of the present one failed; of this mission alone.
   std::vector<planning::Way> closed;
   int detours = 0;
-  bool tried_again = false;         // the only way, once more
+  bool fails_again = false;         // where it failed before
   bool looking_for_detour = false;  // no permit goes out until the new way is sent
   DriveSights sights;               // of this mission
 

@@ -70,7 +70,8 @@ TargetSeen VisualHoming::answer(const LocalPose& pose, const HomeVector* fresh, 
       fresh != nullptr ? fresh->median_parallax_rad : distance_m / config_.metres_per_parallax;
   const Eigen::Vector2d across(-std::sin(seen.vector.bearing_rad), std::cos(seen.vector.bearing_rad));
   const double spread_rad = std::sqrt(across.dot(seen.covariance_m2 * across)) / std::max(distance_m, 1e-3);
-  seen.vector.confidence = probability(log_odds_) * within_bound(spread_rad);
+  seen.map_confidence = probability(log_odds_);
+  seen.vector.confidence = seen.map_confidence * within_bound(spread_rad);
   return seen;
 }
 

@@ -46,6 +46,7 @@ struct TargetSeen {
   HomeVector vector;
   std::optional<Eigen::Vector2d> target_m;                      // in the robot frame; metres where odometry is known
   Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Identity();  // of it, robot frame
+  double map_confidence = 0.0;                                  // probability that the local map is right
   int known = 0;                                                // features of the local map
   TrackCounts tracks;                                           // in the latest picture
   bool began = false;                                           // the local map is new

@@ -32,6 +32,10 @@ std::optional<std::vector<Way>> detour_after(const FailedDrive& failed) {
   return ways;
 }
 
+bool fails_again(std::span<const Way> closed, std::span<const Way> failed) {
+  return std::ranges::all_of(failed, [&](const Way& way) { return std::ranges::find(closed, way) != closed.end(); });
+}
+
 Result<Detour> plan_detour(const map::TopologicalMap& map, const RouteRequest& request, bool may_try_again) {
   auto route = plan_route(map, request);
   if (route) return Detour{std::move(*route), false};

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "planning/route.hpp"
@@ -26,6 +27,9 @@ std::vector<Way> failed_ways(const FailedDrive& failed);
 /// decides, because the destination's own place is reached, no edge can be blamed, or the mission has had its detours.
 std::optional<std::vector<Way>> detour_after(const FailedDrive& failed);
 
+/// Whether it failed where the mission failed before: all of `failed` were in `closed` already.
+bool fails_again(std::span<const Way> closed, std::span<const Way> failed);
+
 /// The way after a failed drive.
 struct Detour {
   Route route;
@@ -33,7 +37,8 @@ struct Detour {
 };
 
 /// The way round what `request` closes. Where there is none and `may_try_again`, the way that there is: somebody who
-/// stood in the door has gone on, and a way that was lost is recognised from where the robot stands now. Errors: those
+/// stood in the door has gone on, and a way that was lost is recognised from where the robot stands now. To be allowed
+/// unless it `fails_again`: what stands in one spot is no passer-by. Errors: those
 /// of plan_route with everything closed.
 Result<Detour> plan_detour(const map::TopologicalMap& map, const RouteRequest& request, bool may_try_again);
 

@@ -48,14 +48,18 @@ std::optional<homing::DistancePrior> distance_known(const ViewTrack& track, cons
   return homing::DistancePrior{distance_m, std::clamp(track.doubt_m() / distance_m, 0.1, 0.8), mapped};
 }
 
+homing::VisualHoming new_homing(const FollowConfig& config) {
+  homing::VisualHomingConfig visual = config.visual;
+  visual.first = config.homing;
+  visual.prior_odds = config.path_odds;
+  visual.begin_confidence = config.believe;
+  return homing::VisualHoming(visual);
+}
+
 /// The homing to the view homed to, begun anew when that is another one.
 homing::VisualHoming& homing_of(FollowState& state, const FollowConfig& config) {
   if (state.visual_index != state.index) {
-    homing::VisualHomingConfig visual = config.visual;
-    visual.first = config.homing;
-    visual.prior_odds = config.path_odds;
-    visual.begin_confidence = config.believe;
-    state.visual = homing::VisualHoming(visual);
+    state.visual = new_homing(config);
     state.visual_index = state.index;
     state.votes.clear();
     state.most_alike = 0.0;
@@ -63,11 +67,19 @@ homing::VisualHoming& homing_of(FollowState& state, const FollowConfig& config) 
   return state.visual;
 }
 
+/// Whether an answer is worth taking in. Right at the view its bearing says nothing any more, and where it is does.
+bool is_believed(const Result<homing::TargetSeen>& answer, const FollowConfig& config) {
+  constexpr double kHere_m = 0.1;
+  if (!answer) return false;
+  if (answer->vector.confidence >= config.believe) return true;
+  return answer->target_m && answer->target_m->norm() < kHere_m && answer->map_confidence >= config.believe;
+}
+
 /// Takes in where the view homed to is seen; false where that says nothing or contradicts what is known.
 bool take_in(FollowState& state, const Result<homing::TargetSeen>& answer, const Pose2& odometry,
              const FollowConfig& config, FollowResult& result) {
   state.measured = false;
-  if (!answer || answer->vector.confidence < config.believe) return false;
+  if (!is_believed(answer, config)) return false;
   ViewTrack& track = state.tracks[static_cast<std::size_t>(state.index)];
   if (answer->target_m) {
     state.measured = true;
@@ -119,6 +131,16 @@ bool take_vote(FollowState& state, const VisualPath& path, const features::Appea
 bool is_hollow(const homing::TargetSeen& answer, double most_alike) {
   constexpr double kHere_m = 0.6;
   return answer.target_m && answer.target_m->norm() < kHere_m && most_alike < homing::VisualHoming::kLeastShare;
+}
+
+/// Whether a handful of features says of a view something else than is known of it already: the robot has driven away
+/// from it for a while, round somebody, and another thing looks alike.
+bool is_unlikely(const homing::TargetSeen& answer, double share, const ViewTrack& track, const Pose2& odometry,
+                 const FollowConfig& config) {
+  constexpr double kKnown = 0.5;  // doubt over distance
+  if (!answer.began || share >= homing::VisualHoming::kLeastShare || !track.known()) return false;
+  const double apart_m = (track.position_m() - position(odometry)).norm();
+  return track.doubt_m() < kKnown * apart_m && !track.agrees(odometry, answer.vector, config.track);
 }
 
 /// The robot is where odometry says now.
@@ -216,6 +238,9 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
   if (answer && is_hollow(*answer, std::max(share, state.most_alike))) {
     state.tracks[static_cast<std::size_t>(first)] = ViewTrack();
     state.visual_index = -1;
+    state.measured = false;
+  } else if (answer && !bearings_alone && is_unlikely(*answer, share, homed, odometry, config)) {
+    state.visual = new_homing(config);
     state.measured = false;
   } else if (bearings_alone && !(answer && answer->target_m)
                  ? take_vote(state, path, seen, answer, config, seed, result)

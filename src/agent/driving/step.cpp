@@ -128,6 +128,9 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   if (state.near_since_ms) {
     forget_standing(state.give_way);
   } else if (const auto back_m = give_way(state.give_way, inputs.odometry, now_ms, patience_ms)) {
+    // Whoever it makes room for stands before what it would recognise, and back it goes where it came along.
+    state.last_answer_ms = now_ms;
+    state.follow.blind_m = 0.0;
     if (back_m->isZero()) return {};
     return steer_round(state.plan, config.body, points_m, *back_m, inputs.odometry, kBack_mps, config.turn_gain);
   }

@@ -36,7 +36,7 @@ struct DrivingConfig {
   Milliseconds held_up_ms = 1000;        // no step for so long: missions that waited meanwhile are refused
   Milliseconds stands_within_ms = 500;   // after the last message, picture or sweep it is at rest by itself
   Milliseconds reaction_ms = 120;        // of it, from an arrival to the wheels
-  Milliseconds blind_ms = 4000;          // nothing recognised for so long: the mission fails
+  Milliseconds blind_ms = 8000;          // nothing recognised for so long: the mission fails
   Milliseconds stuck_ms = 20'000;        // no way gained for so long: the mission fails
   double near_m = 0.25;                  // of the destination: what is in the way there may stay in the way
   Milliseconds near_ms = 8000;           // so long it tries to come nearer than that

@@ -39,9 +39,8 @@ Result<wire::MissionOrder> House::order_from(const PlaceId& place) {
   request.from = place;
   request.to = destination_->place;
   request.closed = closed_;
-  const auto detour = planning::plan_detour(*taught_->map, request, !tried_again_);
+  const auto detour = planning::plan_detour(*taught_->map, request, !fails_again_);
   if (!detour) return pass_on(detour);
-  tried_again_ = tried_again_ || detour->again;
   path_ = detour->route.places;
   wire::MissionOrder order = wire::order_for_route(*taught_->map, path_, *destination_);
   order.mission = MissionId("simulated");
@@ -86,6 +85,7 @@ Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, s
   }
   const auto ways = planning::detour_after({path_, index, **here, destination_->place, detours_});
   if (!ways) return std::nullopt;
+  fails_again_ = planning::fails_again(closed_, *ways);
   closed_.insert(closed_.end(), ways->begin(), ways->end());
   auto order = order_from(**here);
   if (!order) {

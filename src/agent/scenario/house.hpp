@@ -41,7 +41,7 @@ class House {
   std::vector<PlaceId> path_;
   std::vector<planning::Way> closed_;
   int detours_ = 0;
-  bool tried_again_ = false;
+  bool fails_again_ = false;  // where it failed before
   std::int64_t orders_ = 0;
 };
 

@@ -263,6 +263,55 @@ TEST(Follow, OfAPathWithMoreViewsNoHintIsFollowed) {
   }
 }
 
+TEST(Follow, AViewSeenWellBeforeIsReachedWhenTheCameraWasCoveredBetween) {
+  const Landmarks landmarks = corner();
+  const VisualPath path = {{seen_from(landmarks, kViews.back(), 1)}, {std::nullopt}};
+  const FollowConfig config;
+  FollowState state;
+  bool at_end = false;
+  const Pose2 from = kViews.back() * Pose2{-1.2, 0.0, 0.0};
+  for (std::uint64_t k = 0; k < 60 && !at_end; ++k) {
+    // A metre on, and then the last bit.
+    const double way_m = std::min(1.2, 0.04 * static_cast<double>(k));
+    const Pose2 pose = from * Pose2{way_m, 0.0, 0.0};
+    const bool covered = way_m > 0.5 && way_m < 0.9;
+    const auto seen = covered ? features::Appearance{} : seen_from(landmarks, pose, 100 + k);
+    const FollowResult followed = follow(state, path, seen, {}, pose, config, k);
+    EXPECT_NE(followed.answered, covered) << k;
+    at_end = followed.at_end;
+    EXPECT_FALSE(at_end && way_m < 1.1) << k;
+    EXPECT_TRUE(!covered || state.most_alike >= homing::VisualHoming::kLeastShare) << k;
+  }
+  EXPECT_TRUE(at_end);
+}
+
+TEST(Follow, AHandfulOfFeaturesDoesNotTurnAKnownViewRound) {
+  const std::vector<Pose2> around = {{0.0, 0.0, 0.0}, {6.0, 0.0, 0.0}};
+  const Pose2 target{3.0, 0.0, 0.5};
+  const Landmarks few = homeward::testing::landmarks_around(around, 25, 7);
+  const Landmarks others = homeward::testing::landmarks_around(around, 600, 8);
+  const VisualPath path = {{together(seen_from(few, target, 1), seen_from(others, target, 2))}, {std::nullopt}};
+  const FollowConfig config;
+  FollowState state;
+  Pose2 pose;
+  for (std::uint64_t k = 0; k < 12; ++k) {
+    pose = {0.08 * static_cast<double>(k), 0.0, 0.0};
+    const auto seen = together(seen_from(few, pose, 100 + k, 1.0), seen_from(others, pose, 200 + k));
+    ASSERT_TRUE(follow(state, path, seen, {}, pose, config, k).answered) << k;
+  }
+  ASSERT_TRUE(state.measured);
+  // Now something else looks as these few would from the far side of the view; the rest is hidden.
+  const Pose2 beyond{2.0 * target.x_m - pose.x_m, 0.0, 0.0};
+  for (std::uint64_t k = 0; k < 30; ++k) {
+    const auto seen = together(seen_from(few, beyond, 300 + k), seen_from(others, pose, 400 + k, 1.0));
+    follow(state, path, seen, {}, pose, config, 100 + k);
+    const auto goal_m = goal(state, pose, config);
+    ASSERT_TRUE(goal_m) << k;
+    EXPECT_NEAR(goal_m->x(), target.x_m - pose.x_m, 0.5) << k;
+    EXPECT_NEAR(goal_m->y(), 0.0, 0.3) << k;
+  }
+}
+
 TEST(Follow, IsTheSameForTheSameSeed) {
   const Landmarks landmarks = corner();
   const VisualPath path = path_through(landmarks, true);

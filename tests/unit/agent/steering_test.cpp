@@ -96,5 +96,25 @@ TEST(SteerRound, GetsAwayFromFurnitureItStandsCloseToAndReachesItsGoal) {
   EXPECT_GT(reachable, 10);
 }
 
+TEST(Steering, WhoeverStandsInACorridorIsWaitedForAndNoWayBehindItsWallsTried) {
+  Points walls;
+  for (double x_m = -1.0; x_m <= 2.5; x_m += 0.02) {
+    walls.emplace_back(x_m, 0.6);
+    walls.emplace_back(x_m, -0.6);
+  }
+  Points with_person = walls;
+  for (double angle_rad = 0.5 * kPi; angle_rad <= 1.5 * kPi; angle_rad += 0.1) {
+    with_person.emplace_back(1.2 + 0.2 * std::cos(angle_rad), 0.2 * std::sin(angle_rad));
+  }
+  const Body body;
+  const Eigen::Vector2d goal_m(2.0, 0.0);
+  EXPECT_GT(steer_round(body, walls, goal_m, 0.0, 0.45, 1.8).speed_mps, 0.3);
+  ASSERT_TRUE(local_way(body, with_person, goal_m));
+  EXPECT_TRUE(local_way(body, with_person, goal_m)->reaches_goal);
+  const Motion before_person = steer_round(body, with_person, goal_m, 0.0, 0.45, 1.8);
+  EXPECT_EQ(before_person.speed_mps, 0.0);
+  EXPECT_EQ(before_person.turn_radps, 0.0);
+}
+
 }  // namespace
 }  // namespace homeward::agent

@@ -54,6 +54,14 @@ C-D
   EXPECT_FALSE(detour->again);
 }
 
+TEST(Detour, FailsAgainWhereAllThatFailedIsClosedAlready) {
+  const Ways closed = {way("A", "B"), way("B", "A"), way("C", "D"), way("D", "C")};
+  EXPECT_FALSE(fails_again({}, Ways{way("A", "B"), way("B", "A")}));
+  EXPECT_TRUE(fails_again(closed, Ways{way("C", "D"), way("D", "C")}));
+  EXPECT_FALSE(fails_again(closed, Ways{way("B", "C"), way("C", "B")}));
+  EXPECT_FALSE(fails_again(closed, Ways{way("A", "B"), way("B", "A"), way("B", "C"), way("C", "B")}));
+}
+
 TEST(Detour, TriesTheOnlyWayOnceMore) {
   const auto map = homeward::testing::ascii_map("A-B-C");
   const RouteRequest request{
