@@ -24,7 +24,7 @@ def fault(kind, **more):
 MISSIONS = {
     "a third covered": fault("camera_occluded", for_s=5, share=0.34),
     "tracking lost": fault("camera_occluded", for_s=2, share=1.0),
-    "lost for long": fault("camera_occluded", for_s=6, share=1.0),
+    "lost for long": fault("camera_occluded", for_s=12, share=1.0),
     "laser silent": fault("scan_lost", for_s=3),
     "link cut": fault("link_lost", for_s=3),
     "agent frozen": fault("agent_frozen", for_s=2),

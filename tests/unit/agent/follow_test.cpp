@@ -223,8 +223,8 @@ TEST(Follow, ABearingOfFewFeaturesLeadsTheRightWayAndClaimsNoDistance) {
   const VisualPath path = {{far.from(far.target, 1)}, {std::nullopt}};
   FollowState state;
   int led = 0;
-  for (std::uint64_t k = 0; k < 40; ++k) {
-    const Pose2 pose{0.05 * static_cast<double>(k), 0.0, 0.3};
+  for (std::uint64_t k = 0; k < 20; ++k) {
+    const Pose2 pose{0.1 * static_cast<double>(k), 0.0, 0.3};
     const FollowResult followed = follow(state, path, far.from(pose, 100 + 2 * k), {}, pose, {}, k);
     EXPECT_FALSE(followed.at_end) << k;
     EXPECT_FALSE(state.measured) << k;
@@ -234,7 +234,7 @@ TEST(Follow, ABearingOfFewFeaturesLeadsTheRightWayAndClaimsNoDistance) {
     EXPECT_NEAR(std::atan2(goal_m->y(), goal_m->x()), -0.3, 0.15) << k;
     EXPECT_GT(goal_m->norm(), 1.5) << k;
   }
-  EXPECT_GT(led, 30);
+  EXPECT_GT(led, 15);
 }
 
 TEST(Follow, OnHintsItDrivesNoFartherThanByOdometryAlone) {
@@ -243,8 +243,8 @@ TEST(Follow, OnHintsItDrivesNoFartherThanByOdometryAlone) {
   const FollowConfig config;
   FollowState state;
   int led = 0;
-  for (std::uint64_t k = 0; k < 80; ++k) {
-    const Pose2 pose{0.05 * static_cast<double>(k), 0.0, 0.0};
+  for (std::uint64_t k = 0; k < 30; ++k) {
+    const Pose2 pose{0.1 * static_cast<double>(k), 0.0, 0.0};
     const FollowResult followed = follow(state, path, far.from(pose, 100 + 2 * k), {}, pose, config, k);
     led += followed.answered ? 1 : 0;
     if (pose.x_m <= config.blind_m) continue;
@@ -258,7 +258,7 @@ TEST(Follow, OfAPathWithMoreViewsNoHintIsFollowed) {
   const FarSeen far(6);
   const VisualPath path = {{far.from(far.target, 1), far.from(far.target, 3)}, {std::nullopt, std::nullopt}};
   FollowState state;
-  for (std::uint64_t k = 0; k < 20; ++k) {
+  for (std::uint64_t k = 0; k < 8; ++k) {
     EXPECT_FALSE(follow(state, path, far.from({}, 100 + 2 * k), {}, {}, {}, k).answered) << k;
   }
 }
@@ -288,8 +288,8 @@ TEST(Follow, AViewSeenWellBeforeIsReachedWhenTheCameraWasCoveredBetween) {
 TEST(Follow, AHandfulOfFeaturesDoesNotTurnAKnownViewRound) {
   const std::vector<Pose2> around = {{0.0, 0.0, 0.0}, {6.0, 0.0, 0.0}};
   const Pose2 target{3.0, 0.0, 0.5};
-  const Landmarks few = homeward::testing::landmarks_around(around, 25, 7);
-  const Landmarks others = homeward::testing::landmarks_around(around, 600, 8);
+  const Landmarks few = homeward::testing::landmarks_around(around, 12, 7);
+  const Landmarks others = homeward::testing::landmarks_around(around, 280, 8);
   const VisualPath path = {{together(seen_from(few, target, 1), seen_from(others, target, 2))}, {std::nullopt}};
   const FollowConfig config;
   FollowState state;
@@ -302,7 +302,7 @@ TEST(Follow, AHandfulOfFeaturesDoesNotTurnAKnownViewRound) {
   ASSERT_TRUE(state.measured);
   // Now something else looks as these few would from the far side of the view; the rest is hidden.
   const Pose2 beyond{2.0 * target.x_m - pose.x_m, 0.0, 0.0};
-  for (std::uint64_t k = 0; k < 30; ++k) {
+  for (std::uint64_t k = 0; k < 12; ++k) {
     const auto seen = together(seen_from(few, beyond, 300 + k), seen_from(others, pose, 400 + k, 1.0));
     follow(state, path, seen, {}, pose, config, 100 + k);
     const auto goal_m = goal(state, pose, config);
