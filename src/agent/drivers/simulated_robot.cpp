@@ -106,6 +106,7 @@ Body body_of(const sim::RobotProfile& profile) {
   body.max_turn_radps = profile.max_turn_radps;
   body.deceleration_mps2 = profile.deceleration_mps2;
   body.turn_deceleration_radps2 = profile.turn_deceleration_radps2;
+  body.vague_ranges = profile.ranges == sim::RangeSensor::kUltrasound;
   return body;
 }
 

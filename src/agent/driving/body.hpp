@@ -17,6 +17,7 @@ struct Body {
   double max_turn_radps = 1.2;
   double deceleration_mps2 = 1.0;
   double turn_deceleration_radps2 = 5.0;
+  bool vague_ranges = false;  // of its range sensors: ways that seem closed may be open (ultrasound)
 };
 
 /// Speed forward and turn counter-clockwise.

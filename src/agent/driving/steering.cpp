@@ -60,11 +60,12 @@ double heading_with_room(const Body& body, std::span<const Eigen::Vector2d> poin
 Motion steer_round(const Body& body, std::span<const Eigen::Vector2d> points_m, const Eigen::Vector2d& goal_m,
                    double heading_rad, double speed_mps, double turn_gain) {
   const auto way = local_way(body, points_m, goal_m, heading_rad);
+  if (!way) return {};
   // So long a way round leads through what no sweep has seen, behind walls mostly: whoever stands before the robot is
   // waited for.
   constexpr double kLongest = 2.0;
   constexpr double kLonger_m = 1.5;
-  if (!way || way->length_m > kLongest * goal_m.norm() + kLonger_m) return {};
+  if (!body.vague_ranges && way->length_m > kLongest * goal_m.norm() + kLonger_m) return {};
   const double angle_rad = heading_with_room(body, points_m, std::atan2(way->carrot_m.y(), way->carrot_m.x()));
   const double turn_radps = std::clamp(turn_gain * angle_rad, -body.max_turn_radps, body.max_turn_radps);
   constexpr double kTurnFirst_rad = 0.9;

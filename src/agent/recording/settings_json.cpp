@@ -14,7 +14,7 @@ using nlohmann::json;
 
 template <class Fields, class Config>
 void body_fields(Fields& fields, Config& body) {
-  auto& [outline, max_speed_mps, max_turn_radps, deceleration_mps2, turn_deceleration_radps2] = body;
+  auto& [outline, max_speed_mps, max_turn_radps, deceleration_mps2, turn_deceleration_radps2, vague_ranges] = body;
   auto& [radius_m, back_m, front_m, side_m] = outline;
   fields("body_radius_m", radius_m);
   fields("body_back_m", back_m);
@@ -24,6 +24,7 @@ void body_fields(Fields& fields, Config& body) {
   fields("body_max_turn_radps", max_turn_radps);
   fields("body_deceleration_mps2", deceleration_mps2);
   fields("body_turn_deceleration_radps2", turn_deceleration_radps2);
+  fields("body_vague_ranges", vague_ranges);
 }
 
 template <class Fields, class Config>

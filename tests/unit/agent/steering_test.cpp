@@ -114,6 +114,10 @@ TEST(Steering, WhoeverStandsInACorridorIsWaitedForAndNoWayBehindItsWallsTried) {
   const Motion before_person = steer_round(body, with_person, goal_m, 0.0, 0.45, 1.8);
   EXPECT_EQ(before_person.speed_mps, 0.0);
   EXPECT_EQ(before_person.turn_radps, 0.0);
+  // Ultrasound's arcs close doors that are open: there it goes and looks.
+  Body vague;
+  vague.vague_ranges = true;
+  EXPECT_NE(steer_round(vague, with_person, goal_m, 0.0, 0.45, 1.8).turn_radps, 0.0);
 }
 
 }  // namespace
