@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Homing to one view, again and again: targets at random in a world, starts some metres off with the target's spot in
-// sight, any headings. The agent's own heart drives; the world judges. One JSON line for each, then a summary.
+// sight, any headings. The agent's own heart drives; the world judges. One JSON line for each, then a summary. With
+// --answers nothing drives: what single pictures on the straight way say of the target, by how far off it is.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -11,6 +13,7 @@
 #include "agent/files/world_folder.hpp"
 #include "agent/scenario/mission_run.hpp"
 #include "core/angles.hpp"
+#include "homing/home_vector.hpp"
 #include "sim/floor.hpp"
 #include "wire/appearance_blob.hpp"
 
@@ -36,6 +39,29 @@ bool in_sight(const sim::FloorGrid& drivable, const Eigen::Vector2d& a, const Ei
   return true;
 }
 
+/// What pictures from one distance say, each alone.
+struct Answers {
+  int right = 0;  // within 15 degrees
+  int wrong = 0;
+  int right_hints = 0;  // where nothing is certain
+  int wrong_hints = 0;
+  int silent = 0;
+
+  void count(const features::Appearance& seen, const features::Appearance& target, double truth_rad,
+             std::uint64_t seed) {
+    const auto right_way = [&](const homing::HomeVector& vector) {
+      return std::abs(wrap_angle(vector.bearing_rad - truth_rad)) <= radians(15.0);
+    };
+    if (const auto answer = homing::home_vector(seen, target, {}, seed)) {
+      ++(right_way(*answer) ? right : wrong);
+    } else if (const auto hint = homing::uncertain_home_vector(seen, target, seed)) {
+      ++(right_way(*hint) ? right_hints : wrong_hints);
+    } else {
+      ++silent;
+    }
+  }
+};
+
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
   std::ranges::sort(values);
@@ -54,6 +80,7 @@ int main(int argc, char** argv) {
   std::uint64_t seed = 1;
   int only = -1;
   bool elsewhere = false;
+  bool answers_alone = false;
   bool trace = false;
   CLI::App app("Homing to single views from random starts");
   app.add_option("--world", world_name);
@@ -64,6 +91,7 @@ int main(int argc, char** argv) {
   app.add_option("--distance", distance_m);
   app.add_option("--seed", seed);
   app.add_option("--only", only, "one start alone");
+  app.add_flag("--answers", answers_alone, "only what single pictures say");
   app.add_flag("--elsewhere", elsewhere, "the picture driven to is of a spot out of sight");
   app.add_flag("--trace", trace, "each cycle on standard error");
   CLI11_PARSE(app, argc, argv);
@@ -85,6 +113,7 @@ int main(int argc, char** argv) {
   const sim::FloorGrid& drivable = world.world().drivable;
   std::vector<double> errors_m;
   std::vector<double> headings_rad;
+  std::map<double, Answers> answers;  // by distance, metres
   int arrived = 0;
   int collisions = 0;
   for (int i = 0; i < starts; ++i) {
@@ -104,6 +133,17 @@ int main(int argc, char** argv) {
     }
     const std::uint64_t own_seed = random();
     if (only >= 0 && i != only) continue;
+    if (answers_alone) {
+      const auto view = or_die(eye.look(renderer.render(target, {}, own_seed + 1)));
+      const double way_rad = std::atan2(target.y_m - start.y_m, target.x_m - start.x_m);
+      for (double driven_m = 0.0; driven_m < distance_m - 0.5; driven_m += 0.5) {
+        const Pose2 here{start.x_m + driven_m * std::cos(way_rad), start.y_m + driven_m * std::sin(way_rad),
+                         start.theta_rad};
+        const auto seen = or_die(eye.look(renderer.render(here, {}, own_seed + 2)));
+        answers[distance_m - driven_m].count(seen, view, wrap_angle(way_rad - here.theta_rad), own_seed);
+      }
+      continue;
+    }
     agent::SimulatedRobotConfig config;
     config.camera = camera_config;
     config.light = light;
@@ -149,6 +189,17 @@ int main(int argc, char** argv) {
                        {"stop", result.stops.empty() ? "" : result.stops.back().reason}};
     std::cout << line.dump() << std::endl;
   }
+  for (const auto& [apart_m, said] : answers) {
+    std::cout << json{{"apart_m", apart_m},
+                      {"right", said.right},
+                      {"wrong", said.wrong},
+                      {"right_hints", said.right_hints},
+                      {"wrong_hints", said.wrong_hints},
+                      {"silent", said.silent}}
+                     .dump()
+              << std::endl;
+  }
+  if (answers_alone) return 0;
   const auto within = [&](double limit_m) {
     return static_cast<double>(std::ranges::count_if(errors_m, [&](double e) { return e <= limit_m; })) /
            static_cast<double>(errors_m.size());
