@@ -38,8 +38,8 @@ struct Detour {
 
 /// The way round what `request` closes. Where there is none and `may_try_again`, the way that there is: somebody who
 /// stood in the door has gone on, and a way that was lost is recognised from where the robot stands now. To be allowed
-/// unless it `fails_again`: what stands in one spot is no passer-by. Errors: those
-/// of plan_route with everything closed.
+/// unless it `fails_again`: what stands in one spot is no passer-by. Errors: those of plan_route with everything
+/// closed.
 Result<Detour> plan_detour(const map::TopologicalMap& map, const RouteRequest& request, bool may_try_again);
 
 }  // namespace homeward::planning

@@ -58,9 +58,8 @@ double BearingVotes::agreement(const Vote& vote, const Eigen::Vector2d& position
 
 VotedView BearingVotes::refined(const Eigen::Vector2d& position_m, double heading_rad, double guess_m) const {
   constexpr int kSteps = 4;
-  constexpr double kGuess = 0.7;  // spread of a guessed distance over it
-  constexpr double kIndependent =
-      3.0;  // so many votes at most say each its own: what they share adds up to no certainty
+  constexpr double kGuess = 0.7;        // spread of a guessed distance over it
+  constexpr double kIndependent = 3.0;  // so many votes at most say each its own: shared errors add up to no certainty
   VotedView view{position_m, Eigen::Matrix2d::Identity(), heading_rad, 0.0};
   const Eigen::Vector2d start_m = votes_.back().from_m;
   for (int step = 0; step < kSteps; ++step) {

@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
   app.add_option("--seed", seed);
   app.add_option("--only", only, "one start alone");
   app.add_flag("--answers", answers_alone, "only what single pictures say");
-  app.add_flag("--elsewhere", elsewhere, "the picture driven to is of a spot out of sight");
+  app.add_flag("--elsewhere", elsewhere, "the picture driven to is of a spot that no straight way leads to");
   app.add_flag("--trace", trace, "each cycle on standard error");
   CLI11_PARSE(app, argc, argv);
 
