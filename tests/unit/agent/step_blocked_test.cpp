@@ -63,6 +63,29 @@ TEST_F(StepTest, WhoStandsInTheWayIsMadeRoomForAndTheWayGoesOnOnceItIsFree) {
   EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
 }
 
+TEST_F(StepTest, WhoHidesTheViewWhileRoomIsMadeForThemDoesNotEndTheMissionAndWhoHidesItAfterwardsDoes) {
+  constexpr double kWall_m = 1.7;
+  config_.blind_ms = 3000;
+  set_off();
+  const auto drive_until = [&](GiveWay::Phase phase, int ticks) {
+    for (int k = 0; k < ticks && state_.drive == DriveState::kDriving && state_.give_way.phase != phase; ++k) {
+      see_wall_across(kWall_m);
+      tick({permit("m1", 1, ++seq_)});
+    }
+  };
+  drive_until(GiveWay::Phase::kBacking, 400);
+  ASSERT_EQ(state_.drive, DriveState::kDriving) << state_.reason;
+  hidden_ = true;
+  const Milliseconds hidden_ms = now_ms_;
+  drive_until(GiveWay::Phase::kOnTheWay, 400);
+  EXPECT_EQ(state_.drive, DriveState::kDriving) << state_.reason;
+  EXPECT_GT(now_ms_ - hidden_ms, config_.blind_ms);
+  ASSERT_EQ(state_.give_way.phase, GiveWay::Phase::kOnTheWay);
+  EXPECT_LE(until_stopped(true, 10'000), config_.blind_ms + 2 * kTick_ms);
+  EXPECT_EQ(state_.drive, DriveState::kFailed);
+  EXPECT_NE(state_.reason.find("recognise"), std::string::npos) << state_.reason;
+}
+
 TEST_F(StepTest, TheLastDecimetreLeavesRoomBetweenTheRobotAndAWallBehindTheDestination) {
   constexpr double kRoomThere_m = 0.03;
   const double wall_x_m = views().back().x_m + config_.body.outline.radius_m + kRoomThere_m;

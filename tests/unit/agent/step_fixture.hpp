@@ -62,7 +62,7 @@ class StepTest : public ::testing::Test {
     if (pictures_) {
       const auto count = static_cast<std::uint64_t>(now_ms_);
       const bool covered = covered_ || (covered_now_and_then_ && (now_ms_ / kTick_ms) % 8 == 0);
-      auto seen = covered ? features::Appearance() : seen_from(landmarks_, pose_, count);
+      auto seen = covered ? features::Appearance() : seen_from(landmarks_, pose_, count, hidden_ ? 1.0 : 0.0);
       inputs.picture = SeenPicture{
           now_ms_ - picture_age_ms_, std::make_shared<const features::Appearance>(std::move(seen)), {}, pose_};
     }
@@ -174,6 +174,7 @@ class StepTest : public ::testing::Test {
   bool sweeps_ = true;
   bool covered_ = false;
   bool covered_now_and_then_ = false;
+  bool hidden_ = false;           // somebody stands before all that it would recognise
   double field_rad_ = 2.0 * kPi;  // of the range sensor, about straight ahead
   std::vector<float> ranges_m_ = std::vector<float>(90, 5.0F);
 };
