@@ -12,25 +12,6 @@ constexpr double kMargin_m = 0.05;
 constexpr double kReaction_s = 0.25;  // from the sweep to the wheels
 constexpr double kStep_s = 0.1;
 
-/// The points after the robot moved along an arc for a while, in its new frame.
-std::vector<Eigen::Vector2d> seen_after(std::span<const Eigen::Vector2d> points_m, const Motion& motion,
-                                        double seconds) {
-  const double turned_rad = motion.turn_radps * seconds;
-  const double length_m = motion.speed_mps * seconds;
-  const double half_rad = 0.5 * turned_rad;
-  const double chord_m = std::abs(half_rad) < 1e-9 ? length_m : length_m * std::sin(half_rad) / half_rad;
-  const Eigen::Vector2d moved_m(chord_m * std::cos(half_rad), chord_m * std::sin(half_rad));
-  const double c = std::cos(turned_rad);
-  const double s = std::sin(turned_rad);
-  std::vector<Eigen::Vector2d> result;
-  result.reserve(points_m.size());
-  for (const Eigen::Vector2d& point : points_m) {
-    const Eigen::Vector2d d = point - moved_m;
-    result.emplace_back(c * d.x() + s * d.y(), -s * d.x() + c * d.y());
-  }
-  return result;
-}
-
 bool is_safe(const Motion& motion, const Body& body, std::span<const Eigen::Vector2d> points_m, double now_m) {
   double braking_s = std::abs(motion.speed_mps) / body.deceleration_mps2;
   if (!is_round(body.outline)) {
@@ -87,6 +68,24 @@ Motion made_safe_long(const Motion& wanted, const Body& body, std::span<const Ei
 }
 
 }  // namespace
+
+std::vector<Eigen::Vector2d> seen_after(std::span<const Eigen::Vector2d> points_m, const Motion& motion,
+                                        double seconds) {
+  const double turned_rad = motion.turn_radps * seconds;
+  const double length_m = motion.speed_mps * seconds;
+  const double half_rad = 0.5 * turned_rad;
+  const double chord_m = std::abs(half_rad) < 1e-9 ? length_m : length_m * std::sin(half_rad) / half_rad;
+  const Eigen::Vector2d moved_m(chord_m * std::cos(half_rad), chord_m * std::sin(half_rad));
+  const double c = std::cos(turned_rad);
+  const double s = std::sin(turned_rad);
+  std::vector<Eigen::Vector2d> result;
+  result.reserve(points_m.size());
+  for (const Eigen::Vector2d& point : points_m) {
+    const Eigen::Vector2d d = point - moved_m;
+    result.emplace_back(c * d.x() + s * d.y(), -s * d.x() + c * d.y());
+  }
+  return result;
+}
 
 double clearance_m(const Body& body, std::span<const Eigen::Vector2d> points_m) {
   double nearest_m = 100.0;

@@ -29,6 +29,10 @@ struct Motion {
 /// From the body's outline to the nearest point, metres; negative inside. Far when there is no point.
 double clearance_m(const Body& body, std::span<const Eigen::Vector2d> points_m);
 
+/// The points as the robot sees them after it moved along an arc for so many seconds, robot frame then, metres.
+std::vector<Eigen::Vector2d> seen_after(std::span<const Eigen::Vector2d> points_m, const Motion& motion,
+                                        double seconds);
+
 /// The wanted motion, slowed or stopped so that the body could still brake before touching any point: range sensors
 /// have the last word. What only turns a body away from contact stays allowed. One that is not round keeps to its bend
 /// when it is slowed, and where that is not safe takes the safe motion most like it.

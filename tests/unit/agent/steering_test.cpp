@@ -61,17 +61,19 @@ Points furniture(double least_m, std::mt19937_64& random) {
   return points;
 }
 
-/// Seconds that a disc takes from the origin to within 0.3 m of a goal, steering by a noisy sweep every 100 ms; or
-/// nothing when it never gets there in half a minute.
-std::optional<double> seconds_to(const Eigen::Vector2d& goal_m, const Points& world, std::mt19937_64& random) {
+/// The least room that a disc keeps from the origin to within 0.3 m of a goal, steering by a noisy sweep every 100 ms;
+/// or nothing when it never gets there in half a minute.
+std::optional<double> least_room_to_m(const Eigen::Vector2d& goal_m, const Points& world, std::mt19937_64& random) {
   const Body body;
+  double least_room_m = 100.0;
   Pose2 pose{0.0, 0.0, std::uniform_real_distribution<double>(-kPi, kPi)(random)};
   constexpr double kCycle_s = 0.1;
   for (double t_s = 0.0; t_s < 30.0; t_s += kCycle_s) {
     const Points seen = seen_by(world, pose, 0.01, random);
     const Pose2 to = inverse(pose) * Pose2{goal_m.x(), goal_m.y(), 0.0};
     const Eigen::Vector2d aim_m(to.x_m, to.y_m);
-    if (aim_m.norm() < 0.3) return t_s;
+    if (aim_m.norm() < 0.3) return least_room_m;
+    least_room_m = std::min(least_room_m, clearance_m(body, seen_by(world, pose, 0.0, random)));
     const Motion motion = made_safe(steer_round(body, seen, aim_m, pose.theta_rad, 0.45, 1.8), body, seen);
     pose = pose * Pose2{motion.speed_mps * kCycle_s, 0.0, motion.turn_radps * kCycle_s};
   }
@@ -91,9 +93,28 @@ TEST(SteerRound, GetsAwayFromFurnitureItStandsCloseToAndReachesItsGoal) {
     const auto way = local_way(wider, world, goal_m);
     if (!way || !way->reaches_goal) continue;
     ++reachable;
-    EXPECT_TRUE(seconds_to(goal_m, world, random)) << "seed " << seed << ", " << room_m << " m of room";
+    EXPECT_TRUE(least_room_to_m(goal_m, world, random)) << "seed " << seed << ", " << room_m << " m of room";
   }
   EXPECT_GT(reachable, 10);
+}
+
+TEST(SteerRound, TurnsBeforeItDrivesWhereAnArcWouldCutACornerThatTheWayGoesRound) {
+  const Body body;
+  Points corner;  // of a piece of furniture, ahead on the right
+  for (double along_m = 0.0; along_m < 0.5; along_m += 0.02) {
+    corner.emplace_back(0.42 + along_m, -0.22);
+    corner.emplace_back(0.42, -0.22 - along_m);
+  }
+  const Eigen::Vector2d goal_m(0.5, 0.3);
+  ASSERT_GT(clearance_m(body, corner), 0.09);
+  const Motion motion = steer_round(body, corner, goal_m, 0.0, 0.45, 1.8);
+  EXPECT_GT(motion.turn_radps, 0.5);
+  for (double seconds = 0.1; seconds < 0.85; seconds += 0.1) {
+    EXPECT_GT(clearance_m(body, seen_after(corner, motion, seconds)), 0.075) << "after " << seconds << " s";
+  }
+  const double ahead_rad = std::atan2(goal_m.y(), goal_m.x());
+  const Points turned = seen_after(corner, {0.0, ahead_rad}, 1.0);
+  EXPECT_GT(steer_round(body, turned, {goal_m.norm(), 0.0}, ahead_rad, 0.45, 1.8).speed_mps, 0.1);
 }
 
 TEST(Steering, WhoeverStandsInACorridorIsWaitedForAndNoWayBehindItsWallsTried) {
