@@ -106,17 +106,9 @@ json geojson(const map::TopologicalMap& map, const std::vector<Eigen::Vector2d>&
     const auto from = index.find(edge.from);
     const auto to = index.find(edge.to);
     if (from == index.end() || to == index.end()) continue;
-    features.push_back(feature("LineString", json::array({position(from->second), position(to->second)}),
-                               {{"from", edge.from.str()},
-                                {"to", edge.to.str()},
-                                {"bearing_rad", or_null(edge.bearing_rad)},
-                                {"turn_rad", or_null(edge.turn_rad)},
-                                {"length_m", edge.length_m},
-                                {"length_from", length_source_name(edge.length_from)},
-                                {"confidence", edge.confidence},
-                                {"inliers", edge.inliers},
-                                {"weak", edge.weak},
-                                {"blocked", edge.blocked}}));
+    json properties = edge_to_json(edge);
+    properties["blocked"] = edge.blocked;
+    features.push_back(feature("LineString", json::array({position(from->second), position(to->second)}), properties));
   }
   return {{"type", "FeatureCollection"},
           {"name", map.name},

@@ -21,17 +21,10 @@ json place_to_json(const map::Place& place, const Eigen::Vector2d& position) {
           {"y", finite_or_null(position.y())}};
 }
 
-json edge_to_json(const map::Edge& edge) {
-  return {{"from", edge.from.str()},
-          {"to", edge.to.str()},
-          {"bearing_rad", or_null(edge.bearing_rad)},
-          {"turn_rad", or_null(edge.turn_rad)},
-          {"length_m", edge.length_m},
-          {"length_from", length_source_name(edge.length_from)},
-          {"confidence", edge.confidence},
-          {"inliers", edge.inliers},
-          {"weak", edge.weak},
-          {"blocked", edge.blocked}};
+json edge_of_graph(const map::Edge& edge) {
+  json value = edge_to_json(edge);
+  value["blocked"] = edge.blocked;
+  return value;
 }
 
 }  // namespace
@@ -48,7 +41,7 @@ json graph_to_json(const map::TopologicalMap& map, const MapId& id, const std::v
   for (std::size_t i = 0; i < map.places.size(); ++i) {
     value["places"].push_back(place_to_json(map.places[i], layout.at(i)));
   }
-  for (const map::Edge& edge : map.edges) value["edges"].push_back(edge_to_json(edge));
+  for (const map::Edge& edge : map.edges) value["edges"].push_back(edge_of_graph(edge));
   for (const map::Destination& destination : map.destinations) {
     value["destinations"].push_back({{"id", destination.id.str()},
                                      {"place", destination.place.str()},

@@ -25,18 +25,6 @@ json place_to_json(const map::Place& place) {
           {"appearances", place.appearances.size()}};
 }
 
-json inspected_edge(const map::Edge& edge) {
-  return {{"from", edge.from.str()},
-          {"to", edge.to.str()},
-          {"bearing_rad", or_null(edge.bearing_rad)},
-          {"turn_rad", or_null(edge.turn_rad)},
-          {"length_m", edge.length_m},
-          {"length_from", length_source_name(edge.length_from)},
-          {"confidence", edge.confidence},
-          {"inliers", edge.inliers},
-          {"weak", edge.weak}};
-}
-
 json part_to_json(const map::MapPart& part) { return {{"places", ids_to_json(part.places)}, {"tours", part.tours}}; }
 
 }  // namespace
@@ -49,6 +37,18 @@ std::string_view length_source_name(map::LengthSource source) {
 std::string_view decision_name(map::Decision decision) {
   constexpr std::array<std::string_view, 3> kNames = {"accepted", "rejected", "undecided"};
   return kNames[static_cast<std::size_t>(decision)];
+}
+
+json edge_to_json(const map::Edge& edge) {
+  return {{"from", edge.from.str()},
+          {"to", edge.to.str()},
+          {"bearing_rad", or_null(edge.bearing_rad)},
+          {"turn_rad", or_null(edge.turn_rad)},
+          {"length_m", edge.length_m},
+          {"length_from", length_source_name(edge.length_from)},
+          {"confidence", edge.confidence},
+          {"inliers", edge.inliers},
+          {"weak", edge.weak}};
 }
 
 json hypothesis_to_json(const map::Hypothesis& hypothesis) {
@@ -67,7 +67,7 @@ json inspect_to_json(const map::TopologicalMap& map, std::int64_t bytes) {
                 {"places", json::array()},     {"edges", json::array()}, {"hypotheses", json::array()},
                 {"components", json::array()}};
   for (const map::Place& place : map.places) value["places"].push_back(place_to_json(place));
-  for (const map::Edge& edge : map.edges) value["edges"].push_back(inspected_edge(edge));
+  for (const map::Edge& edge : map.edges) value["edges"].push_back(edge_to_json(edge));
   for (const map::Hypothesis& h : map.hypotheses) value["hypotheses"].push_back(hypothesis_to_json(h));
   for (const map::MapPart& part : map::parts(map)) value["components"].push_back(part_to_json(part));
   return value;

@@ -13,6 +13,10 @@ namespace homeward::wire {
 /// without thumbnails.
 nlohmann::json inspect_to_json(const map::TopologicalMap& map, std::int64_t bytes);
 
+/// {from, to, bearing_rad, turn_rad, length_m, length_from, confidence, inliers, weak}; an angle that is not known is
+/// null.
+nlohmann::json edge_to_json(const map::Edge& edge);
+
 /// {prototype_a, prototype_b, masses_before, masses_after, support, plausibility, decision, by}
 nlohmann::json hypothesis_to_json(const map::Hypothesis& hypothesis);
 

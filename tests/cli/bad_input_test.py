@@ -306,7 +306,16 @@ class BadPictures(CliTest):
     def test_table_without_its_columns(self):
         self.tour()
         (self.folder / "pairs.csv").write_text("from,to\n00001.jpg,00002.jpg\n")
-        self.assert_refused(2, ["pairs.csv", "current"], "home", "--camera", "tour/camera.json", "--pairs", "pairs.csv")
+        for command in ("home", "compass"):
+            self.assert_refused(2, ["pairs.csv", "current"], command, "--camera", "tour/camera.json", "--pairs", "pairs.csv")
+
+    def test_neither_a_pair_nor_a_table_and_both(self):
+        self.tour()
+        camera = ("--camera", "tour/camera.json")
+        for command in ("home", "compass"):
+            self.assert_refused(2, [command, "--pairs"], command, *camera, "--current", "tour/00001.jpg")
+            self.assert_refused(2, [command, "--pairs"], command, *camera, "--current", "tour/00001.jpg", "--target",
+                                "tour/00002.jpg", "--pairs", "pairs.csv")
 
 
 class WrongUse(CliTest):

@@ -189,6 +189,25 @@ class HappyPath(CliTest):
             else:
                 self.assertEqual(hint["bearing_rad"], sure["bearing_rad"])
 
+    def test_tells_the_turn_from_picture_to_picture_by_the_pictures_as_a_whole(self):
+        x, y, _ = self.poses()[sorted(self.poses())[0]]
+        self.result_of("simulate", "grid", "--world", "offices:1", "--within", x - 0.3, y - 0.3, x + 0.3, y + 0.3, "--step-m",
+                       0.2, "--turned", "--out", "grid")
+        with open(self.folder / "grid" / "poses.csv", newline="") as table:
+            turned = [(row["filename"], float(row["theta_rad"])) for row in csv.DictReader(table)]
+        pairs = list(zip(turned, turned[1:]))
+        self.assertGreaterEqual(len(pairs), 5)
+        (self.folder / "grid" / "pairs.csv").write_text(
+            "current,target\n" + "".join(f"{a},{b}\n" for (a, _), (b, _) in pairs))
+        camera = ("compass", "--camera", self.folder / "grid" / "camera.json")
+        answers = self.lines_of(*camera, "--pairs", "grid/pairs.csv")
+        self.assertEqual([(answer["current"], answer["target"]) for answer in answers], [(a, b) for (a, _), (b, _) in pairs])
+        right = [abs(wrapped(answer["turn_rad"] - (there - here))) < math.radians(3)
+                 for answer, ((_, here), (_, there)) in zip(answers, pairs)]
+        self.assertGreaterEqual(right.count(True), len(pairs) - 1)  # offices look much the same turned about
+        one, = self.lines_of(*camera, "--current", f"grid/{turned[0][0]}", "--target", f"grid/{turned[1][0]}")
+        self.assertEqual([one["turn_rad"], one["residual"]], [answers[0]["turn_rad"], answers[0]["residual"]])
+
     def test_a_grid_of_pictures_of_one_part_each_with_a_heading_of_its_own(self):
         middle = self.poses()[sorted(self.poses())[0]]
         within = [middle[0] - 0.6, middle[1] - 0.6, middle[0] + 0.6, middle[1] + 0.6]
