@@ -167,6 +167,32 @@ bool is_passed(const FollowState& state, int index, const Eigen::Vector2d& here,
   return to_view.dot(next.position_m() - track.position_m()) < 0.0;
 }
 
+/// To a view before the one homed to, when the robot has gone back behind it and it is seen clearly; the nearest first.
+void fall_back(FollowState& state, const VisualPath& path, const features::Appearance& seen, const Pose2& odometry,
+               const FollowConfig& config, std::uint64_t seed, FollowResult& result) {
+  const Eigen::Vector2d here = position(odometry);
+  const ViewTrack& homed = state.tracks[static_cast<std::size_t>(state.index)];
+  if (!homed.known() || (homed.position_m() - here).norm() < config.abreast_m) return;
+  for (int index = state.index - 1; index >= std::max(0, state.index - config.look_back); --index) {
+    ViewTrack& track = state.tracks[static_cast<std::size_t>(index)];
+    const ViewTrack& next = state.tracks[static_cast<std::size_t>(index) + 1];
+    if (!track.known() || !next.known()) continue;
+    const bool ahead = (track.position_m() - here).dot(next.position_m() - track.position_m()) > 0.0;
+    if (!ahead) continue;
+    auto vector = homing::home_vector(seen, path.views[static_cast<std::size_t>(index)], config.homing, seed);
+    if (!vector) continue;
+    vector->confidence = with_odds(vector->confidence, config.path_odds);
+    if (!is_sure(*vector, config) || !track.agrees(odometry, *vector, config.track)) continue;
+    track.observe(odometry, *vector, config.track);
+    state.index = index;
+    state.measured = false;
+    state.blind_m = 0.0;
+    result.answered = true;
+    expect_onwards(state, path, index);
+    return;
+  }
+}
+
 /// Views that are done with are left, and whether the destination's own is reached.
 void pass_views(FollowState& state, const VisualPath& path, const Pose2& odometry, const FollowConfig& config,
                 FollowResult& result) {
@@ -174,6 +200,7 @@ void pass_views(FollowState& state, const VisualPath& path, const Pose2& odometr
   const int first = state.index;
   const Eigen::Vector2d here = position(odometry);
   while (state.index < last && is_passed(state, state.index, here, config)) ++state.index;
+  state.furthest = std::max(state.furthest, state.index);
   expect_onwards(state, path, state.index);
   if (state.index != first) {
     result.vector.reset();
@@ -278,6 +305,7 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
     result.vector.reset();
     state.measured = false;
   }
+  if (!result.answered) fall_back(state, path, seen, odometry, config, seed, result);
   pass_views(state, path, odometry, config, result);
   return result;
 }

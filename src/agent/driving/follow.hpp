@@ -34,6 +34,7 @@ struct FollowConfig {
   int sure_inliers = 24;
   double believe = 0.5;       // below that an answer says nothing
   int look_ahead = 3;         // views tried beyond the present one
+  int look_back = 3;          // and before it, when none of these answers
   double blind_m = 1.6;       // so far the robot drives on by odometry when no view answers
   double reached_m = 0.03;    // the destination's view is reached within this distance, where it is measured
   double nearby_m = 1.0;      // the destination's view counts as reached or left behind only when it must be so near
@@ -43,6 +44,7 @@ struct FollowConfig {
 /// Which view the robot homes to, and where the views lie in the frame of odometry.
 struct FollowState {
   int index = 0;                  // of the view homed to
+  int furthest = 0;               // and the last one that it was so far
   std::vector<ViewTrack> tracks;  // one for each view
   Pose2 odometry;                 // at the latest picture
   double blind_m = 0.0;           // driven since the last answer that was believed
@@ -65,7 +67,8 @@ struct FollowResult {
 
 /// One picture further along a path of views: takes the answers of the view homed to and of those after it, keeps where
 /// they lie, and passes on to the next view when one is reached or left behind (Goedemé 2007 §7, with the home vector
-/// of each picture alone and its distance triangulated over odometry).
+/// of each picture alone and its distance triangulated over odometry). A robot that went back, to make room for
+/// somebody, and recognises none of them any more homes to one before them again.
 FollowResult follow(FollowState& state, const VisualPath& path, const features::Appearance& seen,
                     const tracking::TrackingFrame& frame, const Pose2& odometry, const FollowConfig& config,
                     std::uint64_t seed);

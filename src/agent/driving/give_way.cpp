@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/driving/give_way.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace homeward::agent {
@@ -82,6 +83,11 @@ std::optional<Eigen::Vector2d> give_way(GiveWay& state, const Pose2& odometry, s
 void forget_standing(GiveWay& state) {
   state.still_at_m.reset();
   state.phase = GiveWay::Phase::kOnTheWay;
+}
+
+void begin_way(GiveWay& state) {
+  forget_standing(state);
+  state.times = std::min(state.times, kTimes - 1);
 }
 
 }  // namespace homeward::agent

@@ -11,7 +11,8 @@
 namespace homeward::agent {
 
 /// Making room for somebody who stands in the way and cannot get past either: back along the way that the robot came,
-/// a moment's wait, and on again. From a thing that stays the robot so backs off three times, and then waits before it.
+/// a moment's wait, and on again. From a thing that stays the robot so backs off three times, and then waits before it;
+/// sent on from there it tries once more.
 struct GiveWay {
   enum class Phase : std::uint8_t { kOnTheWay, kBacking, kWaiting };
 
@@ -36,5 +37,8 @@ std::optional<Eigen::Vector2d> give_way(GiveWay& state, const Pose2& odometry, s
 
 /// The robot has a reason of its own to stand still.
 void forget_standing(GiveWay& state);
+
+/// The robot is sent on its way, anew perhaps: who stood before it may have gone, a thing has not.
+void begin_way(GiveWay& state);
 
 }  // namespace homeward::agent

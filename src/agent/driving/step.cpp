@@ -25,7 +25,7 @@ void take_picture(DrivingState& state, const SeenPicture& picture, const Driving
   state.last_picture_ms = std::min(picture.taken_ms, now_ms);
   // Looking at it for a moment is part of reacting; one that was looked at for long is as old as it is.
   state.picture_came_ms = std::min(now_ms, state.last_picture_ms + config.reaction_ms);
-  const int index_before = state.follow.index;
+  const int furthest_before = state.follow.furthest;
   state.pictured = true;
   state.seen = picture.appearance ? follow(state.follow, state.mission->path, *picture.appearance, picture.frame,
                                            picture.odometry, config.follow, state.pictures)
@@ -38,7 +38,7 @@ void take_picture(DrivingState& state, const SeenPicture& picture, const Driving
   if (picture.appearance) state.covered = picture.appearance->size() < kFewestFeatures;
   // A covered lens: memory must not carry the robot on.
   if (state.covered) state.seen = {};
-  const bool gained = state.follow.index != index_before;
+  const bool gained = state.follow.furthest > furthest_before;
   const Pose2 moved = inverse(state.gain_from) * picture.odometry;
   if (gained || std::hypot(moved.x_m, moved.y_m) > 0.25) {
     state.last_gain_ms = now_ms;
@@ -220,7 +220,7 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     state.last_answer_ms = state.last_gain_ms = state.last_picture_ms = sensors_ms;
     state.gain_from = inputs.odometry;
     state.plan = {};
-    forget_standing(state.give_way);
+    begin_way(state.give_way);
   }
   remember_trail(state.give_way, inputs.odometry);
   if (inputs.scan) {

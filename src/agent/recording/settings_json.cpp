@@ -97,7 +97,7 @@ void visual_fields(Fields& fields, Config& visual) {
 
 template <class Fields, class Config>
 void follow_fields(Fields& fields, Config& follow) {
-  auto& [homing, visual, track, pass_m, abreast_m, path_odds, sure, sure_inliers, believe, look_ahead, blind_m,
+  auto& [homing, visual, track, pass_m, abreast_m, path_odds, sure, sure_inliers, believe, look_ahead, look_back, blind_m,
          reached_m, nearby_m, alike_share] = follow;
   homing_fields(fields, homing);
   visual_fields(fields, visual);
@@ -110,6 +110,7 @@ void follow_fields(Fields& fields, Config& follow) {
   fields("follow_sure_inliers", sure_inliers);
   fields("follow_believe", believe);
   fields("follow_look_ahead", look_ahead);
+  fields("follow_look_back", look_back);
   fields("follow_blind_m", blind_m);
   fields("follow_nearby_m", nearby_m);
   fields("follow_alike_share", alike_share);

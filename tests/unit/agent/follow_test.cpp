@@ -312,6 +312,49 @@ TEST(Follow, AHandfulOfFeaturesDoesNotTurnAKnownViewRound) {
   }
 }
 
+TEST(Follow, GoneBackForSomebodyItHomesToAViewBeforeAndComesOnAgain) {
+  // The later views show other things than the first two, and those are hidden while somebody stands before them.
+  const Landmarks first = homeward::testing::landmarks_around(kViews, 160, 5);
+  const Landmarks later = homeward::testing::landmarks_around(kViews, 160, 6);
+  VisualPath path = path_through(first, true);
+  for (std::size_t i = 2; i < kViews.size(); ++i) path.views[i] = seen_from(later, kViews[i], 100 + i);
+  const FollowConfig config;
+  FollowState state;
+  std::uint64_t seed = 0;
+  const auto look = [&](const Pose2& pose, bool hidden) {
+    ++seed;
+    const auto seen =
+        together(seen_from(first, pose, 1000 + seed), seen_from(later, pose, 2000 + seed, hidden ? 1.0 : 0.0));
+    return follow(state, path, seen, {}, pose, config, seed);
+  };
+  const auto come_on = [&](Pose2 pose, int to_index) {
+    for (int k = 0; k < 300; ++k) {
+      if (look(pose, false).at_end || state.index == to_index) return pose;
+      const auto to = goal(state, pose, config);
+      if (!to) continue;
+      const double angle_rad = std::atan2(to->y(), to->x());
+      const double way_m = std::abs(angle_rad) > 0.9 ? 0.0 : std::clamp(0.06 * to->norm(), 0.015, 0.05);
+      pose = pose * Pose2{way_m, 0.0, std::clamp(0.18 * angle_rad, -0.1, 0.1)};
+    }
+    return pose;
+  };
+  Pose2 pose = come_on({}, 3);
+  ASSERT_EQ(state.index, 3);
+  const Pose2 from = pose;
+  for (int k = 1; k <= 20; ++k) {
+    const double left = 1.0 - 0.05 * k;
+    pose = {left * from.x_m, left * from.y_m, from.theta_rad};
+    look(pose, true);
+  }
+  EXPECT_TRUE(look(pose, true).answered);
+  EXPECT_LT(state.index, 2);
+  EXPECT_EQ(state.furthest, 3);
+  EXPECT_LT(state.blind_m, 0.1);
+  pose = come_on(pose, -1);
+  EXPECT_EQ(state.index, 4);
+  EXPECT_LT(std::hypot(pose.x_m - kViews.back().x_m, pose.y_m - kViews.back().y_m), 0.2);
+}
+
 TEST(Follow, IsTheSameForTheSameSeed) {
   const Landmarks landmarks = corner();
   const VisualPath path = path_through(landmarks, true);

@@ -95,7 +95,16 @@ TEST_F(GiveWayTest, KeepsToTheCornersOfTheWayItCame) {
 TEST_F(GiveWayTest, BacksOffThreeTimesFromOneThingAndThenStays) {
   back_off_three_times_from(3.0);
   EXPECT_EQ(until_it_backs_off(60'000), -1);
-  forget_standing(state_);  // another mission from the same spot: the thing is the same
+  forget_standing(state_);
+  EXPECT_EQ(until_it_backs_off(60'000), -1);
+}
+
+TEST_F(GiveWayTest, SentOnFromThereItBacksOffOnceMore) {
+  back_off_three_times_from(3.0);
+  begin_way(state_);
+  EXPECT_GT(until_it_backs_off(), 0);
+  until_it_goes_on();
+  drive_to(3.0);
   EXPECT_EQ(until_it_backs_off(60'000), -1);
 }
 
