@@ -49,6 +49,8 @@ nlohmann::json to_json(const agent::MissionResult& result) {
 }
 
 nlohmann::json to_json(const agent::CycleTrace& cycle) {
+  nlohmann::json people_m = nlohmann::json::array();
+  for (const Eigen::Vector2d& person : cycle.people_m) people_m.push_back({person.x(), person.y()});
   return {{"t_s", cycle.t_s},
           {"x_m", cycle.pose.x_m},
           {"y_m", cycle.pose.y_m},
@@ -65,6 +67,7 @@ nlohmann::json to_json(const agent::CycleTrace& cycle) {
           {"speed_mps", cycle.speed_mps},
           {"turn_radps", cycle.turn_radps},
           {"min_range_m", cycle.min_range_m},
+          {"people_m", std::move(people_m)},
           {"state", cycle.state}};
 }
 

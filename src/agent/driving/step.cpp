@@ -190,7 +190,9 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
     return end_mission(state, wire::DriveState::kFailed, "I do not recognise the way any more.");
   }
   // Beside its destination it waits for `near_ms` and has then arrived.
-  if (!state.near_since_ms && now_ms - state.last_gain_ms > config.stuck_ms) {
+  const bool stirs = state.stirring.seen_ms && now_ms - *state.stirring.seen_ms < config.stuck_ms;
+  const Milliseconds patience_ms = stirs ? config.patience_ms : config.stuck_ms;
+  if (!state.near_since_ms && now_ms - state.last_gain_ms > patience_ms) {
     return end_mission(state, wire::DriveState::kFailed, "The way is blocked.");
   }
 }
@@ -226,6 +228,8 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   if (inputs.scan) {
     state.scan = inputs.scan;
     state.scan->taken_ms = std::min(state.scan->taken_ms, sensors_ms);
+    // The arcs of ultrasound come and go by themselves.
+    if (!config.body.vague_ranges) watch(state.stirring, state.scan->scan, inputs.odometry, sensors_ms);
   }
   std::vector<Eigen::Vector2d> points_m;
   if (state.scan) points_m = hit_points(state.scan->scan);

@@ -13,6 +13,7 @@
 #include "agent/driving/give_way.hpp"
 #include "agent/driving/long_plan.hpp"
 #include "agent/driving/scan.hpp"
+#include "agent/driving/stirring.hpp"
 #include "core/pose2.hpp"
 #include "features/appearance.hpp"
 #include "tracking/tracking_frame.hpp"
@@ -37,7 +38,8 @@ struct DrivingConfig {
   Milliseconds stands_within_ms = 500;   // after the last message, picture or sweep it is at rest by itself
   Milliseconds reaction_ms = 120;        // of it, from an arrival to the wheels
   Milliseconds blind_ms = 8000;          // nothing recognised for so long: the mission fails
-  Milliseconds stuck_ms = 20'000;        // no way gained for so long: the mission fails
+  Milliseconds stuck_ms = 20'000;        // no way gained for so long: the mission fails,
+  Milliseconds patience_ms = 90'000;     // after so long where somebody stirs about the robot
   double near_m = 0.25;                  // of the destination: what is in the way there may stay in the way
   Milliseconds near_ms = 8000;           // so long it tries to come nearer than that
   double turn_gain = 1.8;                // turn rate for each radian towards the carrot
@@ -96,6 +98,7 @@ struct DrivingState {
   bool docking = false;
   LongPlan plan;         // of a body that is not round
   GiveWay give_way;      // to whoever stands in the way
+  Stirring stirring;     // of whoever that is
   bool covered = false;  // the latest picture shows next to nothing
   std::optional<Milliseconds> last_step_ms;
   Milliseconds refuses_until_ms = 0;  // missions that waited while no step was made

@@ -97,8 +97,8 @@ void visual_fields(Fields& fields, Config& visual) {
 
 template <class Fields, class Config>
 void follow_fields(Fields& fields, Config& follow) {
-  auto& [homing, visual, track, pass_m, abreast_m, path_odds, sure, sure_inliers, believe, look_ahead, look_back, blind_m,
-         reached_m, nearby_m, alike_share] = follow;
+  auto& [homing, visual, track, pass_m, abreast_m, path_odds, sure, sure_inliers, believe, look_ahead, look_back,
+         blind_m, reached_m, nearby_m, alike_share] = follow;
   homing_fields(fields, homing);
   visual_fields(fields, visual);
   track_fields(fields, track);
@@ -119,8 +119,8 @@ void follow_fields(Fields& fields, Config& follow) {
 template <class Fields, class Config>
 void driving_fields(Fields& fields, Config& driving) {
   auto& [body, follow, feature_config_id, link_silence_ms, frame_silence_ms, first_frame_ms, scan_silence_ms,
-         rider_silence_ms, loop_silence_ms, held_up_ms, stands_within_ms, reaction_ms, blind_ms, stuck_ms, near_m,
-         near_ms, turn_gain, dock_within_rad] = driving;
+         rider_silence_ms, loop_silence_ms, held_up_ms, stands_within_ms, reaction_ms, blind_ms, stuck_ms, patience_ms,
+         near_m, near_ms, turn_gain, dock_within_rad] = driving;
   body_fields(fields, body);
   follow_fields(fields, follow);
   fields("feature_config_id", feature_config_id);
@@ -135,6 +135,7 @@ void driving_fields(Fields& fields, Config& driving) {
   fields("reaction_ms", reaction_ms);
   fields("blind_ms", blind_ms);
   fields("stuck_ms", stuck_ms);
+  fields("patience_ms", patience_ms);
   fields("near_m", near_m);
   fields("near_ms", near_ms);
   fields("turn_gain", turn_gain);

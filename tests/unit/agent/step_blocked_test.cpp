@@ -110,6 +110,22 @@ TEST_F(StepTest, AWayThatStaysBlockedFailsTheMission) {
   expect_stays();
 }
 
+TEST_F(StepTest, WhereSomebodyStirsInTheWayThatStaysBlockedItWaitsLonger) {
+  config_.stuck_ms = 2000;
+  config_.patience_ms = 9000;
+  set_off();
+  const Milliseconds from_ms = now_ms_;
+  while (state_.drive == DriveState::kDriving && now_ms_ - from_ms < 30'000) {
+    ranges_m_.assign(90, 0.4F);
+    const bool aside = (now_ms_ / 1000) % 2 == 0;  // who stands there shifts from one foot to the other
+    std::fill(ranges_m_.begin() + 10, ranges_m_.begin() + 25, aside ? 2.5F : 0.6F);
+    tick({permit("m1", 1, ++seq_)});
+  }
+  EXPECT_GT(now_ms_ - from_ms, config_.patience_ms - 1000);
+  EXPECT_LE(now_ms_ - from_ms, config_.patience_ms + 2 * config_.stuck_ms);
+  EXPECT_EQ(state_.reason, "The way is blocked.");
+}
+
 TEST_F(StepTest, DrivesBackToADestinationThatItHasRolledPast) {
   set_off();
   EXPECT_LT(slowest_past_destination(), -0.02);
