@@ -16,6 +16,7 @@ constexpr double kNear_m = 3.0;           // what stirs farther off does not sta
 constexpr double kNearer_m = 0.4;         // than what was seen there: more than noise
 constexpr double kWidth_m = 0.1;          // of what counts, at least,
 constexpr int kRays = 4;                  // and in rays
+constexpr double kFinest_rad = 1e-4;      // no scanner has finer rays
 
 /// How far the sweep looked about a direction: the least of three neighbouring rays, so that an edge that lies half a
 /// ray off is none that moved; 0 where it did not look.
@@ -30,6 +31,7 @@ double looked_m(const Scan& scan, double angle_rad) {
     const bool around = std::abs(scan.angle_step_rad) * static_cast<double>(rays) > 2.0 * kPi - 1e-3;
     if (!around && (index < 0 || index >= rays)) return 0.0;
     const float range_m = scan.ranges_m[static_cast<std::size_t>(((index % rays) + rays) % rays)];
+    if (std::isnan(range_m)) return 0.0;  // an infinite range looked through, this one failed
     if (std::isfinite(range_m)) least_m = std::min(least_m, static_cast<double>(range_m));
   }
   return least_m;
@@ -64,7 +66,7 @@ void watch(Stirring& state, const Scan& scan, const Pose2& odometry, std::int64_
     const Pose2 to_before = inverse(state.before_from) * odometry;
     const bool stands = std::hypot(to_before.x_m, to_before.y_m) < kStands_m;
     if (stands && now_ms - state.before_ms < kApart_ms) return;
-    const bool comparable = stands && scan.angle_step_rad != 0.0 && state.before->angle_step_rad != 0.0;
+    const bool comparable = stands && std::abs(state.before->angle_step_rad) > kFinest_rad;
     if (comparable && something_came(*state.before, scan, to_before)) state.seen_ms = now_ms;
   }
   state.before = scan;

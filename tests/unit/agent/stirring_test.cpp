@@ -40,6 +40,7 @@ class StirringTest : public ::testing::Test {
       const double range = range_m(pose_ * scanner_, first_rad_ + i * step_rad_) + noise_m_(random_);
       scan.ranges_m.push_back(range < scan.range_max_m ? static_cast<float>(range)
                                                        : std::numeric_limits<float>::infinity());
+      if (failing_ && i < 40) scan.ranges_m.back() = std::numeric_limits<float>::quiet_NaN();
     }
     now_ms_ += 100;
     watch(state_, scan, pose_, now_ms_);
@@ -51,6 +52,7 @@ class StirringTest : public ::testing::Test {
   double first_rad_ = 0.0;
   double step_rad_ = radians(1.0);
   int rays_ = 360;
+  bool failing_ = false;
   Stirring state_;
   std::int64_t now_ms_ = 5000;
   std::mt19937_64 random_{3};
@@ -98,6 +100,22 @@ TEST_F(StirringTest, ASweepThatRunsTheOtherWayOrSeesHalfTheRoomOnlyDoesAsWell) {
     sweep();
   }
   EXPECT_TRUE(state_.seen_ms);
+}
+
+TEST_F(StirringTest, RaysThatFailNowAndThenAreNobody) {
+  for (int k = 0; k < 60; ++k) {
+    failing_ = (k / 10) % 2 == 0;
+    sweep();
+  }
+  EXPECT_FALSE(state_.seen_ms);
+}
+
+TEST_F(StirringTest, ASweepWithoutRaysOrStepsSaysNothing) {
+  sweep();
+  Scan empty;
+  for (int k = 0; k < 20; ++k) watch(state_, empty, pose_, now_ms_ += 600);
+  for (int k = 0; k < 20; ++k) sweep();
+  EXPECT_FALSE(state_.seen_ms);
 }
 
 TEST_F(StirringTest, WhatStirsFarOffDoesNotStandInTheWay) {
