@@ -21,7 +21,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tests" / "loop"))
 from bridged_chair import FULL, BridgedChair  # noqa: E402
 
-BASE_TIMEOUT_S = 0.25
+BASE_TIMEOUT_S = 0.2
 STOP_BOUND_S = 0.2     # to the zero at the driver
 SILENCE_BOUND_S = 0.5  # to rest
 
