@@ -52,6 +52,7 @@ struct LinkClient::Impl {
   std::function<void()> wake;  // makes the connection look at what waits; set while connected
   std::function<void()> cut;
   std::condition_variable_any pause;
+  std::condition_variable came;  // something has arrived
   std::jthread thread;
 
   void run(const std::stop_token& stop) {
@@ -154,6 +155,7 @@ struct LinkClient::Impl {
           const std::lock_guard lock(mutex);
           arrived.push_back(std::move(*message));
         }
+        came.notify_one();
         read_next();
       });
     };
@@ -237,6 +239,11 @@ bool LinkClient::up() const { return impl_->up; }
 std::vector<wire::ServerMessage> LinkClient::take_messages() {
   const std::lock_guard lock(impl_->mutex);
   return std::exchange(impl_->arrived, {});
+}
+
+void LinkClient::wait_for_message(std::chrono::steady_clock::time_point until) {
+  std::unique_lock lock(impl_->mutex);
+  impl_->came.wait_until(lock, until, [this] { return !impl_->arrived.empty(); });
 }
 
 void LinkClient::send(const wire::AgentMessage& message) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +28,8 @@ class LinkClient {
   [[nodiscard]] bool up() const;
   /// What has arrived since the last call, in order.
   std::vector<wire::ServerMessage> take_messages();
+  /// Waits until a message is there to be taken, at the longest until then.
+  void wait_for_message(std::chrono::steady_clock::time_point until);
   /// Sends a message when connected, else drops it. Of frames only the newest waits, and always behind other messages.
   void send(const wire::AgentMessage& message);
 

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <ctime>
 #include <memory>
-#include <thread>
+#include <stop_token>
 
 #include "agent/drivers/joystick.hpp"
 #include "agent/driving/step.hpp"
@@ -162,8 +162,9 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
       status_ms = now;
       link.send(status_of(state, reading, ++status_seq));
     }
-    next_cycle = std::max(next_cycle + kCycle, Clock::now());
-    std::this_thread::sleep_until(next_cycle);
+    if (Clock::now() >= next_cycle) next_cycle = std::max(next_cycle + kCycle, Clock::now());
+    // What is heard is obeyed at once, and its silence counts from when it came.
+    link.wait_for_message(next_cycle);
   }
   return {};
 }
