@@ -28,7 +28,14 @@ class BridgedChair:
         self.data = pathlib.Path(self.scratch.name)
         self.processes = {}
         self.server = Server(f"http://127.0.0.1:{port}")
-        self.mission_id = self.lease = None
+        self.mission_id = self.lease = self.hand = None
+        try:
+            self.set_up(base_timeout_s)
+        except BaseException:
+            self.close()
+            raise
+
+    def set_up(self, base_timeout_s):
         self.start_server()
         demo.ROOMS = "hall,kitchen,living_room,hall"
         demo.set_up_account(self.server, self.data)
@@ -37,11 +44,11 @@ class BridgedChair:
         self.server.call("PUT", f"/api/v1/robots/{self.robot}/map", {"map": self.map_id})
         graph = self.server.call("GET", f"/api/v1/maps/{self.map_id}/graph")
         self.destinations = {d["label"]: d["id"] for d in graph["destinations"]}
-        self.start("robot", self.binaries.parent / "tests" / "homeward-rosbridge-robot", str(port + 1), demo.WORLD,
+        self.start("robot", self.binaries.parent / "tests" / "homeward-rosbridge-robot", str(self.port + 1), demo.WORLD,
                    "living_room", "disc", self.data / "truth.jsonl", self.data / "camera.json", str(base_timeout_s))
         self.wait("the robot is there", lambda: (self.data / "camera.json").exists(), 120)
         described = json.loads((ROOT / "proto/examples/rosbridge/valid/ros2_round.json").read_text())
-        described.update(address=f"ws://127.0.0.1:{port + 1}", body={
+        described.update(address=f"ws://127.0.0.1:{self.port + 1}", body={
             "radius_m": 0.35, "max_speed_mps": 0.8, "max_turn_radps": 1.2, "deceleration_mps2": 1.0,
             "turn_deceleration_radps2": 5.0})
         described["image"]["topic"] = "/image"
@@ -79,7 +86,8 @@ class BridgedChair:
                 process.wait(timeout=10)
             except subprocess.TimeoutExpired:
                 process.kill()
-        os.close(self.hand)
+        if self.hand is not None:
+            os.close(self.hand)
         self.scratch.cleanup()
 
     def log(self, name):
