@@ -33,9 +33,9 @@ struct DistancePrior {
   bool mapped = true;   // by a map; not by nothing but bearings to the target itself
 };
 
-/// How far a target is at least of which so little is recognised: far things alone show no parallax at any distance.
-/// 0 from VisualHoming::kLeastShare on.
-double distance_of_few_m(double share);
+/// How far a target usually is of whose features this share is recognised, by the median of rooms. Of few features it
+/// says more than their parallax: far things alone show none at any distance.
+double usual_distance_m(double share);
 
 /// The share of two views' features that agree on where one lies from the other: 0.3 and more where they coincide, by
 /// night as well.

@@ -10,6 +10,10 @@
 namespace homeward::agent {
 namespace {
 
+// Of a view that pictures alone tell of. Rendered houses: 0.13 and more of its features are recognised from half a
+// metre, by night too, and up to 0.06 of them from five metres.
+constexpr double kAloneShare = 0.1;
+
 Eigen::Vector2d position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
 
 bool is_sure(const homing::HomeVector& vector, const FollowConfig& config) {
@@ -100,19 +104,18 @@ bool take_in(FollowState& state, const Result<homing::TargetSeen>& answer, const
 /// One more bearing, or a hint at one, to the view homed to, which nothing else says anything of; false while they say
 /// nothing together or this one is none of those that do.
 bool take_vote(FollowState& state, const VisualPath& path, const features::Appearance& seen,
-               const Result<homing::TargetSeen>& answer, const FollowConfig& config, std::uint64_t seed,
+               const std::optional<homing::HomeVector>& answer, const FollowConfig& config, std::uint64_t seed,
                FollowResult& result) {
   state.measured = false;
   const features::Appearance& view = path.views[static_cast<std::size_t>(state.index)];
-  std::optional<homing::HomeVector> vector;
-  if (answer) vector = answer->vector;
+  std::optional<homing::HomeVector> vector = answer;
   // Of a path somebody knows where else it can be looked for; of one view only its picture says anything.
   if (!vector && path.views.size() == 1) {
     if (const auto hint = homing::uncertain_home_vector(seen, view, seed)) vector = *hint;
   }
   if (!vector) return false;
   const double share = homing::shared_share(seen, view, vector->inliers);
-  const double guess_m = std::max(1.0, homing::distance_of_few_m(share));
+  const double guess_m = std::max(1.0, homing::usual_distance_m(share));
   state.votes.add(state.odometry, *vector, answer.has_value(), guess_m);
   const auto voted = state.votes.best();
   if (!voted) return false;
@@ -126,11 +129,33 @@ bool take_vote(FollowState& state, const VisualPath& path, const features::Appea
   return agrees;
 }
 
+/// What is left of a local map that cannot be right: where two views alone say that the view homed to lies is one more
+/// vote.
+bool vote_instead(FollowState& state, const VisualPath& path, const features::Appearance& seen,
+                  const FollowConfig& config, std::uint64_t seed, FollowResult& result) {
+  state.visual = new_homing(config);
+  const auto alone = homing::home_vector(seen, path.views[static_cast<std::size_t>(state.index)], config.homing, seed);
+  return take_vote(state, path, seen, alone ? std::optional(*alone) : std::nullopt, config, seed, result);
+}
+
 /// Whether an answer says that the view is right here although hardly anything of it is recognised: things far off show
 /// no parallax, and a few of them agree with any place between here and there. `most_alike`: of it so far.
-bool is_hollow(const homing::TargetSeen& answer, double most_alike) {
+bool is_hollow(const homing::TargetSeen& answer, double most_alike, const VisualPath& path) {
   constexpr double kHere_m = 0.6;
-  return answer.target_m && answer.target_m->norm() < kHere_m && most_alike < homing::VisualHoming::kLeastShare;
+  return answer.target_m && answer.target_m->norm() < kHere_m && most_alike < share_when_here(path);
+}
+
+/// Whether a local map of few features has turned round: it says that the view lies elsewhere than the bearings say
+/// that led here.
+bool is_turned_round(const FollowState& state, const homing::TargetSeen& answer, double most_alike,
+                     const Pose2& odometry) {
+  constexpr double kFar_m = 1.0;  // nearer, bearings voted before say little
+  if (!answer.target_m || most_alike >= kAloneShare || state.votes.empty()) return false;
+  const auto voted = state.votes.best();
+  if (!voted) return false;
+  const Eigen::Vector2d way_m = voted->position_m - position(odometry);
+  const Eigen::Vector2d other_m = Eigen::Rotation2Dd(odometry.theta_rad) * *answer.target_m;
+  return way_m.norm() > kFar_m && way_m.dot(other_m) < 0.5 * way_m.norm() * other_m.norm();
 }
 
 /// Whether a handful of features says of a view something else than is known of it already: the robot has driven away
@@ -213,12 +238,16 @@ void pass_views(FollowState& state, const VisualPath& path, const Pose2& odometr
   state.behind = behind ? state.behind + 1 : 0;
   const bool coincides =
       result.vector->median_parallax_rad < config.homing.arrived_parallax_rad && state.alike > config.alike_share;
-  if (state.most_alike < homing::VisualHoming::kLeastShare) return;
+  if (state.most_alike < share_when_here(path)) return;
   result.at_end =
       state.measured ? distance_m < config.reached_m : coincides || (state.behind >= 2 && distance_m < config.nearby_m);
 }
 
 }  // namespace
+
+double share_when_here(const VisualPath& path) {
+  return path.views.size() == 1 ? kAloneShare : homing::VisualHoming::kLeastShare;
+}
 
 std::optional<Eigen::Vector2d> goal(const FollowState& state, const Pose2& odometry, const FollowConfig& config) {
   if (state.tracks.empty()) return std::nullopt;
@@ -262,18 +291,26 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
   const auto answer = visual.update(seen, path.views[static_cast<std::size_t>(first)], odometry, prior, frame, seed);
   const double share =
       answer ? homing::shared_share(seen, path.views[static_cast<std::size_t>(first)], answer->vector.inliers) : 0.0;
-  if (answer && is_hollow(*answer, std::max(share, state.most_alike))) {
-    state.tracks[static_cast<std::size_t>(first)] = ViewTrack();
+  const double most_alike = std::max(share, state.most_alike);
+  const bool hollow = answer && is_hollow(*answer, most_alike, path);
+  bool taken = false;
+  if (hollow) state.tracks[static_cast<std::size_t>(first)] = ViewTrack();
+  if (hollow && path.views.size() > 1) {
     state.visual_index = -1;
     state.measured = false;
+  } else if (hollow || (answer && is_turned_round(state, *answer, most_alike, odometry))) {
+    taken = vote_instead(state, path, seen, config, seed, result);
   } else if (answer && !bearings_alone && is_unlikely(*answer, share, homed, odometry, config)) {
     state.visual = new_homing(config);
     state.measured = false;
-  } else if (bearings_alone && !(answer && answer->target_m)
-                 ? take_vote(state, path, seen, answer, config, seed, result)
-                 : take_in(state, answer, odometry, config, result)) {
+  } else if (bearings_alone && !(answer && answer->target_m)) {
+    taken = take_vote(state, path, seen, answer ? std::optional(answer->vector) : std::nullopt, config, seed, result);
+  } else {
+    taken = take_in(state, answer, odometry, config, result);
+  }
+  if (taken) {
     state.alike = share;
-    state.most_alike = std::max(state.most_alike, share);
+    state.most_alike = most_alike;
     if (is_sure(*result.vector, config)) clearest = first;
     expect_onwards(state, path, first);
     if (first == last) state.heading_left_rad = result.vector->turn_rad;

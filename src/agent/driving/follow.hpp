@@ -77,6 +77,10 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
 FollowResult track(FollowState& state, const VisualPath& path, const tracking::TrackingFrame& frame,
                    const Pose2& odometry, const FollowConfig& config, std::uint64_t seed);
 
+/// The share of the destination's features that must have been recognised for it to be right here, whatever the
+/// geometry says: more where no map says how far it is.
+double share_when_here(const VisualPath& path);
+
 /// Whether the next picture is better recognised (`follow`) than tracked (`track`).
 bool wants_features(const FollowState& state);
 

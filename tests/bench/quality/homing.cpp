@@ -46,6 +46,7 @@ struct Answers {
   int right_hints = 0;  // where nothing is certain
   int wrong_hints = 0;
   int silent = 0;
+  std::vector<double> shares;  // of the features that agree, where it is right
 
   void count(const features::Appearance& seen, const features::Appearance& target, double truth_rad,
              std::uint64_t seed) {
@@ -54,6 +55,7 @@ struct Answers {
     };
     if (const auto answer = homing::home_vector(seen, target, {}, seed)) {
       ++(right_way(*answer) ? right : wrong);
+      if (right_way(*answer)) shares.push_back(homing::shared_share(seen, target, answer->inliers));
     } else if (const auto hint = homing::uncertain_home_vector(seen, target, seed)) {
       ++(right_way(*hint) ? right_hints : wrong_hints);
     } else {
@@ -106,6 +108,7 @@ int main(int argc, char** argv) {
   const auto features = pipeline::suited_feature_config(*camera);
   const auto eye = or_die(pipeline::Eye::create(camera_config, features));
   const sim::Renderer renderer(world, day, camera);
+  const sim::Renderer renderer_now(world, light, camera);
   const sim::RobotProfile profile = robot_name == "chair" ? sim::chair_profile() : sim::disc_profile();
 
   std::mt19937_64 random(seed);
@@ -136,11 +139,12 @@ int main(int argc, char** argv) {
     if (answers_alone) {
       const auto view = or_die(eye.look(renderer.render(target, {}, own_seed + 1)));
       const double way_rad = std::atan2(target.y_m - start.y_m, target.x_m - start.x_m);
-      for (double driven_m = 0.0; driven_m < distance_m - 0.5; driven_m += 0.5) {
-        const Pose2 here{start.x_m + driven_m * std::cos(way_rad), start.y_m + driven_m * std::sin(way_rad),
+      for (const double apart_m : {0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0}) {
+        if (apart_m > distance_m) break;
+        const Pose2 here{target.x_m - apart_m * std::cos(way_rad), target.y_m - apart_m * std::sin(way_rad),
                          start.theta_rad};
-        const auto seen = or_die(eye.look(renderer.render(here, {}, own_seed + 2)));
-        answers[distance_m - driven_m].count(seen, view, wrap_angle(way_rad - here.theta_rad), own_seed);
+        const auto seen = or_die(eye.look(renderer_now.render(here, {}, own_seed + 2)));
+        answers[apart_m].count(seen, view, wrap_angle(way_rad - here.theta_rad), own_seed);
       }
       continue;
     }
@@ -195,7 +199,11 @@ int main(int argc, char** argv) {
                       {"wrong", said.wrong},
                       {"right_hints", said.right_hints},
                       {"wrong_hints", said.wrong_hints},
-                      {"silent", said.silent}}
+                      {"silent", said.silent},
+                      {"share_least", quantile(said.shares, 0.0)},
+                      {"share_p5", quantile(said.shares, 0.05)},
+                      {"share_median", quantile(said.shares, 0.5)},
+                      {"share_most", quantile(said.shares, 1.0)}}
                      .dump()
               << std::endl;
   }

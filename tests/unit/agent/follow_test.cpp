@@ -185,23 +185,25 @@ features::Appearance together(const features::Appearance& a, const features::App
 
 TEST(Follow, AFewThingsFarOffAreNoSignOfBeingThere) {
   const std::vector<Pose2> ends = {{0.0, 0.0, 0.0}, {6.0, 0.0, 0.0}};
-  const Landmarks far = homeward::testing::landmarks_around(ends, 30, 7, 25.0, 60.0);
   // Everything near looks otherwise from the other end.
   const Landmarks near = homeward::testing::landmarks_around(ends, 800, 8);
-  const VisualPath path = {{together(seen_from(far, ends[1], 1), seen_from(near, ends[1], 2, 1.0))}, {std::nullopt}};
-  FollowState state;
-  int answered = 0;
-  for (std::uint64_t k = 0; k < 60; ++k) {
-    const Pose2 pose{0.05 * static_cast<double>(k), 0.0, 0.0};
-    const auto seen = together(seen_from(far, pose, 100 + k), seen_from(near, pose, 200 + k, 1.0));
-    const FollowResult followed = follow(state, path, seen, {}, pose, {}, k);
-    EXPECT_FALSE(followed.at_end) << k;
-    answered += followed.answered ? 1 : 0;
-    const auto goal_m = goal(state, pose, {});
-    if (!goal_m) continue;
-    EXPECT_GT(goal_m->norm(), 0.6) << k;
+  for (const int shared : {30, 65}) {
+    const Landmarks far = homeward::testing::landmarks_around(ends, shared, 7, 25.0, 60.0);
+    const VisualPath path = {{together(seen_from(far, ends[1], 1), seen_from(near, ends[1], 2, 1.0))}, {std::nullopt}};
+    FollowState state;
+    int answered = 0;
+    for (std::uint64_t k = 0; k < 60; ++k) {
+      const Pose2 pose{0.05 * static_cast<double>(k), 0.0, 0.0};
+      const auto seen = together(seen_from(far, pose, 100 + k), seen_from(near, pose, 200 + k, 1.0));
+      const FollowResult followed = follow(state, path, seen, {}, pose, {}, k);
+      EXPECT_FALSE(followed.at_end) << shared << " " << k;
+      answered += followed.answered ? 1 : 0;
+      const auto goal_m = goal(state, pose, {});
+      if (!goal_m) continue;
+      EXPECT_GT(goal_m->norm(), 0.6) << shared << " " << k;
+    }
+    EXPECT_GT(answered, 0) << shared;
   }
-  EXPECT_GT(answered, 0);
 }
 
 /// What is seen from `pose` of a target of which only things far off are the same from here, and the target's view.
@@ -235,6 +237,30 @@ TEST(Follow, ABearingOfFewFeaturesLeadsTheRightWayAndClaimsNoDistance) {
     EXPECT_GT(goal_m->norm(), 1.5) << k;
   }
   EXPECT_GT(led, 15);
+}
+
+TEST(Follow, AMapOfFewFeaturesDoesNotTurnItRoundOnAWayThatManyBearingsAgreeOn) {
+  const FarSeen far(25);
+  const Landmarks others = homeward::testing::landmarks_around({{0.0, 0.0, 0.0}, {6.0, 0.0, 0.0}}, 30, 9, 2.0, 8.0);
+  const VisualPath path = {{together(far.from(far.target, 1), seen_from(others, far.target, 3))}, {std::nullopt}};
+  const FollowConfig config;
+  FollowState state;
+  Pose2 pose;
+  for (std::uint64_t k = 0; k < 20; ++k) {
+    pose = {0.1 * static_cast<double>(k), 0.0, 0.0};
+    const auto seen = together(far.from(pose, 100 + 2 * k), seen_from(others, pose, 200 + k, 1.0));
+    follow(state, path, seen, {}, pose, config, k);
+  }
+  ASSERT_TRUE(goal(state, pose, config));
+  // Now some things look as these few would from the far side of the view.
+  const Pose2 beyond{far.target.x_m + 2.0, 0.0, 0.0};
+  for (std::uint64_t k = 0; k < 8; ++k) {
+    const auto seen = together(far.from(pose, 300 + 2 * k), seen_from(others, beyond, 400 + k));
+    follow(state, path, seen, {}, pose, config, 100 + k);
+    const auto goal_m = goal(state, pose, config);
+    ASSERT_TRUE(goal_m) << k;
+    EXPECT_GT(goal_m->x(), 0.0) << k;
+  }
 }
 
 TEST(Follow, OnHintsItDrivesNoFartherThanByOdometryAlone) {
