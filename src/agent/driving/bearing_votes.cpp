@@ -16,6 +16,7 @@ constexpr double kHint = 0.25;  // and of a hint
 constexpr double kBearingSpread_rad = 0.06;
 constexpr double kHeadingSpread_rad = 0.08;
 constexpr double kFarOff = 4.0;    // spreads beyond which nothing agrees
+constexpr double kAgrees = 0.05;   // at least
 constexpr double kSpread_m = 0.1;  // by which odometry and views are off beside
 
 double bearing_spread_rad(double distance_m) {
@@ -124,15 +125,15 @@ std::optional<BearingVotes::Hypothesis> BearingVotes::most_agreed(const std::vec
   return chosen;
 }
 
-std::optional<VotedView> BearingVotes::best() const {
+std::optional<VotedView> BearingVotes::best(bool undecided) const {
   constexpr double kEnough = 1.2;
-  constexpr double kLead = 1.4;     // over what the votes that do not agree agree on
-  constexpr double kAgrees = 0.05;  // at least
+  constexpr double kLead = 1.4;  // over what the votes that do not agree agree on
   std::vector<bool> taken(votes_.size(), false);
   const auto chosen = most_agreed(taken);
   if (!chosen) return std::nullopt;
   const double left_m = (chosen->position_m - votes_.back().from_m).norm();
   const VotedView view = refined(chosen->position_m, chosen->heading_rad, std::max(left_m, votes_.back().guess_m));
+  if (undecided) return view;
   if (view.support < kEnough) return std::nullopt;
   for (std::size_t i = 0; i < votes_.size(); ++i) {
     taken[i] = agreement(votes_[i], view.position_m, view.heading_rad) > kAgrees;
@@ -142,14 +143,22 @@ std::optional<VotedView> BearingVotes::best() const {
   return view;
 }
 
+BearingVotes BearingVotes::without(const VotedView& view) const {
+  BearingVotes left;
+  for (const Vote& vote : votes_) {
+    if (agreement(vote, view.position_m, view.heading_rad) <= kAgrees) left.votes_.push_back(vote);
+  }
+  return left;
+}
+
 bool BearingVotes::agrees(const VotedView& view, const Pose2& robot, const homing::HomeVector& answer) {
-  constexpr double kAgrees = 0.1;
+  constexpr double kClearlyAgrees = 0.1;
   const Vote vote{{robot.x_m, robot.y_m},
                   wrap_angle(robot.theta_rad + answer.bearing_rad),
                   wrap_angle(robot.theta_rad + answer.turn_rad),
                   1.0,
                   1.0};
-  return agreement(vote, view.position_m, view.heading_rad) > kAgrees;
+  return agreement(vote, view.position_m, view.heading_rad) > kClearlyAgrees;
 }
 
 }  // namespace homeward::agent

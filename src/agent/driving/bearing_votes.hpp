@@ -27,8 +27,11 @@ class BearingVotes {
   /// `sure`: not a mere hint (homing::uncertain_home_vector). `guess_m`: how far the view may be, as this answer says.
   void add(const Pose2& robot, const homing::HomeVector& answer, bool sure, double guess_m);
 
-  /// What most votes agree on; nothing while they are too few or too divided.
-  [[nodiscard]] std::optional<VotedView> best() const;
+  /// What most votes agree on; nothing while they are too few or too divided. `undecided`: however few and divided.
+  [[nodiscard]] std::optional<VotedView> best(bool undecided = false) const;
+
+  /// The votes that do not agree with a view that was looked for where these say, and not found.
+  [[nodiscard]] BearingVotes without(const VotedView& view) const;
 
   /// Whether an answer is one of those that agree with where the view is by `best`.
   [[nodiscard]] static bool agrees(const VotedView& view, const Pose2& robot, const homing::HomeVector& answer);

@@ -11,7 +11,7 @@ namespace homeward::agent {
 namespace {
 
 // Of a view that pictures alone tell of. Rendered houses: 0.13 and more of its features are recognised from half a
-// metre, by night too, and up to 0.06 of them from five metres.
+// metre, by night too, and 0.03 (median) from five metres.
 constexpr double kAloneShare = 0.1;
 
 Eigen::Vector2d position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
@@ -66,6 +66,7 @@ homing::VisualHoming& homing_of(FollowState& state, const FollowConfig& config) 
     state.visual = new_homing(config);
     state.visual_index = state.index;
     state.votes.clear();
+    state.undecided = state.given_up = 0;
     state.most_alike = 0.0;
   }
   return state.visual;
@@ -101,6 +102,27 @@ bool take_in(FollowState& state, const Result<homing::TargetSeen>& answer, const
   return true;
 }
 
+/// Where the votes say that the view homed to is. Of one view alone the likeliest is tried where they stay divided, and
+/// another where it was followed as far as odometry alone, in vain.
+std::optional<VotedView> voted_view(FollowState& state, bool alone, const FollowConfig& config) {
+  constexpr int kPatience = 20;  // pictures
+  constexpr int kMostGivenUp = 3;
+  if (state.votes.empty()) return std::nullopt;
+  const bool undecided = alone && state.undecided >= kPatience;
+  auto voted = state.votes.best(undecided);
+  if (voted && alone && state.blind_m >= config.blind_m && state.given_up < kMostGivenUp) {
+    BearingVotes left = state.votes.without(*voted);
+    if (!left.empty()) {
+      state.votes = std::move(left);
+      state.blind_m = 0.0;
+      ++state.given_up;
+      voted = state.votes.best(true);
+    }
+  }
+  state.undecided = voted && !undecided ? 0 : state.undecided + 1;
+  return voted;
+}
+
 /// One more bearing, or a hint at one, to the view homed to, which nothing else says anything of; false while they say
 /// nothing together or this one is none of those that do.
 bool take_vote(FollowState& state, const VisualPath& path, const features::Appearance& seen,
@@ -108,20 +130,23 @@ bool take_vote(FollowState& state, const VisualPath& path, const features::Appea
                FollowResult& result) {
   state.measured = false;
   const features::Appearance& view = path.views[static_cast<std::size_t>(state.index)];
-  std::optional<homing::HomeVector> vector = answer;
   // Of a path somebody knows where else it can be looked for; of one view only its picture says anything.
-  if (!vector && path.views.size() == 1) {
+  const bool alone = path.views.size() == 1;
+  std::optional<homing::HomeVector> vector = answer;
+  if (!vector && alone) {
     if (const auto hint = homing::uncertain_home_vector(seen, view, seed)) vector = *hint;
   }
-  if (!vector) return false;
-  const double share = homing::shared_share(seen, view, vector->inliers);
-  const double guess_m = std::max(1.0, homing::usual_distance_m(share));
-  state.votes.add(state.odometry, *vector, answer.has_value(), guess_m);
-  const auto voted = state.votes.best();
+  if (!vector && !alone) return false;
+  if (vector) {
+    const double share = homing::shared_share(seen, view, vector->inliers);
+    const double guess_m = std::max(1.0, homing::usual_distance_m(share));
+    state.votes.add(state.odometry, *vector, answer.has_value(), guess_m);
+  }
+  const auto voted = voted_view(state, alone, config);
   if (!voted) return false;
   state.tracks[static_cast<std::size_t>(state.index)].settle(voted->position_m, voted->covariance_m2,
                                                              voted->heading_rad);
-  const bool agrees = BearingVotes::agrees(*voted, state.odometry, *vector);
+  const bool agrees = vector && BearingVotes::agrees(*voted, state.odometry, *vector);
   if (agrees) result.vector = *vector;
   if (agrees && answer) state.blind_m = 0.0;
   // Hints, and what was voted before, are followed as far as odometry alone, and no farther.

@@ -51,6 +51,8 @@ struct FollowState {
   homing::VisualHoming visual;    // to the view homed to
   int visual_index = -1;          // which one that is
   BearingVotes votes;             // where it is, while nothing but bearings to it says so
+  int undecided = 0;              // pictures in a row that they were too few or too divided to say so
+  int given_up = 0;               // how often what they said was followed as far as odometry alone, in vain
   bool measured = false;          // the latest picture says in metres where the view homed to is
   double heading_left_rad = 0.0;  // from the heading at `odometry` to that of the destination's view
   int behind = 0;                 // answers in a row that say that the destination's view lies behind

@@ -79,6 +79,22 @@ TEST(BearingVotes, HintsThatAgreeAreFollowedAndDividedOnesAreNot) {
   EXPECT_FALSE(divided.best());
 }
 
+TEST(BearingVotes, DividedOnesSayTheLikeliestWhereAskedAndTheOthersWithoutIt) {
+  const Pose2 robot{};
+  const Pose2 other{-4.0, 2.0, -1.0};
+  BearingVotes votes;
+  EXPECT_FALSE(votes.best(true));
+  for (int k = 0; k < 12; ++k) votes.add(robot, answer_from(robot, k % 12 < 7 ? kView : other), false, 5.0);
+  ASSERT_FALSE(votes.best());
+  const auto likeliest = votes.best(true);
+  ASSERT_TRUE(likeliest);
+  EXPECT_LT(direction_off_rad(*likeliest, robot), 0.02);
+  const auto then = votes.without(*likeliest).best(true);
+  ASSERT_TRUE(then);
+  EXPECT_NEAR(then->heading_rad, other.theta_rad, 0.02);
+  EXPECT_TRUE(votes.without(*likeliest).without(*then).empty());
+}
+
 TEST(BearingVotes, BearingsAlongTheWayMeetInTheView) {
   const Pose2 aside{2.0, 3.0, -0.5};
   BearingVotes votes;

@@ -263,6 +263,44 @@ TEST(Follow, AMapOfFewFeaturesDoesNotTurnItRoundOnAWayThatManyBearingsAgreeOn) {
   }
 }
 
+TEST(Follow, AWayFollowedInVainIsGivenUpForAnotherThatFewerBearingsSay) {
+  const std::vector<Pose2> around = {{0.0, 0.0, 0.0}, {6.0, 0.0, 0.0}};
+  const Pose2 target{6.0, 0.0, 1.0};
+  const Landmarks right = homeward::testing::landmarks_around(around, 25, 7, 6.0, 14.0);
+  const Landmarks wrong = homeward::testing::landmarks_around(around, 25, 9, 6.0, 14.0);
+  const Landmarks near = homeward::testing::landmarks_around(around, 600, 8);
+  const auto look = [&](const Pose2& pose, bool of_right, bool of_wrong, std::uint64_t seed) {
+    // What is wrong looks as if the target were at the opposite end.
+    const Pose2 mirrored{2.0 * target.x_m - pose.x_m, 0.0, pose.theta_rad};
+    return together(together(seen_from(right, pose, seed, of_right ? 0.0 : 1.0),
+                             seen_from(wrong, mirrored, seed + 1, of_wrong ? 0.0 : 1.0)),
+                    seen_from(near, pose, seed + 2, 1.0));
+  };
+  const VisualPath path = {
+      {together(together(seen_from(right, target, 1), seen_from(wrong, target, 2)), seen_from(near, target, 3, 1.0))},
+      {std::nullopt}};
+  const FollowConfig config;
+  FollowState state;
+  std::uint64_t k = 0;
+  for (; k < 4; ++k) follow(state, path, look({}, true, false, 100 + 10 * k), {}, {}, config, k);
+  const auto first_m = goal(state, {}, config);
+  ASSERT_TRUE(first_m);
+  for (; k < 14; ++k) follow(state, path, look({}, false, true, 100 + 10 * k), {}, {}, config, k);
+  const auto misled_m = goal(state, {}, config);
+  ASSERT_TRUE(misled_m);
+  ASSERT_LT(misled_m->normalized().dot(first_m->normalized()), 0.5);
+  // There nothing of it is seen.
+  Pose2 pose;
+  for (int step = 1; step <= 18; ++step, ++k) {
+    const Eigen::Vector2d at_m = 0.1 * step * misled_m->normalized();
+    pose = {at_m.x(), at_m.y(), 0.0};
+    follow(state, path, look(pose, false, false, 100 + 10 * k), {}, pose, config, k);
+  }
+  const auto other_m = goal(state, pose, config);
+  ASSERT_TRUE(other_m);
+  EXPECT_GT(other_m->normalized().dot(first_m->normalized()), 0.8);
+}
+
 TEST(Follow, OnHintsItDrivesNoFartherThanByOdometryAlone) {
   const FarSeen far(6);  // too few for an answer
   const VisualPath path = {{far.from(far.target, 1)}, {std::nullopt}};
