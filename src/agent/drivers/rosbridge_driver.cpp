@@ -231,6 +231,7 @@ class RosbridgeDriver final : public Driver {
     while (!stop.stop_requested()) {
       next = std::max(next + kPublishPeriod, Clock::now());
       std::optional<Motion> motion;
+      Clock::time_point good_until;
       {
         std::unique_lock lock(mutex_);
         changed_.wait_until(lock, stop, next, [this] { return at_once_; });
@@ -243,8 +244,11 @@ class RosbridgeDriver final : public Driver {
         }
         // Silent while it stands, so that others may drive the base by hand.
         if (now < zeros_until_ms_) motion = command_;
+        // Standing is right however late it is said.
+        constexpr std::chrono::milliseconds kLife(kCommandLife_ms);
+        good_until = stands(command_) ? Clock::time_point::max() : Clock::now() + kLife;
       }
-      if (motion) socket_->send_newest(ros_motion(robot_, *motion));
+      if (motion) socket_->send_newest(ros_motion(robot_, *motion), good_until);
       if (socket_->up()) tell_of_missing();
     }
   }

@@ -46,6 +46,7 @@ struct JsonSocket::Impl {
   std::mutex mutex;
   std::deque<std::string> waiting;
   std::optional<std::string> newest;
+  Clock::time_point newest_good_until;
   bool finishing = false;
   bool finished = false;       // everything that waited while finishing is sent, or never will be
   std::function<void()> wake;  // makes the connection look at what waits; set while connected
@@ -170,6 +171,7 @@ struct JsonSocket::Impl {
     if (c.writing || !c.open || c.closing || c.closed) return;
     {
       const std::lock_guard lock(mutex);
+      if (newest && Clock::now() > newest_good_until) newest.reset();
       if (newest && waiting.empty()) {
         c.sending = std::move(*newest);
         newest.reset();
@@ -237,11 +239,12 @@ std::chrono::milliseconds JsonSocket::lag() const {
   return std::chrono::milliseconds(now_ms() - impl_->answered_ms);
 }
 
-void JsonSocket::send_newest(std::string text) {
+void JsonSocket::send_newest(std::string text, std::chrono::steady_clock::time_point good_until) {
   if (!impl_->up) return;
   const std::lock_guard lock(impl_->mutex);
   if (!impl_->wake || impl_->finishing) return;
   impl_->newest = std::move(text);
+  impl_->newest_good_until = good_until;
   impl_->wake();
 }
 

@@ -34,8 +34,9 @@ class JsonSocket {
   /// else, so a connection that lags is seen without comparing two machines' clocks. An hour when there is none.
   [[nodiscard]] std::chrono::milliseconds lag() const;
   /// Of texts that wait to be sent only the newest is kept: an order for motion must not arrive late. Dropped when not
-  /// connected.
-  void send_newest(std::string text);
+  /// connected, or when it can be sent only after `good_until`: a process that was frozen must not
+  /// say what it meant before.
+  void send_newest(std::string text, std::chrono::steady_clock::time_point good_until);
   /// Sends these last, closes the connection in order within `limit`, and connects no more.
   void finish(std::vector<std::string> texts, std::chrono::milliseconds limit);
 

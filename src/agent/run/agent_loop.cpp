@@ -146,7 +146,9 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
       if (const auto* welcome = std::get_if<wire::Welcome>(&message)) looker.set_show_period(welcome->frame_period_ms);
     }
     const Outputs outputs = recorder ? recorder->step(state, inputs, picture, now) : step(state, inputs, config, now);
-    driver.command(outputs.motion);
+    // Frozen while it thought, it must not do what it thought before; the next step says why it stopped.
+    const bool held_up = now_ms() - now > config.loop_silence_ms;
+    driver.command(held_up ? Motion{} : outputs.motion);
     for (wire::AgentMessage message : outputs.messages) {
       if (auto* stopped = std::get_if<wire::Stopped>(&message)) stopped->t_us = now_us();
       link.send(message);
