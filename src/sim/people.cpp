@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/people.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/floor.hpp"
 
 namespace homeward::sim {
 namespace {
+
+/// The floor without what is nearer to a point than that.
+FloorGrid without_disc(FloorGrid floor, const Eigen::Vector2d& middle_m, double radius_m) {
+  const Eigen::Vector2i middle = cell_of(floor, middle_m);
+  const int reach = static_cast<int>(std::ceil(radius_m / floor.resolution_m)) + 1;
+  for (int v = std::max(0, middle.y() - reach); v <= std::min(floor.height - 1, middle.y() + reach); ++v) {
+    for (int u = std::max(0, middle.x() - reach); u <= std::min(floor.width - 1, middle.x() + reach); ++u) {
+      if ((centre_of(floor, {u, v}) - middle_m).norm() >= radius_m) continue;
+      floor.cells[static_cast<std::size_t>(v) * static_cast<std::size_t>(floor.width) + static_cast<std::size_t>(u)] =
+          0;
+    }
+  }
+  return floor;
+}
 
 /// Clothes by height: shoes, trousers, a striped top, hands and face, hair.
 Eigen::Array3f clothes(std::uint32_t look, float height_m, float azimuth_rad) {
@@ -79,17 +94,50 @@ Walkers::Walkers(const World& world, int count, std::uint64_t seed, const Pose2&
 
 void Walkers::choose_way(std::size_t index) {
   const Eigen::Vector2d here_m(people_[index].x_m, people_[index].y_m);
-  const auto way_m = shortest_way(world_->drivable, here_m, random_free_point(world_->drivable, random_));
-  if (way_m.size() > 1) walks_[index].way_m.assign(way_m.begin() + 1, way_m.end());
+  Walk& walk = walks_[index];
+  walk.goal_m = random_free_point(world_->drivable, random_);
+  walk.squeezes_by_m.reset();
+  const auto way_m = shortest_way(world_->drivable, here_m, walk.goal_m);
+  if (way_m.size() > 1) walk.way_m.assign(way_m.begin() + 1, way_m.end());
   std::uniform_real_distribution<double> pause(0.0, 3.0);
-  walks_[index].waits_s = pause(random_);
+  walk.waits_s = pause(random_);
+}
+
+void Walkers::go_round(std::size_t index, const Eigen::Vector2d& robot_m, double personal_space_m) {
+  constexpr double kSqueeze_m = 0.05;
+  constexpr double kNearest_m = 0.65;  // bodies would touch at some 0.6 m
+  constexpr int kOtherGoals = 4;
+  constexpr double kPatience_s = 1.0;
+  Walk& walk = walks_[index];
+  const Eigen::Vector2d here_m(people_[index].x_m, people_[index].y_m);
+  const double apart_m = (here_m - robot_m).norm();
+  walk.squeezes_by_m = std::min(personal_space_m, std::max(apart_m - kSqueeze_m, std::min(apart_m, kNearest_m)));
+  // A cell more than that: a way is straight from one cell's centre to the next.
+  const double space_m = std::min(apart_m, personal_space_m + world_->drivable.resolution_m);
+  const FloorGrid floor = without_disc(world_->drivable, robot_m, space_m);
+  auto way_m = shortest_way(floor, here_m, walk.goal_m);
+  for (int i = 0; i < kOtherGoals && way_m.size() < 2; ++i) {
+    walk.goal_m = random_free_point(world_->drivable, random_);
+    way_m = shortest_way(floor, here_m, walk.goal_m);
+  }
+  walk.stopped = way_m.size() < 2;
+  if (walk.stopped) {
+    walk.waits_s = kPatience_s;
+  } else {
+    walk.way_m.assign(way_m.begin() + 1, way_m.end());
+  }
 }
 
 void Walkers::advance(double dt_s, const Pose2& robot, double personal_space_m) {
+  const Eigen::Vector2d robot_m(robot.x_m, robot.y_m);
   for (std::size_t i = 0; i < people_.size(); ++i) {
     Walk& walk = walks_[i];
     if (walk.waits_s > 0.0) {
       walk.waits_s -= dt_s;
+      continue;
+    }
+    if (walk.stopped) {
+      go_round(i, robot_m, personal_space_m);
       continue;
     }
     if (walk.way_m.empty()) {
@@ -110,12 +158,14 @@ void Walkers::advance(double dt_s, const Pose2& robot, double personal_space_m) 
         left_m = 0.0;
       }
     }
-    const Eigen::Vector2d robot_m(robot.x_m, robot.y_m);
     const double now_m = (Eigen::Vector2d(person.x_m, person.y_m) - robot_m).norm();
     const double then_m = (here_m - robot_m).norm();
-    if (then_m < personal_space_m && then_m < now_m) {
-      walk.way_m.clear();  // somebody in the way: look for another one
+    constexpr double kPast_m = 0.3;
+    if (now_m > personal_space_m + kPast_m) walk.squeezes_by_m.reset();
+    if (then_m < walk.squeezes_by_m.value_or(personal_space_m) && then_m < now_m) {
+      walk.way_m.clear();
       walk.waits_s = 1.0;
+      walk.stopped = true;
       continue;
     }
     person.x_m = here_m.x();

@@ -163,5 +163,66 @@ TEST(Walkers, StayOnTheFloorAndKeepAwayFromTheRobot) {
   EXPECT_GT(walked_m, 2.0);
 }
 
+/// Nothing but a floor of so many metres, free from wall to wall.
+World bare_floor(double length_m, double width_m) {
+  World world;
+  world.drivable.width = static_cast<int>(std::lround(length_m / world.drivable.resolution_m));
+  world.drivable.height = static_cast<int>(std::lround(width_m / world.drivable.resolution_m));
+  world.drivable.cells.assign(
+      static_cast<std::size_t>(world.drivable.width) * static_cast<std::size_t>(world.drivable.height), 255);
+  return world;
+}
+
+/// How often anybody gets from one side of the robot to the other along x in so many seconds.
+int passes(Walkers& walkers, const Pose2& robot, double seconds) {
+  constexpr double kPast_m = 1.5;
+  std::vector<int> sides(walkers.people().size(), 0);
+  int count = 0;
+  for (double t_s = 0.0; t_s < seconds; t_s += 0.1) {
+    walkers.advance(0.1, robot);
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const double along_m = walkers.people()[i].x_m - robot.x_m;
+      if (std::abs(along_m) < kPast_m) continue;
+      const int side = along_m > 0.0 ? 1 : -1;
+      if (side + sides[i] == 0) ++count;
+      sides[i] = side;
+    }
+  }
+  return count;
+}
+
+TEST(Walkers, GoRoundTheRobotWhereThereIsRoom) {
+  // The middle, where ways keep to, is closed by the robot; beside it is a metre more.
+  const World world = bare_floor(8.0, 2.2);
+  const Pose2 robot{4.0, 0.8, 0.0};
+  Walkers walkers(world, 2, 5, robot);
+  EXPECT_GE(passes(walkers, robot, 300.0), 15);
+}
+
+TEST(Walkers, DoNotPushPastTheRobotWhereThereIsNone) {
+  const World world = bare_floor(8.0, 1.2);
+  const Pose2 robot{4.0, 0.6, 0.0};
+  Walkers walkers(world, 2, 5, robot);
+  EXPECT_EQ(passes(walkers, robot, 300.0), 0);
+}
+
+TEST(Walkers, GetPastARobotThatHasComeNearerThanTheyLike) {
+  const World world = bare_floor(8.0, 1.6);
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Walkers walkers(world, 1, seed, {0.0, 0.8, 0.0});
+    const Person& person = walkers.people()[0];
+    const Pose2 robot{4.0, person.y_m > 0.8 ? 0.05 : 1.55, 0.0};
+    // Nobody can stand farther from it than 0.75 m beside it, in the middle where ways lead.
+    double nearest_m = 100.0;
+    int crossed = 0;
+    for (int k = 0; k < 30; ++k) {
+      crossed += passes(walkers, robot, 10.0);
+      nearest_m = std::min(nearest_m, std::hypot(person.x_m - robot.x_m, person.y_m - robot.y_m));
+    }
+    EXPECT_GE(crossed, 1) << seed;
+    EXPECT_GE(nearest_m, 0.65 - 1e-6) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace homeward::sim
