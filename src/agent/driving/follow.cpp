@@ -274,6 +274,8 @@ double share_when_here(const VisualPath& path) {
   return path.views.size() == 1 ? kAloneShare : homing::VisualHoming::kLeastShare;
 }
 
+bool is_unsure(const FollowState& state) { return !state.measured && !state.votes.empty(); }
+
 std::optional<Eigen::Vector2d> goal(const FollowState& state, const Pose2& odometry, const FollowConfig& config) {
   if (state.tracks.empty()) return std::nullopt;
   const Pose2 moved = inverse(state.odometry) * odometry;

@@ -86,6 +86,9 @@ double share_when_here(const VisualPath& path);
 /// Whether the next picture is better recognised (`follow`) than tracked (`track`).
 bool wants_features(const FollowState& state);
 
+/// Whether nothing but bearings, by what little is recognised of it, says where the view homed to lies.
+bool is_unsure(const FollowState& state);
+
 /// Where to drive now, robot frame: the view homed to, or nothing when too little is known of it.
 std::optional<Eigen::Vector2d> goal(const FollowState& state, const Pose2& odometry, const FollowConfig& config);
 

@@ -127,7 +127,8 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   const Milliseconds patience_ms = is_round(config.body.outline) ? 6000 : 12'000;
   if (state.near_since_ms) {
     forget_standing(state.give_way);
-  } else if (const auto back_m = give_way(state.give_way, inputs.odometry, now_ms, patience_ms)) {
+  } else if (const auto back_m = give_way(state.give_way, config.body, {points_m, state.stirring.seen_ms},
+                                          inputs.odometry, now_ms, patience_ms)) {
     // Whoever it makes room for stands before what it would recognise, and back it goes where it came along.
     state.last_answer_ms = now_ms;
     state.follow.blind_m = 0.0;
@@ -193,7 +194,9 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   const bool stirs = state.stirring.seen_ms && now_ms - *state.stirring.seen_ms < config.stuck_ms;
   const Milliseconds patience_ms = stirs ? config.patience_ms : config.stuck_ms;
   if (!state.near_since_ms && now_ms - state.last_gain_ms > patience_ms) {
-    return end_mission(state, wire::DriveState::kFailed, "The way is blocked.");
+    const bool unsure = is_unsure(state.follow);
+    return end_mission(state, wire::DriveState::kFailed,
+                       unsure ? "I do not see clearly enough where it is." : "The way is blocked.");
   }
 }
 

@@ -299,6 +299,7 @@ TEST(Follow, AWayFollowedInVainIsGivenUpForAnotherThatFewerBearingsSay) {
   const auto other_m = goal(state, pose, config);
   ASSERT_TRUE(other_m);
   EXPECT_GT(other_m->normalized().dot(first_m->normalized()), 0.8);
+  EXPECT_TRUE(is_unsure(state));
 }
 
 TEST(Follow, OnHintsItDrivesNoFartherThanByOdometryAlone) {
@@ -364,6 +365,7 @@ TEST(Follow, AHandfulOfFeaturesDoesNotTurnAKnownViewRound) {
     ASSERT_TRUE(follow(state, path, seen, {}, pose, config, k).answered) << k;
   }
   ASSERT_TRUE(state.measured);
+  EXPECT_FALSE(is_unsure(state));
   // Now something else looks as these few would from the far side of the view; the rest is hidden.
   const Pose2 beyond{2.0 * target.x_m - pose.x_m, 0.0, 0.0};
   for (std::uint64_t k = 0; k < 12; ++k) {

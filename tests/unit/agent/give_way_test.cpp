@@ -21,7 +21,8 @@ class GiveWayTest : public ::testing::Test {
   bool tick() {
     now_ms_ += kTick_ms;
     remember_trail(state_, pose_);
-    const auto told_m = give_way(state_, pose_, now_ms_, kPatience_ms);
+    if (somebody_stirs_) stirred_ms_ = now_ms_;
+    const auto told_m = give_way(state_, body_, {points_m(), stirred_ms_}, pose_, now_ms_, kPatience_ms);
     if (!told_m) return true;
     const double step_m = std::min(0.03, told_m->norm());
     if (step_m > 0.0) {
@@ -51,11 +52,28 @@ class GiveWayTest : public ::testing::Test {
     for (int time = 0; time < 3; ++time) {
       EXPECT_GT(until_it_backs_off(), 0);
       until_it_goes_on();
+      pose_.y_m = 0.0;
       drive_to(x_m);
     }
   }
+  /// Walls along the way, to its left and its right, as the robot sees them.
+  [[nodiscard]] std::vector<Eigen::Vector2d> points_m() const {
+    std::vector<Eigen::Vector2d> points;
+    const Pose2 robot = inverse(pose_);
+    for (double x_m = -2.0; x_m < 8.0; x_m += 0.05) {
+      for (const double y_m : walls_m_) {
+        const Pose2 point = robot * Pose2{x_m, y_m, 0.0};
+        points.emplace_back(point.x_m, point.y_m);
+      }
+    }
+    return points;
+  }
 
   GiveWay state_;
+  Body body_{.outline = Outline{.radius_m = 0.35}};
+  std::vector<double> walls_m_;
+  bool somebody_stirs_ = false;
+  std::optional<std::int64_t> stirred_ms_;
   Pose2 pose_;
   std::int64_t now_ms_ = 1'000'000;
 };
@@ -136,6 +154,58 @@ TEST_F(GiveWayTest, StandingForAReasonOfItsOwnIsNotBeingBlocked) {
   for (int k = 0; k < 300; ++k) {
     ASSERT_TRUE(tick());
     if (k % 40 == 0) forget_standing(state_);
+  }
+}
+
+TEST_F(GiveWayTest, ForSomebodyItPullsOverToTheNearerWall) {
+  walls_m_ = {0.8, -1.2};
+  drive_to(3.0);
+  stirred_ms_ = now_ms_;
+  pose_.theta_rad = 2.0;  // whichever way it looks
+  ASSERT_GT(until_it_backs_off(), 0);
+  EXPECT_NEAR(state_.back_to_m.x(), 1.8, 0.15);
+  EXPECT_GT(state_.back_to_m.y(), 0.2);
+  EXPECT_LT(state_.back_to_m.y(), 0.8 - 0.35 - 0.1);
+}
+
+TEST_F(GiveWayTest, ForAThingOrWhereThereIsRoomItDoesNotPullOver) {
+  walls_m_ = {0.8, -1.2};
+  drive_to(3.0);
+  ASSERT_GT(until_it_backs_off(), 0);
+  EXPECT_NEAR(state_.back_to_m.y(), 0.0, 1e-6);
+  until_it_goes_on();
+  walls_m_ = {0.8, -2.5};
+  drive_to(6.0);
+  stirred_ms_ = now_ms_;
+  ASSERT_GT(until_it_backs_off(), 0);
+  EXPECT_NEAR(state_.back_to_m.y(), 0.0, 1e-6);
+}
+
+TEST_F(GiveWayTest, WaitsWhileSomebodyWalksAboutAndNotForEver) {
+  drive_to(3.0);
+  ASSERT_GT(until_it_backs_off(), 0);
+  somebody_stirs_ = true;
+  const std::int64_t long_ms = until_it_goes_on();
+  EXPECT_GT(long_ms, 10'000);
+  EXPECT_LT(long_ms, 25'000);
+  somebody_stirs_ = false;
+  drive_to(3.0);
+  ASSERT_GT(until_it_backs_off(), 0);
+  EXPECT_LT(until_it_goes_on(), 12'000);
+}
+
+TEST_F(GiveWayTest, FromSomebodyItBacksOffMoreThanThreeTimesAndFartherEachTime) {
+  drive_to(5.0);
+  double before_m = 0.0;
+  for (int time = 0; time < 5; ++time) {
+    stirred_ms_ = now_ms_;
+    ASSERT_GT(until_it_backs_off(), 0) << time;
+    const double back_m = 5.0 - state_.back_to_m.x();
+    EXPECT_GT(back_m, std::min(before_m + 0.4, 3.8)) << time;
+    EXPECT_LT(back_m, 4.3);
+    before_m = back_m;
+    until_it_goes_on();
+    drive_to(5.0);
   }
 }
 

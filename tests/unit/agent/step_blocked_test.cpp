@@ -110,6 +110,18 @@ TEST_F(StepTest, AWayThatStaysBlockedFailsTheMission) {
   expect_stays();
 }
 
+TEST_F(StepTest, WhoGetsNowhereBecauseItDoesNotKnowWhereDoesNotCallTheWayBlocked) {
+  config_.stuck_ms = 2000;
+  set_off();
+  state_.follow.votes.add(pose_, homing::HomeVector{}, true, 1.0);
+  state_.follow.measured = false;
+  covered_ = true;
+  until_stopped(true, 10'000);
+  EXPECT_EQ(state_.drive, DriveState::kFailed);
+  EXPECT_EQ(state_.reason, "I do not see clearly enough where it is.");
+  expect_stays();
+}
+
 TEST_F(StepTest, WhereSomebodyStirsInTheWayThatStaysBlockedItWaitsLonger) {
   config_.stuck_ms = 2000;
   config_.patience_ms = 9000;
