@@ -59,19 +59,4 @@ std::optional<BoxHit> hit_box(const Box& box, const Eigen::Vector3f& origin_m, c
   return BoxHit{enters_m, cardboard(face, across_m, face < 4 ? at.z() : at.y())};
 }
 
-void mark_box(FloorGrid& occupied, const Box& box) {
-  const double step_m = 0.45 * occupied.resolution_m;
-  const int steps = static_cast<int>(std::ceil(box.side_m / step_m));
-  for (int i = 0; i <= steps; ++i) {
-    for (int j = 0; j <= steps; ++j) {
-      const Pose2 point = box.pose * Pose2{box.side_m * (static_cast<double>(i) / steps - 0.5),
-                                           box.side_m * (static_cast<double>(j) / steps - 0.5), 0.0};
-      const Eigen::Vector2i cell = cell_of(occupied, {point.x_m, point.y_m});
-      if (cell.x() < 0 || cell.y() < 0 || cell.x() >= occupied.width || cell.y() >= occupied.height) continue;
-      occupied.cells[static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(occupied.width) +
-                     static_cast<std::size_t>(cell.x())] = 255;
-    }
-  }
-}
-
 }  // namespace homeward::sim

@@ -23,7 +23,4 @@ struct BoxHit {
 };
 std::optional<BoxHit> hit_box(const Box& box, const Eigen::Vector3f& origin_m, const Eigen::Vector3f& direction);
 
-/// Marks the cells on which the box stands.
-void mark_box(FloorGrid& occupied, const Box& box);
-
 }  // namespace homeward::sim

@@ -41,7 +41,13 @@ RobotProfile chair_profile() {
   return profile;
 }
 
-Obstacles::Obstacles(const World& world) : grid_(world.occupied), distance_m_(clearance(world.occupied)) {}
+Obstacles::Obstacles(const World& world)
+    : grid_(world.occupied), distance_m_(clearance(world.occupied)), world_(world.scene), boxes_(Scene()) {}
+
+void Obstacles::set_boxes(const std::vector<Box>& boxes) {
+  boxes_ = FloorPlan(Scene());
+  for (const Box& box : boxes) boxes_.add(box);
+}
 
 std::optional<double> Obstacles::distance_at(const Eigen::Vector2d& point_m) const {
   const Eigen::Vector2d first_m = centre_of(grid_, {0, 0});
@@ -92,7 +98,7 @@ double Obstacles::clearance_of_box_m(const Outline& outline, const Pose2& pose) 
   return nearest_m;
 }
 
-double Obstacles::clearance_m(const RobotProfile& robot, const Pose2& pose, const std::vector<Person>& people) const {
+double Obstacles::clearance_of_cells_m(const RobotProfile& robot, const Pose2& pose) const {
   double thing_m = -1.0;
   if (is_round(robot.outline)) {
     const auto distance = distance_at({pose.x_m, pose.y_m});
@@ -102,8 +108,15 @@ double Obstacles::clearance_m(const RobotProfile& robot, const Pose2& pose, cons
     thing_m = clearance_of_box_m(robot.outline, pose);
     if (thing_m == -1.0) return thing_m;
   }
-  // Things are known to half a cell.
-  double nearest_m = thing_m - 0.5 * grid_.resolution_m;
+  return thing_m - 0.5 * grid_.resolution_m;
+}
+
+double Obstacles::clearance_m(const RobotProfile& robot, const Pose2& pose, const std::vector<Person>& people) const {
+  const double cells_m = clearance_of_cells_m(robot, pose);
+  if (cells_m == -1.0) return cells_m;
+  // Somewhere on the nearest cell something stands.
+  const double far_m = cells_m + 2.0 * grid_.resolution_m;
+  double nearest_m = boxes_.clearance_m(robot.outline, pose, world_.clearance_m(robot.outline, pose, far_m));
   for (const Person& person : people) {
     const Pose2 seen = inverse(pose) * Pose2{person.x_m, person.y_m, 0.0};
     nearest_m = std::min(nearest_m, distance_m(robot.outline, {seen.x_m, seen.y_m}) - kPersonRadius_m);
@@ -143,10 +156,9 @@ void Vehicle::advance(double dt_s, const MotionCommand& command, const Obstacles
     return;
   }
   const Pose2 next = along_arc(pose_, length_m, turned_rad);
-  const double before_m = obstacles.clearance_m(profile_, pose_, people);
   const double clearance_m = obstacles.clearance_m(profile_, next, people);
   min_clearance_m_ = std::min(min_clearance_m_, clearance_m);
-  if (clearance_m <= 0.0 && clearance_m < before_m) {
+  if (clearance_m <= 0.0 && clearance_m < obstacles.clearance_m(profile_, pose_, people)) {
     if (!touching_) ++collisions_;
     touching_ = true;
     motion_ = {};

@@ -9,6 +9,8 @@
 
 #include "core/outline.hpp"
 #include "core/pose2.hpp"
+#include "sim/box.hpp"
+#include "sim/floor_plan.hpp"
 #include "sim/people.hpp"
 #include "sim/scene.hpp"
 
@@ -42,9 +44,14 @@ struct MotionCommand {
 class Obstacles {
  public:
   explicit Obstacles(const World& world);
+  /// These boxes, and no others, stand about besides.
+  void set_boxes(const std::vector<Box>& boxes);
   /// From the body's outline to the nearest thing or person, metres; negative when they overlap.
   [[nodiscard]] double clearance_m(const RobotProfile& robot, const Pose2& pose,
                                    const std::vector<Person>& people) const;
+  /// To the nearest cell of the floor on which something of the world stands, for what should keep clear of things: up
+  /// to 0.07 m less than there is, at most 0.01 m more.
+  [[nodiscard]] double clearance_of_cells_m(const RobotProfile& robot, const Pose2& pose) const;
 
  private:
   /// To the nearest occupied cell's centre, between the cells' centres interpolated; nothing outside the grid.
@@ -54,6 +61,8 @@ class Obstacles {
 
   FloorGrid grid_;
   std::vector<float> distance_m_;
+  FloorPlan world_;
+  FloorPlan boxes_;
 };
 
 /// What wheels say about the way: starts at zero, drifts with slip of about 1 % in length and 1 degree a metre in

@@ -68,10 +68,7 @@ void SimulatedRobot::advance(double seconds) {
 
 void SimulatedRobot::set_boxes(std::vector<sim::Box> boxes) {
   boxes_ = std::move(boxes);
-  sim::World floor;  // obstacles read nothing else of a world
-  floor.occupied = world_->world().occupied;
-  for (const sim::Box& box : boxes_) sim::mark_box(floor.occupied, box);
-  obstacles_ = sim::Obstacles(floor);
+  obstacles_.set_boxes(boxes_);
 }
 
 SimulatedRobot::View SimulatedRobot::view() {

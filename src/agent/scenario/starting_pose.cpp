@@ -20,7 +20,7 @@ Result<Pose2> starting_pose(const sim::World& world, const Eigen::Vector2d& poin
     const Eigen::Vector2d at_m = point_m + Eigen::Vector2d(east_m, north_m);
     if (!sim::is_set(world.drivable, at_m)) continue;
     const Pose2 pose{at_m.x(), at_m.y(), sim::uniform(random, -kPi, kPi)};
-    if (obstacles.clearance_m(robot, pose, {}) >= kStartClearance_m) return pose;
+    if (obstacles.clearance_of_cells_m(robot, pose) >= kStartClearance_m) return pose;
   }
   return fail(ErrorCode::kInvalidInput,
               "No pose within 1 m of the room's point leaves the " + robot.name + " 0.05 m of room to start from.",

@@ -27,7 +27,7 @@ TEST_P(StartingPose, LeavesRoomInEveryRoomOfAHouseAlsoWhereFurnitureWasMoved) {
       for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const auto pose = starting_pose(*world, {room.x_m, room.y_m}, robot_, seed);
         ASSERT_TRUE(pose) << room.name << ": " << pose.error().message;
-        EXPECT_GE(obstacles.clearance_m(robot_, *pose, {}), kStartClearance_m) << room.name << " " << seed;
+        EXPECT_GE(obstacles.clearance_of_cells_m(robot_, *pose), kStartClearance_m) << room.name << " " << seed;
       }
     }
   }
@@ -36,9 +36,12 @@ TEST_P(StartingPose, LeavesRoomInEveryRoomOfAHouseAlsoWhereFurnitureWasMoved) {
 TEST_P(StartingPose, IsRefusedWhereTheRobotDoesNotFit) {
   sim::World walled = sim::generate_house(1);
   const Eigen::Vector2d point_m(walled.rooms[1].x_m, walled.rooms[1].y_m);
-  for (double x = -2.0; x <= 2.0; x += 0.5) {
-    for (double y = -2.0; y <= 2.0; y += 0.5)
-      sim::mark_box(walled.occupied, {{point_m.x() + x, point_m.y() + y, 0.0}, 0.3, 0.9});
+  sim::FloorGrid& grid = walled.occupied;
+  for (int row = 0; row < grid.height; row += 10) {
+    for (int column = 0; column < grid.width; column += 10) {
+      grid.cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width) +
+                 static_cast<std::size_t>(column)] = 255;
+    }
   }
   const auto pose = starting_pose(walled, point_m, robot_, 1);
   ASSERT_FALSE(pose);

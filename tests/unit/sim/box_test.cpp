@@ -39,18 +39,5 @@ TEST(Box, IsSeenFromAbove) {
   EXPECT_NEAR(met->distance_m, 1.1, 1e-5);
 }
 
-TEST(Box, MarksItsCellsAndNoOthers) {
-  FloorGrid grid;
-  grid.width = grid.height = 40;
-  grid.origin_m = {-1.0, -1.0};
-  grid.cells.assign(1600, 0);
-  mark_box(grid, {{0.0, 0.0, 0.0}, 0.5, 0.9});
-  EXPECT_TRUE(is_set(grid, {0.0, 0.0}));
-  EXPECT_TRUE(is_set(grid, {0.22, -0.22}));
-  EXPECT_FALSE(is_set(grid, {0.32, 0.0}));
-  mark_box(grid, {{0.95, 0.95, 0.0}, 0.5, 0.9});  // over the rim
-  EXPECT_TRUE(is_set(grid, {0.95, 0.95}));
-}
-
 }  // namespace
 }  // namespace homeward::sim

@@ -83,30 +83,55 @@ TEST(Vehicle, RandomDrivingStaysOutsideThings) {
   }
 }
 
-TEST(Obstacles, MeasureARectangleFromItsEdgesAndCorners) {
+TEST(Obstacles, AreMeasuredExactlyAndInCellsNearlySo) {
   const World world = homeward::testing::box_world(true);
   const Obstacles obstacles(world);
-  const RobotProfile chair = chair_profile();
   std::mt19937_64 random(11);
-  std::uniform_real_distribution<double> across_m(-0.55, 0.55);
+  std::uniform_real_distribution<double> across_m(-1.2, 1.2);
   std::uniform_real_distribution<double> heading_rad(-kPi, kPi);
-  const FloorGrid& grid = world.occupied;
-  for (int k = 0; k < 200; ++k) {
+  // The walls of the room and of the half wall.
+  const std::array<std::array<Eigen::Vector2d, 2>, 7> walls = {{{{{-2.0, -1.5}, {2.0, -1.5}}},
+                                                                {{{2.0, -1.5}, {2.0, 1.5}}},
+                                                                {{{2.0, 1.5}, {-2.0, 1.5}}},
+                                                                {{{-2.0, 1.5}, {-2.0, -1.5}}},
+                                                                {{{-0.05, 1.5}, {-0.05, 0.0}}},
+                                                                {{{-0.05, 0.0}, {0.05, 0.0}}},
+                                                                {{{0.05, 0.0}, {0.05, 1.5}}}}};
+  int clear = 0;
+  for (int k = 0; k < 400; ++k) {
     const Pose2 pose{across_m(random), across_m(random), heading_rad(random)};
-    double nearest_m = 1e9;
-    for (int y = 0; y < grid.height; ++y) {
-      for (int x = 0; x < grid.width; ++x) {
-        if (grid.cells[static_cast<std::size_t>(y * grid.width + x)] == 0) continue;
-        const Eigen::Vector2d at_m = centre_of(grid, {x, y});
-        const Pose2 seen = inverse(pose) * Pose2{at_m.x(), at_m.y(), 0.0};
-        nearest_m = std::min(nearest_m, distance_m(chair.outline, {seen.x_m, seen.y_m}) - 0.5 * grid.resolution_m);
+    for (const RobotProfile& robot : {disc_profile(), chair_profile()}) {
+      double nearest_m = 1e9;
+      for (const auto& [from_m, to_m] : walls) {
+        for (int i = 0; i <= 4000; ++i) {
+          const Eigen::Vector2d at_m = from_m + (to_m - from_m) * i / 4000.0;
+          const Pose2 seen = inverse(pose) * Pose2{at_m.x(), at_m.y(), 0.0};
+          nearest_m = std::min(nearest_m, distance_m(robot.outline, {seen.x_m, seen.y_m}));
+        }
       }
+      if (nearest_m < -0.02) continue;  // how deep in a wall does not matter
+      ++clear;
+      EXPECT_NEAR(obstacles.clearance_m(robot, pose, {}), nearest_m, 1e-3) << robot.name;
+      const double cells_m = obstacles.clearance_of_cells_m(robot, pose);
+      EXPECT_GT(cells_m, nearest_m - 0.07) << robot.name;
+      EXPECT_LT(cells_m, nearest_m + 0.012) << robot.name;
     }
-    EXPECT_NEAR(obstacles.clearance_m(chair, pose, {}), nearest_m, 1e-9);
   }
+  EXPECT_GT(clear, 150);
+}
+
+TEST(Obstacles, AreFeltAtTheRearCornersAndWherePeopleAndBoxesAre) {
+  const RobotProfile chair = chair_profile();
   // Its rear corners count, which no disc along its middle reaches, and so do people beside its front.
   const std::vector<Person> beside = {{0.85, 0.325 + kPersonRadius_m + 0.02, 7}};
-  EXPECT_NEAR(Obstacles(homeward::testing::box_world()).clearance_m(chair, {0.0, 0.0, 0.0}, beside), 0.02, 1e-9);
+  Obstacles obstacles(homeward::testing::box_world());
+  EXPECT_NEAR(obstacles.clearance_m(chair, {0.0, 0.0, 0.0}, beside), 0.02, 1e-9);
+  EXPECT_NEAR(obstacles.clearance_m(chair, {0.0, 1.5 - 0.335, 0.0}, {}), 0.01, 1e-6);
+  EXPECT_NEAR(obstacles.clearance_m(chair, {0.0, 0.0, 0.0}, {}), 2.0 - 0.85, 1e-6);
+  obstacles.set_boxes({{{-0.55, 0.0, 0.0}, 0.5, 0.9}});
+  EXPECT_NEAR(obstacles.clearance_m(chair, {0.0, 0.0, 0.0}, {}), 0.05, 1e-6);
+  obstacles.set_boxes({});
+  EXPECT_NEAR(obstacles.clearance_m(chair, {0.0, 0.0, 0.0}, {}), 2.0 - 0.85, 1e-6);
 }
 
 TEST(Vehicle, SomebodyWhoWalksIntoAStandingRobotIsNoCollision) {
