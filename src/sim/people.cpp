@@ -9,13 +9,22 @@
 namespace homeward::sim {
 namespace {
 
-/// The floor without what is nearer to a point than that.
-FloorGrid without_disc(FloorGrid floor, const Eigen::Vector2d& middle_m, double radius_m) {
-  const Eigen::Vector2i middle = cell_of(floor, middle_m);
-  const int reach = static_cast<int>(std::ceil(radius_m / floor.resolution_m)) + 1;
+/// From a point to the robot: from its middle where it is a disc of 0.35 m, and as far from its outline as that else.
+double apart_m(const Eigen::Vector2d& point_m, const Pose2& robot, const Outline& body) {
+  constexpr double kDisc_m = 0.35;
+  const Eigen::Vector2d robot_m(robot.x_m, robot.y_m);
+  if (is_round(body)) return (point_m - robot_m).norm() + (kDisc_m - body.radius_m);
+  const Pose2 seen = inverse(robot) * Pose2{point_m.x(), point_m.y(), 0.0};
+  return distance_m(body, {seen.x_m, seen.y_m}) + kDisc_m;
+}
+
+/// The floor without what is nearer to the robot than that.
+FloorGrid without_robot(FloorGrid floor, const Pose2& robot, const Outline& body, double space_m) {
+  const Eigen::Vector2i middle = cell_of(floor, {robot.x_m, robot.y_m});
+  const int reach = static_cast<int>(std::ceil((space_m + swept_radius_m(body)) / floor.resolution_m)) + 1;
   for (int v = std::max(0, middle.y() - reach); v <= std::min(floor.height - 1, middle.y() + reach); ++v) {
     for (int u = std::max(0, middle.x() - reach); u <= std::min(floor.width - 1, middle.x() + reach); ++u) {
-      if ((centre_of(floor, {u, v}) - middle_m).norm() >= radius_m) continue;
+      if (apart_m(centre_of(floor, {u, v}), robot, body) >= space_m) continue;
       floor.cells[static_cast<std::size_t>(v) * static_cast<std::size_t>(floor.width) + static_cast<std::size_t>(u)] =
           0;
     }
@@ -103,18 +112,18 @@ void Walkers::choose_way(std::size_t index) {
   walk.waits_s = pause(random_);
 }
 
-void Walkers::go_round(std::size_t index, const Eigen::Vector2d& robot_m, double personal_space_m) {
+void Walkers::go_round(std::size_t index, const Pose2& robot, const Outline& body, double personal_space_m) {
   constexpr double kSqueeze_m = 0.05;
   constexpr double kNearest_m = 0.65;  // bodies would touch at some 0.6 m
   constexpr int kOtherGoals = 4;
   constexpr double kPatience_s = 1.0;
   Walk& walk = walks_[index];
   const Eigen::Vector2d here_m(people_[index].x_m, people_[index].y_m);
-  const double apart_m = (here_m - robot_m).norm();
-  walk.squeezes_by_m = std::min(personal_space_m, std::max(apart_m - kSqueeze_m, std::min(apart_m, kNearest_m)));
+  const double now_m = apart_m(here_m, robot, body);
+  walk.squeezes_by_m = std::min(personal_space_m, std::max(now_m - kSqueeze_m, std::min(now_m, kNearest_m)));
   // A cell more than that: a way is straight from one cell's centre to the next.
-  const double space_m = std::min(apart_m, personal_space_m + world_->drivable.resolution_m);
-  const FloorGrid floor = without_disc(world_->drivable, robot_m, space_m);
+  const double space_m = std::min(now_m, personal_space_m + world_->drivable.resolution_m);
+  const FloorGrid floor = without_robot(world_->drivable, robot, body, space_m);
   auto way_m = shortest_way(floor, here_m, walk.goal_m);
   for (int i = 0; i < kOtherGoals && way_m.size() < 2; ++i) {
     walk.goal_m = random_free_point(world_->drivable, random_);
@@ -128,8 +137,7 @@ void Walkers::go_round(std::size_t index, const Eigen::Vector2d& robot_m, double
   }
 }
 
-void Walkers::advance(double dt_s, const Pose2& robot, double personal_space_m) {
-  const Eigen::Vector2d robot_m(robot.x_m, robot.y_m);
+void Walkers::advance(double dt_s, const Pose2& robot, const Outline& body, double personal_space_m) {
   for (std::size_t i = 0; i < people_.size(); ++i) {
     Walk& walk = walks_[i];
     if (walk.waits_s > 0.0) {
@@ -137,7 +145,7 @@ void Walkers::advance(double dt_s, const Pose2& robot, double personal_space_m) 
       continue;
     }
     if (walk.stopped) {
-      go_round(i, robot_m, personal_space_m);
+      go_round(i, robot, body, personal_space_m);
       continue;
     }
     if (walk.way_m.empty()) {
@@ -158,8 +166,8 @@ void Walkers::advance(double dt_s, const Pose2& robot, double personal_space_m) 
         left_m = 0.0;
       }
     }
-    const double now_m = (Eigen::Vector2d(person.x_m, person.y_m) - robot_m).norm();
-    const double then_m = (here_m - robot_m).norm();
+    const double now_m = apart_m({person.x_m, person.y_m}, robot, body);
+    const double then_m = apart_m(here_m, robot, body);
     constexpr double kPast_m = 0.3;
     if (now_m > personal_space_m + kPast_m) walk.squeezes_by_m.reset();
     if (then_m < walk.squeezes_by_m.value_or(personal_space_m) && then_m < now_m) {

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "core/outline.hpp"
 #include "core/pose2.hpp"
 #include "sim/scene.hpp"
 
@@ -37,9 +38,9 @@ class Walkers {
   /// `floor`: where a disc robot may be; people walk there too. They start away from `keep_clear`.
   Walkers(const World& world, int count, std::uint64_t seed, const Pose2& keep_clear);
 
-  /// Moves everybody for `dt_s`. Nobody comes within `personal_space_m` of the robot; whom it has come nearer to gets
-  /// past it with a little less than there is then.
-  void advance(double dt_s, const Pose2& robot, double personal_space_m = 0.9);
+  /// Moves everybody for `dt_s`. Nobody comes within `personal_space_m` of the robot, measured as from the middle of a
+  /// disc of 0.35 m; whom it has come nearer to gets past it with a little less than there is then.
+  void advance(double dt_s, const Pose2& robot, const Outline& body = {}, double personal_space_m = 0.9);
   [[nodiscard]] const std::vector<Person>& people() const { return people_; }
 
  private:
@@ -52,7 +53,7 @@ class Walkers {
     std::optional<double> squeezes_by_m;  // past the robot, nearer than it would like to
   };
   void choose_way(std::size_t index);
-  void go_round(std::size_t index, const Eigen::Vector2d& robot_m, double personal_space_m);
+  void go_round(std::size_t index, const Pose2& robot, const Outline& body, double personal_space_m);
 
   const World* world_;
   std::mt19937_64 random_;

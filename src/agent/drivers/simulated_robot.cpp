@@ -52,7 +52,7 @@ void SimulatedRobot::advance(double seconds) {
   constexpr double kStep_s = 0.02;
   const int steps = std::max(1, static_cast<int>(std::lround(seconds / kStep_s)));
   for (int i = 0; i < steps; ++i) {
-    walkers_.advance(seconds / steps, vehicle_.pose());
+    walkers_.advance(seconds / steps, vehicle_.pose(), config_.profile.outline);
     const Pose2 before = vehicle_.odometry();
     vehicle_.advance(seconds / steps, {(1.0 - slip_) * command_.speed_mps, command_.turn_radps}, obstacles_,
                      walkers_.people());

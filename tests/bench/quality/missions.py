@@ -5,9 +5,11 @@
 usage: missions.py --work DIR [--home WORLD.json] [--only CASE ...] [--count N] [--seed N] [--record] [--bin DIR]
 
 Cases, each so many missions between rooms drawn at random after a tour of all rooms by day:
-  house, house-night, house-people, house-moved, house-chair
+  house, house-night, house-people, house-moved
               the generated house house:1: by day; at night; with three people who walk about; with one piece of furniture
-              moved in every room; a wheelchair of 1.10 m x 0.65 m
+              moved in every room
+  house-chair, house-chair-night, house-chair-people, house-chair-moved
+              the same with a wheelchair of 1.10 m x 0.65 m
   home, home-night, home-people
               the same in the world --home (a world.json)
 Two at once, each through `homeward simulate run`; results stay in DIR as one file of JSON lines a case, and a case that is
@@ -32,7 +34,10 @@ CASES = {  # missions, share that must be right, what their entry in the scenari
     "house-night": (30, 0.9, {"light": "night"}),
     "house-people": (30, 28 / 30, {"people": 3}),
     "house-moved": (30, 0.9, {"moved_furniture": 1}),
-    "house-chair": (30, 0.98, {}),
+    "house-chair": (100, 0.98, {}),
+    "house-chair-night": (30, 0.9, {"light": "night"}),
+    "house-chair-people": (30, 28 / 30, {"people": 3}),
+    "house-chair-moved": (30, 0.9, {"moved_furniture": 1}),
     "home": (100, 0.98, {}),
     "home-night": (30, 0.9, {"light": "night"}),
     "home-people": (30, 28 / 30, {"people": 3}),
@@ -65,7 +70,7 @@ def drive(options, case):
         "world": "house:1" if generated else str(options.home.resolve()),
         "seed": options.seed,
         "camera": {"model": "hyperbolic_mirror"},
-        "robot": "chair" if case.endswith("chair") else "disc",
+        "robot": "chair" if "-chair" in case else "disc",
         "tour": {"rooms": HOUSE if generated else rooms_of(options.home), "light": "day"},
         "missions": [{"random": options.count or count, **entry}],
     }

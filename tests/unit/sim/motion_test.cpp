@@ -224,6 +224,23 @@ TEST(Walkers, GoRoundTheRobotWhereThereIsRoom) {
   EXPECT_GE(passes(walkers, robot, 300.0), 15);
 }
 
+TEST(Walkers, KeepAsFarFromAllOfALongBody) {
+  const World world = bare_floor(6.0, 6.0);
+  const Pose2 robot{3.0, 3.0, 0.7};
+  const Outline body = chair_profile().outline;
+  Walkers walkers(world, 3, 5, robot);
+  double nearest_m = 100.0;
+  for (int k = 0; k < 3000; ++k) {
+    walkers.advance(0.1, robot, body);
+    for (const Person& person : walkers.people()) {
+      const Pose2 seen = inverse(robot) * Pose2{person.x_m, person.y_m, 0.0};
+      nearest_m = std::min(nearest_m, distance_m(body, {seen.x_m, seen.y_m}));
+    }
+  }
+  EXPECT_GE(nearest_m, 0.9 - 0.35 - 1e-6);
+  EXPECT_LT(nearest_m, 0.8) << "nobody came near";
+}
+
 TEST(Walkers, DoNotPushPastTheRobotWhereThereIsNone) {
   const World world = bare_floor(8.0, 1.2);
   const Pose2 robot{4.0, 0.6, 0.0};
