@@ -20,7 +20,7 @@ from rest_client import Failed, Server
 
 ROOMS = "hall,living_room,kitchen,dining_room,bedroom,bathroom,study,hall"
 WORLD = "house:1"
-ARRIVED_WITHIN_M = 0.5
+ARRIVED_WITHIN_M = 0.3
 # A password is read off the screen and may be given to programs: no two alike, no sign that starts an option.
 EASY_TO_TYPE = "abcdefghijkmnpqrstuvwxyz23456789"
 

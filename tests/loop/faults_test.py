@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
-ARRIVED_WITHIN_M = 0.5
+ARRIVED_WITHIN_M = 0.3
 STANDS_WITHIN_S = 0.5
 AT_S = 5
 

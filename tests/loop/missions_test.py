@@ -4,6 +4,7 @@
 usage: missions_test.py BIN_FOLDER WEB_FOLDER
 """
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -11,7 +12,8 @@ import tempfile
 import unittest
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
-ARRIVED_WITHIN_M = 0.5
+ARRIVED_WITHIN_M = 0.3
+DOCKED_WITHIN_RAD = math.radians(3)
 
 
 def scenario(missions, robot):
@@ -52,7 +54,7 @@ class Missions(unittest.TestCase):
 
     def test_the_chair_takes_up_the_taught_heading(self):
         for result in self.results[:3]:
-            self.assertLessEqual(result["final_error_rad"], 0.15, result)
+            self.assertLessEqual(result["final_error_rad"], DOCKED_WITHIN_RAD, result)
 
     def test_nothing_is_touched(self):
         for result in self.results:
@@ -72,6 +74,7 @@ class OtherRobots(unittest.TestCase):
         for result in drive([{"from": "kitchen", "to": "living_room"}], **robot):
             self.assertTrue(result["arrived"], result)
             self.assertLessEqual(result["final_error_m"], ARRIVED_WITHIN_M, result)
+            self.assertLessEqual(result["final_error_rad"], DOCKED_WITHIN_RAD, result)
             self.assertEqual(result["collisions"], 0, result)
 
     def test_a_wheelchair_gets_its_whole_length_through_the_doors(self):

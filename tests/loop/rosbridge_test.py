@@ -2,7 +2,7 @@
 """Missions of the demo with a robot behind a rosbridge, and what happens when its connection is cut.
 
 The same agent as everywhere, but all it knows of the simulated robot comes over the WebSocket of the tests' rosbridge.
-usage: rosbridge_test.py BIN_FOLDER WEB_FOLDER
+usage: rosbridge_test.py BIN_FOLDER WEB_FOLDER [ROOM ...]      both robots drive to these rooms, in turn
 """
 import json
 import pathlib
@@ -31,7 +31,7 @@ class Rosbridge(unittest.TestCase):
 
     PROFILE = "disc"
     BODY = {"radius_m": 0.35}
-    ROOMS = ("kitchen", "living_room")
+    ROOMS = sys.argv[3:] or ("kitchen", "living_room")
 
     @classmethod
     def setUpClass(cls):
@@ -135,7 +135,7 @@ class Wheelchair(Rosbridge):
 
     PROFILE = "chair"
     BODY = {"rectangle": {"front_m": 0.85, "back_m": 0.25, "width_m": 0.65}}
-    ROOMS = ("study", "living_room")
+    ROOMS = sys.argv[3:] or ("study", "living_room")
     test_2_a_silent_robot_ends_the_mission_and_nothing_moves_when_it_speaks_again = None
 
 
