@@ -7,8 +7,15 @@
 namespace homeward::agent {
 
 sim::LaserConfig safety_scanner() {
+  // Contact is judged from 0.1 to 1.4 m (sim::FloorPlan); a board of furniture is 0.016 m thick or more.
+  constexpr double kLowest_m = 0.105;
+  constexpr double kHighest_m = 1.395;
+  constexpr int kLayers = 87;
   sim::LaserConfig laser;
-  laser.heights_m = {0.12, 0.3, 0.46, 0.6, 0.73, 0.88, 1.05, 1.25, 1.38};
+  laser.heights_m.resize(kLayers);
+  for (int i = 0; i < kLayers; ++i) {
+    laser.heights_m[static_cast<std::size_t>(i)] = kLowest_m + i * (kHighest_m - kLowest_m) / (kLayers - 1);
+  }
   return laser;
 }
 
@@ -34,14 +41,14 @@ Result<SimulatedRobot> SimulatedRobot::create(sim::LitWorld& world, const Simula
                                               const Pose2& start) {
   auto camera = camera::Camera::create(config.camera);
   if (!camera) return pass_on(camera);
-  return SimulatedRobot(world, config, start, std::move(*camera));
+  return SimulatedRobot(world, config, start, *camera);
 }
 
 SimulatedRobot::SimulatedRobot(sim::LitWorld& world, const SimulatedRobotConfig& config, const Pose2& start,
-                               std::shared_ptr<const camera::Camera> camera)
+                               const std::shared_ptr<const camera::Camera>& camera)
     : world_(&world),
       config_(config),
-      renderer_(world, config.light, std::move(camera)),
+      renderer_(world, config.light, camera),
       obstacles_(world.world()),
       walkers_(world.world(), config.people, config.seed + 7, start),
       vehicle_(config.profile, start, config.seed + 13),

@@ -21,8 +21,10 @@
 
 namespace homeward::agent {
 
-/// The simulated chair's range sensor: layers from the floor to head height, because a single plane at 0.3 m sees the
-/// legs of a table and not its top.
+/// The simulated chair's range sensor: the nearest thing in each direction between the floor and head height, like
+/// depth cameras whose pictures are flattened to a sweep. Its layers lie 0.015 m apart, so that no board of furniture
+/// fits between two of them: a single plane at 0.3 m sees the legs of a table and not its top, and nine planes missed
+/// tops by up to 0.25 m.
 sim::LaserConfig safety_scanner();
 /// A ring of ultrasound sensors that hears as high up.
 sim::UltrasoundConfig safety_ring();
@@ -73,7 +75,7 @@ class SimulatedRobot {
 
  private:
   SimulatedRobot(sim::LitWorld& world, const SimulatedRobotConfig& config, const Pose2& start,
-                 std::shared_ptr<const camera::Camera> camera);
+                 const std::shared_ptr<const camera::Camera>& camera);
 
   sim::LitWorld* world_;
   SimulatedRobotConfig config_;
