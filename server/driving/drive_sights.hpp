@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <deque>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 #include "pipeline/refine_map.hpp"
@@ -20,7 +21,8 @@ class DriveSights {
   /// `place`: that the belief is sure of, or empty.
   void add(TimeUs t_us, PlaceId place, const features::Appearance& seen) {
     last_us_ = t_us;
-    sights_.push_back({place.empty() ? features::Appearance() : mapping::thinned(seen, kMostFeatures), place});
+    sights_.push_back(
+        {place.empty() ? features::Appearance() : mapping::thinned(seen, kMostFeatures), std::move(place)});
     if (sights_.size() > kMostSights) sights_.pop_front();
   }
   void clear() { sights_.clear(); }

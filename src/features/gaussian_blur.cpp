@@ -36,17 +36,17 @@ __attribute__((target("avx2,fma"))) void along_row(const float* from, int count,
   int i = 0;
   for (; i + kBlock <= count; i += kBlock) {
     __m256 sums[kBlock / kLanes];
-    for (int b = 0; b < kBlock / kLanes; ++b) {
+    for (std::ptrdiff_t b = 0; b < kBlock / kLanes; ++b) {
       sums[b] = _mm256_mul_ps(_mm256_loadu_ps(from + i + b * kLanes), _mm256_set1_ps(kernel[0]));
     }
     for (std::size_t k = 1; k < taps; ++k) {
       const __m256 weight = _mm256_set1_ps(kernel[k]);
       const float* neighbour = from + i + k;
-      for (int b = 0; b < kBlock / kLanes; ++b) {
+      for (std::ptrdiff_t b = 0; b < kBlock / kLanes; ++b) {
         sums[b] = _mm256_fmadd_ps(_mm256_loadu_ps(neighbour + b * kLanes), weight, sums[b]);
       }
     }
-    for (int b = 0; b < kBlock / kLanes; ++b) _mm256_storeu_ps(to + i + b * kLanes, sums[b]);
+    for (std::ptrdiff_t b = 0; b < kBlock / kLanes; ++b) _mm256_storeu_ps(to + i + b * kLanes, sums[b]);
   }
   for (; i < count; i += kLanes) {
     __m256 sum = _mm256_mul_ps(_mm256_loadu_ps(from + i), _mm256_set1_ps(kernel[0]));
@@ -65,19 +65,19 @@ __attribute__((target("avx2,fma"))) void down_columns(const std::vector<const fl
   int i = 0;
   for (; i + kBlock <= count; i += kBlock) {
     __m256 sums[kBlock / kLanes];
-    for (int b = 0; b < kBlock / kLanes; ++b) {
+    for (std::ptrdiff_t b = 0; b < kBlock / kLanes; ++b) {
       sums[b] = _mm256_mul_ps(_mm256_loadu_ps(rows[middle] + i + b * kLanes), _mm256_set1_ps(kernel[middle]));
     }
     for (std::size_t k = 1; k <= middle; ++k) {
       const __m256 weight = _mm256_set1_ps(kernel[middle + k]);
       const float* above = rows[middle - k] + i;
       const float* below = rows[middle + k] + i;
-      for (int b = 0; b < kBlock / kLanes; ++b) {
+      for (std::ptrdiff_t b = 0; b < kBlock / kLanes; ++b) {
         const __m256 both = _mm256_add_ps(_mm256_loadu_ps(below + b * kLanes), _mm256_loadu_ps(above + b * kLanes));
         sums[b] = _mm256_fmadd_ps(both, weight, sums[b]);
       }
     }
-    for (int b = 0; b < kBlock / kLanes; ++b) _mm256_storeu_ps(to + i + b * kLanes, sums[b]);
+    for (std::ptrdiff_t b = 0; b < kBlock / kLanes; ++b) _mm256_storeu_ps(to + i + b * kLanes, sums[b]);
   }
   for (; i < count; i += kLanes) {
     __m256 sum = _mm256_mul_ps(_mm256_loadu_ps(rows[middle] + i), _mm256_set1_ps(kernel[middle]));
@@ -100,6 +100,7 @@ void blur_strip(const cv::Mat& from, int first, int width, const std::vector<flo
   std::vector<float> out(static_cast<std::size_t>(whole));
   std::vector<const float*> neighbours(taps);
   std::vector<float*> kept;  // where each row's sums are while it is a neighbour
+  kept.reserve(static_cast<std::size_t>(from.rows));
   for (int row = 0; row < from.rows; ++row) {
     kept.push_back(ring.data() + static_cast<std::size_t>(row) % taps * static_cast<std::size_t>(kStrip));
   }
@@ -126,8 +127,9 @@ void blur_strip(const cv::Mat& from, int first, int width, const std::vector<flo
       }
       along_row(padded.data(), whole, kernel, kept[static_cast<std::size_t>(next)]);
     }
-    for (int k = -reach; k <= reach; ++k) {
-      neighbours[static_cast<std::size_t>(k + reach)] = kept[static_cast<std::size_t>(reflected(row + k, from.rows))];
+    for (std::size_t k = 0; k < taps; ++k) {
+      const int neighbour = reflected(row + static_cast<int>(k) - reach, from.rows);
+      neighbours[k] = kept[static_cast<std::size_t>(neighbour)];
     }
     if (whole == width) {
       down_columns(neighbours, width, kernel, to.ptr<float>(row) + first);

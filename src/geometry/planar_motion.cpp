@@ -100,6 +100,7 @@ std::vector<Candidate> search(std::span<const Correspondence> correspondences, c
   const int count = static_cast<int>(pool.size());
   std::mt19937_64 random(seed);
   std::vector<double> upto;
+  upto.reserve(weights.size());
   double total = 0.0;
   for (const double weight : weights) upto.push_back(total += weight);
   // Matches are drawn as often as they weigh.

@@ -66,6 +66,7 @@ Result<HomeVector> scale_space_vector(const features::Appearance& current, const
   vector.bearing_rad = std::atan2(sine, cosine);
   vector.turn_rad = circular_median(turns_rad);
   std::vector<double> parallax_rad;
+  parallax_rad.reserve(turns_rad.size());
   for (const double turn : turns_rad) parallax_rad.push_back(std::abs(wrap_angle(turn - vector.turn_rad)));
   std::ranges::nth_element(parallax_rad, parallax_rad.begin() + static_cast<std::ptrdiff_t>(parallax_rad.size() / 2));
   vector.median_parallax_rad = parallax_rad[parallax_rad.size() / 2];

@@ -93,6 +93,7 @@ Result<CompassReading> visual_compass(const camera::Panorama& current, const cam
     return fail(ErrorCode::kTooFewFeatures, "A picture is of one brightness; it has no direction.");
   }
   std::vector<double> differences;
+  differences.reserve(static_cast<std::size_t>(here.columns));
   for (int shift = 0; shift < here.columns; ++shift) differences.push_back(difference(here, there, shift));
   const auto least = std::ranges::min_element(differences);
   const int shift = static_cast<int>(least - differences.begin());

@@ -149,6 +149,7 @@ Result<TargetSeen> VisualHoming::recognise(const features::Appearance& current, 
         best.covariance += map_.last_covariance();
       }
       std::vector<Sighting> agreeing;
+      agreeing.reserve(inliers.size());
       for (const int inlier : inliers) agreeing.push_back(all[static_cast<std::size_t>(inlier)]);
       if (frame.has_value()) tracks_.anchor(frame, agreeing);
       keep(best, odometry);

@@ -29,9 +29,8 @@ double length_sigma(map::LengthSource from) {
     case map::LengthSource::kOdometry:
       return 0.1;
     case map::LengthSource::kTourTime:
-      return 0.5;  // people guide a chair at 0.25 to 1 m/s
     case map::LengthSource::kTourImages:
-      return 0.5;  // and take a picture every 0.2 to 0.8 m
+      return 0.5;  // people guide a chair at 0.25 to 1 m/s and take a picture every 0.2 to 0.8 m
     case map::LengthSource::kUnknown:
       break;
   }

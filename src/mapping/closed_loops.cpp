@@ -127,6 +127,7 @@ WayWithLoops close_way(std::span<const LoopHypothesis> hypotheses, std::span<con
   }
   std::ranges::stable_sort(found, {}, [](const auto& tie) { return std::pair(tie.first.a, tie.first.b); });
   std::vector<LoopTie> ties;
+  ties.reserve(found.size());
   for (const auto& [tie, hypothesis] : found) ties.push_back(tie);
   const std::vector<int> run = runs_of(ties, config.neighbour_threshold_images / 2.0);
   for (std::size_t t = 0; t < found.size(); ++t) found[t].first.group = run[t];

@@ -63,6 +63,7 @@ class Mender {
   static std::vector<int> thinned(std::span<const int> images) {
     if (images.size() <= kMostCandidates) return {images.begin(), images.end()};
     std::vector<int> kept;
+    kept.reserve(kMostCandidates);
     for (int i = 0; i < kMostCandidates; ++i) {
       kept.push_back(images[at(i) * (images.size() - 1) / (kMostCandidates - 1)]);
     }

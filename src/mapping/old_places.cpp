@@ -165,7 +165,9 @@ std::vector<char> OldPlaces::excluded(std::span<const Claim> claims, const TourT
   if (!metric_) return result;
   const std::vector<MeetingTrust> ways = weighed(claims, open, closed);
   for (std::size_t c = 0; c < claims.size(); ++c) {
-    result[c] = ways[c].contradicted >= kBorneOut && ways[c].factor() < config_.hypotheses.least_reliability / 2.0;
+    const bool refuted =
+        ways[c].contradicted >= kBorneOut && ways[c].factor() < config_.hypotheses.least_reliability / 2.0;
+    result[c] = refuted ? 1 : 0;
   }
   return result;
 }

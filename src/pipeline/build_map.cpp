@@ -185,15 +185,15 @@ std::vector<std::string> notes_in_words(const BuildNotes& notes) {
 
 Result<map::TopologicalMap> build_map(const std::vector<const TourSource*>& tours, const camera::CameraConfig& camera,
                                       const BuildOptions& options, const map::TopologicalMap* previous,
-                                      const ProgressSink& progress, std::stop_token stop) {
-  auto built = build_noted_map(tours, camera, options, previous, progress, std::move(stop));
+                                      const ProgressSink& progress, const std::stop_token& stop) {
+  auto built = build_noted_map(tours, camera, options, previous, progress, stop);
   if (!built) return pass_on(built);
   return std::move(built->map);
 }
 
 Result<BuiltMap> build_noted_map(const std::vector<const TourSource*>& tours, const camera::CameraConfig& camera,
                                  const BuildOptions& options, const map::TopologicalMap* previous,
-                                 const ProgressSink& progress, std::stop_token stop) {
+                                 const ProgressSink& progress, const std::stop_token& stop) {
   auto gathered = gather(tours);
   if (!gathered) return pass_on(gathered);
   const std::size_t count = gathered->images.size();

@@ -57,11 +57,11 @@ struct BuiltMap {
 /// texture), kWrongImageSize, kCancelled, that of TourSource::read when no picture can be read; each names a picture.
 Result<map::TopologicalMap> build_map(const std::vector<const TourSource*>& tours, const camera::CameraConfig& camera,
                                       const BuildOptions& options, const map::TopologicalMap* previous = nullptr,
-                                      const ProgressSink& progress = {}, std::stop_token stop = {});
+                                      const ProgressSink& progress = {}, const std::stop_token& stop = {});
 
 /// The same, with what was found out on the way.
 Result<BuiltMap> build_noted_map(const std::vector<const TourSource*>& tours, const camera::CameraConfig& camera,
                                  const BuildOptions& options, const map::TopologicalMap* previous = nullptr,
-                                 const ProgressSink& progress = {}, std::stop_token stop = {});
+                                 const ProgressSink& progress = {}, const std::stop_token& stop = {});
 
 }  // namespace homeward::pipeline

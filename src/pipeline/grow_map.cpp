@@ -44,7 +44,7 @@ Result<Eye> eye_for(const map::TopologicalMap& map, const std::optional<camera::
 
 Result<ToursAdded> add_tours(const map::TopologicalMap& old, const std::vector<const TourSource*>& tours,
                              const std::optional<camera::CameraConfig>& camera, const BuildOptions& options,
-                             const ProgressSink& progress, std::stop_token stop) {
+                             const ProgressSink& progress, const std::stop_token& stop) {
   const auto eye = eye_for(old, camera);
   if (!eye) return pass_on(eye);
   const auto stage = [&](const char* name, double begin, double share) {

@@ -31,6 +31,6 @@ Result<Eye> eye_for(const map::TopologicalMap& map, const std::optional<camera::
 /// kTooFewFeatures, kCancelled.
 Result<ToursAdded> add_tours(const map::TopologicalMap& old, const std::vector<const TourSource*>& tours,
                              const std::optional<camera::CameraConfig>& camera, const BuildOptions& options,
-                             const ProgressSink& progress = {}, std::stop_token stop = {});
+                             const ProgressSink& progress = {}, const std::stop_token& stop = {});
 
 }  // namespace homeward::pipeline

@@ -87,6 +87,7 @@ std::vector<std::size_t> LoopDetector::shortlist() const {
 std::optional<Loop> LoopDetector::best_of(const std::vector<std::size_t>& pictures) const {
   const features::Appearance& here = seen_.back();
   std::vector<std::pair<std::size_t, std::size_t>> alike;  // matches, picture
+  alike.reserve(pictures.size());
   for (const std::size_t picture : pictures) {
     alike.emplace_back(matching::match(here.sift, seen(picture).sift, config_.verify.match).size(), picture);
   }

@@ -116,7 +116,7 @@ PlaceId sure_place(const localisation::Belief& belief, const RefineOptions& opti
 }
 
 Result<RefinedBySights> refine_by_sights(const map::TopologicalMap& map, std::span<const DriveSight> sights,
-                                         const RefineOptions& options, std::stop_token stop) {
+                                         const RefineOptions& options, const std::stop_token& stop) {
   const auto index = map::place_indices(map);
   std::vector<int> believed;
   for (const DriveSight& sight : sights) {
@@ -150,7 +150,7 @@ Result<RefinedBySights> refine_by_sights(const map::TopologicalMap& map, std::sp
 
 Result<RefinedMap> refine_map(const map::TopologicalMap& map, const TourSource& drive,
                               const std::optional<camera::CameraConfig>& camera, const RefineOptions& options,
-                              const ProgressSink& progress, std::stop_token stop) {
+                              const ProgressSink& progress, const std::stop_token& stop) {
   const auto eye = eye_for(map, camera);
   if (!eye) return pass_on(eye);
   const auto stage = [&](const char* name, double begin, double share) {

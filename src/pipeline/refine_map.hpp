@@ -60,12 +60,12 @@ PlaceId sure_place(const localisation::Belief& belief, const RefineOptions& opti
 /// of the next sight as well and near it, and verified geometry says that it was taken there and not between places.
 /// Places that the map does not have (any more) are passed over. Errors: kCancelled.
 Result<RefinedBySights> refine_by_sights(const map::TopologicalMap& map, std::span<const DriveSight> sights,
-                                         const RefineOptions& options, std::stop_token stop = {});
+                                         const RefineOptions& options, const std::stop_token& stop = {});
 
 /// Refines a map by pictures taken while driving, in driving order: localises them and goes on as refine_by_sights.
 /// Errors: those of eye_for and look_at_tours; kCancelled.
 Result<RefinedMap> refine_map(const map::TopologicalMap& map, const TourSource& drive,
                               const std::optional<camera::CameraConfig>& camera, const RefineOptions& options,
-                              const ProgressSink& progress = {}, std::stop_token stop = {});
+                              const ProgressSink& progress = {}, const std::stop_token& stop = {});
 
 }  // namespace homeward::pipeline

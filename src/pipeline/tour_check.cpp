@@ -128,6 +128,21 @@ Status check_motion(std::span<const map::MapImage> images, std::span<const featu
               images.front().id.str());
 }
 
+namespace {
+
+std::string out_of_order(const std::string& how_many, const std::string& times) {
+  return "The pictures are out of order: at " + how_many +
+         " the next picture does not resemble the one before, but others do." + times +
+         " Name them in the order of the drive (00001.jpg, 00002.jpg, ...).";
+}
+
+std::string tour_jumps(const std::string& how_many, const std::string& pictures, const std::string& times) {
+  return "The tour jumps at " + how_many + ": " + pictures +
+         ". These pictures do not resemble each other, but others of the tour do; are they out of order?" + times;
+}
+
+}  // namespace
+
 Result<std::vector<Error>> check_order(std::span<const map::MapImage> images, std::span<const int> tour_of,
                                        const mapping::PairTable& pairs) {
   std::vector<Error> warnings;
@@ -145,25 +160,18 @@ Result<std::vector<Error>> check_order(std::span<const map::MapImage> images, st
     const std::string times = back_in_time == end ? "" : " Their times say another order than their names, too.";
     if (!jump_after.empty()) {
       const std::string& first = images[jump_after.front() + 1].id.str();
-      const std::string how_many = std::to_string(jump_after.size()) + " of " + std::to_string(steps) + " steps";
+      std::string how_many = std::to_string(jump_after.size());
+      how_many.append(" of ").append(std::to_string(steps)).append(" steps");
       if (static_cast<double>(jump_after.size()) > kMostJumps * static_cast<double>(steps)) {
-        return fail(ErrorCode::kInvalidInput,
-                    "The pictures are out of order: at " + how_many +
-                        " the next picture does not resemble the one before, but others do." + times +
-                        " Name them in the order of the drive (00001.jpg, 00002.jpg, ...).",
-                    first);
+        return fail(ErrorCode::kInvalidInput, out_of_order(how_many, times), first);
       }
       std::string names;
       for (std::size_t i = 0; i < std::min(kMostNamed, jump_after.size()); ++i) {
-        names += (i > 0 ? ", " : "") + name_of(images[jump_after[i]]) + " to " + name_of(images[jump_after[i] + 1]);
+        if (i > 0) names.append(", ");
+        names.append(name_of(images[jump_after[i]])).append(" to ").append(name_of(images[jump_after[i] + 1]));
       }
       if (jump_after.size() > kMostNamed) names += ", ...";
-      warnings.push_back({ErrorCode::kInvalidInput,
-                          "The tour jumps at " + how_many + ": " + names +
-                              ". These pictures do not resemble each other, but others of the tour do; are they out of "
-                              "order?" +
-                              times,
-                          first});
+      warnings.push_back({ErrorCode::kInvalidInput, tour_jumps(how_many, names, times), first});
     } else if (back_in_time != end) {
       warnings.push_back({ErrorCode::kInvalidInput,
                           "The picture is older than the one before it: pictures are taken in the order of their "

@@ -68,8 +68,8 @@ FloorPlan::FloorPlan(const Scene& scene, double lowest_m, double highest_m) {
   };
   for (std::vector<Edge>& edges : tiles_) {
     std::ranges::sort(edges, {}, values);
-    const auto doubled = std::ranges::unique(edges, {}, values);
-    edges.erase(doubled.begin(), doubled.end());
+    const auto same = [&](const Edge& a, const Edge& b) { return values(a) == values(b); };
+    edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
     edges.shrink_to_fit();
   }
 }

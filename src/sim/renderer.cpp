@@ -169,13 +169,12 @@ struct Renderer::Parts {
 };
 
 // The world keeps the light of a preset, and has to outlive the renderer anyway.
-Renderer::Renderer(LitWorld& world, LightPreset preset, std::shared_ptr<const camera::Camera> camera)
+Renderer::Renderer(LitWorld& world, LightPreset preset, const std::shared_ptr<const camera::Camera>& camera)
     : Renderer(world, light_settings(preset),
-               std::shared_ptr<const Irradiance>(std::shared_ptr<void>(), &world.irradiance(preset)),
-               std::move(camera)) {}
+               std::shared_ptr<const Irradiance>(std::shared_ptr<void>(), &world.irradiance(preset)), camera) {}
 
 Renderer::Renderer(const LitWorld& world, const LightSettings& settings, std::shared_ptr<const Irradiance> light,
-                   std::shared_ptr<const camera::Camera> camera) {
+                   const std::shared_ptr<const camera::Camera>& camera) {
   const camera::CameraConfig& config = camera->config();
   std::vector<MipTexture> textures;
   textures.reserve(world.fine_scene().textures.size());
@@ -256,8 +255,10 @@ Image Renderer::render(const Pose2& robot, const std::vector<Person>& people, st
     return light * parts.settings.exposure;
   };
   std::vector<Eigen::Array3f> person_light;
+  person_light.reserve(people.size());
   for (const Person& person : people) person_light.push_back(light_at(person.x_m, person.y_m));
   std::vector<Eigen::Array3f> box_light;
+  box_light.reserve(boxes.size());
   for (const Box& box : boxes) box_light.push_back(light_at(box.pose.x_m, box.pose.y_m));
   const std::uint64_t noise_key = mix(noise_seed);
   const std::size_t packets = (parts.pixels.size() + 7) / 8;

@@ -36,9 +36,11 @@ MipTexture::MipTexture(const Image& texture) {
           for (const auto& [dx, dy] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1), std::pair(1, 1)}) {
             const int xx = std::min(above.width - 1, 2 * x + dx);
             const int yy = std::min(above.height - 1, 2 * y + dy);
-            sum += above.rgb[static_cast<std::size_t>((yy * above.width + xx) * 3 + band)];
+            const int at = (yy * above.width + xx) * 3 + band;
+            sum += above.rgb[static_cast<std::size_t>(at)];
           }
-          below.rgb[static_cast<std::size_t>((y * below.width + x) * 3 + band)] = 0.25F * sum;
+          const int at = (y * below.width + x) * 3 + band;
+          below.rgb[static_cast<std::size_t>(at)] = 0.25F * sum;
         }
       }
     }

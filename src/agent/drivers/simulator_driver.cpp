@@ -25,12 +25,12 @@ constexpr auto kCommandLife = std::chrono::milliseconds(100);
 
 class SimulatorDriver final : public Driver {
  public:
-  SimulatorDriver(std::unique_ptr<sim::LitWorld> world, SimulatedRobot robot, SimulatedRobotConfig config, Body body,
-                  const SimulatorDriverConfig& driver)
+  SimulatorDriver(std::unique_ptr<sim::LitWorld> world, SimulatedRobot robot, SimulatedRobotConfig config,
+                  const Body& body, const SimulatorDriverConfig& driver)
       : world_(std::move(world)),
         robot_(std::move(robot)),
         config_(std::move(config)),
-        body_(std::move(body)),
+        body_(body),
         rider_(driver.rider) {
     const std::string& truth_file = driver.truth_file;
     if (!truth_file.empty()) truth_.open(truth_file, std::ios::app);
@@ -153,9 +153,8 @@ Result<std::unique_ptr<Driver>> make_simulator_driver(const SimulatorDriverConfi
   prepare_light(*world, *light);
   auto robot = SimulatedRobot::create(*world, robot_config, start);
   if (!robot) return pass_on(robot);
-  Body body = body_of(robot_config.profile);
-  return std::make_unique<SimulatorDriver>(std::move(world), std::move(*robot), std::move(robot_config),
-                                           std::move(body), config);
+  const Body body = body_of(robot_config.profile);
+  return std::make_unique<SimulatorDriver>(std::move(world), std::move(*robot), std::move(robot_config), body, config);
 }
 
 }  // namespace homeward::agent

@@ -30,8 +30,8 @@ Image image_of(const cv::Mat& bgr) {
 
 class VideoDriver final : public Driver {
  public:
-  VideoDriver(cv::VideoCapture video, camera::CameraConfig camera, VideoDriverConfig config)
-      : video_(std::move(video)), camera_(std::move(camera)), config_(std::move(config)) {
+  VideoDriver(const cv::VideoCapture& video, camera::CameraConfig camera, VideoDriverConfig config)
+      : video_(video), camera_(std::move(camera)), config_(std::move(config)) {
     const double rate = video_.get(cv::CAP_PROP_FPS);
     if (rate > 0.1 && rate <= 1000.0) usual_gap_s_ = 1.0 / rate;
   }
@@ -137,7 +137,7 @@ Result<std::unique_ptr<Driver>> make_video_driver(const VideoDriverConfig& confi
                     std::to_string(camera->height_px) + ".",
                 config.file);
   }
-  return std::make_unique<VideoDriver>(std::move(video), std::move(*camera), config);
+  return std::make_unique<VideoDriver>(video, std::move(*camera), config);
 }
 
 }  // namespace homeward::agent

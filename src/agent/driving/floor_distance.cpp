@@ -84,12 +84,13 @@ void FloorDistance::flood(std::size_t from, std::vector<float>& way_m, std::vect
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
         if ((dx == 0 && dy == 0) || x + dx < 0 || y + dy < 0 || x + dx >= side_ || y + dy >= side_) continue;
-        const auto next = static_cast<std::size_t>((y + dy) * side_ + x + dx);
+        const int beside = (y + dy) * side_ + x + dx;
+        const auto next = static_cast<std::size_t>(beside);
         const float there_m = cost_m + step_cost_[next] * (dx != 0 && dy != 0 ? kDiagonal_m : kStraight_m);
         if (step_cost_[next] == 0.0F || there_m >= way_m[next]) continue;
         way_m[next] = there_m;
         onward[next] = index;
-        open.emplace(there_m, static_cast<int>(next));
+        open.emplace(there_m, beside);
       }
     }
   }

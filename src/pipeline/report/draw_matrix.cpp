@@ -133,9 +133,10 @@ std::string draw_matrix(const BuiltMap& built, const ReportFacts& facts) {
   for (int i = 0; i < images; i += step) {
     const double along = kSide * (i + 0.5) / images;
     const std::string name = std::to_string(i);
-    svg += "<text class=\"axis\" text-anchor=\"middle\" x=\"" + number(kAxis + along, 1) + "\" y=\"584\">" + name +
-           "</text><text class=\"axis\" text-anchor=\"end\" x=\"38\" y=\"" + number(12.0 + along, 1) + "\">" + name +
-           "</text>";
+    svg.append("<text class=\"axis\" text-anchor=\"middle\" x=\"").append(number(kAxis + along, 1));
+    svg.append("\" y=\"584\">").append(name).append("</text>");
+    svg.append("<text class=\"axis\" text-anchor=\"end\" x=\"38\" y=\"").append(number(12.0 + along, 1));
+    svg.append("\">").append(name).append("</text>");
   }
   return svg + "</svg>\n";
 }
