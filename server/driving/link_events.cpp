@@ -94,6 +94,7 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
     mission.path_index = index;
     switch (now.state) {
       case wire::DriveState::kArrived:
+        mission.reason = now.reason;  // what is left to say; that of a detour is over
         end_mission(unit, wire::MissionState::kArrived, "");
         break;
       case wire::DriveState::kFailed:

@@ -160,7 +160,8 @@ void Driving::end_mission(RobotUnit& unit, wire::MissionState state, const std::
 void Driving::stop_robot(RobotUnit& unit, const std::string& stop_id, const std::string& reason,
                          const std::string& by) {
   if (unit.link) {
-    unit.link->send(wire::StopOrder{stop_id.empty() ? db::random_id() : stop_id, unit.epoch, reason, by}, true);
+    unit.link->send(wire::StopOrder{stop_id.empty() ? db::random_id() : stop_id, unit.epoch, reason, by, ++unit.seq},
+                    true);
   }
   if (unit.under_way) end_mission(unit, wire::MissionState::kStopped, reason);
 }

@@ -230,7 +230,8 @@ Result<ServerMessage> server_message_from_json(const json& value) {
           return Permit{MissionId(r.text("mission", 100)), read_order(r), r.integer("valid_for_ms", 1, 60'000)};
         }
         if (type == "stop") {
-          return StopOrder{r.text("stop_id", 100), r.integer("epoch", 0, kMost), r.text("reason"), r.text("by", 200)};
+          return StopOrder{r.text("stop_id", 100), r.integer("epoch", 0, kMost), r.text("reason"), r.text("by", 200),
+                           r.has("seq") ? r.integer("seq", 0, kMost) : 0};
         }
         if (type == "belief") return read_belief(r);
         if (type == "error") return LinkError{r.text("code", 100), r.text("message")};

@@ -135,6 +135,7 @@ struct StopOrder {
   std::int64_t epoch = 0;
   std::string reason;
   std::string by;
+  std::int64_t seq = 0;  // orders up to this one are void: a stop overtakes those that wait to be sent
 };
 
 struct BeliefReport {

@@ -125,6 +125,7 @@ json write(const StopOrder& m) {
   json value = start("stop");
   value["stop_id"] = m.stop_id;
   value["epoch"] = m.epoch;
+  value["seq"] = m.seq;
   value["reason"] = m.reason;
   value["by"] = m.by;
   return value;

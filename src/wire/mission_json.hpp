@@ -29,7 +29,7 @@ struct MissionView {
   std::optional<DestinationId> destination;  // nothing when a place was asked for
   PlaceId place;
   MissionState state = MissionState::kAccepted;
-  std::optional<std::string> reason;  // why it ended without arriving
+  std::optional<std::string> reason;  // why it ended without arriving, or what was not right when it arrived
   std::int64_t epoch = 0;
   std::int64_t seq = 0;
   std::vector<PlaceId> path;

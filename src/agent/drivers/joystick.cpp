@@ -18,7 +18,8 @@ namespace {
 constexpr double kDeadZone = 0.15;  // of full deflection; springs and noise stay below it
 constexpr double kFullDeflection = 32767.0;
 constexpr Milliseconds kTryAgain_ms = 1000;
-constexpr int kMostEvents = 1000;  // at one time: no device says more between two cycles
+constexpr Milliseconds kHeld_ms = 10'000;  // without a word; a hand hardly keeps a stick so still, a dead battery does
+constexpr int kMostEvents = 1000;          // at one time: no device says more between two cycles
 
 static_assert(sizeof(js_event) == 8);
 
@@ -66,6 +67,7 @@ std::optional<RiderHand> Joystick::read(const Body& body, Milliseconds now_ms, M
     forget(now_ms);
     return std::nullopt;
   }
+  if (std::exchange(spoke_, false) || !there_) spoke_ms_ = now_ms;
   const double forward = -beyond_dead_zone(axes_[1]);
   const double left = -beyond_dead_zone(axes_[0]);
   const bool at_rest = forward == 0.0 && left == 0.0;
@@ -76,7 +78,10 @@ std::optional<RiderHand> Joystick::read(const Body& body, Milliseconds now_ms, M
     told_("the joystick " + device_ + (rested_ ? " is there" : " is there, but not at rest: release it"));
     there_ = true;
   }
-  if (rested_ && !at_rest) hand.wanted = {forward * body.max_speed_mps, left * body.max_turn_radps};
+  const bool doubted = rested_ && !at_rest && now_ms - spoke_ms_ > kHeld_ms;
+  if (doubted && !doubted_) told_("the joystick " + device_ + " has been deflected without a change for 10 s: move it");
+  doubted_ = doubted;
+  if (rested_ && !at_rest && !doubted) hand.wanted = {forward * body.max_speed_mps, left * body.max_turn_radps};
   return hand;
 }
 
@@ -87,7 +92,7 @@ void Joystick::forget(Milliseconds now_ms) {
   tried_ms_ = now_ms;
   have_ = 0;
   axes_ = {};
-  there_ = rested_ = touched_ = false;
+  there_ = rested_ = touched_ = spoke_ = doubted_ = false;
 }
 
 /// Takes what has come; false when the device is gone.
@@ -109,6 +114,7 @@ void Joystick::take_event() {
   js_event event{};
   std::memcpy(&event, event_.data(), sizeof event);
   have_ = 0;
+  spoke_ = true;
   // What stands when the device comes is told as events marked as initial.
   if ((event.type & ~JS_EVENT_INIT) != JS_EVENT_AXIS || event.number >= axes_.size()) return;
   axes_[event.number] = std::clamp(event.value / kFullDeflection, -1.0, 1.0);

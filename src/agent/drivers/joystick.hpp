@@ -27,7 +27,9 @@ class Joystick {
 
   /// What it says now, full deflection being the body's greatest speed; nothing while it is not there. Never waits.
   /// `now_ms`: by a clock that never jumps, for looking whether it is back; `said_ms`: what the hand is stamped with.
-  /// One that is deflected when it comes wants no motion until it has been at rest once: it may lie on its side.
+  /// One that is deflected when it comes wants no motion until it has been at rest once: it may lie on its side. Nor
+  /// does one that has been deflected for 10 s without a word: a device tells of changes only, and so does a wireless
+  /// one whose battery died under the rider's hand.
   std::optional<RiderHand> read(const Body& body, Milliseconds now_ms, Milliseconds said_ms);
 
  private:
@@ -45,6 +47,9 @@ class Joystick {
   std::array<double, 2> axes_{};  // -1..1
   bool there_ = false;            // and that was told
   bool touched_ = false;          // deflected at some moment since the last reading
+  bool spoke_ = false;            // since the last reading
+  Milliseconds spoke_ms_ = 0;     // when it last told of a change
+  bool doubted_ = false;          // it has been deflected for too long, and that was told
   bool rested_ = false;           // it has been at rest since it came
 };
 

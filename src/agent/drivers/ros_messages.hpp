@@ -56,7 +56,7 @@ std::vector<std::string> ros_greeting(const wire::RosbridgeFile& robot);
 std::vector<std::string> ros_farewell(const wire::RosbridgeFile& robot);
 std::string ros_motion(const wire::RosbridgeFile& robot, const Motion& motion);
 
-/// The robot's body as discs that cover its outline.
+/// The robot's body, its outline as it is.
 Body body_of(const wire::RosBody& outline);
 
 }  // namespace homeward::agent

@@ -26,14 +26,18 @@ constexpr Milliseconds kZerosAfterMotion_ms = 1000;  // said again and again: th
 constexpr double kAtRest_mps = 0.005;                // of a joystick; what is less is no hand
 constexpr double kAtRest_radps = 0.01;
 constexpr Milliseconds kOdometrySilence_ms = 400;
+constexpr Milliseconds kOdometryPeriod_ms = 100;  // of the slowest that is asked for
 constexpr Milliseconds kMostLag_ms = 300;
 // Longer than the agent bears without sweeps: after a lost connection it stops for certain.
 constexpr Milliseconds kWithheld_ms = 600;
 constexpr Milliseconds kSuspicious_ms = 5000;
 constexpr auto kFarewellLimit = std::chrono::milliseconds(1000);
 
+/// Goes on while the computer is suspended, so that what was said before is old when it wakes up.
 Milliseconds now_ms() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now().time_since_epoch()).count();
+  timespec now{};
+  ::clock_gettime(CLOCK_BOOTTIME, &now);
+  return Milliseconds{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
 }
 
 bool stands(const Motion& motion) { return motion.speed_mps == 0.0 && motion.turn_radps == 0.0; }
@@ -102,7 +106,8 @@ class RosbridgeDriver final : public Driver {
     std::optional<Scan> sweep = std::exchange(sweep_, std::nullopt);
     if (!live || interrupted_ || reading.t_ms - odom_.arrived_ms > kOdometrySilence_ms) return reading;
     reading.scan = std::move(sweep);
-    reading.scan_t_ms = scan_.arrived_ms;
+    // A sweep says nothing of where the robot has got to since its wheels fell silent: it counts as old as their word.
+    reading.scan_t_ms = std::min(scan_.arrived_ms, odom_.arrived_ms + kOdometryPeriod_ms);
     return reading;
   }
 

@@ -102,7 +102,7 @@ Motion made_safe(const Motion& wanted, const Body& body, std::span<const Eigen::
   }
   const double now_m = clearance_m(body, near);
   Motion motion = wanted;
-  motion.speed_mps = std::clamp(motion.speed_mps, -0.2, body.max_speed_mps);
+  motion.speed_mps = std::clamp(motion.speed_mps, -std::min(0.2, body.max_speed_mps), body.max_speed_mps);
   motion.turn_radps = std::clamp(motion.turn_radps, -body.max_turn_radps, body.max_turn_radps);
   // Closeness limits speed even beside things: 1 m/s for each metre of room, but creeping is always allowed.
   constexpr double kCreep_mps = 0.12;

@@ -64,7 +64,8 @@ struct Clerk {
   }
 
   void operator()(const wire::StopOrder& stop) const {
-    // A stop is obeyed whatever its age: stopping once too often harms nobody.
+    // A stop is obeyed whatever its age: stopping once too often harms nobody. What it overtook comes too late.
+    state.newest = std::max(state.newest, wire::Order{stop.epoch, stop.seq});
     if (state.drive == wire::DriveState::kDriving) {
       end_mission(state, wire::DriveState::kStopped, stop.reason.empty() ? "Stopped by " + stop.by + "." : stop.reason);
     }

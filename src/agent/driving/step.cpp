@@ -184,7 +184,9 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   if (state.docking) {
     // The place is reached; a heading that cannot be taken does not make it a failure.
     constexpr Milliseconds kDockingLimit_ms = 15'000;
-    if (now_ms - state.last_gain_ms > kDockingLimit_ms) end_mission(state, wire::DriveState::kArrived, "");
+    if (now_ms - state.last_gain_ms > kDockingLimit_ms) {
+      end_mission(state, wire::DriveState::kArrived, "I am there, but cannot turn to the right heading.");
+    }
     return;
   }
   if (now_ms - state.last_answer_ms > config.blind_ms) {
@@ -250,8 +252,11 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   }
   judge_progress(state, config, sensors_ms);
   if (state.drive != wire::DriveState::kDriving) return outputs;
-  const Motion wanted = drive(state, inputs, config, points_m, sensors_ms);
+  Motion wanted = drive(state, inputs, config, points_m, sensors_ms);
   if (state.drive != wire::DriveState::kDriving) return outputs;
+  // The last decimetres and backing off have speeds of their own, which the limit holds for as well.
+  const double limit_mps = std::min(state.mission->speed_limit_mps, config.body.max_speed_mps);
+  wanted.speed_mps = std::clamp(wanted.speed_mps, -limit_mps, limit_mps);
   Motion heard = slowed_by_silence(wanted, state, config, now_ms, sensors_ms);
   // What no sensor looks at may be anything.
   const bool forward_only = !looks_behind(state.scan->scan);

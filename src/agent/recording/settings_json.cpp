@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/recording/settings_json.hpp"
 
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -156,6 +158,78 @@ void feature_fields(Fields& fields, Config& features) {
   fields("sift_windows", sift_windows);
 }
 
+json numbers_of(const std::deque<Eigen::Vector2d>& points_m) {
+  json value = json::array();
+  for (const Eigen::Vector2d& point_m : points_m) value.push_back({point_m.x(), point_m.y()});
+  return value;
+}
+
+Eigen::Vector2d point_of(const json& value) { return {value.at(0).get<double>(), value.at(1).get<double>()}; }
+
+json numbers_of(const Pose2& pose) { return {pose.x_m, pose.y_m, pose.theta_rad}; }
+
+Pose2 pose_of(const json& value) {
+  return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
+}
+
+/// JSON knows neither infinity (here null: nothing was met) nor NaN (here -1: the ray failed).
+json numbers_of(const Scan& scan) {
+  json ranges_m = json::array();
+  for (const float range_m : scan.ranges_m) {
+    if (std::isnan(range_m)) {
+      ranges_m.push_back(-1.0);
+    } else {
+      ranges_m.push_back(std::isfinite(range_m) ? json(range_m) : json());
+    }
+  }
+  return {{"ranges_m", ranges_m},
+          {"angle_min_rad", scan.angle_min_rad},
+          {"angle_step_rad", scan.angle_step_rad},
+          {"range_max_m", scan.range_max_m},
+          {"robot_from_scan", numbers_of(scan.robot_from_scan)}};
+}
+
+Scan scan_of(const json& value) {
+  Scan scan;
+  for (const json& range : value.at("ranges_m")) {
+    const float range_m = range.is_null() ? std::numeric_limits<float>::infinity() : range.get<float>();
+    scan.ranges_m.push_back(range_m < 0.0F ? std::numeric_limits<float>::quiet_NaN() : range_m);
+  }
+  scan.angle_min_rad = value.at("angle_min_rad").get<double>();
+  scan.angle_step_rad = value.at("angle_step_rad").get<double>();
+  scan.range_max_m = value.at("range_max_m").get<double>();
+  scan.robot_from_scan = pose_of(value.at("robot_from_scan"));
+  return scan;
+}
+
+/// What is left of making room for somebody when a mission begins (`begin_way`).
+json numbers_of(const GiveWay& way) {
+  return {{"trail_m", numbers_of(way.trail_m)},
+          {"blocked_at_m", {way.blocked_at_m.x(), way.blocked_at_m.y()}},
+          {"times", way.times}};
+}
+
+void take(const json& value, GiveWay& way) {
+  for (const json& point : value.at("trail_m")) way.trail_m.push_back(point_of(point));
+  way.blocked_at_m = point_of(value.at("blocked_at_m"));
+  way.times = value.at("times").get<int>();
+}
+
+json numbers_of(const Stirring& stirring) {
+  const auto& [before, before_from, before_ms, seen_ms] = stirring;
+  return {{"before", before ? numbers_of(*before) : json()},
+          {"before_from", numbers_of(before_from)},
+          {"before_ms", before_ms},
+          {"seen_ms", seen_ms ? json(*seen_ms) : json()}};
+}
+
+void take(const json& value, Stirring& stirring) {
+  if (const json& before = value.at("before"); !before.is_null()) stirring.before = scan_of(before);
+  stirring.before_from = pose_of(value.at("before_from"));
+  stirring.before_ms = value.at("before_ms").get<std::int64_t>();
+  if (const json& seen = value.at("seen_ms"); !seen.is_null()) stirring.seen_ms = seen.get<std::int64_t>();
+}
+
 /// Not all of the state: a new mission makes the rest anew.
 template <class Fields, class State>
 void memory_fields(Fields& fields, State& s) {
@@ -164,10 +238,15 @@ void memory_fields(Fields& fields, State& s) {
   fields("least_epoch", s.least_epoch);
   fields("pictures", s.pictures);
   fields("covered", s.covered);
+  fields("refuses_until_ms", s.refuses_until_ms);
+  fields("give_way", s.give_way);
+  fields("stirring", s.stirring);
 }
 
 struct Write {
   json value = json::object();
+  void operator()(const char* key, const GiveWay& member) { value[key] = numbers_of(member); }
+  void operator()(const char* key, const Stirring& member) { value[key] = numbers_of(member); }
   template <class T>
   void operator()(const char* key, const T& member) {
     value[key] = member;
@@ -181,7 +260,13 @@ struct Read {
   template <class T>
   void operator()(const char* key, T& member) {
     known.insert(key);
-    if (const auto found = value.find(key); found != value.end()) found->get_to(member);
+    const auto found = value.find(key);
+    if (found == value.end()) return;
+    if constexpr (requires { take(*found, member); }) {
+      take(*found, member);
+    } else {
+      found->get_to(member);
+    }
   }
 };
 

@@ -86,6 +86,22 @@ TEST_F(JoystickTest, AHeldOneSaysSoAtEachReadingAndAReleasedOneIsAtRest) {
   EXPECT_DOUBLE_EQ(hand().wanted.speed_mps, 0.0);
 }
 
+TEST_F(JoystickTest, HeldForTenSecondsWithoutAWordItWantsNoMotionUntilItIsMoved) {
+  open();
+  read();
+  push(1, -20000);
+  EXPECT_GT(hand().wanted.speed_mps, 0.2);
+  now_ms_ += 9'000;
+  EXPECT_GT(hand().wanted.speed_mps, 0.2);
+  now_ms_ += 1'000;
+  const RiderHand said = hand();
+  EXPECT_TRUE(said.deflected) << "no mission sets off under a hand, or under a dead battery";
+  EXPECT_DOUBLE_EQ(said.wanted.speed_mps, 0.0);
+  EXPECT_THAT(told_, HasSubstr("move it"));
+  push(1, -20001);
+  EXPECT_GT(hand().wanted.speed_mps, 0.2);
+}
+
 TEST_F(JoystickTest, ATouchBetweenTwoReadingsIsNotMissed) {
   open();
   read();

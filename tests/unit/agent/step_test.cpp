@@ -262,6 +262,15 @@ TEST_F(StepTest, AStopOfAnOlderEpochStopsTooAndIsAnsweredWhileStanding) {
   EXPECT_EQ(tick({wire::StopOrder{"s2", 4, "", "bert"}}).messages.size(), 1U);
 }
 
+TEST_F(StepTest, AMissionThatAStopHasOvertakenMovesNothing) {
+  tick({wire::StopOrder{"s1", 3, "Enough.", "anna", 7}});
+  EXPECT_TRUE(stands(tick({mission("m1", 3, 6)})));
+  EXPECT_TRUE(stands(tick({mission("m2", 2, 9)})));
+  EXPECT_EQ(state_.drive, DriveState::kIdle);
+  expect_stays();
+  set_off(3, 8);
+}
+
 TEST_F(StepTest, OrdersOfAnOlderEpochOrNumberAreIgnored) {
   set_off(3, 10);
   tick({mission("older epoch", 2, 99), mission("older number", 3, 10)});

@@ -136,6 +136,8 @@ TEST_F(DrivingTest, AStopOvertakesAndALostLinkStops) {
   EXPECT_LT(steady_clock::now() - asked, milliseconds(1000));
   EXPECT_EQ(told->stop_id, stop.json().at("stop_id"));
   EXPECT_EQ(told->by, "vera");
+  EXPECT_EQ(told->epoch, order->order.epoch);
+  EXPECT_GT(told->seq, order->order.seq) << "what it overtakes is void";
   EXPECT_EQ(mission_now(mission).at("state"), "stopped");
   EXPECT_EQ(mission_now(mission).at("reason"), "a cat");
 

@@ -29,9 +29,9 @@ export function heading(journey: Journey, graph: Graph | null): string {
   return kHeadings[journey.phase](goalName(journey, graph));
 }
 
-/** Why it ended without arriving, or why it goes another way; null when there is nothing to explain. */
+/** Why it ended without arriving, why it goes another way, or what was not right when it arrived; null: nothing. */
 export function reasonOf(journey: Journey): string | null {
-  if (journey.phase === 'asking' || journey.phase === 'arrived') return null;
+  if (journey.phase === 'asking') return null;
   return journey.reason ? sentence(journey.reason) : null;
 }
 
