@@ -3,6 +3,7 @@
 
 #include <sodium.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -68,8 +69,8 @@ RosStamp stamp_of(Fields& message) {
   return stamp_us == 0 ? RosStamp() : stamp_us;
 }
 
-RosSweep sweep_of(Fields& message, const Pose2& robot_from_scan) {
-  RosSweep sweep{stamp_of(message), {}};
+RosSweep sweep_of(Fields& message, const Pose2& robot_from_scan, const Outline& body) {
+  RosSweep sweep{stamp_of(message), {}, 0.0};
   Scan& scan = sweep.scan;
   scan.robot_from_scan = robot_from_scan;
   scan.angle_min_rad = message.number("angle_min");
@@ -94,7 +95,16 @@ RosSweep sweep_of(Fields& message, const Pose2& robot_from_scan) {
       return sweep;
     }
     const double range_m = range.is_null() ? 0.0 : range.get<double>();
-    const bool seen = std::isfinite(range_m) && range_m > 0.0 && range_m >= range_min_m && range_m < scan.range_max_m;
+    const double angle_rad = robot_from_scan.theta_rad + scan.angle_min_rad +
+                             static_cast<double>(scan.ranges_m.size()) * scan.angle_step_rad;
+    const auto beyond_m = [&](double at_m) {
+      return distance_m(
+          body, {robot_from_scan.x_m + at_m * std::cos(angle_rad), robot_from_scan.y_m + at_m * std::sin(angle_rad)});
+    };
+    sweep.blind_beyond_m = std::max(sweep.blind_beyond_m, beyond_m(range_min_m));
+    // Too near to be measured well is near all the same, unless it is the robot itself.
+    const bool near = range_m >= range_min_m || beyond_m(range_m) > 0.0;
+    const bool seen = std::isfinite(range_m) && range_m > 0.0 && near && range_m < scan.range_max_m;
     scan.ranges_m.push_back(seen ? static_cast<float>(range_m) : std::numeric_limits<float>::infinity());
   }
   return sweep;
@@ -188,7 +198,7 @@ Result<RosMessage> decode_ros_message(std::string_view text, const wire::Rosbrid
   Fields fields(*parsed, topic);
   Fields message = fields.inside("msg");
   RosMessage result = RosOther{};
-  if (topic == robot.scan.topic) result = sweep_of(message, robot.robot_from_scan);
+  if (topic == robot.scan.topic) result = sweep_of(message, robot.robot_from_scan, body_of(robot.body).outline);
   if (topic == robot.odom.topic) result = odometry_of(message);
   if (topic == robot.image.topic) {
     RosPicture picture{stamp_of(message), bytes_of(message, "data")};

@@ -22,7 +22,8 @@ using RosStamp = std::optional<std::int64_t>;
 
 struct RosSweep {
   RosStamp stamp_us;
-  Scan scan;
+  Scan scan;                  // returns nearer than `range_min` count where they lie outside of the robot's body
+  double blind_beyond_m = 0;  // so far beyond the body reaches what is nearer than `range_min`
 };
 struct RosOdometry {
   RosStamp stamp_us;

@@ -28,6 +28,7 @@ constexpr double kAtRest_radps = 0.01;
 constexpr Milliseconds kOdometrySilence_ms = 400;
 constexpr Milliseconds kOdometryPeriod_ms = 100;  // of the slowest that is asked for
 constexpr Milliseconds kMostLag_ms = 300;
+constexpr double kBlindBeyond_m = 0.05;  // what is kept free beside the body anyway
 // Longer than the agent bears without sweeps: after a lost connection it stops for certain.
 constexpr Milliseconds kWithheld_ms = 600;
 constexpr Milliseconds kSuspicious_ms = 5000;
@@ -188,6 +189,7 @@ class RosbridgeDriver final : public Driver {
     if (const auto* status = std::get_if<RosStatus>(&*message)) return tell_status(*status);
     const Milliseconds now = now_ms();
     bool blind = false;
+    double blind_beyond_m = 0.0;
     {
       const std::lock_guard lock(mutex_);
       if (auto* odometry = std::get_if<RosOdometry>(&*message)) {
@@ -198,6 +200,7 @@ class RosbridgeDriver final : public Driver {
         // Within a house something is always in reach: a sweep without any return is that of a covered scanner.
         blind = std::none_of(sweep->scan.ranges_m.begin(), sweep->scan.ranges_m.end(),
                              [](float range_m) { return std::isfinite(range_m); });
+        blind_beyond_m = sweep->blind_beyond_m;
         if (!blind && scan_.take(sweep->stamp_us, now)) sweep_ = std::move(sweep->scan);
       } else if (const auto* twist = std::get_if<RosTwist>(&*message)) {
         take_hand(twist->motion, now);
@@ -206,6 +209,11 @@ class RosbridgeDriver final : public Driver {
         picture_ = std::move(*picture);
         changed_.notify_all();
       }
+    }
+    if (blind_beyond_m > kBlindBeyond_m && !std::exchange(blindness_told_, true)) {
+      told_("the scanner on " + robot_.scan.topic + " is blind to what is nearer than its range_min, up to " +
+            std::to_string(std::lround(100.0 * blind_beyond_m)) +
+            " cm beyond the body: whoever steps in there is not seen; add a scanner that sees them");
     }
     if (blind) complain({ErrorCode::kEmptyInput, "The sweep saw nothing at all.", robot_.scan.topic});
   }
@@ -275,6 +283,7 @@ class RosbridgeDriver final : public Driver {
   camera::CameraConfig camera_;
   Body body_;
   std::function<void(const std::string&)> told_;
+  bool blindness_told_ = false;  // of the socket's thread alone
   std::atomic<int> useless_{0};
   std::atomic<int> statuses_{0};
 

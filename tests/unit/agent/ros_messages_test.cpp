@@ -48,6 +48,24 @@ TEST(RosSweeps, SeeWhatIsInRangeAndNothingElse) {
   EXPECT_EQ(hit_points(sweep.scan).size(), 3U);
 }
 
+TEST(RosSweeps, SeeWhatIsTooNearToMeasureWhereItIsNotTheRobotItself) {
+  json msg = sweep_message(0, {0.1, 0.1, 0.1});
+  msg["range_min"] = 0.45;
+  msg["angle_min"] = 0.0;
+  msg["angle_increment"] = 0.5 * kPi;
+  wire::RosbridgeFile robot = sample_rosbridge();
+  robot.body = {};
+  robot.body.radius_m = 0.35;
+  robot.robot_from_scan = {0.3, 0.0, 0.0};  // near its front edge: ahead is outside, behind is the robot
+  const auto message = decode_ros_message(published("/scan", msg), robot);
+  ASSERT_TRUE(message) << message.error().message;
+  const auto& sweep = std::get<RosSweep>(*message);
+  EXPECT_TRUE(std::isfinite(sweep.scan.ranges_m[0]));
+  EXPECT_FALSE(std::isfinite(sweep.scan.ranges_m[1]));
+  EXPECT_FALSE(std::isfinite(sweep.scan.ranges_m[2]));
+  EXPECT_NEAR(sweep.blind_beyond_m, 0.4, 1e-9) << "ahead: 0.3 + 0.45 - 0.35";
+}
+
 TEST(RosSweeps, BearTheStampsOfBothRosVersions) {
   json msg = sweep_message(0, {1.0});
   msg["header"] = json::parse(R"({"seq":3,"stamp":{"secs":7,"nsecs":1000},"frame_id":"laser"})");

@@ -156,6 +156,21 @@ TEST_F(RosbridgeDriverTest, WithholdsSweepsWithoutOdometry) {
   EXPECT_TRUE(sweeps_come(4s));
 }
 
+TEST_F(RosbridgeDriverTest, SweepsAreNoYoungerThanTheWordOfTheWheels) {
+  ASSERT_TRUE(sweeps_come(4s));
+  const Milliseconds silent_since_ms = driver_->read().t_ms;
+  int sweeps = 0;
+  for (int i = 0; i < 12; ++i) {
+    bridge_->publish("/scan", sweep_message(stamp_us_ += 100'000, {1.0, 2.0}));
+    std::this_thread::sleep_for(30ms);
+    const Reading reading = driver_->read();
+    if (!reading.scan) continue;
+    ++sweeps;
+    EXPECT_LE(reading.scan_t_ms.value(), silent_since_ms + 100) << "the agent stops as for any other silence";
+  }
+  EXPECT_GT(sweeps, 0);
+}
+
 TEST_F(RosbridgeDriverTest, RepeatedAndBlindSweepsAreNone) {
   ASSERT_TRUE(sweeps_come(4s));
   std::this_thread::sleep_for(100ms);
