@@ -104,6 +104,13 @@ TEST(MadeSafe, KeepsToTheBodysOwnLimits) {
   EXPECT_GE(made_safe({-9.0, 0.0}, body, {}).speed_mps, -0.2);
 }
 
+TEST(MadeSafe, BackwardsASlowBodyKeepsToItsOwnLimitToo) {
+  Body body;
+  EXPECT_DOUBLE_EQ(made_safe({-1.0, 0.0}, body, {}).speed_mps, -0.2);
+  body.max_speed_mps = 0.05;
+  EXPECT_DOUBLE_EQ(made_safe({-1.0, 0.0}, body, {}).speed_mps, -0.05);
+}
+
 TEST(MadeSafe, StopsBeforeAWallAndSlowsOnTheWayToIt) {
   double before_mps = 100.0;
   for (const double ahead_m : {3.0, 1.0, 0.7, 0.55, 0.45}) {

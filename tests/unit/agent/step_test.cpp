@@ -262,6 +262,21 @@ TEST_F(StepTest, AStopOfAnOlderEpochStopsTooAndIsAnsweredWhileStanding) {
   EXPECT_EQ(tick({wire::StopOrder{"s2", 4, "", "bert"}}).messages.size(), 1U);
 }
 
+TEST_F(StepTest, KeepsToTheLimitOfTheMissionToTheLastCentimetre) {
+  wire::MissionOrder order = mission("m1", 1, 1);
+  order.speed_limit_mps = 0.1;
+  double fastest_mps = 0.0;
+  for (int k = 0; k < 600 && (k == 0 || state_.drive == DriveState::kDriving); ++k) {
+    std::vector<wire::ServerMessage> messages;
+    if (k == 0) messages.emplace_back(order);
+    messages.emplace_back(permit("m1", 1, ++seq_));
+    fastest_mps = std::max(fastest_mps, std::abs(tick(std::move(messages)).motion.speed_mps));
+  }
+  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+  EXPECT_LE(fastest_mps, 0.1);
+  EXPECT_GT(fastest_mps, 0.09);
+}
+
 TEST_F(StepTest, AMissionThatAStopHasOvertakenMovesNothing) {
   tick({wire::StopOrder{"s1", 3, "Enough.", "anna", 7}});
   EXPECT_TRUE(stands(tick({mission("m1", 3, 6)})));
