@@ -65,6 +65,14 @@ struct RecordedVector {
   std::int64_t inliers = 0;
 };
 
+/// What became of the features of the view homed to, from the picture before to this one.
+struct RecordedTracks {
+  std::int64_t tracked = 0;    // seen, the recovered ones among them
+  std::int64_t recovered = 0;  // lost before
+  std::int64_t lost = 0;       // known and not seen
+  friend bool operator==(const RecordedTracks&, const RecordedTracks&) = default;
+};
+
 /// One step of the heart: all that went in and what came out. Numbers come back bit for bit.
 struct RecordedStep {
   std::int64_t seq = 0;  // 1, 2, ...
@@ -87,6 +95,7 @@ struct RecordedStep {
   bool docking = false;
   bool covered = false;
   std::optional<RecordedVector> vector;
+  std::optional<RecordedTracks> tracks = {};  // beside a vector; recordings before version 3 lack it
   std::optional<double> min_range_m;
   std::vector<wire::AgentMessage> said;
 };
@@ -141,7 +150,7 @@ struct WhyStopped {
 class RecordingReader {
  public:
   /// Errors: kNotFound, kCorruptFile (no SQLite file, no recording, ends early), kUnsupportedFormat (newer version),
-  /// kIo. Version 1, which knew no joysticks, is read.
+  /// kIo. Versions 1 and 2, which knew no joysticks and kept no counts of tracked features, are read.
   static Result<std::unique_ptr<RecordingReader>> open(const std::filesystem::path& file);
   RecordingReader(const RecordingReader&) = delete;
   RecordingReader& operator=(const RecordingReader&) = delete;

@@ -84,9 +84,11 @@ class SqliteRecordingReader final : public RecordingReader {
     SQLite::Statement count(database_, "SELECT count(*) FROM steps");
     count.executeStep();
     step_count_ = integer(count, 0);
+    const std::string tracks = version_ < kRecordingVersionOfTracks ? "NULL, NULL, NULL" : "tracked, recovered, lost";
     steps_.emplace(database_,
                    "SELECT seq, now_ms, sensors_ms, link_up, state, reason, path_index, answered, docking, covered, "
-                   "has_sweep, has_picture, messages, exact FROM steps ORDER BY seq");
+                   "has_sweep, has_picture, messages, exact, " +
+                       tracks + " FROM steps ORDER BY seq");
     messages_.emplace(database_, "SELECT sender, cbor FROM messages WHERE step = ? ORDER BY position");
   }
 
@@ -141,10 +143,10 @@ class SqliteRecordingReader final : public RecordingReader {
     if (database_.execAndGet("PRAGMA application_id").getInt() != kRecordingApplicationId) {
       refuse(ErrorCode::kCorruptFile, "This SQLite file is not a recording of Homeward.");
     }
-    const int version = database_.execAndGet("PRAGMA user_version").getInt();
-    if (version < kOldestRecordingVersion || version > kRecordingVersion) {
+    version_ = database_.execAndGet("PRAGMA user_version").getInt();
+    if (version_ < kOldestRecordingVersion || version_ > kRecordingVersion) {
       refuse(ErrorCode::kUnsupportedFormat,
-             "The recording has version " + std::to_string(version) + "; this program reads versions " +
+             "The recording has version " + std::to_string(version_) + "; this program reads versions " +
                  std::to_string(kOldestRecordingVersion) + " to " + std::to_string(kRecordingVersion) +
                  ". A newer Homeward wrote it: read it with that one.");
     }
@@ -253,6 +255,13 @@ class SqliteRecordingReader final : public RecordingReader {
     step.docking = integer(row, 8) != 0;
     step.covered = integer(row, 9) != 0;
     if (!unpack_step(blob(row.getColumn(13)), step)) refuse_step(step.seq, "what is exact of it");
+    const auto tracked = optional_integer(row, 14);
+    const auto recovered = optional_integer(row, 15);
+    const auto lost = optional_integer(row, 16);
+    if (tracked.has_value() != recovered.has_value() || tracked.has_value() != lost.has_value()) {
+      refuse_step(step.seq, "its counts of tracked features");
+    }
+    if (tracked) step.tracks = RecordedTracks{*tracked, *recovered, *lost};
     read_messages(step);
     step.sweep = sweep_of(step.seq);
     step.picture = picture_of(step.seq);
@@ -265,6 +274,7 @@ class SqliteRecordingReader final : public RecordingReader {
 
   fs::path file_;
   SQLite::Database database_;
+  int version_ = 0;
   RecordingHeader header_;
   std::optional<RecordedSweep> sweep_before_;
   std::optional<RecordingEnd> end_;

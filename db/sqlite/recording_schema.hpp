@@ -6,9 +6,11 @@ namespace homeward::db {
 /// "HWRC" in SQLite's application_id field: what makes an SQLite file the recording of a mission.
 inline constexpr int kRecordingApplicationId = 0x48575243;
 /// user_version of the file. A released schema is never edited; a newer file is refused.
-inline constexpr int kRecordingVersion = 2;
-/// Version 1 has no word of joysticks.
+inline constexpr int kRecordingVersion = 3;
+/// Version 1 has no word of joysticks, versions 1 and 2 no counts of tracked features.
 inline constexpr int kOldestRecordingVersion = 1;
+/// The first with the columns `tracked`, `recovered` and `lost`.
+inline constexpr int kRecordingVersionOfTracks = 3;
 
 /// Columns in units are for people and their queries; what must come back bit for bit stands in `exact` as well (SQLite
 /// keeps neither -0.0 nor NaN).
@@ -21,7 +23,8 @@ CREATE TABLE steps (
   answered INTEGER NOT NULL, docking INTEGER NOT NULL, covered INTEGER NOT NULL,
   bearing_rad REAL, turn_rad REAL, confidence REAL, parallax_rad REAL, inliers INTEGER, min_range_m REAL,
   has_sweep INTEGER NOT NULL, has_picture INTEGER NOT NULL, messages INTEGER NOT NULL, exact BLOB NOT NULL,
-  rider_deflected INTEGER, rider_speed_mps REAL, rider_turn_radps REAL) STRICT;
+  rider_deflected INTEGER, rider_speed_mps REAL, rider_turn_radps REAL,
+  tracked INTEGER, recovered INTEGER, lost INTEGER) STRICT;
 CREATE TABLE messages (
   step INTEGER NOT NULL, position INTEGER NOT NULL, sender TEXT NOT NULL, type TEXT NOT NULL, cbor BLOB NOT NULL,
   PRIMARY KEY (step, position)) STRICT;

@@ -126,21 +126,26 @@ class SqliteRecordingWriter final : public RecordingWriter {
       return step.vector ? std::optional((*step.vector).*member) : std::nullopt;
     };
     const auto of_rider = [&](auto member) { return step.rider ? std::optional((*step.rider).*member) : std::nullopt; };
+    const auto of_tracks = [&](auto member) {
+      return step.tracks ? std::optional((*step.tracks).*member) : std::nullopt;
+    };
     SQLite::Statement insert = prepared(
         database_,
         "INSERT INTO steps(seq, now_ms, sensors_ms, odometry_x_m, odometry_y_m, odometry_theta_rad, link_up, "
         "speed_mps, turn_radps, state, reason, path_index, answered, docking, covered, bearing_rad, turn_rad, "
         "confidence, parallax_rad, inliers, min_range_m, has_sweep, has_picture, messages, rider_deflected, "
-        "rider_speed_mps, rider_turn_radps, exact) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
-        "?, ?, ?, ?, ?, ?, ?, ?)",
+        "rider_speed_mps, rider_turn_radps, tracked, recovered, lost, exact) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
+        "?, "
+        "?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         step.seq, step.now_ms, step.sensors_ms, step.odometry.x_m, step.odometry.y_m, step.odometry.theta_rad,
         step.link_up, step.speed_mps, step.turn_radps, std::string(wire::drive_state_name(step.state)), step.reason,
         step.path_index, step.answered, step.docking, step.covered, of_vector(&RecordedVector::bearing_rad),
         of_vector(&RecordedVector::turn_rad), of_vector(&RecordedVector::confidence),
         of_vector(&RecordedVector::parallax_rad), of_vector(&RecordedVector::inliers), step.min_range_m,
         step.sweep.has_value(), step.picture.has_value(), step.heard.size() + step.said.size(),
-        of_rider(&RecordedRider::deflected), of_rider(&RecordedRider::speed_mps), of_rider(&RecordedRider::turn_radps));
-    bind_bytes(insert, 28, exact);
+        of_rider(&RecordedRider::deflected), of_rider(&RecordedRider::speed_mps), of_rider(&RecordedRider::turn_radps),
+        of_tracks(&RecordedTracks::tracked), of_tracks(&RecordedTracks::recovered), of_tracks(&RecordedTracks::lost));
+    bind_bytes(insert, 31, exact);
     insert.exec();
     int position = 0;
     for (const wire::ServerMessage& message : step.heard) put_message(step.seq, position++, "server", message);

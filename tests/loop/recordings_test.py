@@ -73,6 +73,17 @@ class Recordings(unittest.TestCase):
                 else:
                     self.assertTrue(result["arrived"], result)
 
+    def test_how_many_features_were_tracked_recovered_and_lost_stands_beside_each_vector(self):
+        with sqlite3.connect(f"file:{self.files[1]}?mode=ro", uri=True) as database:
+            rows = database.execute("SELECT bearing_rad IS NULL, tracked, recovered, lost FROM steps").fetchall()
+        for without_vector, *counts in rows:
+            self.assertEqual([count is None for count in counts], 3 * [bool(without_vector)])
+        counts = [row[1:] for row in rows if not row[0]]
+        self.assertGreater(max(tracked for tracked, _, _ in counts), 30)
+        self.assertGreater(max(recovered for _, recovered, _ in counts), 0)
+        self.assertGreater(max(lost for _, _, lost in counts), 0)
+        self.assertTrue(all(recovered <= tracked for tracked, recovered, _ in counts))
+
     def test_why_it_stopped_is_one_query(self):
         with sqlite3.connect(f"file:{self.files[1]}?mode=ro", uri=True) as database:
             rows = database.execute("SELECT state, reason, since_sweep_s FROM why_did_it_stop").fetchall()

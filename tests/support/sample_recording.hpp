@@ -33,6 +33,7 @@ inline db::RecordedStep sample_recorded_step(std::int64_t seq) {
   step.path_index = 2;
   step.answered = true;
   step.vector = db::RecordedVector{-0.0, 0.25, 0.9, 0.05, std::nullopt, 80, 40};
+  step.tracks = db::RecordedTracks{60, 3, 12};
   step.min_range_m = 1.5;
   step.said = {wire::Stopped{"s1", 0}};
   return step;

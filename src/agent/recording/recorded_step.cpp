@@ -23,10 +23,13 @@ void put_outcome(db::RecordedStep& step, const DrivingState& state, const Output
   step.docking = state.docking;
   step.covered = state.covered;
   step.vector.reset();
+  step.tracks.reset();
   if (const auto& vector = state.seen.vector) {
     step.vector =
         db::RecordedVector{vector->bearing_rad, vector->turn_rad, vector->confidence, vector->median_parallax_rad,
                            vector->nearness,    vector->matches,  vector->inliers};
+    const homing::TrackCounts& tracks = state.seen.tracks;
+    step.tracks = db::RecordedTracks{tracks.tracked, tracks.recovered, tracks.lost};
   }
   step.min_range_m = state.min_range_m;
   step.said = outputs.messages;

@@ -80,6 +80,7 @@ TEST_F(RecordingFile, GivesEveryNumberBackBitForBit) {
   EXPECT_EQ(step.vector->inliers, 40);
   EXPECT_EQ(step.vector->matches, 80);
   EXPECT_FALSE(step.vector->nearness);
+  EXPECT_EQ(step.tracks, (RecordedTracks{60, 3, 12}));
   ASSERT_TRUE(step.rider);
   EXPECT_EQ(step.rider->said_ms, expected.rider->said_ms);
   EXPECT_TRUE(step.rider->deflected);
@@ -202,10 +203,10 @@ TEST_F(RecordingFile, ThatIsAnotherSqliteFile) {
 
 TEST_F(RecordingFile, OfANewerVersion) {
   record();
-  change("PRAGMA user_version = 3");
+  change("PRAGMA user_version = 4");
   EXPECT_EQ(trouble().code, ErrorCode::kUnsupportedFormat);
-  EXPECT_THAT(trouble().message, HasSubstr("version 3"));
-  EXPECT_THAT(trouble().message, HasSubstr("versions 1 to 2"));
+  EXPECT_THAT(trouble().message, HasSubstr("version 4"));
+  EXPECT_THAT(trouble().message, HasSubstr("versions 1 to 3"));
 }
 
 TEST_F(RecordingFile, OfTheVersionBeforeJoysticksIsRead) {
@@ -214,6 +215,8 @@ TEST_F(RecordingFile, OfTheVersionBeforeJoysticksIsRead) {
   change(
       "PRAGMA user_version = 1; ALTER TABLE steps DROP COLUMN rider_deflected;"
       "ALTER TABLE steps DROP COLUMN rider_speed_mps; ALTER TABLE steps DROP COLUMN rider_turn_radps;"
+      "ALTER TABLE steps DROP COLUMN tracked; ALTER TABLE steps DROP COLUMN recovered;"
+      "ALTER TABLE steps DROP COLUMN lost;"
       "UPDATE steps SET exact = CAST(X'01' || substr(exact, 2, 104) AS BLOB)");
   auto reader = RecordingReader::open(file());
   ASSERT_TRUE(reader) << reader.error().message;
@@ -222,6 +225,28 @@ TEST_F(RecordingFile, OfTheVersionBeforeJoysticksIsRead) {
   ASSERT_TRUE(*step);
   EXPECT_FALSE((*step)->rider);
   EXPECT_EQ((*step)->vector->inliers, 40);
+}
+
+TEST_F(RecordingFile, OfTheVersionBeforeTracksIsRead) {
+  record();
+  change(
+      "PRAGMA user_version = 2; ALTER TABLE steps DROP COLUMN tracked; ALTER TABLE steps DROP COLUMN recovered;"
+      "ALTER TABLE steps DROP COLUMN lost");
+  auto reader = RecordingReader::open(file());
+  ASSERT_TRUE(reader) << reader.error().message;
+  const auto step = (*reader)->next();
+  ASSERT_TRUE(step) << step.error().message << " " << step.error().where;
+  ASSERT_TRUE(*step);
+  EXPECT_FALSE((*step)->tracks);
+  EXPECT_TRUE((*step)->rider);
+}
+
+TEST_F(RecordingFile, WithHalfOfTheCountsOfItsTracks) {
+  record();
+  change("UPDATE steps SET lost = NULL WHERE seq = 2");
+  EXPECT_EQ(trouble().code, ErrorCode::kCorruptFile);
+  EXPECT_THAT(trouble().message, HasSubstr("counts of tracked features"));
+  EXPECT_THAT(trouble().where, HasSubstr("step 2"));
 }
 
 TEST_F(RecordingFile, ThatWasCutShort) {
