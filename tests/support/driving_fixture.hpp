@@ -30,12 +30,14 @@ class FakeAgent {
     say(hello);
     latest = idle();
   }
-  void status(wire::DriveState state, const std::optional<wire::MissionOrder>& order = {}, std::int64_t index = 0) {
+  void status(wire::DriveState state, const std::optional<wire::MissionOrder>& order = {}, std::int64_t index = 0,
+              const std::optional<std::string>& reason = {}) {
     wire::AgentStatus status;
     status.seq = ++status_seq;
     status.t_us = 1;
     status.state = state;
     status.path_index = index;
+    status.reason = reason;
     if (order) {
       status.mission = order->mission;
       status.epoch = order->order.epoch;

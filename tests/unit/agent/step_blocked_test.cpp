@@ -42,6 +42,31 @@ TEST_F(StepTest, BesideADestinationItArrivesHoweverLongItHasBeenHeldUpBefore) {
   EXPECT_GT(now_ms_ - from_ms, config_.near_ms);
 }
 
+TEST_F(StepTest, WhereItCannotTurnToTheHeadingOfItsDestinationItArrivesAndSaysSo) {
+  config_.body.outline = {0.0, 0.25, 0.85, 0.325};
+  wire::MissionOrder order = mission("m1", 1, 1);
+  order.dock = true;
+  order.final_appearance = wire::encode_appearance(seen_from(landmarks_, {2.4, 0.0, 1.2}, 7));
+  tick({order});
+  for (int k = 0; k < 600 && !state_.docking; ++k) tick({permit("m1", 1, ++seq_)});
+  ASSERT_TRUE(state_.docking) << state_.reason;
+  // Walls on both sides: it could drive on between them, but not turn.
+  constexpr double kSide_m = 0.4;
+  const double step_rad = 2.0 * kPi / static_cast<double>(ranges_m_.size());
+  for (int k = 0; k < 600 && state_.drive == DriveState::kDriving; ++k) {
+    for (std::size_t i = 0; i < ranges_m_.size(); ++i) {
+      const double across = std::sin(pose_.theta_rad + step_rad * static_cast<double>(i));
+      const double wall_m = std::copysign(kSide_m, across) - pose_.y_m;
+      ranges_m_[i] = static_cast<float>(across == 0.0 ? 5.0 : std::min(5.0, wall_m / across));
+    }
+    tick({permit("m1", 1, ++seq_)});
+  }
+  EXPECT_EQ(state_.drive, DriveState::kArrived);
+  EXPECT_EQ(state_.reason, "I am there, but cannot turn to the right heading.");
+  EXPECT_GT(std::abs(wrap_angle(pose_.theta_rad - 1.2)), 0.3);
+  expect_stays();
+}
+
 TEST_F(StepTest, WhoStandsInTheWayIsMadeRoomForAndTheWayGoesOnOnceItIsFree) {
   constexpr double kWall_m = 1.7;
   set_off();

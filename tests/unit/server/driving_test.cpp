@@ -107,8 +107,10 @@ TEST_F(DrivingTest, AMissionIsPermittedUntilItArrives) {
     newest = permit->order;
   }
   EXPECT_EQ(wait_for_state(sent.json(), "driving").at("path_index"), 1);
-  agent.status(wire::DriveState::kArrived, order, 2);
-  EXPECT_EQ(wait_for_state(sent.json(), "arrived").at("state"), "arrived");
+  agent.status(wire::DriveState::kArrived, order, 2, "I am there, but cannot turn to the right heading.");
+  const nlohmann::json arrived = wait_for_state(sent.json(), "arrived");
+  EXPECT_EQ(arrived.at("state"), "arrived");
+  EXPECT_EQ(arrived.at("reason"), "I am there, but cannot turn to the right heading.");
   while (agent.await<wire::Permit>(milliseconds(150))) {
   }
   EXPECT_FALSE(agent.await<wire::Permit>(milliseconds(400))) << "no permits after the end";
