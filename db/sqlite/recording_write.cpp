@@ -134,9 +134,8 @@ class SqliteRecordingWriter final : public RecordingWriter {
         "INSERT INTO steps(seq, now_ms, sensors_ms, odometry_x_m, odometry_y_m, odometry_theta_rad, link_up, "
         "speed_mps, turn_radps, state, reason, path_index, answered, docking, covered, bearing_rad, turn_rad, "
         "confidence, parallax_rad, inliers, min_range_m, has_sweep, has_picture, messages, rider_deflected, "
-        "rider_speed_mps, rider_turn_radps, tracked, recovered, lost, exact) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
-        "?, "
-        "?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        "rider_speed_mps, rider_turn_radps, tracked, recovered, lost, exact) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
+        "?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         step.seq, step.now_ms, step.sensors_ms, step.odometry.x_m, step.odometry.y_m, step.odometry.theta_rad,
         step.link_up, step.speed_mps, step.turn_radps, std::string(wire::drive_state_name(step.state)), step.reason,
         step.path_index, step.answered, step.docking, step.covered, of_vector(&RecordedVector::bearing_rad),

@@ -60,11 +60,10 @@ class Comparison {
       one("vector/matches", then.vector->matches, now.vector->matches);
       one("vector/inliers", then.vector->inliers, now.vector->inliers);
     }
-    if (then.tracks) {  // older recordings lack them
-      const db::RecordedTracks tracks = now.tracks.value_or(db::RecordedTracks{-1, -1, -1});
-      one("tracks/tracked", then.tracks->tracked, tracks.tracked);
-      one("tracks/recovered", then.tracks->recovered, tracks.recovered);
-      one("tracks/lost", then.tracks->lost, tracks.lost);
+    if (then.tracks && now.tracks) {  // beside each vector, but in older recordings
+      one("tracks/tracked", then.tracks->tracked, now.tracks->tracked);
+      one("tracks/recovered", then.tracks->recovered, now.tracks->recovered);
+      one("tracks/lost", then.tracks->lost, now.tracks->lost);
     }
     one("speed_mps", then.speed_mps, now.speed_mps);
     one("turn_radps", then.turn_radps, now.turn_radps);

@@ -67,6 +67,29 @@ TEST_F(Replay, ReproducesARiderWhoTakesOver) {
   EXPECT_EQ(deflected.getInt(), 1);
 }
 
+TEST_F(Replay, TellsFeaturesThatWereTrackedOtherwise) {
+  record();
+  change(
+      "UPDATE steps SET tracked = tracked + 1, lost = lost + 2 WHERE seq = (SELECT max(seq) FROM steps WHERE tracked "
+      ">= 0)");
+  const auto replayed = result();
+  ASSERT_TRUE(replayed) << replayed.error().message;
+  ASSERT_EQ(replayed->differences, 2);
+  EXPECT_EQ(replayed->differing[0].what, "tracks/tracked");
+  EXPECT_EQ(replayed->differing[1].what, "tracks/lost");
+}
+
+TEST_F(Replay, OfARecordingBeforeTracksWereKeptComparesWhatItHas) {
+  record();
+  change(
+      "PRAGMA user_version = 2; ALTER TABLE steps DROP COLUMN tracked; ALTER TABLE steps DROP COLUMN recovered;"
+      "ALTER TABLE steps DROP COLUMN lost");
+  const auto replayed = result();
+  ASSERT_TRUE(replayed) << replayed.error().message;
+  EXPECT_TRUE(replayed->same());
+  EXPECT_GE(replayed->vectors, 8);
+}
+
 TEST_F(Replay, TellsWhatCameOutOtherwise) {
   record();
   change("UPDATE steps SET path_index = 7, reason = 'Nothing.' WHERE seq = 3");
