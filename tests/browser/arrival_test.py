@@ -11,12 +11,16 @@ import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "loop"))
+import taught_house  # noqa: E402
+
 PORT = 18472
 
 
 def main():
     with tempfile.TemporaryDirectory(prefix="homeward-arrival-") as folder:
         data = pathlib.Path(folder)
+        taught_house.bring(data)
         shots = sys.argv[3] if len(sys.argv) > 3 else str(data / "screenshots")
         demo = subprocess.Popen([sys.executable, HERE.parents[1] / "deploy" / "demo.py", "--port", str(PORT), "--data", data,
                                  "--bin", sys.argv[1], "--web", sys.argv[2]], stdout=subprocess.PIPE, text=True)

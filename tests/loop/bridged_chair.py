@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A server, a map of a part of the generated house, a simulated robot behind a rosbridge and its agent: all of them
+"""A server, a map of the generated house, a simulated robot behind a rosbridge and its agent: all of them
 programs of their own, so that each can be killed, frozen or silenced. What the robot truly did is read from its file."""
 import json
 import os
@@ -14,6 +14,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "deploy"))
 import demo  # noqa: E402
+import taught_house  # noqa: E402
 from rest_client import Failed, Server  # noqa: E402
 
 AT_REST = 0.01
@@ -36,8 +37,8 @@ class BridgedChair:
             raise
 
     def set_up(self, base_timeout_s):
+        taught_house.bring(self.data)
         self.start_server()
-        demo.ROOMS = "hall,kitchen,living_room,hall"
         demo.set_up_account(self.server, self.data)
         self.robot, self.token_file = demo.robot_with_token(self.server, self.data)
         self.map_id = demo.teach(self.server, self.binaries, self.data, self.token_file)

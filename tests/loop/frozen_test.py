@@ -5,7 +5,9 @@ Frozen, the base stands by its own timeout; awake again, nothing moves until a p
 meanwhile. A hand on the joystick ends a mission and drives, and released the robot stands.
 usage: frozen_test.py BIN_FOLDER WEB_FOLDER
 """
+import os
 import signal
+import subprocess
 import sys
 import time
 import unittest
@@ -25,6 +27,15 @@ class Frozen(unittest.TestCase):
     def tearDownClass(cls):
         print("--- end of agent.log ---", *cls.chair.log("agent").splitlines()[-12:], sep="\n")
         cls.chair.close()
+
+    def test_0_its_loop_runs_before_other_programs(self):
+        self.chair.wait_until_located()  # and so it loops
+        permitted = subprocess.run(["chrt", "-r", "10", "true"], stderr=subprocess.DEVNULL).returncode == 0
+        policies = {os.sched_getscheduler(int(thread)) & ~os.SCHED_RESET_ON_FORK
+                    for thread in os.listdir(f"/proc/{self.chair.processes['agent'].pid}/task")}
+        told = "permit this program to run in real time" in self.chair.log("agent")
+        self.assertEqual((os.SCHED_RR in policies, told), (permitted, not permitted))
+        self.assertIn(os.SCHED_OTHER, policies, "what only looks must not hold up what steers")
 
     def freeze(self, seconds):
         """Freezes the agent while it drives. The base stands in time; the agent wakes up; gives its new log lines."""

@@ -16,6 +16,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "deploy"))
 import demo  # noqa: E402
+import taught_house  # noqa: E402
 from rest_client import Server  # noqa: E402
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
@@ -37,6 +38,7 @@ class Rosbridge(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="homeward-rosbridge-")
         cls.data = pathlib.Path(cls.folder.name)
+        taught_house.bring(cls.data)
         cls.processes = []
         cls.logs = {}
         server_process = cls.start("server", BIN / "homeward-server", "--data", cls.data / "server", "--listen",

@@ -14,6 +14,7 @@
 #include "agent/link/link_client.hpp"
 #include "agent/recording/recorder.hpp"
 #include "agent/run/looker.hpp"
+#include "agent/run/real_time.hpp"
 #include "pipeline/eye.hpp"
 
 namespace homeward::agent {
@@ -121,6 +122,12 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
     recorder = std::move(*created);
   }
 
+  if (!run_in_real_time()) {
+    options.told(
+        "other programs on this computer may hold up the loop that drives, and then the robot stops: permit this "
+        "program "
+        "to run in real time (CAP_SYS_NICE, or a real-time priority limit of 10)");
+  }
   DrivingState state;
   std::int64_t status_seq = 0;
   Milliseconds status_ms = 0;
