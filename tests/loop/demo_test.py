@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The demo, headless: server, tour over REST, map, simulated chair on the link, three missions that arrive.
+"""The demo, headless: server, tour over REST, map, simulated chair on the link, two missions that arrive.
 
 usage: demo_test.py BIN_FOLDER WEB_FOLDER
 """
@@ -11,6 +11,6 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 with tempfile.TemporaryDirectory(prefix="homeward-demo-") as folder:
-    sys.exit(subprocess.run([sys.executable, ROOT / "deploy" / "demo.py", "--headless", "--to", "kitchen,study,living_room",
+    sys.exit(subprocess.run([sys.executable, ROOT / "deploy" / "demo.py", "--headless", "--to", "kitchen,study",
                              "--port", "18471", "--data", folder,
                              "--bin", sys.argv[1], "--web", sys.argv[2]], check=False).returncode)
