@@ -67,6 +67,7 @@ nlohmann::json to_json(const agent::CycleTrace& cycle) {
           {"speed_mps", cycle.speed_mps},
           {"turn_radps", cycle.turn_radps},
           {"min_range_m", cycle.min_range_m},
+          {"clearance_m", cycle.clearance_m},
           {"people_m", std::move(people_m)},
           {"state", cycle.state}};
 }

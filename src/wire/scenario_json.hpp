@@ -34,7 +34,7 @@ struct ScenarioMission {
 
 /// A closed-loop scenario (proto/schemas/scenario.schema.json), format "homeward-scenario", version 1.
 struct ScenarioFile {
-  std::string world;  // "house:1", "offices:1", or a world.json relative to the scenario
+  std::string world;  // as load_world takes it; a world.json is relative to the scenario
   std::int64_t seed = 1;
   std::string camera_model;                    // the usual camera of this model ...
   std::optional<camera::CameraConfig> camera;  // ... or a whole camera ...

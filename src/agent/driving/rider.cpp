@@ -19,11 +19,11 @@ bool rider_steers(const Inputs& inputs, const DrivingConfig& config, Millisecond
 }
 
 Motion rider_motion(const RiderHand& hand, const std::optional<SeenScan>& scan,
-                    const std::vector<Eigen::Vector2d>& points_m, const DrivingConfig& config,
+                    const std::vector<Eigen::Vector2d>& points_m, double turning_radps, const DrivingConfig& config,
                     Milliseconds sensors_ms) {
   if (!std::isfinite(hand.wanted.speed_mps) || !std::isfinite(hand.wanted.turn_radps)) return {};
   if (scan && sensors_ms - scan->taken_ms <= config.scan_silence_ms) {
-    return made_safe(hand.wanted, config.body, points_m);
+    return made_safe(hand.wanted, config.body, points_m, turning_radps);
   }
   const Motion creeping{std::clamp(hand.wanted.speed_mps, -kCreep_mps, kCreep_mps),
                         std::clamp(hand.wanted.turn_radps, -kCreep_radps, kCreep_radps)};

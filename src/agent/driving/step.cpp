@@ -227,8 +227,10 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     state.last_answer_ms = state.last_gain_ms = state.last_picture_ms = sensors_ms;
     state.gain_from = inputs.odometry;
     state.plan = {};
+    state.turning = {};
     begin_way(state.give_way);
   }
+  state.turning.observe(inputs.odometry.theta_rad, sensors_ms);
   remember_trail(state.give_way, inputs.odometry);
   if (inputs.scan) {
     state.scan = inputs.scan;
@@ -244,7 +246,8 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   }
   if (inputs.picture) take_picture(state, *inputs.picture, config, sensors_ms);
   std::erase_if(state.answers_ms, [&](Milliseconds then) { return sensors_ms - then > 1000; });
-  if (rider) outputs.motion = rider_motion(*inputs.rider, state.scan, points_m, config, sensors_ms);
+  if (rider)
+    outputs.motion = rider_motion(*inputs.rider, state.scan, points_m, state.turning.radps(), config, sensors_ms);
   if (state.drive != wire::DriveState::kDriving) return outputs;
   if (auto reason = reason_to_stop(state, inputs, config, now_ms, sensors_ms)) {
     end_mission(state, wire::DriveState::kStopped, std::move(*reason));
@@ -261,7 +264,7 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   // What no sensor looks at may be anything.
   const bool forward_only = !looks_behind(state.scan->scan);
   if (forward_only) heard.speed_mps = std::max(0.0, heard.speed_mps);
-  const Motion safe = made_safe(heard, config.body, points_m);
+  const Motion safe = made_safe(heard, config.body, points_m, state.turning.radps());
   if (!forward_only || safe.speed_mps >= 0.0) outputs.motion = safe;
   return outputs;
 }

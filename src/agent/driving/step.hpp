@@ -14,6 +14,7 @@
 #include "agent/driving/long_plan.hpp"
 #include "agent/driving/scan.hpp"
 #include "agent/driving/stirring.hpp"
+#include "agent/driving/turn_rate.hpp"
 #include "core/pose2.hpp"
 #include "features/appearance.hpp"
 #include "tracking/tracking_frame.hpp"
@@ -97,6 +98,7 @@ struct DrivingState {
   bool pictured = false;  // a picture taken since the mission began has come in time
   bool docking = false;
   LongPlan plan;         // of a body that is not round
+  TurnRate turning;      // of the body, as it moves now
   GiveWay give_way;      // to whoever stands in the way
   Stirring stirring;     // of whoever that is
   bool covered = false;  // the latest picture shows next to nothing

@@ -90,6 +90,9 @@ Result<sim::World> load_world(const std::string& name) {
   const auto house = seed_after(name, "house");
   if (!house) return pass_on(house);
   if (*house) return sim::generate_house(**house);
+  const auto narrow = seed_after(name, "narrow_house");
+  if (!narrow) return pass_on(narrow);
+  if (*narrow) return sim::generate_narrow_house(**narrow);
   const auto offices = seed_after(name, "offices");
   if (!offices) return pass_on(offices);
   if (*offices) return sim::generate_offices(**offices);

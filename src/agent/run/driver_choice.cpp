@@ -23,7 +23,9 @@ void add_driver_options(CLI::App& command, DriverOptions& options) {
   command.add_option("--camera", options.camera,
                      "V4l2, folder, video: camera.json (folder and video: else the one beside the pictures). "
                      "Simulator: a model (hyperbolic_mirror) or a camera.json");
-  command.add_option("--world", options.simulator.world, "Simulator: house:SEED, offices:SEED or a world.json")
+  command
+      .add_option("--world", options.simulator.world,
+                  "Simulator: house:SEED, narrow_house:SEED, offices:SEED or a world.json")
       ->capture_default_str();
   command.add_option("--light", options.simulator.light, "Simulator: day, night or half")->capture_default_str();
   command.add_option("--profile", options.simulator.robot, "Simulator: disc or chair")

@@ -203,6 +203,7 @@ CycleTrace DriveLoop::trace(const Outputs& outputs) const {
   now.speed_mps = outputs.motion.speed_mps;
   now.turn_radps = outputs.motion.turn_radps;
   now.min_range_m = state_.min_range_m.value_or(0.0);
+  now.clearance_m = robot_.vehicle().min_clearance_m();
   for (const sim::Person& person : robot_.people()) now.people_m.emplace_back(person.x_m, person.y_m);
   now.state = wire::drive_state_name(state_.drive);
   return now;

@@ -57,6 +57,7 @@ struct CycleTrace {
   double speed_mps = 0.0;  // commanded
   double turn_radps = 0.0;
   double min_range_m = 0.0;
+  double clearance_m = 0.0;               // least so far, true
   std::vector<Eigen::Vector2d> people_m;  // true
   std::string state;
 };

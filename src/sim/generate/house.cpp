@@ -62,7 +62,7 @@ void dress(SceneBuilder& scene, Space& space, bool tiled, Random& random) {
 }
 
 /// Two corridors: one from west to east, one from its middle to the south; rooms on all sides.
-Plan plan_house(SceneBuilder& scene, Random& random) {
+Plan plan_house(SceneBuilder& scene, double door_m, Random& random) {
   const double width = uniform(random, 18.2, 19.2);
   constexpr double kCorridor_m = 2.0;
   const double north = kCorridor_m + uniform(random, 4.5, 5.0);
@@ -77,7 +77,7 @@ Plan plan_house(SceneBuilder& scene, Random& random) {
     plan.spaces.push_back({name, {x0, y0}, {x1, y1}, {}, {}, {}, {}});
   };
   const auto door = [&](double at_x, double at_y, bool in_x_wall) {
-    plan.doorways.push_back({{at_x, at_y}, in_x_wall, 1.15, 2.1, true});
+    plan.doorways.push_back({{at_x, at_y}, in_x_wall, door_m, 2.1, true});
   };
   add("hall", 0.0, 0.0, width, kCorridor_m);
   add("", side_west, south, side_east, 0.0);
@@ -162,16 +162,14 @@ std::vector<Lamp> light(SceneBuilder& scene, const std::vector<Space>& spaces, R
   return lamps;
 }
 
-}  // namespace
-
-World generate_house(std::uint64_t seed) {
+World generate(std::uint64_t seed, double door_m) {
   // Furniture may, rarely, shut off a room; the next draw of the same seed is then taken.
   constexpr std::uint64_t kDraws = 20;
   World world;
   for (std::uint64_t draw = 0; draw < kDraws; ++draw) {
     Random random(seed * 7919 + draw * 104729 + 17);
     SceneBuilder scene;
-    const Plan plan = plan_house(scene, random);
+    const Plan plan = plan_house(scene, door_m, random);
     for (const Space& space : plan.spaces) build_shell(scene, space, plan.doorways, random);
     build_linings(scene, plan.doorways, random);
     world = World();
@@ -179,11 +177,24 @@ World generate_house(std::uint64_t seed) {
       const std::vector<Furniture> placed = furnish(scene, space, plan.doorways, random);
       world.furniture.insert(world.furniture.end(), placed.begin(), placed.end());
     }
-    world.name = "house:" + std::to_string(seed);
     world.lamps = light(scene, plan.spaces, random);
     world.scene = scene.take();
     if (finish_world(world, plan.spaces)) break;
   }
+  return world;
+}
+
+}  // namespace
+
+World generate_house(std::uint64_t seed) {
+  World world = generate(seed, 1.15);
+  world.name = "house:" + std::to_string(seed);
+  return world;
+}
+
+World generate_narrow_house(std::uint64_t seed) {
+  World world = generate(seed, 0.85);
+  world.name = "narrow_house:" + std::to_string(seed);
   return world;
 }
 

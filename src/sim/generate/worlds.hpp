@@ -11,6 +11,9 @@ namespace homeward::sim {
 /// A home of eight furnished rooms and a hall off two corridors. Same seed, same house.
 World generate_house(std::uint64_t seed);
 
+/// The same, its doors 0.85 m wide in place of 1.15 m: as wide as old houses' doors are, 0.2 m wider than a wheelchair.
+World generate_narrow_house(std::uint64_t seed);
+
 /// A corridor with eight offices that differ only in small things: a picture, a plant, the order of books. The offices
 /// of one side are those of the other turned round, and office_8 is office_7 mirrored.
 World generate_offices(std::uint64_t seed);

@@ -10,13 +10,15 @@ Cases, each so many missions between rooms drawn at random after a tour of all r
               moved in every room
   house-chair, house-chair-night, house-chair-people, house-chair-moved
               the same with a wheelchair of 1.10 m x 0.65 m
+  narrow, narrow-chair
+              by day in narrow_house:1, whose doors are 0.85 m wide
   home, home-night, home-people
               the same in the world --home (a world.json)
 Two at once, each through `homeward simulate run`; results stay in DIR as one file of JSON lines a case, and a case that is
 there already is only counted: delete its file to drive it again. --record keeps a recording of each mission beside it.
 A mission counts as right when it arrived within 0.3 m of its destination's true pose. Prints one table, names the missions
 that are not right and ends with 1 when a bound does not hold: of 100 by day at least 98, of 30 at night 27, with people 28,
-with moved furniture 27, and no collision in any.
+with moved furniture or narrow doors 27, and no collision in any.
 """
 
 import argparse
@@ -38,6 +40,8 @@ CASES = {  # missions, share that must be right, what their entry in the scenari
     "house-chair-night": (30, 0.9, {"light": "night"}),
     "house-chair-people": (30, 28 / 30, {"people": 3}),
     "house-chair-moved": (30, 0.9, {"moved_furniture": 1}),
+    "narrow": (30, 0.9, {}),
+    "narrow-chair": (30, 0.9, {}),
     "home": (100, 0.98, {}),
     "home-night": (30, 0.9, {"light": "night"}),
     "home-people": (30, 28 / 30, {"people": 3}),
@@ -63,15 +67,15 @@ def drive(options, case):
     if out.is_file():
         return
     count, _, entry = CASES[case]
-    generated = case.startswith("house")
+    world = {"house": "house:1", "narrow": "narrow_house:1"}.get(case.split("-")[0])
     scenario = {
         "format": "homeward-scenario",
         "version": 1,
-        "world": "house:1" if generated else str(options.home.resolve()),
+        "world": world or str(options.home.resolve()),
         "seed": options.seed,
         "camera": {"model": "hyperbolic_mirror"},
         "robot": "chair" if "-chair" in case else "disc",
-        "tour": {"rooms": HOUSE if generated else rooms_of(options.home), "light": "day"},
+        "tour": {"rooms": HOUSE if world else rooms_of(options.home), "light": "day"},
         "missions": [{"random": options.count or count, **entry}],
     }
     file = options.work / f"{case}.json"
@@ -120,8 +124,8 @@ def main():
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/release/bin")
     options = parser.parse_args()
     options.work.mkdir(parents=True, exist_ok=True)
-    cases = options.only or [case for case in CASES if options.home or case.startswith("house")]
-    if any(not case.startswith("house") for case in cases) and not options.home:
+    cases = options.only or [case for case in CASES if options.home or not case.startswith("home")]
+    if any(case.startswith("home") for case in cases) and not options.home:
         parser.error("--home: a world.json is needed for these cases")
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         list(pool.map(lambda case: drive(options, case), cases))

@@ -164,6 +164,16 @@ TEST(MadeSafe, KeepsTheBendOfALongBodyThatItSlows) {
   EXPECT_NEAR(safe.turn_radps / safe.speed_mps, -1.0, 1e-9);
 }
 
+TEST(MadeSafe, BendsALongBodyPastAPostOnlyWhereItTurnsThatWayAlready) {
+  // Before the left corner of its front, 5 cm on: straight ahead leads to it, a sharp bend to the right past it.
+  const Points post = {{0.90, 0.33}};
+  const Motion wanted{0.1, -0.3};
+  const Motion turning_right = made_safe(wanted, chair(), post, -0.4);
+  EXPECT_GT(turning_right.speed_mps, 0.02);
+  EXPECT_LT(turning_right.turn_radps, -0.2);
+  EXPECT_EQ(made_safe(wanted, chair(), post, 0.0).speed_mps, 0.0);
+}
+
 TEST(ClearanceOfABody, IsToItsOutline) {
   EXPECT_NEAR(clearance_m(chair(), Points{{1.51, 0.0}}), 0.66, 1e-12);
   EXPECT_NEAR(clearance_m(chair(), Points{{0.3, -0.425}}), 0.1, 1e-12);

@@ -73,7 +73,8 @@ Drive drive(const Body& body, const Points& world, Pose2 pose, const Eigen::Vect
       return result;
     }
     const Points seen = swept(world, pose, random);
-    const Motion wanted = made_safe(steer_round(plan, body, seen, aim_m, pose, 0.45, 1.8), body, seen);
+    const Motion steered = steer_round(plan, body, seen, aim_m, pose, 0.45, 1.8);
+    const Motion wanted = made_safe(steered, body, seen, motion.turn_radps);
     if (wanted.speed_mps * before_mps < 0.0) ++result.changes;
     if (wanted.speed_mps != 0.0) before_mps = wanted.speed_mps;
     const auto nearer = [](double now, double then, double step) { return now + std::clamp(then - now, -step, step); };

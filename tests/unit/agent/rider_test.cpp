@@ -83,6 +83,19 @@ TEST_F(RiderTest, TheRangeSensorHasTheLastWord) {
   EXPECT_DOUBLE_EQ(tick().motion.turn_radps, 0.4) << "turning on the spot touches nothing";
 }
 
+TEST_F(RiderTest, ALongBodyIsBentPastAPostOnlyOnceItTurns) {
+  leave_alone();
+  config_.body.outline = {0.0, 0.25, 0.85, 0.325};
+  ranges_m_.assign(360, 20.0F);
+  ranges_m_[20] = 0.963F;  // a post 5.5 cm before the left corner of its front
+  hand_ = Motion{0.1, -0.3};
+  tick();
+  EXPECT_EQ(tick().motion.speed_mps, 0.0);
+  pose_.theta_rad -= 0.04;  // turned by hand, 0.4 rad/s
+  const Motion motion = tick().motion;
+  EXPECT_GT(motion.speed_mps, 0.02) << state_.turning.radps();
+}
+
 TEST_F(RiderTest, WithoutAFreshSweepItCreeps) {
   leave_alone();
   sweeps_ = false;

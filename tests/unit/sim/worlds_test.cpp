@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <set>
 
@@ -118,6 +119,31 @@ TEST(House, HasAtLeastEightRoomsThatCanAllBeReached) {
   const World house = generate_house(1);
   expect_sound(house);
   expect_rooms_to_be_reachable(house, 8);
+}
+
+TEST(House, HasNarrowDoorsWhereTheyAreWanted) {
+  const World wide = generate_house(1);
+  const World narrow = generate_narrow_house(1);
+  EXPECT_EQ(narrow.name, "narrow_house:1");
+  expect_sound(narrow);
+  expect_rooms_to_be_reachable(narrow, 8);
+  // Between two rooms the way of a round body of that radius leads through two doors.
+  const auto passes = [](const World& world, double radius_m) {
+    const FloorGrid drivable = drivable_cells(world.occupied, radius_m, world.start);
+    const auto in_reach = [&](const Room& room) {
+      for (double x_m = room.outline_m[0].x(); x_m < room.outline_m[2].x(); x_m += 0.05) {
+        for (double y_m = room.outline_m[0].y(); y_m < room.outline_m[2].y(); y_m += 0.05) {
+          if (is_set(drivable, {x_m, y_m})) return true;
+        }
+      }
+      return false;
+    };
+    return std::ranges::count_if(world.rooms, in_reach);
+  };
+  const auto all = std::ssize(narrow.rooms);
+  EXPECT_EQ(passes(narrow, 0.35), all);
+  EXPECT_EQ(passes(narrow, 0.44), 1) << "the hall alone";
+  EXPECT_EQ(passes(wide, 0.44), all);
 }
 
 }  // namespace
