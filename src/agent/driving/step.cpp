@@ -212,6 +212,15 @@ void notice_gap(DrivingState& state, const DrivingConfig& config, Milliseconds n
   }
 }
 
+/// Only a body that is not round goes so near to things that the noise of single sweeps matters; arcs of ultrasound are
+/// no surfaces that several sweeps could agree on.
+bool steadies(const Body& body) { return !is_round(body.outline) && !body.vague_ranges; }
+
+void steady(DrivingState& state, const Inputs& inputs, const DrivingConfig& config) {
+  if (state.scan && steadies(config.body))
+    state.sweeps.observe(state.scan->scan, inputs.odometry, state.scan->taken_ms);
+}
+
 }  // namespace
 
 Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds now_ms) {
@@ -228,6 +237,8 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     state.gain_from = inputs.odometry;
     state.plan = {};
     state.turning = {};
+    state.sweeps = {};
+    steady(state, inputs, config);
     begin_way(state.give_way);
   }
   state.turning.observe(inputs.odometry.theta_rad, sensors_ms);
@@ -237,9 +248,10 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     state.scan->taken_ms = std::min(state.scan->taken_ms, sensors_ms);
     // The arcs of ultrasound come and go by themselves.
     if (!config.body.vague_ranges) watch(state.stirring, state.scan->scan, inputs.odometry, sensors_ms);
+    steady(state, inputs, config);
   }
   std::vector<Eigen::Vector2d> points_m;
-  if (state.scan) points_m = hit_points(state.scan->scan);
+  if (state.scan) points_m = steadies(config.body) ? state.sweeps.points_m() : hit_points(state.scan->scan);
   state.min_range_m.reset();
   for (const Eigen::Vector2d& point : points_m) {
     state.min_range_m = std::min(state.min_range_m.value_or(1e9), point.norm());

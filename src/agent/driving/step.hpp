@@ -13,6 +13,7 @@
 #include "agent/driving/give_way.hpp"
 #include "agent/driving/long_plan.hpp"
 #include "agent/driving/scan.hpp"
+#include "agent/driving/steady_sweep.hpp"
 #include "agent/driving/stirring.hpp"
 #include "agent/driving/turn_rate.hpp"
 #include "core/pose2.hpp"
@@ -101,6 +102,7 @@ struct DrivingState {
   TurnRate turning;      // of the body, as it moves now
   GiveWay give_way;      // to whoever stands in the way
   Stirring stirring;     // of whoever that is
+  SteadySweep sweeps;    // round a body that is not round
   bool covered = false;  // the latest picture shows next to nothing
   std::optional<Milliseconds> last_step_ms;
   Milliseconds refuses_until_ms = 0;  // missions that waited while no step was made
