@@ -61,6 +61,7 @@ Eigen::MatrixXd aggregated(std::span<const RowView> tests, std::span<const RowVi
 
 std::vector<RowMeasure> row_measures(std::uint64_t seed) {
   std::vector<RowMeasure> measures;
+  measures.reserve(features::kGlobalMeasures.size() + 2);
   for (const features::GlobalMeasure measure : features::kGlobalMeasures) {
     measures.push_back({std::string(features::global_measure_name(measure)), [measure](auto tests, auto training) {
                           return for_each_pair(tests, training, [measure](const RowView& a, const RowView& b) {
