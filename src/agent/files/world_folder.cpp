@@ -96,6 +96,9 @@ Result<sim::World> load_world(const std::string& name) {
   const auto offices = seed_after(name, "offices");
   if (!offices) return pass_on(offices);
   if (*offices) return sim::generate_offices(**offices);
+  const auto wards = seed_after(name, "wards");
+  if (!wards) return pass_on(wards);
+  if (*wards) return sim::generate_wards(**wards);
   std::error_code error;
   return read_world(fs::is_directory(name, error) ? fs::path(name) / "world.json" : fs::path(name));
 }

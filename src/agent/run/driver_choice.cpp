@@ -25,7 +25,7 @@ void add_driver_options(CLI::App& command, DriverOptions& options) {
                      "Simulator: a model (hyperbolic_mirror) or a camera.json");
   command
       .add_option("--world", options.simulator.world,
-                  "Simulator: house:SEED, narrow_house:SEED, offices:SEED or a world.json")
+                  "Simulator: house:SEED, narrow_house:SEED, offices:SEED, wards:SEED or a world.json")
       ->capture_default_str();
   command.add_option("--light", options.simulator.light, "Simulator: day, night or half")->capture_default_str();
   command.add_option("--profile", options.simulator.robot, "Simulator: disc or chair")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/generate/builder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -16,14 +17,22 @@ Eigen::Vector3d in_world(const Pose2& frame, const Eigen::Vector3d& point_m) {
 }  // namespace
 
 int SceneBuilder::add_material(const std::string& name, Image texture, MaterialRole role) {
-  textures_.push_back(std::move(texture));
-  materials_.push_back({name, {1.0F, 1.0F, 1.0F}, static_cast<int>(textures_.size()) - 1, role});
+  materials_.push_back({name, {1.0F, 1.0F, 1.0F}, this->texture(std::move(texture)), role});
   return static_cast<int>(materials_.size()) - 1;
 }
 
 int SceneBuilder::add_material(const std::string& name, std::array<float, 3> colour, MaterialRole role) {
   materials_.push_back({name, colour, -1, role});
   return static_cast<int>(materials_.size()) - 1;
+}
+
+int SceneBuilder::texture(Image picture) {
+  const auto known = std::ranges::find_if(textures_, [&](const Image& other) {
+    return other.width_px == picture.width_px && other.height_px == picture.height_px && other.data == picture.data;
+  });
+  if (known != textures_.end()) return static_cast<int>(known - textures_.begin());
+  textures_.push_back(std::move(picture));
+  return static_cast<int>(textures_.size()) - 1;
 }
 
 void SceneBuilder::triangle(const std::array<Eigen::Vector3d, 3>& corners, const std::array<Eigen::Vector2d, 3>& uv,
@@ -38,12 +47,17 @@ void SceneBuilder::triangle(const std::array<Eigen::Vector3d, 3>& corners, const
 void SceneBuilder::quad(const Pose2& frame, const std::array<Eigen::Vector3d, 4>& corners, Surface surface) {
   std::array<Eigen::Vector3d, 4> p;
   for (std::size_t k = 0; k < 4; ++k) p[k] = in_world(frame, corners[k]);
+  const Eigen::Vector3d right_m = p[1] - p[0];
+  const Eigen::Vector3d down_m = p[3] - p[0];
+  const double tile_down_m = surface.tile_down_m > 0.0 ? surface.tile_down_m : surface.tile_m;
   Eigen::Vector2d repeats(1.0, 1.0);
-  if (surface.tile_m > 0.0) {
-    repeats = {(p[1] - p[0]).norm() / surface.tile_m, (p[3] - p[0]).norm() / surface.tile_m};
+  if (surface.tile_m > 0.0) repeats = {right_m.norm() / surface.tile_m, down_m.norm() / tile_down_m};
+  Eigen::Vector2d first(0.0, 0.0);
+  if (surface.from_origin) {
+    first = {p[0].dot(right_m.normalized()) / surface.tile_m, p[0].dot(down_m.normalized()) / tile_down_m};
   }
-  const std::array<Eigen::Vector2d, 4> uv = {Eigen::Vector2d(0, 0), Eigen::Vector2d(repeats.x(), 0), repeats,
-                                             Eigen::Vector2d(0, repeats.y())};
+  const std::array<Eigen::Vector2d, 4> uv = {first, first + Eigen::Vector2d(repeats.x(), 0), first + repeats,
+                                             first + Eigen::Vector2d(0, repeats.y())};
   triangle({p[0], p[2], p[1]}, {uv[0], uv[2], uv[1]}, surface.material);
   triangle({p[0], p[3], p[2]}, {uv[0], uv[3], uv[2]}, surface.material);
 }

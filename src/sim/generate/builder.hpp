@@ -13,7 +13,9 @@ namespace homeward::sim {
 /// How a face is covered: a texture stretched over it once, or laid every `tile_m` metres.
 struct Surface {
   int material = 0;
-  double tile_m = 0.0;  // 0: stretched once
+  double tile_m = 0.0;       // 0: stretched once
+  double tile_down_m = 0.0;  // the texture's other side; 0: as long as `tile_m`
+  bool from_origin = false;  // laid from the world's origin, so that it runs on from face to face; else from the corner
 };
 
 /// What a box shows on each side. The front looks along +y of its frame.
@@ -25,6 +27,7 @@ struct BoxSurfaces {
 /// Puts a scene together from quads and boxes, each in a frame that stands on the floor.
 class SceneBuilder {
  public:
+  /// A picture that is there already is kept once.
   int add_material(const std::string& name, Image texture, MaterialRole role = MaterialRole::kNone);
   int add_material(const std::string& name, std::array<float, 3> colour, MaterialRole role = MaterialRole::kNone);
 
@@ -40,6 +43,7 @@ class SceneBuilder {
   Scene take();
 
  private:
+  [[nodiscard]] int texture(Image picture);
   void triangle(const std::array<Eigen::Vector3d, 3>& corners, const std::array<Eigen::Vector2d, 3>& uv, int material);
 
   std::vector<Eigen::Vector3f> vertices_m_;

@@ -47,7 +47,11 @@ World generate_offices(std::uint64_t seed) {
   Random random(seed * 6151 + 11);
   SceneBuilder scene;
   const double length_m = kWidth_m * kOffices / 2.0;
-  const Surface floor{scene.add_material("tiles", paint_tiles(random, {150, 152, 158}, {165, 166, 170})), 2.0};
+  // The carpet runs on from room to room: what is alike two metres on is alike in the next office too.
+  const Surface floor{
+      .material = scene.add_material("carpet", paint_carpet(random, varied(random, {132, 138, 150}, 20))),
+      .tile_m = 2.0,
+      .from_origin = true};
   const Surface wall{scene.add_material("wall", paint_wallpaper(random, {214, 214, 206}, Wallpaper::kPlaster)), 2.0};
   const Surface ceiling{scene.add_material("ceiling", paint_tiles(random, {228, 228, 226}, {224, 224, 222})), 3.0};
   std::vector<Space> spaces;

@@ -49,4 +49,15 @@ Image paint_leaves(Random& random);
 /// Kitchen front with oven window and knobs.
 Image paint_oven(Random& random);
 
+// Surfaces of a hospital and of offices: one repeat of a pattern that is laid again and again.
+
+/// A bare wall from floor to ceiling: a dado with panels, scuffs, sockets and a plate. Repeats along u.
+Image paint_ward_wall(Random& random, double width_m, double height_m, Rgb base);
+/// Sheet flooring with an inlay, chips and scuffs. Repeats both ways.
+Image paint_vinyl(Random& random, double width_m, double height_m, Rgb base);
+/// Ceiling panels of 0.6 m, one of them a vent and one with a smoke detector. Repeats both ways.
+Image paint_ceiling_panels(Random& random, double width_m, double height_m, Rgb base);
+/// A carpet with four medallions between bands. Repeats both ways; covers about 2 m x 2 m.
+Image paint_carpet(Random& random, Rgb base);
+
 }  // namespace homeward::sim

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,13 +15,16 @@ inline constexpr double kHalfWall_m = 0.06;
 
 enum class Side { kSouth, kEast, kNorth, kWest };
 
-/// A passage in a wall between two spaces, around `centre_m` on the wall's centre line.
+/// A passage in a wall between two spaces, around `centre_m` on the wall's centre line; above a sill it is a glazed
+/// panel, which is seen through.
 struct Doorway {
   Eigen::Vector2d centre_m;
   bool in_x_wall = true;  // the wall runs along x
   double width_m = 1.1;
   double height_m = 2.1;
   bool leaf = true;  // a door stands open beside it
+  double sill_m = 0.0;
+  bool turned = false;  // the leaf rests on the other side of the wall, at the other jamb
 };
 
 struct WindowOpening {
@@ -39,6 +43,8 @@ struct Space {
   Surface wall;
   Surface ceiling;
   std::vector<WindowOpening> windows;
+  std::optional<Surface> rail = std::nullopt;  // a rail to hold on to and to stop beds, along all walls
+  bool turned = false;                         // floor and ceiling are laid half a turn round
 };
 
 /// A wall of a space seen from inside: the frame stands at its left end on the floor with +x along the wall to the
@@ -55,8 +61,12 @@ std::vector<std::pair<double, double>> openings_of(const Space& space, Side side
 /// Floor, ceiling, walls with their openings, skirting, windows with a view, and door leaves.
 void build_shell(SceneBuilder& scene, const Space& space, const std::vector<Doorway>& doorways, Random& random);
 
-/// The linings of the doorways' walls, once for each doorway.
+/// The linings of the doorways' walls, once for each doorway; the frames and bars of glazed panels.
 void build_linings(SceneBuilder& scene, const std::vector<Doorway>& doorways, Random& random);
+
+/// A door that is shut: it stands before the wall at y = 0 of `frame`, which looks along +y. Looks as the leaves do
+/// that `build_linings` builds of the same `random`.
+void build_shut_door(SceneBuilder& scene, const Pose2& frame, Random& random);
 
 /// A ceiling lamp with its light.
 Lamp build_lamp(SceneBuilder& scene, const Eigen::Vector2d& position_m, double strength, Random& random);

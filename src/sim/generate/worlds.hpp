@@ -18,4 +18,9 @@ World generate_narrow_house(std::uint64_t seed);
 /// of one side are those of the other turned round, and office_8 is office_7 mirrored.
 World generate_offices(std::uint64_t seed);
 
+/// A hospital: two long corridors joined by cross corridors, with wards outside and bays and halls between. One half is
+/// the other turned round, wards are alike down to their beds, and walls, floors and ceilings repeat every 2 to 5 m.
+/// Few things are there once, and some of those stand a second time where they would be in the other half.
+World generate_wards(std::uint64_t seed);
+
 }  // namespace homeward::sim
