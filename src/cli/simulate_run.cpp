@@ -112,8 +112,10 @@ Status run(const SimulateRunOptions& options) {
     record->limit_bytes = options.record_limit_mb << 20;
     record->folder_limit_bytes = std::numeric_limits<std::int64_t>::max();
   }
-  return agent::run_scenario(*scenario, std::filesystem::path(options.scenario).parent_path().string(), listener,
-                             record, {options.only.begin(), options.only.end()});
+  const std::string folder = std::filesystem::path(options.scenario).parent_path().string();
+  Status ran = agent::run_scenario(*scenario, folder, listener, record, {options.only.begin(), options.only.end()});
+  if (!ran && ran.error().where.empty()) ran.error().where = options.scenario;
+  return ran;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@ import random
 import shutil
 import sqlite3
 import sys
+import time
 import unittest
 from pathlib import Path
 
@@ -352,14 +353,49 @@ class WrongUse(CliTest):
         self.assert_refused(2, ["scenario.json"], "simulate", "run", "--scenario", "scenario.json", "--json")
         self.assert_refused(3, ["none.json"], "simulate", "run", "--scenario", "none.json", "--json")
 
+
+class ScenariosThatCannotBeDriven(CliTest):
+    """Refused as a whole before anything is rendered: in seconds, with not a word on teaching."""
+
+    WITHIN_S = 30  # of a busy machine; teaching takes minutes
+
+    def write(self, missions, world="house:1", rooms=("hall", "kitchen")):
+        (self.folder / "scenario.json").write_text(json.dumps({
+            "format": "homeward-scenario", "version": 1, "world": world, "seed": 1,
+            "camera": {"model": "hyperbolic_mirror"}, "tour": {"rooms": list(rooms)}, "missions": missions}))
+
+    def assert_refused_at_once(self, names, *more, code=2):
+        began = time.monotonic()
+        self.assert_refused(code, names, "simulate", "run", "--scenario", "scenario.json", *more)
+        self.assertLess(time.monotonic() - began, self.WITHIN_S)
+
     def test_mission_that_a_scenario_does_not_have(self):
-        (self.folder / "scenario.json").write_text(
-            '{"format": "homeward-scenario", "version": 1, "world": "house:1", "seed": 1, '
-            '"camera": {"model": "hyperbolic_mirror"}, "tour": {"rooms": ["hall", "kitchen"], "light": "day"}, '
-            '"missions": [{"from": "hall", "to": "kitchen"}, {"random": 2}]}')
+        self.write([{"from": "hall", "to": "kitchen"}, {"random": 2}])
         for wrong in ("0", "4"):
-            self.assert_refused(2, ["no mission " + wrong, "has 3"], "simulate", "run", "--scenario", "scenario.json",
-                                "--only", "2", wrong)
+            self.assert_refused_at_once(["no mission " + wrong, "has 3"], "--only", "2", wrong)
+
+    def test_mission_to_a_room_that_the_tour_does_not_visit(self):
+        self.write([{"from": "hall", "to": "kitchen"}, {"random": 2}, {"from": "hall", "to": "bathroom"}])
+        self.assert_refused_at_once(
+            ["missions[2].to: the tour does not visit 'bathroom'; it visits hall, kitchen.", "(scenario.json)"])
+
+    def test_all_that_is_wrong_is_said_at_once(self):
+        self.write([{"from": "cellar", "to": "hall"}, {"from": "hall", "to": "pantry"}], rooms=("hall", "attic", "kitchen"))
+        self.assert_refused_at_once(["3 problems", "tour.rooms[1]", "'attic'", "missions[0].from", "'cellar'",
+                                     "missions[1].to", "'pantry'"])
+
+    def test_furniture_of_a_mesh_cannot_be_moved(self):
+        (self.folder / "floor.obj").write_text("v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3 4\n")
+        (self.folder / "world.json").write_text(json.dumps({
+            "format": "homeward-world", "version": 1, "name": "floor", "mesh": "floor.obj", "mesh_up": "z", "outdoor": False,
+            "start": {"x_m": 2, "y_m": 2, "theta_rad": 0}, "lamps": [],
+            "rooms": [{"name": "a", "x_m": 2, "y_m": 2}, {"name": "b", "x_m": 7, "y_m": 7}]}))
+        self.write([{"from": "a", "to": "b", "moved_furniture": 1}], "world.json", "ab")
+        self.assert_refused_at_once(["missions[0].moved_furniture", "generated worlds alone"])
+
+    def test_world_that_is_not_there(self):
+        self.write([], "none.json")
+        self.assert_refused_at_once(["none.json"], code=3)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 
 #include "agent/drivers/simulated_robot.hpp"
 #include "agent/driving/step.hpp"
+#include "agent/scenario/mission_plan.hpp"
 #include "agent/scenario/scenario_run.hpp"
 #include "agent/scenario/taught_world.hpp"
 #include "pipeline/eye.hpp"
@@ -15,17 +16,6 @@
 namespace homeward::agent {
 
 class Recorder;
-
-/// One mission to drive.
-struct MissionPlan {
-  std::string from;
-  std::string to;
-  std::string light;
-  int people = 0;
-  int moved_furniture = 0;  // pieces in each room
-  std::vector<wire::ScenarioFault> faults;
-  std::uint64_t seed = 1;
-};
 
 /// Drives one order in simulated time with the agent's own heart, until it stands; how it went, but for the truth
 /// about where it came to (see judge). Of the plan, the faults count.

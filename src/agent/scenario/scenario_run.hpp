@@ -70,11 +70,12 @@ struct ScenarioListener {
 };
 
 /// Teaches a world by a tour, builds its map and drives the missions with the agent's own heart, in simulated time and
-/// as fast as the machine allows. Same scenario, same results. Errors: those of load_world, plan_tour and build_map;
-/// kInvalidInput for a destination that the tour does not visit, for furniture to move in a world from a file, and
-/// where the robot does not fit at a room's point. `record`: keeps a recording of each mission, named by number, start
-/// and destination. Errors: also those of Recorder. `only`: numbers of the missions to drive, from 1; each goes as it
-/// goes among all. Empty: all. Errors: kInvalidInput for a number that the scenario has no mission of.
+/// as fast as the machine allows. Same scenario, same results. Nothing is rendered of a scenario that check_scenario
+/// finds wrong: kInvalidInput then names all its problems. Errors: also those of load_world, read_camera and build_map;
+/// kInvalidInput where furniture was moved and the robot no longer fits at a room's point. `record`: keeps a recording
+/// of each mission, named by number, start and destination. Errors: also those of Recorder. `only`: numbers of the
+/// missions to drive, from 1; each goes as it goes among all. Empty: all. Errors: kInvalidInput for a number that the
+/// scenario has no mission of.
 Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder, const ScenarioListener& listener,
                     const std::optional<RecordingOptions>& record = std::nullopt, const std::set<int>& only = {});
 

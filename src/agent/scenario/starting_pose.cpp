@@ -9,7 +9,11 @@ namespace homeward::agent {
 
 Result<Pose2> starting_pose(const sim::World& world, const Eigen::Vector2d& point_m, const sim::RobotProfile& robot,
                             std::uint64_t seed) {
-  const sim::Obstacles obstacles(world);
+  return starting_pose(world, sim::Obstacles(world), point_m, robot, seed);
+}
+
+Result<Pose2> starting_pose(const sim::World& world, const sim::Obstacles& obstacles, const Eigen::Vector2d& point_m,
+                            const sim::RobotProfile& robot, std::uint64_t seed) {
   sim::Random random(seed);
   constexpr int kTries = 600;
   constexpr int kNearTries = 200;

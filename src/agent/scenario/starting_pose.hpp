@@ -16,5 +16,8 @@ inline constexpr double kStartClearance_m = 0.05;
 /// Same seed, same pose. Errors: kInvalidInput where the robot does not fit.
 Result<Pose2> starting_pose(const sim::World& world, const Eigen::Vector2d& point_m, const sim::RobotProfile& robot,
                             std::uint64_t seed);
+/// The same of a world whose obstacles are at hand.
+Result<Pose2> starting_pose(const sim::World& world, const sim::Obstacles& obstacles, const Eigen::Vector2d& point_m,
+                            const sim::RobotProfile& robot, std::uint64_t seed);
 
 }  // namespace homeward::agent

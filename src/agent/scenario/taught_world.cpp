@@ -38,7 +38,13 @@ class RenderedTour final : public pipeline::TourSource {
 
 }  // namespace
 
-Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string& folder) {
+Result<sim::World> world_of(const wire::ScenarioFile& scenario, const std::string& folder) {
+  // Generated worlds have a name with a colon; files lie beside the scenario.
+  const bool generated = scenario.world.find(':') != std::string::npos;
+  return load_world(generated ? scenario.world : (std::filesystem::path(folder) / scenario.world).string());
+}
+
+Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string& folder, sim::World world) {
   TaughtWorld taught;
   taught.camera = usual_camera(scenario.camera_model).value_or(camera::CameraConfig{});
   if (scenario.camera) taught.camera = *scenario.camera;
@@ -49,11 +55,7 @@ Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string&
   }
   auto camera = camera::Camera::create(taught.camera);
   if (!camera) return pass_on(camera);
-  // Generated worlds have a name with a colon; files lie beside the scenario.
-  const bool generated = scenario.world.find(':') != std::string::npos;
-  auto world = load_world(generated ? scenario.world : (std::filesystem::path(folder) / scenario.world).string());
-  if (!world) return pass_on(world);
-  taught.world = std::make_unique<sim::LitWorld>(std::move(*world));
+  taught.world = std::make_unique<sim::LitWorld>(std::move(world));
   const auto light = light_named(scenario.tour_light);
   if (!light) return pass_on(light);
   const auto stops = sim::plan_tour(taught.world->world(), scenario.tour_rooms, scenario.tour_step_m);

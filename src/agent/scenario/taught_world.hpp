@@ -23,7 +23,10 @@ struct TaughtWorld {
   std::map<ImageId, Pose2> picture_poses;          // of the tour; for putting things in the way only
 };
 
-/// Renders the scenario's tour and builds its map. Errors: see run_scenario.
-Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string& folder);
+/// The world that a scenario in `folder` names. Errors: those of load_world.
+Result<sim::World> world_of(const wire::ScenarioFile& scenario, const std::string& folder);
+
+/// Renders the scenario's tour of its world and builds the map. Errors: those of read_camera, plan_tour and build_map.
+Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string& folder, sim::World world);
 
 }  // namespace homeward::agent
