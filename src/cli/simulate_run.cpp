@@ -45,6 +45,10 @@ nlohmann::json to_json(const agent::MissionResult& result) {
     value["stops"].push_back({{"t_s", stop.t_s}, {"reason", stop.reason}});
     if (stop.stand_after_s) value["stops"].back()["stand_after_s"] = *stop.stand_after_s;
   }
+  if (result.kidnapped_at_s) {
+    value["kidnapped_at_s"] = *result.kidnapped_at_s;
+    value["told_after_s"] = result.told_after_s ? nlohmann::json(*result.told_after_s) : nlohmann::json();
+  }
   return value;
 }
 
@@ -77,6 +81,8 @@ void print(const agent::MissionResult& result) {
               result.from.c_str(), result.to.c_str(), result.arrived ? "arrived" : "failed", result.final_error_m,
               result.path_m, result.shortest_m, result.collisions, result.duration_s);
   for (const agent::StopEvent& stop : result.stops) std::printf("; at %.1f s: %s", stop.t_s, stop.reason.c_str());
+  if (result.kidnapped_at_s) std::printf("; kidnapped at %.1f s", *result.kidnapped_at_s);
+  if (result.told_after_s) std::printf(", told %.1f s later", *result.told_after_s);
   std::printf("\n");
   std::fflush(stdout);
 }

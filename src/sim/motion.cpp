@@ -175,6 +175,7 @@ void Vehicle::advance(double dt_s, const MotionCommand& command, const Obstacles
 void Vehicle::carry_to(const Pose2& pose) {
   pose_ = pose;
   motion_ = {};
+  touching_ = false;
 }
 
 void Vehicle::reset_counts() {

@@ -97,7 +97,8 @@ class Vehicle {
   [[nodiscard]] double path_m() const { return path_m_; }
   [[nodiscard]] double min_clearance_m() const { return min_clearance_m_; }
   [[nodiscard]] const RobotProfile& profile() const { return profile_; }
-  /// Puts it somewhere else; odometry goes on as if nothing had happened.
+  /// Puts it down somewhere else, at rest; odometry goes on as if nothing had happened, and neither way nor contact is
+  /// counted.
   void carry_to(const Pose2& pose);
   /// Counts collisions, way and clearance from nothing again.
   void reset_counts();

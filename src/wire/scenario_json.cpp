@@ -23,12 +23,13 @@ ScenarioFault read_fault(ObjectReader& outer, const json& value, const std::stri
   ObjectReader reader(value, path);
   ScenarioFault fault;
   fault.kind = reader.choice("kind", {"camera_occluded", "camera_frozen", "scan_lost", "link_lost", "stop",
-                                      "agent_frozen", "wheel_slip", "obstacle"});
+                                      "agent_frozen", "wheel_slip", "obstacle", "kidnapped"});
   const bool slips = fault.kind == "wheel_slip";
   if (slips) fault.share = kUsualSlip;
   fault.at_s = reader.number("at_s", 0.0, 1e5);
   if (reader.has("for_s")) fault.for_s = reader.number("for_s", 0.0, 1e5);
   if (reader.has("share")) fault.share = reader.number("share", 0.0, slips ? kMostSlip : 1.0);
+  if (fault.kind == "kidnapped") fault.for_s = 0.0;  // lifted and put down in a moment
   outer.close(reader);
   return fault;
 }

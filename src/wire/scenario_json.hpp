@@ -15,7 +15,7 @@ namespace homeward::wire {
 /// Something that goes wrong during a mission, for a while.
 struct ScenarioFault {
   std::string kind;  // "camera_occluded", "camera_frozen", "scan_lost", "link_lost", "stop", "agent_frozen",
-                     // "wheel_slip", "obstacle"
+                     // "wheel_slip", "obstacle", "kidnapped"
   double at_s = 0.0;
   double for_s = std::numeric_limits<double>::infinity();
   double share = 1.0;  // of the picture that is covered, of the way that is not made

@@ -33,6 +33,7 @@ MISSIONS = {
     "box in the way": fault("obstacle"),
     "box for a while": fault("obstacle", for_s=8),
     "stopped by hand": fault("stop", for_s=0.2),
+    "kidnapped": fault("kidnapped"),
     "moved furniture": {"from": "kitchen", "to": "hall", "moved_furniture": 1},
 }
 REASONS = {
@@ -122,6 +123,15 @@ class Faults(unittest.TestCase):
                     self.expect_arrival(name)
                 else:
                     self.assertIn("blocked", result["stops"][-1]["reason"], result)
+
+    def test_a_kidnapped_robot_is_put_down_elsewhere_and_the_result_says_whether_it_told(self):
+        result = self.results["kidnapped"]
+        self.assertAlmostEqual(result["kidnapped_at_s"], AT_S, delta=0.11)
+        if result["told_after_s"] is None:
+            self.assertTrue(result["arrived"], result)
+        else:
+            self.assertGreater(result["told_after_s"], 0.0)
+            self.assertTrue(result["stops"], result)
 
     def test_moved_furniture_is_seen_and_driven_round(self):
         result = self.results["moved furniture"]

@@ -70,6 +70,11 @@ class SimulatedRobot {
   void set_boxes(std::vector<sim::Box> boxes);
   [[nodiscard]] const std::vector<sim::Person>& people() const { return walkers_.people(); }
   [[nodiscard]] double seconds() const { return seconds_; }
+  /// From its body, were it at a pose, to the nearest thing or person; negative when they overlap.
+  [[nodiscard]] double clearance_m(const Pose2& pose) const {
+    return obstacles_.clearance_m(config_.profile, pose, walkers_.people());
+  }
+  /// Lifts it and puts it down elsewhere; its odometry does not notice.
   void carry_to(const Pose2& pose) { vehicle_.carry_to(pose); }
   void reset_counts() { vehicle_.reset_counts(); }
 

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "agent/files/world_folder.hpp"
+#include "agent/scenario/look_alike_spot.hpp"
 #include "agent/scenario/mission_plan.hpp"
 #include "agent/scenario/starting_pose.hpp"
 #include "sim/floor.hpp"
+#include "sim/tour_path.hpp"
 
 namespace homeward::agent {
 namespace {
@@ -101,6 +104,31 @@ class Checker {
       add(entry(index) + ".moved_furniture",
           "furniture can be moved in generated worlds alone: a mesh does not say which of its triangles are a piece of "
           "furniture");
+    check_kidnapping(entry(index), mission.faults);
+  }
+
+  /// Where the robot will be is not known; that there is no spot far enough from any other may be.
+  void check_kidnapping(const std::string& where, const std::vector<wire::ScenarioFault>& faults) {
+    for (std::size_t i = 0; i < faults.size(); ++i) {
+      if (faults[i].kind == "kidnapped" && is_tour_small())
+        add(where + ".faults[" + std::to_string(i) + "]",
+            "the tour goes nowhere that is 4 m from all else to put a kidnapped robot");
+    }
+  }
+
+  [[nodiscard]] bool is_tour_small() {
+    if (is_tour_small_) return *is_tour_small_;
+    is_tour_small_ = false;  // of a tour that cannot be made, other things are said
+    if (const auto stops = sim::plan_tour(world_, scenario_.tour_rooms, scenario_.tour_step_m)) {
+      Eigen::Array2d least_m = Eigen::Array2d::Constant(1e9);
+      Eigen::Array2d most_m = -least_m;
+      for (const sim::TourStop& stop : *stops) {
+        least_m = least_m.min(Eigen::Array2d(stop.pose.x_m, stop.pose.y_m));
+        most_m = most_m.max(Eigen::Array2d(stop.pose.x_m, stop.pose.y_m));
+      }
+      is_tour_small_ = (most_m - least_m).matrix().norm() < kLeastLift_m;
+    }
+    return *is_tour_small_;
   }
 
   /// Each mission by its own seed, so that none is refused here that would find a start.
@@ -128,6 +156,7 @@ class Checker {
   std::map<std::string, Eigen::Vector2d> rooms_;  // their points, metres
   std::vector<std::string> visited_;              // rooms of the world that the tour visits, each once
   std::map<std::pair<std::string, std::string>, bool> joined_;
+  std::optional<bool> is_tour_small_;
   std::vector<ScenarioProblem> problems_;
 };
 

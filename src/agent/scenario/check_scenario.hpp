@@ -19,8 +19,9 @@ struct ScenarioProblem {
 
 /// All that is wrong with a scenario and can be known before a picture of its world is rendered: rooms that there are
 /// not, ways that there are not, destinations that the tour does not visit, light without lamps, furniture that cannot
-/// be moved, rooms that the robot does not fit into. Empty: all well. In the order of the file's keys.
-/// Not known before: whether the robot fits at a room's point once furniture has been moved.
+/// be moved, rooms that the robot does not fit into, tours too small to kidnap a robot on. Empty: all well. Those
+/// of tour and missions come first, then those of starts. Not known before: whether the robot fits at a room's point
+/// once furniture has been moved.
 std::vector<ScenarioProblem> check_scenario(const wire::ScenarioFile& scenario, const sim::World& world);
 
 /// The problems as one error that names each with its place. Precondition: there is one.

@@ -31,7 +31,8 @@ DriveLoop::DriveLoop(SimulatedRobot& robot, const pipeline::Eye& eye, FaultSched
       config_(config),
       listener_(listener),
       recorder_(recorder),
-      box_done_(faults_.all().size(), false) {}
+      box_done_(faults_.all().size(), false),
+      lift_done_(faults_.all().size(), false) {}
 
 Status DriveLoop::run(wire::MissionOrder order, std::vector<Eigen::Vector2d> way_m) {
   order_ = std::move(order);
@@ -87,12 +88,14 @@ Status DriveLoop::cycle() {
   const bool frozen = on("agent_frozen");
   const bool link_up = !on("link_lost");
   place_boxes();
+  if (const Status kidnapped = kidnap(); !kidnapped) return kidnapped;
   robot_.slip(faults_.share("wheel_slip", elapsed_s()));
   if (!frozen) {
     const bool was_driving = state_.drive == wire::DriveState::kDriving;
     const auto outputs = step_once(link_up);
     if (!outputs) return pass_on(outputs);
     if (was_driving && !state_.reason.empty()) stops_.push_back({elapsed_s(), state_.reason, {}});
+    listen_for_doubt();
     if (state_.drive != wire::DriveState::kDriving && state_.drive != wire::DriveState::kArrived && !moves(robot_))
       halted_ = true;
     if (listener_.cycled) listener_.cycled(trace(*outputs));
@@ -153,6 +156,31 @@ void DriveLoop::place_boxes() {
   std::vector<sim::Box> standing;
   for (const auto& [number, box] : boxes_) standing.push_back(box);
   robot_.set_boxes(std::move(standing));
+}
+
+/// Lifts the robot and puts it down elsewhere, once it is under way.
+Status DriveLoop::kidnap() {
+  const std::vector<wire::ScenarioFault>& all = faults_.all();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool is_due = all[i].kind == "kidnapped" && !lift_done_[i] && elapsed_s() >= all[i].at_s;
+    if (!is_due || !elsewhere_ || state_.drive != wire::DriveState::kDriving) continue;
+    lift_done_[i] = true;
+    const auto spot = elsewhere_();
+    if (!spot) return pass_on(spot);
+    if (!*spot && listener_.told) listener_.told("not kidnapped: there is no other spot with room for the robot");
+    if (!*spot) continue;
+    robot_.carry_to(**spot);
+    kidnapped_at_s_ = elapsed_s();
+    told_after_s_.reset();
+  }
+  return {};
+}
+
+/// Whoever takes itself to have arrived has no doubt, whatever else it says.
+void DriveLoop::listen_for_doubt() {
+  if (!kidnapped_at_s_ || told_after_s_ || state_.drive == wire::DriveState::kArrived) return;
+  if (state_.drive != wire::DriveState::kDriving || !state_.reason.empty())
+    told_after_s_ = elapsed_s() - *kidnapped_at_s_;
 }
 
 void DriveLoop::move(bool frozen) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -23,6 +24,9 @@ struct DrivenPicture {
   Pose2 odometry;
 };
 
+/// Where a robot is put that is lifted in mid-mission. Nothing: there is no such spot.
+using Elsewhere = std::function<Result<std::optional<Pose2>>()>;
+
 /// The loop of one mission: world, sensors and heart, cycle by cycle, and the house that permits it, with all that goes
 /// wrong. The robot's base brakes by itself 0.1 s after the last command.
 class DriveLoop {
@@ -31,6 +35,8 @@ class DriveLoop {
   DriveLoop(SimulatedRobot& robot, const pipeline::Eye& eye, FaultSchedule faults, const DrivingConfig& config,
             const ScenarioListener& listener, Recorder* recorder);
 
+  /// What a fault "kidnapped" asks where to; without it there is none.
+  void kidnap_to(Elsewhere elsewhere) { elsewhere_ = std::move(elsewhere); }
   /// Drives an order, numbered later than all before, until the robot stands, however that came about.
   /// `way_m`: the true places of its pictures, one for each place and the destination's own; may be empty.
   Status run(wire::MissionOrder order, std::vector<Eigen::Vector2d> way_m = {});
@@ -47,6 +53,11 @@ class DriveLoop {
   [[nodiscard]] int moved_after_stop() const { return moved_after_stop_; }
   /// Whether somebody pressed stop.
   [[nodiscard]] bool stopped_by_hand() const { return stopped_by_hand_; }
+  /// When the robot was lifted and put down elsewhere, the last time.
+  [[nodiscard]] const std::optional<double>& kidnapped_at_s() const { return kidnapped_at_s_; }
+  /// How long after that it gave up, or said that something is wrong. Nothing: never, or it took itself to have
+  /// arrived.
+  [[nodiscard]] const std::optional<double>& told_after_s() const { return told_after_s_; }
   /// About the last seconds' pictures, one a second, oldest first.
   [[nodiscard]] const std::deque<DrivenPicture>& pictures() const { return pictures_; }
 
@@ -55,6 +66,8 @@ class DriveLoop {
   Result<Outputs> step_once(bool link_up);
   void hear_the_house(bool link_up);
   void place_boxes();
+  Status kidnap();
+  void listen_for_doubt();
   void move(bool frozen);
   void close_stop();
   [[nodiscard]] bool on(const char* kind) const { return faults_.active(kind, elapsed_s()); }
@@ -75,6 +88,10 @@ class DriveLoop {
   std::optional<DrivenPicture> newest_;
   std::vector<std::pair<std::size_t, sim::Box>> boxes_;  // by the number of their fault
   std::vector<bool> box_done_;
+  std::vector<bool> lift_done_;
+  Elsewhere elsewhere_;
+  std::optional<double> kidnapped_at_s_;
+  std::optional<double> told_after_s_;
   Milliseconds now_ms_ = 0;
   double commanded_s_ = 0.0;  // the last command that reached the base
   double heard_s_ = 0.0;      // when the house last heard of the agent

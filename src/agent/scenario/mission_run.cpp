@@ -8,6 +8,7 @@
 #include "agent/recording/recorder.hpp"
 #include "agent/scenario/drive_loop.hpp"
 #include "agent/scenario/house.hpp"
+#include "agent/scenario/look_alike_spot.hpp"
 #include "agent/scenario/starting_pose.hpp"
 #include "core/angles.hpp"
 #include "sim/floor.hpp"
@@ -33,6 +34,8 @@ MissionResult result_of(DriveLoop& drive) {
   result.duration_s = ended_s;
   result.vectors_per_s = drive.vectors() / std::max(kCycle_s, ended_s);
   result.moved_after_stop = drive.moved_after_stop();
+  result.kidnapped_at_s = drive.kidnapped_at_s();
+  result.told_after_s = drive.told_after_s();
   return result;
 }
 
@@ -140,6 +143,7 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
       recorder = std::move(*created);
     }
     DriveLoop drive(*robot, *eye, FaultSchedule(plan.faults), config, listener, recorder.get());
+    drive.kidnap_to([&] { return look_alike_spot(taught, *robot, *eye); });
     auto driven = drive_mission(drive, *house, *order);
     if (!driven) return pass_on(driven);
     result = std::move(*driven);

@@ -18,7 +18,7 @@ namespace homeward::agent {
 class Recorder;
 
 /// Drives one order in simulated time with the agent's own heart, until it stands; how it went, but for the truth
-/// about where it came to (see judge). Of the plan, the faults count.
+/// about where it came to (see judge). Of the plan, the faults count, all but "kidnapped".
 /// `recorder`, or null: records it.
 Result<MissionResult> drive_order(SimulatedRobot& robot, const pipeline::Eye& eye, const wire::MissionOrder& order,
                                   const MissionPlan& plan, const DrivingConfig& config,

@@ -38,6 +38,10 @@ struct MissionResult {
   int detours = 0;           // orders that were given anew after a drive had failed
   int moved_after_stop = 0;  // control cycles with motion between a stop and the next order
   int moved_furniture = 0;   // pieces that stood elsewhere than in the tour
+  /// When it was lifted and put down elsewhere.
+  std::optional<double> kidnapped_at_s;
+  /// From then until it gave up or said that something is wrong. Nothing: never.
+  std::optional<double> told_after_s;
 };
 
 /// One control cycle of a mission, for whoever wants to see why it went as it did.

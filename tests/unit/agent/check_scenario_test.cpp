@@ -156,6 +156,18 @@ TEST(CheckScenario, KnowsThatFurnitureOfAMeshCannotBeMoved) {
               ElementsAre(HasSubstr("missions[0].moved_furniture: furniture can be moved in generated worlds alone")));
 }
 
+TEST(CheckScenario, KnowsThatASmallTourHasNoOtherSpotForAKidnappedRobot) {
+  EXPECT_THAT(problems_when([](auto& scenario) {
+                scenario.missions[0].faults = {{"stop", 9.0}, {"kidnapped", 5.0}};
+              }),
+              ElementsAre(HasSubstr("missions[0].faults[1]: the tour goes nowhere")));
+  wire::ScenarioFile house = there_and_back();
+  house.tour_rooms = {"hall", "kitchen"};
+  house.missions = {random_missions(1)};
+  house.missions[0].faults = {{"kidnapped", 5.0}};
+  EXPECT_THAT(problems(house, sim::generate_house(1)), IsEmpty());
+}
+
 TEST(CheckScenario, NamesARobotThatDoesNotFit) {
   sim::World narrow = box_world();
   fill(narrow, 0.1, 2.0);

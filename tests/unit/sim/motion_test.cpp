@@ -49,6 +49,25 @@ TEST(Vehicle, DrivesAnArcAsItIsTold) {
   EXPECT_NEAR(vehicle.path_m(), 0.4, 1e-9);
 }
 
+TEST(Vehicle, IsCarriedWithoutItsOdometryNoticing) {
+  const World world = homeward::testing::box_world();
+  const Obstacles obstacles(world);
+  Vehicle vehicle(disc_profile(), {-1.2, 0.7, 0.0}, 1);
+  for (int k = 0; k < 20; ++k) vehicle.advance(kTick_s, {0.4, 0.0}, obstacles, {});
+  const Pose2 odometry = vehicle.odometry();
+  const double path_m = vehicle.path_m();
+  vehicle.carry_to({1.0, -0.8, 2.0});
+  EXPECT_DOUBLE_EQ(vehicle.pose().x_m, 1.0);
+  EXPECT_DOUBLE_EQ(vehicle.pose().y_m, -0.8);
+  EXPECT_DOUBLE_EQ(vehicle.pose().theta_rad, 2.0);
+  EXPECT_DOUBLE_EQ(vehicle.odometry().x_m, odometry.x_m);
+  EXPECT_DOUBLE_EQ(vehicle.odometry().theta_rad, odometry.theta_rad);
+  vehicle.advance(kTick_s, {0.4, 0.0}, obstacles, {});
+  EXPECT_LT(std::hypot(vehicle.odometry().x_m - odometry.x_m, vehicle.odometry().y_m - odometry.y_m), 0.01);
+  EXPECT_LT(vehicle.path_m() - path_m, 0.01) << "the lift is no way driven";
+  EXPECT_EQ(vehicle.collisions(), 0);
+}
+
 TEST(Vehicle, NeverPassesThroughWallsAndCountsOneCollision) {
   const World world = homeward::testing::box_world();
   const Obstacles obstacles(world);
