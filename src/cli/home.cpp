@@ -6,10 +6,14 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "cli/command.hpp"
 #include "cli/picture_pairs.hpp"
+#include "db/map_file.hpp"
 #include "homing/scale_space.hpp"
+#include "pipeline/grow_map.hpp"
+#include "pipeline/targets_of_map.hpp"
 
 namespace homeward::cli {
 namespace {
@@ -19,18 +23,26 @@ namespace fs = std::filesystem;
 struct HomeOptions {
   PicturePairs pairs;
   std::string method = "epipolar";
+  std::string map;
   bool uncertain = false;
   std::uint64_t seed = 1;
 };
 
 using AppearanceGallery = Gallery<features::Appearance>;  // some 50 kB each
+constexpr std::size_t kMostKept = 2000;
+
+/// BothEnds to come from, and pictures to go to, which may know what is common in a map: without one, the same.
+struct BothEnds {
+  AppearanceGallery& current;
+  AppearanceGallery& target;
+};
 
 /// What is not known is null; a pair without an answer says why.
-Status answer(AppearanceGallery& gallery, const std::string& current, const std::string& target, const fs::path& folder,
+Status answer(const BothEnds& ends, const std::string& current, const std::string& target, const fs::path& folder,
               const HomeOptions& options) {
-  const auto here = gallery.look(folder / current);
+  const auto here = ends.current.look(folder / current);
   if (!here) return pass_on(here);
-  const auto there = gallery.look(folder / target);
+  const auto there = ends.target.look(folder / target);
   if (!there) return pass_on(there);
   const auto begin = std::chrono::steady_clock::now();
   const auto vector = options.method == "scale-space" ? homing::scale_space_vector(**here, **there, {})
@@ -54,6 +66,30 @@ Status answer(AppearanceGallery& gallery, const std::string& current, const std:
   return {};
 }
 
+Status answer_pairs(const BothEnds& ends, const HomeOptions& options) {
+  return answer_each(options.pairs, "home",
+                     [&](const std::string& current, const std::string& target, const fs::path& folder) {
+                       return answer(ends, current, target, folder, options);
+                     });
+}
+
+Status answer_by_map(AppearanceGallery& current, const HomeOptions& options) {
+  const auto stored = db::load_map(options.map);
+  if (!stored) return pass_on(stored);
+  const auto config = agent::read_camera(options.pairs.camera);
+  if (!config) return pass_on(config);
+  auto eye = pipeline::eye_for(stored->map, *config);
+  if (!eye) return pass_on(eye);
+  const pipeline::TargetsOfMap targets(stored->map);
+  const auto look = [&](const pipeline::Eye& by, const Image& picture) {
+    auto seen = by.look(picture);
+    if (seen) targets.ask(*seen);
+    return seen;
+  };
+  AppearanceGallery target(std::move(*eye), look, kMostKept);
+  return answer_pairs({current, target}, options);
+}
+
 Status home(const HomeOptions& options) {
   if (options.method != "epipolar" && options.method != "scale-space") {
     return fail(ErrorCode::kInvalidInput,
@@ -62,15 +98,14 @@ Status home(const HomeOptions& options) {
   if (options.uncertain && options.method != "epipolar") {
     return fail(ErrorCode::kInvalidInput, "Only the epipolar method knows what may be chance.", "--uncertain");
   }
+  if (!options.map.empty() && options.method != "epipolar") {
+    return fail(ErrorCode::kInvalidInput, "Only the epipolar method asks a map what is common.", "--map");
+  }
   auto eye = eye_of(options.pairs);
   if (!eye) return pass_on(eye);
-  constexpr std::size_t kMost = 2000;
   AppearanceGallery gallery(
-      std::move(*eye), [](const pipeline::Eye& by, const Image& picture) { return by.look(picture); }, kMost);
-  return answer_each(options.pairs, "home",
-                     [&](const std::string& current, const std::string& target, const fs::path& folder) {
-                       return answer(gallery, current, target, folder, options);
-                     });
+      std::move(*eye), [](const pipeline::Eye& by, const Image& picture) { return by.look(picture); }, kMostKept);
+  return options.map.empty() ? answer_pairs({gallery, gallery}, options) : answer_by_map(gallery, options);
 }
 
 }  // namespace
@@ -81,6 +116,7 @@ void register_home(CLI::App& program) {
   const auto options = std::make_shared<HomeOptions>();
   add_picture_pairs(*command, options->pairs);
   command->add_option("--method", options->method, "epipolar or scale-space")->capture_default_str();
+  command->add_option("--map", options->map, "Map file: what is common in its building says little (epipolar)");
   command->add_flag("--uncertain", options->uncertain,
                     "Also answer where what was found may be chance, with a confidence of 0.02 (epipolar)");
   command->add_option("--seed", options->seed, "Seed of everything random");

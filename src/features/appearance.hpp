@@ -33,6 +33,9 @@ struct FeatureSet {
   Eigen::VectorXf scales_rad;                                         // N, size of the feature seen from the camera
   Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> descriptors;  // N x D
   Eigen::Matrix<std::int8_t, Eigen::Dynamic, 3, Eigen::RowMajor> colours;  // N x 3, C_RG C_RB C_GB times 127; kNoColour
+  // N, how many places of the map far from the one that the picture shows have its like (matching/distinctiveness.hpp),
+  // 255 for more. Empty: no map has been asked.
+  std::vector<std::uint8_t> document_frequency;
 
   [[nodiscard]] int size() const { return static_cast<int>(bearings.rows()); }
 };

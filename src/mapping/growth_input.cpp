@@ -52,6 +52,7 @@ Result<GrowthInput> growth_input(const map::TopologicalMap& old, NewTours tours)
                                                            : old.images[static_cast<std::size_t>(prototype->second)]);
       input.tour_of.push_back(tour++);
       input.appearances.push_back(appearance);
+      input.appearances.back().sift.document_frequency.clear();  // what grows is counted anew
       input.place_of_anchor.push_back(static_cast<int>(p));
     }
   }

@@ -135,12 +135,14 @@ void keep_first(features::FeatureSet& set, int most) {
   set.scales_rad.conservativeResize(count);
   set.descriptors.conservativeResize(count, Eigen::NoChange);
   set.colours.conservativeResize(count, Eigen::NoChange);
+  if (!set.document_frequency.empty()) set.document_frequency.resize(static_cast<std::size_t>(count));
 }
 
 std::int64_t kept_bytes(const features::FeatureSet& set) {
   constexpr std::int64_t kHeader = 8;
   constexpr std::int64_t kBearingScaleColour = 9;
-  return kHeader + static_cast<std::int64_t>(set.size()) * (kBearingScaleColour + set.descriptors.cols());
+  const std::int64_t frequency = set.document_frequency.empty() ? 0 : 1;
+  return kHeader + static_cast<std::int64_t>(set.size()) * (kBearingScaleColour + set.descriptors.cols() + frequency);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/angles.hpp"
+#include "matching/distinctiveness.hpp"
 
 namespace homeward::matching {
 namespace {
@@ -33,7 +34,8 @@ double share_of_circle(std::vector<double> azimuths_rad) {
 }  // namespace
 
 ConfidenceSigns signs_of(const geometry::PlanarEstimate& estimate, std::span<const Match> matches,
-                         std::span<const geometry::Correspondence> correspondences) {
+                         std::span<const geometry::Correspondence> correspondences,
+                         const features::FeatureSet* target) {
   ConfidenceSigns signs;
   signs.lead = estimate.lead;
   signs.median_parallax_rad = estimate.median_parallax_rad;
@@ -54,6 +56,7 @@ ConfidenceSigns signs_of(const geometry::PlanarEstimate& estimate, std::span<con
     signs.disagreeing +=
         std::clamp((kAmbiguous - static_cast<double>(matches[i].ratio)) / (kAmbiguous - kUnmistakable), 0.0, 1.0);
   }
+  if (target != nullptr) signs.distinct_share = distinct_share(estimate.inliers, matches, *target);
   return signs;
 }
 
@@ -64,7 +67,8 @@ double confidence(const ConfidenceSigns& signs) {
   const double parallax = std::log(std::clamp(degrees(signs.median_parallax_rad), 0.5, 10.0) / 10.0);
   const double log_odds = 5.69 + 0.23 * std::log(std::max(1.0, signs.lead)) + 9.86 * signs.around - 3.27 * disagreeing +
                           1.86 * parallax * signs.around;
-  return 1.0 / (1.0 + std::exp(-log_odds));
+  const double in_two_views = 1.0 / (1.0 + std::exp(-log_odds));
+  return signs.distinct_share ? in_two_views * not_elsewhere(*signs.distinct_share) : in_two_views;
 }
 
 }  // namespace homeward::matching

@@ -68,7 +68,7 @@ Result<VerifiedMatch> verify(const features::Appearance& current, const features
   verified.pose.motion = estimate->motion;
   verified.pose.inliers = estimate->inliers;
   verified.pose.correspondences = static_cast<int>(verified.matches.size());
-  verified.pose.confidence = confidence(signs_of(*estimate, verified.matches, pairs));
+  verified.pose.confidence = confidence(signs_of(*estimate, verified.matches, pairs, &target.sift));
   verified.pose.median_parallax_rad = estimate->median_parallax_rad;
   return verified;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <unordered_set>
 
+#include "mapping/common_features.hpp"
 #include "mapping/compare_all.hpp"
 #include "mapping/map_builder.hpp"
 #include "mapping/parallel.hpp"
@@ -239,6 +240,9 @@ Result<BuiltMap> build_noted_map(const std::vector<const TourSource*>& tours, co
                                              stage("places", kBeforeLast, 1.0 - kBeforeLast), stop);
   if (!calibration) return pass_on(calibration);
   map.calibration = *calibration;
+  if (!mapping::count_common_features(map, {}, options.threads, stop)) {
+    return fail(ErrorCode::kCancelled, "The build was cancelled.");
+  }
   stage("places", 1.0, 0.0)(0.0);
   return BuiltMap{std::move(made.map),
                   {pictures->tour_of, std::move(*appearances), std::move(*pairs), std::move(made.notes),

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "mapping/common_features.hpp"
 #include "mapping/growth_input.hpp"
 #include "pipeline/eye.hpp"
 #include "pipeline/learn_calibration.hpp"
@@ -84,6 +85,9 @@ Result<ToursAdded> add_tours(const map::TopologicalMap& old, const std::vector<c
                                                stage("places", kBeforeLast, 1.0 - kBeforeLast), stop);
   if (!calibration) return pass_on(calibration);
   result.grown.map.calibration = *calibration;
+  if (!mapping::count_common_features(result.grown.map, {}, options.threads, stop)) {
+    return fail(ErrorCode::kCancelled, "Adding to the map was cancelled.");
+  }
   stage("places", 1.0, 0.0)(0.0);
   return result;
 }

@@ -12,6 +12,7 @@
 #include "localisation/localiser.hpp"
 #include "map/graph.hpp"
 #include "map/lookup.hpp"
+#include "mapping/common_features.hpp"
 #include "mapping/compare_all.hpp"
 #include "mapping/parallel.hpp"
 #include "pipeline/eye.hpp"
@@ -145,6 +146,7 @@ Result<RefinedBySights> refine_by_sights(const map::TopologicalMap& map, std::sp
       mapping::refine_places(result.map, sightings, options.refine, options.spare_bytes, options.threads, stop);
   if (!refined) return pass_on(refined);
   result.refinement = std::move(*refined);
+  if (!mapping::count_common_features(result.map, {}, options.threads, stop)) return cancelled();
   return result;
 }
 

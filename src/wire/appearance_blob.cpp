@@ -12,7 +12,10 @@ namespace homeward::wire {
 namespace {
 
 constexpr char kMagic[4] = {'H', 'W', 'A', 'P'};
-constexpr std::uint16_t kVersion = 2;
+constexpr std::uint16_t kVersion = 3;
+/// Does not say how frequent features are; still what is written of an appearance that does not know it.
+constexpr std::uint16_t kVersionWithoutFrequency = 2;
+constexpr std::uint16_t kFrequenciesFollow = 1;
 constexpr std::uint16_t kMaxDescriptorBytes = 1024;
 constexpr double kAzimuthUnitsPerRad = 32768.0 / kPi;  // wraps as the number does
 constexpr double kElevationUnitsPerRad = 32767.0 / (0.5 * kPi);
@@ -22,7 +25,7 @@ void put_set(ByteWriter& writer, const features::FeatureSet& set) {
   const auto count = static_cast<std::size_t>(set.size());
   writer.put(static_cast<std::uint32_t>(count));
   writer.put(static_cast<std::uint16_t>(set.descriptors.cols()));
-  writer.put(std::uint16_t{0});
+  writer.put(set.document_frequency.empty() ? std::uint16_t{0} : kFrequenciesFollow);
   for (Eigen::Index i = 0; i < set.bearings.rows(); ++i) {
     const Eigen::RowVector3d bearing = set.bearings.row(i).cast<double>();
     const double azimuth_rad = std::atan2(bearing.y(), bearing.x());
@@ -37,18 +40,21 @@ void put_set(ByteWriter& writer, const features::FeatureSet& set) {
   }
   writer.put(set.descriptors.data(), static_cast<std::size_t>(set.descriptors.size()));
   writer.put(set.colours.data(), static_cast<std::size_t>(set.colours.size()));
+  writer.put(set.document_frequency.data(), set.document_frequency.size());
 }
 
-Status get_set(ByteReader& reader, features::FeatureSet& set, const std::string& where) {
+Status get_set(ByteReader& reader, std::uint16_t version, features::FeatureSet& set, const std::string& where) {
   const auto too_short = [&] { return fail(ErrorCode::kCorruptFile, "The appearance ends too early.", where); };
   std::uint32_t count = 0;
   std::uint16_t dimension = 0;
-  std::uint16_t zero = 0;
-  if (!reader.get(&count, 1) || !reader.get(&dimension, 1) || !reader.get(&zero, 1)) return too_short();
+  std::uint16_t flags = 0;
+  if (!reader.get(&count, 1) || !reader.get(&dimension, 1) || !reader.get(&flags, 1)) return too_short();
+  const bool frequencies_follow = version != kVersionWithoutFrequency && flags == kFrequenciesFollow;
   if (count > kMaxBlobFeatures || dimension > kMaxDescriptorBytes) {
     return fail(ErrorCode::kCorruptFile, "The appearance claims more features than the limit.", where);
   }
-  const std::size_t feature_bytes = 2 * sizeof(std::int16_t) + sizeof(std::uint16_t) + dimension + 3;
+  const std::size_t feature_bytes =
+      2 * sizeof(std::int16_t) + sizeof(std::uint16_t) + dimension + 3 + (frequencies_follow ? 1 : 0);
   if (reader.left() < count * feature_bytes) return too_short();
 
   const auto rows = static_cast<Eigen::Index>(count);
@@ -58,9 +64,11 @@ Status get_set(ByteReader& reader, features::FeatureSet& set, const std::string&
   set.scales_rad.resize(rows);
   set.descriptors.resize(rows, dimension);
   set.colours.resize(rows, 3);
+  set.document_frequency.resize(frequencies_follow ? count : 0);
   const bool complete = reader.get(angles.data(), angles.size()) && reader.get(scales.data(), scales.size()) &&
                         reader.get(set.descriptors.data(), static_cast<std::size_t>(set.descriptors.size())) &&
-                        reader.get(set.colours.data(), static_cast<std::size_t>(set.colours.size()));
+                        reader.get(set.colours.data(), static_cast<std::size_t>(set.colours.size())) &&
+                        reader.get(set.document_frequency.data(), set.document_frequency.size());
   if (!complete) return too_short();
   for (Eigen::Index i = 0; i < rows; ++i) {
     const auto at = static_cast<std::size_t>(2 * i);
@@ -79,8 +87,9 @@ Status get_set(ByteReader& reader, features::FeatureSet& set, const std::string&
 
 std::vector<std::uint8_t> encode_appearance(const features::Appearance& appearance) {
   ByteWriter writer;
+  const bool knows = !appearance.sift.document_frequency.empty() || !appearance.columns.document_frequency.empty();
   writer.put(kMagic, 4);
-  writer.put(kVersion);
+  writer.put(knows ? kVersion : kVersionWithoutFrequency);
   writer.put(std::uint16_t{0});
   writer.put(appearance.colour_moments.data(), appearance.colour_moments.size());
   put_set(writer, appearance.sift);
@@ -99,10 +108,11 @@ Result<features::Appearance> decode_appearance(std::span<const std::uint8_t> byt
   if (!reader.get(&version, 1) || !reader.get(&zero, 1)) {
     return fail(ErrorCode::kCorruptFile, "The appearance ends too early.", where);
   }
-  if (version != kVersion) {
+  if (version != kVersion && version != kVersionWithoutFrequency) {
     return fail(ErrorCode::kUnsupportedFormat,
-                "The appearance has version " + std::to_string(version) + "; this program reads version " +
-                    std::to_string(kVersion) + ". Rebuild the map from the kept images.",
+                "The appearance has version " + std::to_string(version) + "; this program reads versions " +
+                    std::to_string(kVersionWithoutFrequency) + " and " + std::to_string(kVersion) +
+                    ". Rebuild the map from the kept images.",
                 where);
   }
   features::Appearance appearance;
@@ -113,7 +123,7 @@ Result<features::Appearance> decode_appearance(std::span<const std::uint8_t> byt
                                   [](float moment) { return std::isfinite(moment); });
   if (!finite) return fail(ErrorCode::kCorruptFile, "A colour moment is not a number.", where);
   for (features::FeatureSet* set : {&appearance.sift, &appearance.columns}) {
-    const Status status = get_set(reader, *set, where);
+    const Status status = get_set(reader, version, *set, where);
     if (!status) return pass_on(status);
   }
   if (reader.left() != 0) {

@@ -6,7 +6,8 @@ usage: run.py [--bin DIR] [--data DIR] [--judges DIR] [--only PART,...] [--json 
 
 Runs the program `homeward` on the developers' data and has its answers judged by the scripts beside that data; what is
 not there is skipped and named. The look-alike offices are rendered by the program itself and need no data. The parts
-`codes` and `budget` (budget.py) take many minutes, have no bounds and are run only by name. Exit code: 0 when every bound
+`codes` and `budget` (budget.py), `real_pairs`, `rendered_home`, `look_alike_offices` and `look_alike_wards`
+(distinctiveness.py) take minutes and are run only by name. Exit code: 0 when every bound
 that could be measured holds, 1 when one does not, 2 when something does not run.
 """
 
@@ -22,6 +23,7 @@ import sys
 import tempfile
 
 import budget
+import distinctiveness
 import places
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
@@ -212,8 +214,15 @@ PARTS = {
     "foreign": places.foreign,
     "real_tours": places.real_tours,
 }
-# Run only by name: minutes each, and no bounds.
-BY_NAME = {"codes": budget.codes, "budget": budget.budget}
+# Run only by name: minutes each.
+BY_NAME = {
+    "codes": budget.codes,
+    "budget": budget.budget,
+    "real_pairs": distinctiveness.real_pairs,
+    "rendered_home": distinctiveness.rendered_home,
+    "look_alike_offices": distinctiveness.look_alike_offices,
+    "look_alike_wards": distinctiveness.look_alike_wards,
+}
 
 
 def shown(value):

@@ -142,7 +142,7 @@ TEST_F(MapFile, RefusesOtherDatabasesNewerVersionsAndDanglingReferences) {
   change("UPDATE edges SET length_from = 9");
   EXPECT_THAT(load_map(file()).error().message, ::testing::HasSubstr("unknown source"));
   forget_checksum();
-  for (const auto& [version, what] : {std::pair("1", "Rebuild the map"), std::pair("4", "A newer Homeward wrote it")}) {
+  for (const auto& [version, what] : {std::pair("1", "Rebuild the map"), std::pair("5", "A newer Homeward wrote it")}) {
     change(std::string("PRAGMA user_version = ") + version);
     const auto refused = load_map(file());
     ASSERT_FALSE(refused);

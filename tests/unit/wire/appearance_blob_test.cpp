@@ -27,6 +27,24 @@ TEST(AppearanceBlob, GivesTheSameBytesWhenEncodedAgain) {
   EXPECT_EQ(encode_appearance(*decode_appearance(bytes, "test")), bytes);
 }
 
+TEST(AppearanceBlob, KeepsDocumentFrequenciesAndIsAsBeforeWithoutThem) {
+  features::Appearance before = random_appearance(40, 5);
+  const std::vector<std::uint8_t> without = encode_appearance(before);
+  EXPECT_EQ(without[4], 2);
+  EXPECT_TRUE(decode_appearance(without, "test")->sift.document_frequency.empty());
+  for (int i = 0; i < 40; ++i) before.sift.document_frequency.push_back(static_cast<std::uint8_t>(6 * i));
+  std::vector<std::uint8_t> bytes = encode_appearance(before);
+  EXPECT_EQ(bytes.size(), without.size() + 40);
+  const auto after = decode_appearance(bytes, "test");
+  ASSERT_TRUE(after) << after.error().message;
+  EXPECT_EQ(after->sift.document_frequency, before.sift.document_frequency);
+  EXPECT_TRUE(after->columns.document_frequency.empty());
+  EXPECT_EQ(encode_appearance(*after), bytes);
+  for (std::size_t size = without.size() - 50; size < bytes.size(); ++size) {
+    EXPECT_FALSE(decode_appearance(std::span(bytes).first(size), "test")) << "at " << size << " bytes";
+  }
+}
+
 TEST(AppearanceBlob, BearingsStraightBehindWrap) {
   features::Appearance behind = random_appearance(2, 1);
   behind.sift.bearings << -1.0F, 1e-7F, 0.0F, -1.0F, -1e-7F, 0.0F;
@@ -53,7 +71,7 @@ TEST(AppearanceBlob, RefusesEveryTruncationAndAnyByteTooMany) {
 TEST(AppearanceBlob, RefusesOtherVersionsAndAHugeCountWithoutReservingMemory) {
   std::vector<std::uint8_t> bytes = encode_appearance(random_appearance(3, 1));
   std::vector<std::uint8_t> newer = bytes;
-  newer[4] = 3;
+  newer[4] = 4;
   EXPECT_EQ(decode_appearance(newer, "test").error().code, ErrorCode::kUnsupportedFormat);
   std::vector<std::uint8_t> older = bytes;
   older[4] = 1;
