@@ -13,7 +13,7 @@ namespace homeward::mapping {
 
 struct CommonFeaturesConfig {
   double far_m = 10.0;    // along edges; nearer places may see the same things
-  int far_hops = 8;       // the same where lengths are no metres
+  int far_hops = 12;      // the same where lengths are no metres
   int most_places = 128;  // compared with each place: of all that are far those that look most like it
 };
 

@@ -44,9 +44,9 @@ TEST(FarPlaces, AreTheLengthOfTheWayApart) {
 }
 
 TEST(FarPlaces, AreCountedInEdgesWhereLengthsAreNoMetres) {
-  map::TopologicalMap map = row_of(10, 4.0);
+  map::TopologicalMap map = row_of(14, 4.0);
   map.edges[4].length_from = map::LengthSource::kTourImages;
-  EXPECT_THAT(far_places(map, {})[0], ElementsAre(8, 9));
+  EXPECT_THAT(far_places(map, {})[0], ElementsAre(12, 13));
 }
 
 TEST(FarPlaces, AreJoinedAndNoLoopBetweenThemIsUndecided) {
