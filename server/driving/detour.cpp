@@ -5,6 +5,7 @@
 
 #include "map/lookup.hpp"
 #include "planning/detour.hpp"
+#include "planning/surroundings.hpp"
 #include "server/driving/driving.hpp"
 #include "wire/mission_order.hpp"
 
@@ -71,6 +72,8 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   });
   plan.order = destination != map.destinations.end() ? wire::order_for_route(map, places, *destination)
                                                      : wire::order_for_route(map, places);
+  const auto layout = maps_.layout(*loaded);
+  wire::add_surroundings(map, *layout, planning::surroundings(map, places, {}, *layout), plan.order);
   plan.mission.revision = map.revision;
   plan.mission.path = places;
   plan.again = detour->again;

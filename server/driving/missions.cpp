@@ -4,6 +4,7 @@
 #include "db/secrets.hpp"
 #include "map/lookup.hpp"
 #include "planning/route.hpp"
+#include "planning/surroundings.hpp"
 #include "server/auth/authenticator.hpp"
 #include "server/driving/driving.hpp"
 #include "wire/mission_order.hpp"
@@ -42,12 +43,16 @@ Status may_start(const RobotUnit& unit, const std::string& lease_id, SteadyTime 
 Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& request) {
   MapId map_id;
   PlaceId from;
+  double start_probability = 1.0;
+  std::vector<PlaceId> likely;
   {
     const std::scoped_lock lock(unit->mutex);
     const Status status = may_start(*unit, request.lease_id, std::chrono::steady_clock::now());
     if (!status) return pass_on(status);
     map_id = *unit->map;
     from = *unit->belief->place;
+    start_probability = unit->belief->probability.value_or(1.0);
+    for (const wire::PlaceShare& share : unit->belief->top) likely.push_back(share.place);
   }
   const auto loaded = maps_.load(map_id);
   if (!loaded) return pass_on(loaded);
@@ -73,6 +78,9 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
   if (!route) return pass_on(route);
   plan.order = destination != nullptr ? wire::order_for_route(map, route->places, *destination)
                                       : wire::order_for_route(map, route->places);
+  const auto layout = maps_.layout(*loaded);
+  wire::add_surroundings(map, *layout, planning::surroundings(map, route->places, likely, *layout), plan.order);
+  if (plan.order.surroundings) plan.order.surroundings->start_probability = start_probability;
   plan.mission.id = MissionId(db::random_id());
   plan.mission.robot = unit->id;
   plan.mission.map = map_id;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/services/maps.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
@@ -53,9 +54,24 @@ Result<LoadedMap> MapService::load(const MapId& id) {
   auto loaded = std::make_shared<const db::StoredMap>(std::move(*stored));
   const std::scoped_lock lock(mutex_);
   std::erase_if(cache_, [&](const Cached& entry) { return entry.id == id; });
-  cache_.push_back({id, loaded});
+  cache_.push_back({id, loaded, nullptr});
   if (cache_.size() > kMapsInMemory) cache_.pop_front();
   return LoadedMap(loaded);
+}
+
+std::shared_ptr<const map::MetricLayout> MapService::layout(const LoadedMap& loaded) {
+  const auto cached = [&]() -> Cached* {
+    const auto entry = std::ranges::find(cache_, loaded, &Cached::loaded);
+    return entry == cache_.end() ? nullptr : &*entry;
+  };
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const Cached* entry = cached(); entry != nullptr && entry->layout) return entry->layout;
+  }
+  auto layout = std::make_shared<const map::MetricLayout>(map::metric_layout(loaded->map));
+  const std::scoped_lock lock(mutex_);
+  if (Cached* entry = cached()) entry->layout = layout;
+  return layout;
 }
 
 Result<std::int64_t> MapService::change(const MapId& id, std::int64_t revision,

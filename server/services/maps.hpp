@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "db/store.hpp"
+#include "map/metric_layout.hpp"
 #include "server/ws/event_hub.hpp"
 #include "wire/belief_json.hpp"
 #include "wire/edit_json.hpp"
@@ -28,6 +29,8 @@ class MapService {
 
   /// The present revision; kept in memory while it is used. Errors: kNotFound, kConflict (not built yet).
   Result<LoadedMap> load(const MapId& id);
+  /// Where the pictures of a map were taken (map::metric_layout); computed once for a map that is in memory.
+  std::shared_ptr<const map::MetricLayout> layout(const LoadedMap& loaded);
   /// Applies all edits or none. Errors: kStaleRevision, kInvalidInput (kinds that this version does not apply), those
   /// of mapping::apply_edit. Returns the new revision.
   Result<std::int64_t> edit(const MapId& id, std::int64_t revision, const std::vector<wire::EditRequest>& edits,
@@ -56,6 +59,7 @@ class MapService {
   struct Cached {
     MapId id;
     LoadedMap loaded;
+    std::shared_ptr<const map::MetricLayout> layout = nullptr;  // null until it is asked for
   };
   db::Store& store_;
   EventHub& events_;

@@ -44,13 +44,17 @@ Hello read_hello(ObjectReader& reader) {
   return m;
 }
 
-std::optional<Pose2> read_odometry(ObjectReader& reader) {
-  if (!reader.has("odometry")) return std::nullopt;
-  ObjectReader inner(reader.value("odometry"), reader.path_of("odometry"));
+Pose2 read_pose(ObjectReader& reader, const json& value, const std::string& path) {
+  ObjectReader inner(value, path);
   const Pose2 pose{inner.number("x_m", -kFarthest_m, kFarthest_m), inner.number("y_m", -kFarthest_m, kFarthest_m),
                    inner.number("theta_rad", -kMostHeading_rad, kMostHeading_rad)};
-  if (const Status status = inner.finish(); !status) reader.take<int>(pass_on(status));
+  reader.close(inner);
   return pose;
+}
+
+std::optional<Pose2> read_odometry(ObjectReader& reader) {
+  if (!reader.has("odometry")) return std::nullopt;
+  return read_pose(reader, reader.value("odometry"), reader.path_of("odometry"));
 }
 
 Frame read_frame(ObjectReader& reader) {
@@ -100,6 +104,35 @@ std::optional<PathEdge> read_edge(ObjectReader& outer) {
   return edge;
 }
 
+std::optional<Surroundings> read_surroundings(ObjectReader& outer, std::size_t path_places) {
+  if (!outer.has("surroundings")) return std::nullopt;
+  ObjectReader reader(outer.value("surroundings"), outer.path_of("surroundings"));
+  Surroundings around;
+  const std::vector<json> path = reader.array("path", kMaxPathPlaces);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    around.path.push_back(read_pose(reader, path[i], reader.path_of("path") + "/" + std::to_string(i)));
+  }
+  if (path.size() != path_places)
+    reader.problem("path", "'path' must have a pose for each place of the mission's path.");
+  around.final_pose = read_pose(reader, reader.value("final"), reader.path_of("final"));
+  around.spread_m = reader.number("spread_m", 0.01, 100.0);
+  around.distance_scale = reader.number("distance_scale", 0.0, 1e6);
+  around.start_probability = reader.number("start_probability", 0.0, 1.0);
+  const std::vector<json> nearby = reader.array("nearby", kMaxPathPlaces);
+  for (std::size_t i = 0; i < nearby.size(); ++i) {
+    ObjectReader inner(nearby[i], reader.path_of("nearby") + "/" + std::to_string(i));
+    PlacedView view;
+    view.place = PlaceId(inner.text("place", 100));
+    view.image = ImageId(inner.text("image", 600));
+    view.map_from_view = read_pose(inner, inner.value("pose"), inner.path_of("pose"));
+    view.appearance = read_bytes(inner, "appearance");
+    reader.close(inner);
+    around.nearby.push_back(std::move(view));
+  }
+  outer.close(reader);
+  return around;
+}
+
 MissionOrder read_mission(ObjectReader& reader) {
   MissionOrder m;
   m.mission = MissionId(reader.text("mission", 100));
@@ -127,6 +160,7 @@ MissionOrder read_mission(ObjectReader& reader) {
   m.final_appearance = read_bytes(last, "appearance");
   m.dock = last.boolean("dock");
   if (const Status status = last.finish(); !status) reader.take<int>(pass_on(status));
+  m.surroundings = read_surroundings(reader, m.path.size());
   return m;
 }
 

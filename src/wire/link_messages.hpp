@@ -109,6 +109,24 @@ struct PathPlace {
   std::optional<PathEdge> next;          // nothing at the last place
 };
 
+/// A view of the map and where it was taken.
+struct PlacedView {
+  PlaceId place;
+  ImageId image;
+  Pose2 map_from_view;
+  std::vector<std::uint8_t> appearance;  // appearance_blob.hpp
+};
+
+/// The part of the map around a path, for the robot to know by itself where it is: its frame is this message's own.
+struct Surroundings {
+  std::vector<Pose2> path;         // of the prototypes of the path, as many
+  Pose2 final_pose;                // of the destination's own picture
+  double spread_m = 0.15;          // standard deviation of where a view lies among those around it
+  double distance_scale = 1.0;     // usual visual distance between pictures of one place
+  double start_probability = 1.0;  // that the robot is where the path begins
+  std::vector<PlacedView> nearby;  // not on the path: beside it, or looking like a place of it
+};
+
 struct MissionOrder {
   MissionId mission;
   Order order;
@@ -122,6 +140,7 @@ struct MissionOrder {
   ImageId final_image;
   std::vector<std::uint8_t> final_appearance;  // what arrival is measured to
   bool dock = false;                           // turn to the heading of final_image at the end
+  std::optional<Surroundings> surroundings;    // nothing where the map does not know where its places lie
 };
 
 struct Permit {

@@ -92,6 +92,25 @@ json edge_to_json(const std::optional<PathEdge>& edge) {
           {"weak", edge->weak}};
 }
 
+json pose_to_json(const Pose2& pose) { return {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"theta_rad", pose.theta_rad}}; }
+
+json surroundings_to_json(const Surroundings& around) {
+  json value = {{"path", json::array()},
+                {"final", pose_to_json(around.final_pose)},
+                {"spread_m", around.spread_m},
+                {"distance_scale", around.distance_scale},
+                {"start_probability", around.start_probability},
+                {"nearby", json::array()}};
+  for (const Pose2& pose : around.path) value["path"].push_back(pose_to_json(pose));
+  for (const PlacedView& view : around.nearby) {
+    value["nearby"].push_back({{"place", view.place.str()},
+                               {"image", view.image.str()},
+                               {"pose", pose_to_json(view.map_from_view)},
+                               {"appearance", json::binary(view.appearance)}});
+  }
+  return value;
+}
+
 json write(const MissionOrder& m) {
   json value = start("mission");
   value["mission"] = m.mission.str();
@@ -110,6 +129,7 @@ json write(const MissionOrder& m) {
                              {"next", edge_to_json(place.next)}});
   }
   value["final"] = {{"image", m.final_image.str()}, {"appearance", json::binary(m.final_appearance)}, {"dock", m.dock}};
+  if (m.surroundings) value["surroundings"] = surroundings_to_json(*m.surroundings);
   return value;
 }
 

@@ -47,4 +47,41 @@ MissionOrder order_for_route(const map::TopologicalMap& map, std::span<const Pla
   return order;
 }
 
+void add_surroundings(const map::TopologicalMap& map, const map::MetricLayout& layout, std::span<const PlaceId> nearby,
+                      MissionOrder& order) {
+  constexpr double kMeasured_m = 0.15;
+  constexpr double kGuessed_m = 0.6;
+  const auto final_at = layout.find(order.final_image);
+  if (final_at == layout.end()) return;
+  Surroundings around;
+  around.final_pose = final_at->second.map_from_robot;
+  around.distance_scale = map.motion.distance_scale;
+  around.spread_m = final_at->second.metric ? kMeasured_m : kGuessed_m;
+  const auto pose_of = [&](const ImageId& image) -> const map::LaidOutImage* {
+    const auto at = layout.find(image);
+    const bool known = at != layout.end() && at->second.component == final_at->second.component;
+    return known ? &at->second : nullptr;
+  };
+  for (const PathPlace& step : order.path) {
+    const map::LaidOutImage* at = pose_of(step.image);
+    if (at == nullptr) return;
+    around.path.push_back(at->map_from_robot);
+    if (!at->metric) around.spread_m = kGuessed_m;
+  }
+  // A mission too long to be read would be worse than one that knows less. A quarter is left for all but appearances.
+  constexpr std::size_t kMostBytes = kMaxLinkMessageBytes / 4 * 3;
+  std::size_t bytes = order.final_appearance.size();
+  for (const PathPlace& step : order.path) bytes += step.appearance.size();
+  for (const PlaceId& id : nearby) {
+    const map::Place& place = *map::find_place(map, id);
+    const map::LaidOutImage* at = pose_of(place.prototype);
+    if (at == nullptr) continue;
+    std::vector<std::uint8_t> appearance = encode_appearance(place.appearances.front());
+    bytes += appearance.size();
+    if (bytes > kMostBytes) break;
+    around.nearby.push_back({id, place.prototype, at->map_from_robot, std::move(appearance)});
+  }
+  order.surroundings = std::move(around);
+}
+
 }  // namespace homeward::wire

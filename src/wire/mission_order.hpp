@@ -3,10 +3,18 @@
 
 #include <span>
 
+#include "map/metric_layout.hpp"
 #include "map/topological_map.hpp"
 #include "wire/link_messages.hpp"
 
 namespace homeward::wire {
+
+/// Adds the part of the map around the path of an order made by order_for_route, so that the robot knows by itself
+/// where it is: `layout` (map::metric_layout of this map) and the places `nearby`, none of the route's. Nothing is
+/// added where the layout does not hold all of the path, and of `nearby`, most important first, no more than a message
+/// of the link may hold. Precondition: the places are in the map.
+void add_surroundings(const map::TopologicalMap& map, const map::MetricLayout& layout, std::span<const PlaceId> nearby,
+                      MissionOrder& order);
 
 /// The path part of a mission: the places of a route with their prototypes' appearances and what the map knows of the
 /// ways between them, and the destination's own picture, to whose heading the robot turns. Ids, order, permit and speed

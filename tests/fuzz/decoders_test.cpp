@@ -119,8 +119,14 @@ std::vector<Bytes> server_messages() {
   mission.path.back().next.reset();
   mission.final_image = ImageId("tour/2.jpg");
   mission.final_appearance = {4, 5};
+  wire::MissionOrder placed = mission;
+  placed.surroundings.emplace();
+  placed.surroundings->path = {{0.5, -1.25, 0.25}, {1.5, -1.0, -3.0}};
+  placed.surroundings->final_pose = {1.75, -1.0, 3.0};
+  placed.surroundings->nearby = {{PlaceId("p9"), ImageId("tour/9.jpg"), {2.0, 4.0, 1.5}, {6, 7}}};
   const std::vector<wire::ServerMessage> messages = {wire::Welcome{"homeward-server/0.1.0", RobotId("r1"), 3, 200},
                                                      mission,
+                                                     placed,
                                                      wire::Permit{MissionId("m1"), {3, 5}, 1500},
                                                      wire::StopOrder{"s1", 3, "", "anna"},
                                                      wire::BeliefReport{7, PlaceId("p1"), 0.5, false},

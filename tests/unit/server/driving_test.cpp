@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <set>
+
 #include "support/driving_fixture.hpp"
 
 namespace homeward::server {
@@ -97,6 +99,8 @@ TEST_F(DrivingTest, AMissionIsPermittedUntilItArrives) {
   EXPECT_EQ(order->path.size(), sent.json().at("path").size());
   EXPECT_FALSE(order->path.front().appearance.empty());
   EXPECT_FALSE(order->final_appearance.empty());
+  ASSERT_TRUE(order->surroundings) << "the robot is told where the places of its path lie";
+  EXPECT_EQ(order->surroundings->path.size(), order->path.size());
   wire::Order newest = order->order;
   for (int i = 0; i < 5; ++i) {
     agent.status(wire::DriveState::kDriving, order, 1);
@@ -185,6 +189,14 @@ TEST_F(DrivingTest, AFailedWayIsDrivenRoundWithoutAnotherTriedOnceMoreAndThenThe
   EXPECT_GT(second->order, first->order);
   EXPECT_EQ(second->path.back().place, first->path.back().place);
   EXPECT_NE(second->path[1].place, first->path[1].place);
+  ASSERT_TRUE(second->surroundings) << "on the other way as well";
+  EXPECT_EQ(second->surroundings->path.size(), second->path.size());
+  std::set<PlaceId> known;
+  for (const wire::PathPlace& place : second->path) known.insert(place.place);
+  for (const wire::PlacedView& view : second->surroundings->nearby) {
+    EXPECT_TRUE(known.insert(view.place).second) << view.place.str() << " is told of twice";
+  }
+  EXPECT_TRUE(known.contains(first->path[1].place)) << "what the first way led over lies beside it or looks alike";
   json now = mission_now(sent.json());
   EXPECT_EQ(now.at("state"), "accepted");
   EXPECT_EQ(now.at("seq"), second->order.seq);

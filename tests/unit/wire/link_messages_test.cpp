@@ -41,6 +41,18 @@ std::vector<AgentMessage> agent_messages() {
           Frame{8, 13, {0xFF}, Pose2{1.5, -2.25, 0.5}}};
 }
 
+Surroundings surroundings() {
+  Surroundings around;
+  around.path = {{1.5, -2.25, 0.5}, {2.5, -2.0, -3.125}};
+  around.final_pose = {2.75, -2.0, 3.0};
+  around.spread_m = 0.5;
+  around.distance_scale = 1.25;
+  around.start_probability = 0.75;
+  around.nearby = {{PlaceId("p8"), ImageId("t/8.jpg"), {-4.0, 0.25, 1.0}, {7, 7}},
+                   {PlaceId("p9"), ImageId("t/9.jpg"), {}, {}}};
+  return around;
+}
+
 std::vector<ServerMessage> server_messages() {
   MissionOrder mission;
   mission.mission = MissionId("m1");
@@ -56,13 +68,16 @@ std::vector<ServerMessage> server_messages() {
   mission.final_image = ImageId("t/3.jpg");
   mission.final_appearance = {9, 8};
   mission.dock = true;
+  MissionOrder placed = mission;
+  placed.surroundings = surroundings();
   return {Welcome{"homeward-server/0.1.0", RobotId("r1"), 2, 200},
           mission,
           Permit{MissionId("m1"), {2, 10}, 1500},
           StopOrder{"s1", 2, "pressed", "anna"},
           BeliefReport{7, PlaceId("p1"), 0.9, false},
           BeliefReport{8, std::nullopt, 0.0, true},
-          LinkError{"invalid_input", "'seq' is missing."}};
+          LinkError{"invalid_input", "'seq' is missing."},
+          placed};
 }
 
 TEST(LinkMessages, ComeBackAsTheyWere) {
@@ -93,6 +108,63 @@ TEST(LinkMessages, KeepEveryFieldOfAMission) {
   EXPECT_EQ(mission.final_appearance, (std::vector<std::uint8_t>{9, 8}));
   EXPECT_EQ(mission.final_image.str(), "t/3.jpg");
   EXPECT_TRUE(mission.dock);
+  EXPECT_FALSE(mission.surroundings);
+}
+
+void expect_same(const Pose2& pose, const Pose2& expected) {
+  EXPECT_EQ(pose.x_m, expected.x_m);
+  EXPECT_EQ(pose.y_m, expected.y_m);
+  EXPECT_EQ(pose.theta_rad, expected.theta_rad);
+}
+
+TEST(LinkMessages, KeepEveryFieldOfTheSurroundingsOfAMission) {
+  const auto decoded = decode_server_message(encode(server_messages().back()));
+  ASSERT_TRUE(decoded) << decoded.error().message << " at " << decoded.error().where;
+  const auto& around = std::get<MissionOrder>(*decoded).surroundings;
+  ASSERT_TRUE(around);
+  const Surroundings expected = surroundings();
+  ASSERT_EQ(around->path.size(), 2U);
+  expect_same(around->path[0], expected.path[0]);
+  expect_same(around->path[1], expected.path[1]);
+  expect_same(around->final_pose, expected.final_pose);
+  EXPECT_EQ(around->spread_m, 0.5);
+  EXPECT_EQ(around->distance_scale, 1.25);
+  EXPECT_EQ(around->start_probability, 0.75);
+  ASSERT_EQ(around->nearby.size(), 2U);
+  EXPECT_EQ(around->nearby[0].place, PlaceId("p8"));
+  EXPECT_EQ(around->nearby[0].image, ImageId("t/8.jpg"));
+  expect_same(around->nearby[0].map_from_view, expected.nearby[0].map_from_view);
+  EXPECT_EQ(around->nearby[0].appearance, (std::vector<std::uint8_t>{7, 7}));
+  EXPECT_TRUE(around->nearby[1].appearance.empty());
+}
+
+TEST(LinkMessages, RefuseSurroundingsThatDoNotFit) {
+  const json mission = to_json(server_messages().back());
+  const auto expect_refused = [&](const char* pointer, const json& wrong, const std::string& where) {
+    json changed = mission;
+    changed[json::json_pointer("/surroundings" + std::string(pointer))] = wrong;
+    const auto refused = server_message_from_json(changed);
+    ASSERT_FALSE(refused) << pointer << " " << wrong;
+    EXPECT_EQ(refused.error().where, "message/surroundings" + where);
+  };
+  const json pose = mission["surroundings"]["final"];
+  expect_refused("/path", json::array(), "/path");
+  expect_refused("/path", json::array({pose}), "/path");  // one pose for two places
+  expect_refused("/path", json::array({pose, pose, pose}), "/path");
+  expect_refused("/path/1/x_m", 1.1e6, "/path/1/x_m");
+  expect_refused("/path/0/y_m", -1.1e6, "/path/0/y_m");
+  expect_refused("/final/theta_rad", 3.5, "/final/theta_rad");
+  expect_refused("/final/theta_rad", std::nan(""), "/final/theta_rad");
+  expect_refused("/nearby/1/pose/x_m", "far", "/nearby/1/pose/x_m");
+  expect_refused("/spread_m", 0.0, "/spread_m");  // as if it were known without a doubt
+  expect_refused("/distance_scale", -1.0, "/distance_scale");
+  expect_refused("/start_probability", 1.5, "/start_probability");
+  expect_refused("/surprise", 1, "/surprise");
+  expect_refused("/final/z_m", 0.0, "/final/z_m");
+  expect_refused("/path/0/z_m", 0.0, "/path/0/z_m");
+  expect_refused("/nearby/0/label", "kitchen", "/nearby/0/label");
+  expect_refused("/nearby/0/pose/z_m", 0.0, "/nearby/0/pose/z_m");
+  expect_refused("/nearby", std::vector<json>(2001, mission["surroundings"]["nearby"][0]), "/nearby");
 }
 
 TEST(LinkMessages, EpochsGoBeforeSequenceNumbers) {
@@ -104,6 +176,7 @@ json without_bytes(json message) {
   message.erase("jpeg");
   message.erase("path");
   message.erase("final");
+  message.erase("surroundings");
   return message;
 }
 
@@ -133,9 +206,11 @@ void expect_every_field_to_be_checked(const json& message, const Decode& decode)
 
     json missing = message;
     missing[key.parent_pointer()].erase(key.back());
-    // Some keys of a camera may be absent, a robot need not have odometry, nor an older server number its stops.
+    // Some keys of a camera may be absent, a robot need not have odometry, a map not know where its places lie, nor an
+    // older server number its stops.
     const auto read = decode(missing);
     if (key.to_string() == "/odometry" && read) continue;
+    if (key.to_string() == "/surroundings" && read) continue;
     if (message["type"] == "stop" && key.to_string() == "/seq" && read) continue;
     if (key.to_string().find("/camera/") != std::string::npos && read) continue;
     ASSERT_FALSE(read) << message["type"] << " does without " << key;
