@@ -41,6 +41,7 @@ nlohmann::json to_json(const agent::MissionResult& result) {
                           {"detours", result.detours},
                           {"moved_after_stop", result.moved_after_stop},
                           {"moved_furniture", result.moved_furniture}};
+  if (result.arrival_probability) value["arrival_probability"] = *result.arrival_probability;
   for (const agent::StopEvent& stop : result.stops) {
     value["stops"].push_back({{"t_s", stop.t_s}, {"reason", stop.reason}});
     if (stop.stand_after_s) value["stops"].back()["stand_after_s"] = *stop.stand_after_s;
@@ -63,6 +64,11 @@ nlohmann::json to_json(const agent::CycleTrace& cycle) {
           {"views", cycle.views},
           {"view", cycle.view},
           {"answered", cycle.answered},
+          {"measured", cycle.measured},
+          {"position_probability", cycle.position_probability},
+          {"arrival_probability", cycle.arrival_probability},
+          {"elsewhere", cycle.elsewhere},
+          {"estimate_error_m", cycle.estimate_error_m ? nlohmann::json(*cycle.estimate_error_m) : nlohmann::json()},
           {"bearing_rad", cycle.bearing_rad},
           {"confidence", cycle.confidence},
           {"inliers", cycle.inliers},

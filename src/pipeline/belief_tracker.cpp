@@ -43,7 +43,11 @@ Result<BeliefTracker> BeliefTracker::create(std::shared_ptr<const map::Topologic
 Result<localisation::Belief> BeliefTracker::update(const Image& picture, const std::optional<Pose2>& odometry) {
   auto seen = state_->eye.look(picture);
   if (!seen) return pass_on(seen);
-  state_->seen = std::move(*seen);
+  return update(std::move(*seen), odometry);
+}
+
+localisation::Belief BeliefTracker::update(features::Appearance seen, const std::optional<Pose2>& odometry) {
+  state_->seen = std::move(seen);
   return state_->localiser.update(state_->seen, odometry);
 }
 

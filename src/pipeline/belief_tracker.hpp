@@ -30,6 +30,8 @@ class BeliefTracker {
   /// Errors: kWrongImageSize. A black or covered picture is no error: the belief says lost.
   /// `odometry`: where it was taken, see localisation::Localiser.
   Result<localisation::Belief> update(const Image& picture, const std::optional<Pose2>& odometry = std::nullopt);
+  /// The same of a picture whose features are known already, by an eye with this map's feature settings.
+  localisation::Belief update(features::Appearance seen, const std::optional<Pose2>& odometry = std::nullopt);
   void restart();
   /// Odometry counts anew; the belief stays.
   void restart_odometry();

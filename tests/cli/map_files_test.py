@@ -48,7 +48,7 @@ class MapFiles(CliTest):
         self.assert_refused_by_all(2, ["folder"], "folder.map")
 
     def test_another_version(self):
-        for version, advice in ((1, "Rebuild the map"), (4, "newer Homeward")):
+        for version, advice in ((1, "Rebuild the map"), (5, "newer Homeward")):
             database = sqlite3.connect(self.good_map(f"v{version}.map"))
             database.execute(f"PRAGMA user_version = {version}")
             database.commit()

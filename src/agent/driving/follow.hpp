@@ -3,61 +3,68 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "agent/driving/bearing_votes.hpp"
+#include "agent/driving/pose_hypotheses.hpp"
 #include "agent/driving/view_track.hpp"
+#include "agent/driving/visual_path.hpp"
 #include "core/pose2.hpp"
 #include "features/appearance.hpp"
 #include "homing/home_vector.hpp"
 #include "homing/visual_homing.hpp"
 #include "tracking/tracking_frame.hpp"
-#include "wire/link_messages.hpp"
 
 namespace homeward::agent {
-
-/// The views to pass one after the other; the last one is the destination's own.
-struct VisualPath {
-  std::vector<features::Appearance> views;
-  std::vector<std::optional<wire::PathEdge>> edges;  // from each view to the next; as many as views
-};
 
 struct FollowConfig {
   homing::HomingConfig homing;
   homing::VisualHomingConfig visual;
   ViewTrackConfig track;
+  PoseHypothesesConfig pose;
   double pass_m = 0.5;     // a view on the way is passed within this distance
   double abreast_m = 1.1;  // or when the robot is level with it within this one
-  // A view of the path is met where the path leads: what stands against its being another place that looks alike.
+  // A view that the robot is believed to be near to: what stands against its being another place that looks alike.
   double path_odds = 4.0;  // the odds of an answer's confidence are multiplied by these
+  double believe = 0.5;    // below that an answer says nothing
   double sure = 0.8;       // confidence of a clear answer, after that
   int sure_inliers = 24;
-  double believe = 0.5;       // below that an answer says nothing
-  int look_ahead = 3;         // views tried beyond the present one
-  int look_back = 3;          // and before it, when none of these answers
+  int look_along = 3;         // views of the path that the robot may be at, before and after the one homed to
+  int most_compared = 10;     // views that one picture is compared with
   double blind_m = 1.6;       // so far the robot drives on by odometry when no view answers
   double reached_m = 0.03;    // the destination's view is reached within this distance, where it is measured
   double nearby_m = 1.0;      // the destination's view counts as reached or left behind only when it must be so near
   double alike_share = 0.35;  // of the features that agree where two views coincide
+  double drive_above = 0.7;   // probability of where the robot is below which it looks around
+  double arrived_within_m = 0.5;     // of the destination the robot is when it says that it has arrived,
+  double arrived_probability = 0.9;  // with at least this probability
 };
 
-/// Which view the robot homes to, and where the views lie in the frame of odometry.
+/// The view of the place that the server's belief names, which is of all pictures since long before the mission.
+struct BelievedView {
+  int view = 0;
+  double probability = 0.0;
+};
+
+/// Where the robot is on its path, and where the view that it homes to lies in the frame of odometry.
 struct FollowState {
-  int index = 0;                  // of the view homed to
-  int furthest = 0;               // and the last one that it was so far
-  std::vector<ViewTrack> tracks;  // one for each view
-  Pose2 odometry;                 // at the latest picture
-  double blind_m = 0.0;           // driven since the last answer that was believed
-  homing::VisualHoming visual;    // to the view homed to
-  int visual_index = -1;          // which one that is
-  BearingVotes votes;             // where it is, while nothing but bearings to it says so
-  int undecided = 0;              // pictures in a row that they were too few or too divided to say so
-  int given_up = 0;               // how often what they said was followed as far as odometry alone, in vain
-  bool measured = false;          // the latest picture says in metres where the view homed to is
-  double heading_left_rad = 0.0;  // from the heading at `odometry` to that of the destination's view
-  int behind = 0;                 // answers in a row that say that the destination's view lies behind
-  double alike = 0.0;             // share of the features that agree with the view homed to, at the latest picture,
-  double most_alike = 0.0;        // and the most since this view is homed to: people may stand before the camera
+  int index = 0;                       // of the view homed to
+  std::optional<BelievedView> belief;  // the server's latest word
+  int furthest = 0;                    // and the last one that it was so far
+  PoseHypotheses hypotheses;           // where the robot is on the map
+  ViewTrack view;                      // where the view homed to lies
+  Pose2 odometry;                      // at the latest picture
+  bool begun = false;
+  double blind_m = 0.0;         // driven since the last answer that was believed
+  homing::VisualHoming visual;  // to the view homed to
+  int visual_index = -1;        // which one that is
+  int contradictions = 0;       // local maps in a row that said something else than the estimate
+  bool measured = false;        // the latest picture says in metres where the view homed to is
+  int behind = 0;               // answers in a row that say that the destination's view lies behind
+  double alike = 0.0;           // share of the features that agree with the view homed to, at the latest picture,
+  double most_alike = 0.0;      // and the most since this view is homed to: people may stand before the camera
+  BearingVotes votes;           // of one view alone: where it is, while nothing but bearings to it says so
+  int undecided = 0;            // pictures in a row that they were too few or too divided to say so
+  int given_up = 0;             // how often what they said was followed as far as odometry alone, in vain
 };
 
 struct FollowResult {
@@ -67,10 +74,10 @@ struct FollowResult {
   bool at_end = false;                       // the destination's view is reached
 };
 
-/// One picture further along a path of views: takes the answers of the view homed to and of those after it, keeps where
-/// they lie, and passes on to the next view when one is reached or left behind (Goedemé 2007 §7, with the home vector
-/// of each picture alone and its distance triangulated over odometry). A robot that went back, to make room for
-/// somebody, and recognises none of them any more homes to one before them again.
+/// One picture further along a path of views: estimates where the robot is on the map (PoseHypotheses), homes to the
+/// view of the path that comes next there (Goedemé 2007 §7), and says when the destination's own is reached. No picture
+/// moves the robot along its path but through the estimate. A path of one view and no map is homed to by itself
+/// (single_view.hpp).
 FollowResult follow(FollowState& state, const VisualPath& path, const features::Appearance& seen,
                     const tracking::TrackingFrame& frame, const Pose2& odometry, const FollowConfig& config,
                     std::uint64_t seed);
@@ -88,6 +95,21 @@ bool wants_features(const FollowState& state);
 
 /// Whether nothing but bearings, by what little is recognised of it, says where the view homed to lies.
 bool is_unsure(const FollowState& state);
+
+/// Probability that the robot is where the estimate says; 1 of one view alone, which has no map to be on.
+double position_probability(const FollowState& state, const VisualPath& path);
+
+/// Probability that the robot is within `arrived_within_m` of the destination's view; 1 of one view alone.
+double arrival_probability(const FollowState& state, const VisualPath& path, const FollowConfig& config);
+
+/// The place of the map that the robot is at by the estimate; nothing where that is not sure enough to drive by.
+std::optional<PlaceId> estimated_place(const FollowState& state, const VisualPath& path, const FollowConfig& config);
+
+/// How far from its path the robot is by the estimate; nothing where that is not sure enough to drive by.
+std::optional<double> off_path_m(const FollowState& state, const VisualPath& path, const FollowConfig& config);
+
+/// How far the estimate is from the place that the server's belief names; nothing where either is not sure.
+std::optional<double> off_belief_m(const FollowState& state, const VisualPath& path, const FollowConfig& config);
 
 /// Where to drive now, robot frame: the view homed to, or nothing when too little is known of it.
 std::optional<Eigen::Vector2d> goal(const FollowState& state, const Pose2& odometry, const FollowConfig& config);

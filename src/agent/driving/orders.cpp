@@ -48,6 +48,9 @@ struct Clerk {
     state.drive = wire::DriveState::kDriving;
     state.reason.clear();
     state.follow = {};
+    state.looking = {};
+    state.off_path_since_ms.reset();
+    state.off_belief_since_ms.reset();
     state.seen = {};
     state.docking = false;
     state.near_since_ms.reset();
@@ -72,7 +75,13 @@ struct Clerk {
     outputs.messages.emplace_back(wire::Stopped{stop.stop_id, 0});
   }
 
-  void operator()(const wire::BeliefReport&) const {}
+  void operator()(const wire::BeliefReport& belief) const {
+    state.follow.belief.reset();
+    if (!state.mission || belief.lost || !belief.place) return;
+    if (const auto view = state.mission->path.view_of(*belief.place)) {
+      state.follow.belief = BelievedView{*view, belief.probability};
+    }
+  }
   void operator()(const wire::LinkError&) const {}
 };
 
@@ -92,6 +101,35 @@ void obey(DrivingState& state, const std::vector<wire::ServerMessage>& messages,
   }
 }
 
+namespace {
+
+/// Where the views of a path lie, and the views around it.
+Status place_views(const wire::MissionOrder& order, VisualPath& path) {
+  if (!order.surroundings) {
+    place_by_edges(path);
+    return {};
+  }
+  const wire::Surroundings& around = *order.surroundings;
+  path.map_from_view = around.path;
+  path.map_from_view.resize(path.views.size() - 1);
+  path.map_from_view.push_back(around.final_pose);
+  path.spread_m = around.spread_m;
+  path.distance_scale = around.distance_scale;
+  path.start_probability = around.start_probability;
+  for (const wire::PlacedView& view : around.nearby) {
+    auto appearance = wire::decode_appearance(view.appearance, "place " + view.place.str());
+    if (!appearance) return pass_on(appearance);
+    path.nearby.push_back({view.place, std::move(*appearance), view.map_from_view});
+  }
+  if (path.alone()) return {};
+  std::vector<const features::Appearance*> views;
+  for (int view = 0; view < path.placed(); ++view) views.push_back(&path.appearance(view));
+  path.index = std::make_shared<const ViewIndex>(views);
+  return {};
+}
+
+}  // namespace
+
 Result<Mission> decode_mission(const wire::MissionOrder& order, const DrivingConfig& config) {
   if (order.feature_config_id != config.feature_config_id) {
     return fail(ErrorCode::kFeatureConfigMismatch,
@@ -109,13 +147,16 @@ Result<Mission> decode_mission(const wire::MissionOrder& order, const DrivingCon
     if (!view) return pass_on(view);
     mission.path.views.push_back(std::move(*view));
     mission.path.edges.push_back(place.next);
+    mission.path.places.push_back(place.place);
   }
   auto last = wire::decode_appearance(order.final_appearance, order.final_image.str());
   if (!last) return pass_on(last);
   // The destination's own picture is often its place's prototype; passing it twice would be one view too many.
   if (!order.path.empty() && order.path.back().image == order.final_image) mission.path.views.pop_back();
   mission.path.views.push_back(std::move(*last));
+  if (!order.path.empty()) mission.path.places.resize(mission.path.views.size(), order.path.back().place);
   mission.path.edges.resize(mission.path.views.size());
+  if (const Status placed = place_views(order, mission.path); !placed) return pass_on(placed);
   return mission;
 }
 

@@ -105,12 +105,27 @@ Motion approach(const Eigen::Vector2d& goal_m, const Body& body, const std::vect
   return motion;
 }
 
+constexpr const char* kLooksAround = "I am not sure where I am; I drive on a little and look.";
+
+/// Where the robot does not know where it is, it drives on a little and looks; but not before it has seen something.
+Motion look(DrivingState& state, const Inputs& inputs, const DrivingConfig& config,
+            const std::vector<Eigen::Vector2d>& points_m) {
+  constexpr double kLook_mps = 0.25;
+  forget_standing(state.give_way);
+  if (state.follow.hypotheses.empty()) return {};
+  state.reason = kLooksAround;
+  const auto aim_m = look_around(state.looking, config.body, points_m, inputs.odometry);
+  if (!aim_m) return {};
+  if (const auto straight = pursue(config.body, points_m, *aim_m, kLook_mps)) return *straight;
+  return steer_round(state.plan, config.body, points_m, *aim_m, inputs.odometry, kLook_mps, config.turn_gain);
+}
+
 Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& config,
              const std::vector<Eigen::Vector2d>& points_m, Milliseconds now_ms) {
   const bool last_view = state.follow.index + 1 == static_cast<int>(state.mission->path.views.size());
   if (state.docking) {
     // Heading at the end, by the latest answer and the turn made since.
-    const double left_rad = wrap_angle(state.follow.tracks.back().heading_rad() - inputs.odometry.theta_rad);
+    const double left_rad = wrap_angle(state.follow.view.heading_rad() - inputs.odometry.theta_rad);
     if (std::abs(left_rad) < config.dock_within_rad) {
       end_mission(state, wire::DriveState::kArrived, "");
       return {};
@@ -119,6 +134,10 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     return {0.0, std::copysign(std::max(0.12, std::abs(turn)), left_rad)};
   }
   const auto goal_m = goal(state.follow, inputs.odometry, config.follow);
+  const bool sure = position_probability(state.follow, state.mission->path) >= config.follow.drive_above;
+  if (!sure && !state.covered) return look(state, inputs, config, points_m);
+  state.looking = {};
+  if (state.reason == kLooksAround) state.reason.clear();
   if (!goal_m || state.covered) {
     forget_standing(state.give_way);
     return {};
@@ -151,7 +170,7 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   }
   // The less is recognised, the slower.
   if (!state.seen.answered) speed_mps = std::min(speed_mps, 0.25);
-  const double doubt_m = state.follow.tracks[static_cast<std::size_t>(state.follow.index)].doubt_m();
+  const double doubt_m = state.follow.view.doubt_m();
   speed_mps *= std::clamp(1.2 - 0.4 * doubt_m, 0.4, 1.0);
   if (const auto straight = pursue(config.body, points_m, aim_m, speed_mps)) return *straight;
   return steer_round(state.plan, config.body, points_m, aim_m, inputs.odometry, speed_mps, config.turn_gain);
@@ -159,10 +178,9 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
 
 /// Whether the destination is right here; nothing where that is not known well enough.
 std::optional<bool> is_near(const DrivingState& state, const DrivingConfig& config) {
-  if (state.follow.tracks.empty() || state.follow.index + 1 != static_cast<int>(state.follow.tracks.size()))
-    return false;
+  if (!state.follow.view.known() || state.follow.index + 1 != state.mission->path.size()) return false;
   constexpr double kKnownTo_m = 0.1;  // from pictures before, where somebody stands before the camera
-  if (!state.follow.measured && state.follow.tracks.back().doubt_m() > kKnownTo_m) return std::nullopt;
+  if (!state.follow.measured && state.follow.view.doubt_m() > kKnownTo_m) return std::nullopt;
   if (state.follow.most_alike < share_when_here(state.mission->path)) return false;
   const auto goal_m = goal(state.follow, state.follow.odometry, config.follow);
   constexpr double kStaysNear_m = 0.05;  // measured a little farther off, it is still near
@@ -170,12 +188,25 @@ std::optional<bool> is_near(const DrivingState& state, const DrivingConfig& conf
   return goal_m && goal_m->norm() < near_m;
 }
 
+/// Whether a distance has been more than so much for so long.
+bool lasts(std::optional<Milliseconds>& since_ms, const std::optional<double>& distance_m, double most_m,
+           Milliseconds now_ms, Milliseconds most_ms) {
+  if (!distance_m || *distance_m <= most_m) {
+    since_ms.reset();
+    return false;
+  }
+  since_ms = since_ms.value_or(now_ms);
+  return now_ms - *since_ms > most_ms;
+}
+
 void judge_progress(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
   // Somebody who stands before the camera for a moment does not move the robot away.
   const auto near = is_near(state, config);
   if (near && *near) state.near_since_ms = state.near_since_ms.value_or(now_ms);
   if (near && !*near) state.near_since_ms.reset();
-  const bool near_enough = state.near_since_ms && now_ms - *state.near_since_ms > config.near_ms;
+  const bool certain =
+      arrival_probability(state.follow, state.mission->path, config.follow) >= config.follow.arrived_probability;
+  const bool near_enough = certain && state.near_since_ms && now_ms - *state.near_since_ms > config.near_ms;
   if ((state.seen.at_end || near_enough) && !state.docking) {
     if (!state.mission->dock) return end_mission(state, wire::DriveState::kArrived, "");
     state.docking = true;
@@ -191,6 +222,27 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   }
   if (now_ms - state.last_answer_ms > config.blind_ms) {
     return end_mission(state, wire::DriveState::kFailed, "I do not recognise the way any more.");
+  }
+  if (position_probability(state.follow, state.mission->path) >= config.follow.drive_above) {
+    state.last_sure_ms = now_ms;
+  } else {
+    state.last_gain_ms = now_ms;  // looking around is no way gained, and not blocked either
+  }
+  if (now_ms - state.last_sure_ms > config.unsure_ms || state.looking.driven_m > kLooksAround_m) {
+    return end_mission(state, wire::DriveState::kFailed, "I am not sure where I am.");
+  }
+  if (lasts(state.off_path_since_ms, off_path_m(state.follow, state.mission->path, config.follow), config.off_path_m,
+            now_ms, config.off_path_ms)) {
+    return end_mission(state, wire::DriveState::kFailed, "I am not on my way, but elsewhere.");
+  }
+  if (lasts(state.off_belief_since_ms, off_belief_m(state.follow, state.mission->path, config.follow),
+            config.off_belief_m, now_ms, config.off_belief_ms)) {
+    return end_mission(state, wire::DriveState::kFailed, "I am not sure where I am: the map says another place.");
+  }
+  if (state.near_since_ms && now_ms - *state.near_since_ms > config.doubtful_ms) {
+    const std::string& where = state.mission->label;
+    return end_mission(state, wire::DriveState::kFailed,
+                       "I am not sure that this is " + (where.empty() ? std::string("the destination") : where) + ".");
   }
   // Beside its destination it waits for `near_ms` and has then arrived.
   const bool stirs = state.stirring.seen_ms && now_ms - *state.stirring.seen_ms < config.stuck_ms;
@@ -233,7 +285,7 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     end_mission(state, wire::DriveState::kStopped, kRiderTookOver);
   obey(state, inputs.messages, rider, config, now_ms, outputs);
   if (state.mission != before) {
-    state.last_answer_ms = state.last_gain_ms = state.last_picture_ms = sensors_ms;
+    state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = state.last_picture_ms = sensors_ms;
     state.gain_from = inputs.odometry;
     state.plan = {};
     state.turning = {};

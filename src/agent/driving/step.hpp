@@ -12,6 +12,7 @@
 #include "agent/driving/follow.hpp"
 #include "agent/driving/give_way.hpp"
 #include "agent/driving/long_plan.hpp"
+#include "agent/driving/look_around.hpp"
 #include "agent/driving/scan.hpp"
 #include "agent/driving/steady_sweep.hpp"
 #include "agent/driving/stirring.hpp"
@@ -40,6 +41,12 @@ struct DrivingConfig {
   Milliseconds stands_within_ms = 500;   // after the last message, picture or sweep it is at rest by itself
   Milliseconds reaction_ms = 120;        // of it, from an arrival to the wheels
   Milliseconds blind_ms = 8000;          // nothing recognised for so long: the mission fails
+  Milliseconds unsure_ms = 60'000;       // so long it looks around where it does not know where it is
+  Milliseconds off_path_ms = 1000;       // so long beside its path, by the estimate, and it needs another
+  double off_path_m = 3.0;               // by more than that
+  Milliseconds off_belief_ms = 3000;     // so long the server's belief may name another place
+  double off_belief_m = 3.0;             // farther off than that
+  Milliseconds doubtful_ms = 12'000;     // so long it tries to make sure that it is at the destination
   Milliseconds stuck_ms = 20'000;        // no way gained for so long: the mission fails,
   Milliseconds patience_ms = 90'000;     // after so long where somebody stirs about the robot
   double near_m = 0.25;                  // of the destination: what is in the way there may stay in the way
@@ -89,7 +96,7 @@ struct Mission {
 /// Everything that the heart of the agent remembers between two steps. Copies are cheap: views are shared.
 struct DrivingState {
   wire::DriveState drive = wire::DriveState::kIdle;
-  std::string reason;  // why it stopped or failed, for people
+  std::string reason;  // why it stopped or failed, or drives otherwise than it was sent, for people
   wire::Order newest;  // the newest order obeyed
   std::int64_t least_epoch = 0;
   std::shared_ptr<const Mission> mission;
@@ -98,8 +105,11 @@ struct DrivingState {
   FollowResult seen;      // of the latest picture
   bool pictured = false;  // a picture taken since the mission began has come in time
   bool docking = false;
-  LongPlan plan;         // of a body that is not round
-  TurnRate turning;      // of the body, as it moves now
+  LongPlan plan;       // of a body that is not round
+  TurnRate turning;    // of the body, as it moves now
+  LookAround looking;  // for where it is
+  std::optional<Milliseconds> off_path_since_ms;
+  std::optional<Milliseconds> off_belief_since_ms;
   GiveWay give_way;      // to whoever stands in the way
   Stirring stirring;     // of whoever that is
   SteadySweep sweeps;    // round a body that is not round
@@ -110,6 +120,7 @@ struct DrivingState {
   Milliseconds last_picture_ms = 0;  // at first, when the mission began
   Milliseconds picture_came_ms = 0;  // the latest one that counted, less what it was looked at for too long
   Milliseconds last_answer_ms = 0;
+  Milliseconds last_sure_ms = 0;              // when it knew last where it was
   std::optional<Milliseconds> near_since_ms;  // how long it has been right beside the destination
   Milliseconds last_gain_ms = 0;              // when way was last gained
   Pose2 gain_from;

@@ -98,12 +98,38 @@ void visual_fields(Fields& fields, Config& visual) {
 }
 
 template <class Fields, class Config>
+void pose_fields(Fields& fields, Config& pose) {
+  auto& [odometry_m_per_sqrt_m, odometry_rad_per_sqrt_m, odometry_rad_per_sqrt_rad, least_position_m, least_heading_rad,
+         bearing_rad, turn_rad, most_confidence, chance_agreement, near_view_m, far_view_m, gate, elsewhere_likelihood,
+         leave_probability, clearly_worse, cluster_m, independent_m] = pose;
+  fields("pose_odometry_m_per_sqrt_m", odometry_m_per_sqrt_m);
+  fields("pose_odometry_rad_per_sqrt_m", odometry_rad_per_sqrt_m);
+  fields("pose_odometry_rad_per_sqrt_rad", odometry_rad_per_sqrt_rad);
+  fields("pose_least_position_m", least_position_m);
+  fields("pose_least_heading_rad", least_heading_rad);
+  fields("pose_bearing_rad", bearing_rad);
+  fields("pose_turn_rad", turn_rad);
+  fields("pose_most_confidence", most_confidence);
+  fields("pose_chance_agreement", chance_agreement);
+  fields("pose_near_view_m", near_view_m);
+  fields("pose_far_view_m", far_view_m);
+  fields("pose_gate", gate);
+  fields("pose_elsewhere_likelihood", elsewhere_likelihood);
+  fields("pose_leave_probability", leave_probability);
+  fields("pose_clearly_worse", clearly_worse);
+  fields("pose_cluster_m", cluster_m);
+  fields("pose_independent_m", independent_m);
+}
+
+template <class Fields, class Config>
 void follow_fields(Fields& fields, Config& follow) {
-  auto& [homing, visual, track, pass_m, abreast_m, path_odds, sure, sure_inliers, believe, look_ahead, look_back,
-         blind_m, reached_m, nearby_m, alike_share] = follow;
+  auto& [homing, visual, track, pose, pass_m, abreast_m, path_odds, believe, sure, sure_inliers, look_along,
+         most_compared, blind_m, reached_m, nearby_m, alike_share, drive_above, arrived_within_m, arrived_probability] =
+      follow;
   homing_fields(fields, homing);
   visual_fields(fields, visual);
   track_fields(fields, track);
+  pose_fields(fields, pose);
   fields("follow_reached_m", reached_m);
   fields("follow_pass_m", pass_m);
   fields("follow_abreast_m", abreast_m);
@@ -111,18 +137,22 @@ void follow_fields(Fields& fields, Config& follow) {
   fields("follow_sure", sure);
   fields("follow_sure_inliers", sure_inliers);
   fields("follow_believe", believe);
-  fields("follow_look_ahead", look_ahead);
-  fields("follow_look_back", look_back);
+  fields("follow_look_along", look_along);
+  fields("follow_most_compared", most_compared);
   fields("follow_blind_m", blind_m);
   fields("follow_nearby_m", nearby_m);
   fields("follow_alike_share", alike_share);
+  fields("follow_drive_above", drive_above);
+  fields("follow_arrived_within_m", arrived_within_m);
+  fields("follow_arrived_probability", arrived_probability);
 }
 
 template <class Fields, class Config>
 void driving_fields(Fields& fields, Config& driving) {
   auto& [body, follow, feature_config_id, link_silence_ms, frame_silence_ms, first_frame_ms, scan_silence_ms,
-         rider_silence_ms, loop_silence_ms, held_up_ms, stands_within_ms, reaction_ms, blind_ms, stuck_ms, patience_ms,
-         near_m, near_ms, turn_gain, dock_within_rad] = driving;
+         rider_silence_ms, loop_silence_ms, held_up_ms, stands_within_ms, reaction_ms, blind_ms, unsure_ms, off_path_ms,
+         off_path_m, off_belief_ms, off_belief_m, doubtful_ms, stuck_ms, patience_ms, near_m, near_ms, turn_gain,
+         dock_within_rad] = driving;
   body_fields(fields, body);
   follow_fields(fields, follow);
   fields("feature_config_id", feature_config_id);
@@ -136,6 +166,12 @@ void driving_fields(Fields& fields, Config& driving) {
   fields("stands_within_ms", stands_within_ms);
   fields("reaction_ms", reaction_ms);
   fields("blind_ms", blind_ms);
+  fields("unsure_ms", unsure_ms);
+  fields("off_path_ms", off_path_ms);
+  fields("off_path_m", off_path_m);
+  fields("off_belief_ms", off_belief_ms);
+  fields("off_belief_m", off_belief_m);
+  fields("doubtful_ms", doubtful_ms);
   fields("stuck_ms", stuck_ms);
   fields("patience_ms", patience_ms);
   fields("near_m", near_m);

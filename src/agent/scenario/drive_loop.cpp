@@ -34,9 +34,9 @@ DriveLoop::DriveLoop(SimulatedRobot& robot, const pipeline::Eye& eye, FaultSched
       box_done_(faults_.all().size(), false),
       lift_done_(faults_.all().size(), false) {}
 
-Status DriveLoop::run(wire::MissionOrder order, std::vector<Eigen::Vector2d> way_m) {
+Status DriveLoop::run(wire::MissionOrder order, std::vector<Pose2> way) {
   order_ = std::move(order);
-  way_m_ = std::move(way_m);
+  way_ = std::move(way);
   messages_.emplace_back(order_);
   halted_ = false;
   const double began_s = elapsed_s();
@@ -94,7 +94,8 @@ Status DriveLoop::cycle() {
     const bool was_driving = state_.drive == wire::DriveState::kDriving;
     const auto outputs = step_once(link_up);
     if (!outputs) return pass_on(outputs);
-    if (was_driving && !state_.reason.empty()) stops_.push_back({elapsed_s(), state_.reason, {}});
+    const bool ended = was_driving && state_.drive != wire::DriveState::kDriving;
+    if (ended && !state_.reason.empty()) stops_.push_back({elapsed_s(), state_.reason, {}});
     listen_for_doubt();
     if (state_.drive != wire::DriveState::kDriving && state_.drive != wire::DriveState::kArrived && !moves(robot_))
       halted_ = true;
@@ -128,6 +129,11 @@ Result<Outputs> DriveLoop::step_once(bool link_up) {
     inputs.picture = std::move(*seen);
     bytes = sent.bytes;
   }
+  constexpr Milliseconds kAskEvery_ms = 500;
+  if (believes_ && link_up && inputs.picture && inputs.picture->appearance && now_ms_ - believed_ms_ >= kAskEvery_ms) {
+    believed_ms_ = now_ms_;
+    messages_.emplace_back(believes_(*inputs.picture->appearance, inputs.odometry));
+  }
   if (!on("scan_lost")) inputs.scan = {now_ms_, robot_.sweep()};
   const bool looks = inputs.picture.has_value() && state_.drive == wire::DriveState::kDriving;
   Outputs outputs =
@@ -145,9 +151,11 @@ void DriveLoop::place_boxes() {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].kind != "obstacle" || box_done_[i] || t_s < all[i].at_s) continue;
     box_done_[i] = true;
-    const auto next = std::min(static_cast<std::size_t>(state_.follow.index), way_m_.size());
-    const auto box =
-        box_ahead(robot_.vehicle().pose(), {way_m_.begin() + static_cast<std::ptrdiff_t>(next), way_m_.end()});
+    std::vector<Eigen::Vector2d> ahead_m;
+    for (auto next = static_cast<std::size_t>(state_.follow.index); next < way_.size(); ++next) {
+      ahead_m.emplace_back(way_[next].x_m, way_[next].y_m);
+    }
+    const auto box = box_ahead(robot_.vehicle().pose(), ahead_m);
     if (box) boxes_.emplace_back(i, *box);
     if (!box && listener_.told) listener_.told("no box: the way ends within 1.5 m");
     changed = changed || box;
@@ -209,6 +217,24 @@ void DriveLoop::close_stop() {
   if (fault_s && !stop.stand_after_s) stop.stand_after_s = std::max(0.0, stands_since_s_ - *fault_s);
 }
 
+/// How far the robot truly is from where its estimate puts it, beside the view of its path that is nearest by it.
+std::optional<double> DriveLoop::estimate_error_m() const {
+  const PoseHypothesis* best = state_.follow.hypotheses.best();
+  if (best == nullptr || !state_.mission || way_.size() != state_.mission->path.views.size()) return std::nullopt;
+  const VisualPath& path = state_.mission->path;
+  double nearest_m = 1e9;
+  double error_m = 0.0;
+  for (int view = 0; view < path.size(); ++view) {
+    const Pose2 believed = inverse(path.pose(view)) * best->map_from_robot;
+    const Pose2 truly = inverse(way_[static_cast<std::size_t>(view)]) * robot_.vehicle().pose();
+    const double distance_m = std::hypot(believed.x_m, believed.y_m);
+    if (distance_m >= nearest_m) continue;
+    nearest_m = distance_m;
+    error_m = std::hypot(believed.x_m - truly.x_m, believed.y_m - truly.y_m);
+  }
+  return error_m;
+}
+
 CycleTrace DriveLoop::trace(const Outputs& outputs) const {
   CycleTrace now;
   now.t_s = elapsed_s();
@@ -218,6 +244,13 @@ CycleTrace DriveLoop::trace(const Outputs& outputs) const {
   const auto index = static_cast<std::size_t>(now.index);
   now.view = (index + 1 < static_cast<std::size_t>(now.views) ? order_.path[index].image : order_.final_image).str();
   now.answered = state_.seen.answered;
+  if (state_.mission && state_.follow.begun) {
+    now.position_probability = position_probability(state_.follow, state_.mission->path);
+    now.arrival_probability = arrival_probability(state_.follow, state_.mission->path, config_.follow);
+    now.elsewhere = state_.follow.hypotheses.elsewhere();
+    now.measured = state_.follow.measured;
+  }
+  now.estimate_error_m = estimate_error_m();
   if (state_.seen.vector) {
     now.parallax_rad = state_.seen.vector->median_parallax_rad;
     now.bearing_rad = state_.seen.vector->bearing_rad;

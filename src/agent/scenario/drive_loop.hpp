@@ -27,6 +27,9 @@ struct DrivenPicture {
 /// Where a robot is put that is lifted in mid-mission. Nothing: there is no such spot.
 using Elsewhere = std::function<Result<std::optional<Pose2>>()>;
 
+/// What the house believes of a picture that the robot has recognised, and where it was taken.
+using Believes = std::function<wire::BeliefReport(const features::Appearance&, const Pose2&)>;
+
 /// The loop of one mission: world, sensors and heart, cycle by cycle, and the house that permits it, with all that goes
 /// wrong. The robot's base brakes by itself 0.1 s after the last command.
 class DriveLoop {
@@ -37,9 +40,11 @@ class DriveLoop {
 
   /// What a fault "kidnapped" asks where to; without it there is none.
   void kidnap_to(Elsewhere elsewhere) { elsewhere_ = std::move(elsewhere); }
+  /// Whom the robot's recognised pictures are told, twice a second, and who answers; without it nobody does.
+  void ask_belief(Believes believes) { believes_ = std::move(believes); }
   /// Drives an order, numbered later than all before, until the robot stands, however that came about.
-  /// `way_m`: the true places of its pictures, one for each place and the destination's own; may be empty.
-  Status run(wire::MissionOrder order, std::vector<Eigen::Vector2d> way_m = {});
+  /// `way`: where its pictures were truly taken, one for each view of its path; may be empty.
+  Status run(wire::MissionOrder order, std::vector<Pose2> way = {});
   /// Goes on for a while after a stop and counts what moves without an order.
   Status watch();
   /// Goes on for a moment while the robot stands, and gives what the camera has shown in it: nothing while it shows
@@ -72,6 +77,7 @@ class DriveLoop {
   void close_stop();
   [[nodiscard]] bool on(const char* kind) const { return faults_.active(kind, elapsed_s()); }
   [[nodiscard]] CycleTrace trace(const Outputs& outputs) const;
+  [[nodiscard]] std::optional<double> estimate_error_m() const;
 
   SimulatedRobot& robot_;
   const pipeline::Eye& eye_;
@@ -80,7 +86,9 @@ class DriveLoop {
   const ScenarioListener& listener_;
   Recorder* recorder_;
   wire::MissionOrder order_;
-  std::vector<Eigen::Vector2d> way_m_;
+  std::vector<Pose2> way_;
+  Believes believes_;
+  Milliseconds believed_ms_ = -1000;  // when the house was asked last
   DrivingState state_;
   std::vector<wire::ServerMessage> messages_;
   std::vector<StopEvent> stops_;

@@ -2,6 +2,7 @@
 #include "agent/scenario/house.hpp"
 
 #include "planning/detour.hpp"
+#include "planning/surroundings.hpp"
 
 namespace homeward::agent {
 namespace {
@@ -25,13 +26,21 @@ Result<House> House::create(const TaughtWorld& taught, const map::Destination& d
 Result<std::optional<PlaceId>> House::find_place(SimulatedRobot& robot) {
   constexpr int kLooks = 3;
   tracker_.restart();
-  std::optional<PlaceId> place;
   for (int look = 0; look < kLooks; ++look) {
-    const auto belief = tracker_.update(robot.picture());
+    const auto belief = tracker_.update(robot.picture(), robot.odometry());
     if (!belief) return pass_on(belief);
-    place = place_of(*belief);
+    belief_ = *belief;
   }
-  return place;
+  if (belief_.top.empty()) return std::nullopt;
+  // Where it is not sure, the robot begins at the likeliest place, finds out for itself, and is sent anew from there.
+  begin_by_belief();
+  return belief_.top.front().place;
+}
+
+void House::begin_by_belief() {
+  likely_.clear();
+  for (const auto& [place, probability] : belief_.top) likely_.push_back(place);
+  start_probability_ = belief_.lost ? belief_.near_share : belief_.near_probability;
 }
 
 Result<wire::MissionOrder> House::order_from(const PlaceId& place) {
@@ -43,6 +52,9 @@ Result<wire::MissionOrder> House::order_from(const PlaceId& place) {
   if (!detour) return pass_on(detour);
   path_ = detour->route.places;
   wire::MissionOrder order = wire::order_for_route(*taught_->map, path_, *destination_);
+  wire::add_surroundings(*taught_->map, taught_->layout,
+                         planning::surroundings(*taught_->map, path_, likely_, taught_->layout), order);
+  if (order.surroundings) order.surroundings->start_probability = start_probability_;
   order.mission = MissionId("simulated");
   order.order = {1, ++orders_ * kOrderStep};
   order.map = MapId("taught");
@@ -76,7 +88,18 @@ Result<std::optional<PlaceId>> House::find_again(DriveLoop& drive) {
 
 Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, std::string& why) {
   const std::int64_t index = drive.state().follow.index;
-  const auto here = find_again(drive);
+  // The belief is of the whole map and of all pictures of the drive; where it is lost, the robot's own estimate.
+  // Of a covered camera neither says anything.
+  Result<std::optional<PlaceId>> here = drive.state().covered ? std::nullopt : place_of(belief_);
+  begin_by_belief();
+  if (!*here && drive.state().mission && !drive.state().covered) {
+    here = estimated_place(drive.state().follow, drive.state().mission->path, FollowConfig{});
+    start_probability_ = std::min(start_probability_, 0.5);
+  }
+  if (!*here) {
+    here = find_again(drive);
+    start_probability_ = 1.0;
+  }
   if (!here) return pass_on(here);
   if (drive.stopped_by_hand()) return std::nullopt;
   if (!*here) {
@@ -96,17 +119,26 @@ Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, s
   return std::optional(std::move(*order));
 }
 
-std::vector<Eigen::Vector2d> House::way_of(const wire::MissionOrder& order) const {
-  std::vector<Eigen::Vector2d> way_m;
+wire::BeliefReport House::believe(const features::Appearance& seen, const Pose2& odometry) {
+  belief_ = tracker_.update(seen, odometry);
+  wire::BeliefReport report;
+  report.lost = belief_.lost;
+  report.place = place_of(belief_);
+  report.probability = belief_.near_probability;
+  return report;
+}
+
+std::vector<Pose2> House::way_of(const wire::MissionOrder& order) const {
+  std::vector<Pose2> way;
   const auto add = [&](const ImageId& image) {
     const auto pose = taught_->picture_poses.find(image);
-    if (pose != taught_->picture_poses.end()) way_m.emplace_back(pose->second.x_m, pose->second.y_m);
+    if (pose != taught_->picture_poses.end()) way.push_back(pose->second);
   };
   for (const wire::PathPlace& place : order.path) {
     if (place.image != order.final_image) add(place.image);
   }
   add(order.final_image);
-  return way_m;
+  return way;
 }
 
 }  // namespace homeward::agent

@@ -20,18 +20,21 @@ class House {
   /// `destination` must be of the map of `taught`, which outlives this. Errors: those of BeliefTracker::create.
   static Result<House> create(const TaughtWorld& taught, const map::Destination& destination);
 
-  /// Looks around from where the robot stands. Nothing: lost.
+  /// Looks at where the robot stands: the likeliest place, however unlikely. Nothing: there is nothing to be seen.
   Result<std::optional<PlaceId>> find_place(SimulatedRobot& robot);
   /// The way to the destination, round what has failed. Errors: those of plan_detour.
   Result<wire::MissionOrder> order_from(const PlaceId& place);
   /// The next order after a drive that failed. Nothing: a person decides, and `why` may say what for.
   Result<std::optional<wire::MissionOrder>> order_after(DriveLoop& drive, std::string& why);
   /// Where an order's pictures were truly taken, one for each of its views.
-  [[nodiscard]] std::vector<Eigen::Vector2d> way_of(const wire::MissionOrder& order) const;
+  [[nodiscard]] std::vector<Pose2> way_of(const wire::MissionOrder& order) const;
+  /// The belief by one more picture of the drive.
+  wire::BeliefReport believe(const features::Appearance& seen, const Pose2& odometry);
   [[nodiscard]] int detours() const { return detours_; }
 
  private:
   Result<std::optional<PlaceId>> find_again(DriveLoop& drive);
+  void begin_by_belief();
   House(const TaughtWorld& taught, const map::Destination& destination, pipeline::BeliefTracker tracker)
       : taught_(&taught), destination_(&destination), tracker_(std::move(tracker)) {}
 
@@ -40,6 +43,9 @@ class House {
   pipeline::BeliefTracker tracker_;
   std::vector<PlaceId> path_;
   std::vector<planning::Way> closed_;
+  std::vector<PlaceId> likely_;     // where else the robot may be, as it begins
+  double start_probability_ = 1.0;  // that it is where its path begins
+  localisation::Belief belief_;     // the latest
   int detours_ = 0;
   bool fails_again_ = false;  // where it failed before
   std::int64_t orders_ = 0;

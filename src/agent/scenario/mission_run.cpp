@@ -30,6 +30,9 @@ MissionResult result_of(DriveLoop& drive) {
   const double ended_s = drive.elapsed_s();
   MissionResult result;
   result.arrived = drive.state().drive == wire::DriveState::kArrived;
+  if (result.arrived && drive.state().mission) {
+    result.arrival_probability = arrival_probability(drive.state().follow, drive.state().mission->path, FollowConfig{});
+  }
   result.stops = drive.stops();
   result.duration_s = ended_s;
   result.vectors_per_s = drive.vectors() / std::max(kCycle_s, ended_s);
@@ -42,8 +45,8 @@ MissionResult result_of(DriveLoop& drive) {
 /// Drives a mission with all the orders that it takes.
 Result<MissionResult> drive_mission(DriveLoop& drive, House& house, wire::MissionOrder order) {
   for (;;) {
-    std::vector<Eigen::Vector2d> way_m = house.way_of(order);
-    if (const Status driven = drive.run(std::move(order), std::move(way_m)); !driven) return pass_on(driven);
+    std::vector<Pose2> way = house.way_of(order);
+    if (const Status driven = drive.run(std::move(order), std::move(way)); !driven) return pass_on(driven);
     // What a person or a fault has stopped, only a person sets going again.
     if (drive.state().drive != wire::DriveState::kFailed) break;
     std::string why;
@@ -144,6 +147,8 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
     }
     DriveLoop drive(*robot, *eye, FaultSchedule(plan.faults), config, listener, recorder.get());
     drive.kidnap_to([&] { return look_alike_spot(taught, *robot, *eye); });
+    drive.ask_belief(
+        [&](const features::Appearance& seen, const Pose2& odometry) { return house->believe(seen, odometry); });
     auto driven = drive_mission(drive, *house, *order);
     if (!driven) return pass_on(driven);
     result = std::move(*driven);

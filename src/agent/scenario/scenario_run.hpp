@@ -35,9 +35,10 @@ struct MissionResult {
   std::vector<StopEvent> stops;
   double vectors_per_s = 0.0;
   double duration_s = 0.0;
-  int detours = 0;           // orders that were given anew after a drive had failed
-  int moved_after_stop = 0;  // control cycles with motion between a stop and the next order
-  int moved_furniture = 0;   // pieces that stood elsewhere than in the tour
+  int detours = 0;                            // orders that were given anew after a drive had failed
+  int moved_after_stop = 0;                   // control cycles with motion between a stop and the next order
+  int moved_furniture = 0;                    // pieces that stood elsewhere than in the tour
+  std::optional<double> arrival_probability;  // stated, of being within half a metre; where it says that it arrived
   /// When it was lifted and put down elsewhere.
   std::optional<double> kidnapped_at_s;
   /// From then until it gave up or said that something is wrong. Nothing: never.
@@ -52,6 +53,11 @@ struct CycleTrace {
   int views = 0;
   std::string view;  // the picture homed to
   bool answered = false;
+  bool measured = false;              // the view homed to, in metres
+  double position_probability = 0.0;  // of where the robot believes to be
+  double arrival_probability = 0.0;
+  double elsewhere = 0.0;
+  std::optional<double> estimate_error_m;  // true
   double bearing_rad = 0.0;
   double confidence = 0.0;
   int inliers = 0;

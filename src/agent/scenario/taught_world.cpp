@@ -81,6 +81,7 @@ Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string&
   auto map = pipeline::build_map({&tour}, taught.camera, options);
   if (!map) return pass_on(map);
   taught.map = std::make_shared<const map::TopologicalMap>(std::move(*map));
+  taught.layout = map::metric_layout(*taught.map);
   return taught;
 }
 

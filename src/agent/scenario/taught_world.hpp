@@ -7,6 +7,7 @@
 
 #include "camera/camera_config.hpp"
 #include "core/result.hpp"
+#include "map/metric_layout.hpp"
 #include "map/topological_map.hpp"
 #include "pipeline/eye.hpp"
 #include "sim/renderer.hpp"
@@ -19,6 +20,7 @@ struct TaughtWorld {
   std::unique_ptr<sim::LitWorld> world;
   camera::CameraConfig camera;
   std::shared_ptr<const map::TopologicalMap> map;
+  map::MetricLayout layout;                        // map::metric_layout of it
   std::map<std::string, Pose2> destination_poses;  // by room; for judging only
   std::map<ImageId, Pose2> picture_poses;          // of the tour; for putting things in the way only
 };

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/driving/pose_hypotheses.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/angles.hpp"
+
+namespace homeward::agent {
+namespace {
+
+using Vector2 = Eigen::Vector2d;
+
+Vector2 position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
+
+Eigen::Matrix2d rotation(double angle_rad) {
+  const double c = std::cos(angle_rad);
+  const double s = std::sin(angle_rad);
+  return (Eigen::Matrix2d() << c, -s, s, c).finished();
+}
+
+/// Where a view lies by a hypothesis: in the robot's frame, with the covariance of its position there.
+struct Expected {
+  Pose2 robot_from_view;
+  double distance_m = 0.0;
+  Eigen::Matrix2d covariance_m2;
+};
+
+Expected expected(const PoseHypothesis& hypothesis, const ViewSighting& sighting) {
+  Expected result;
+  result.robot_from_view = inverse(hypothesis.map_from_robot) * sighting.map_from_view;
+  result.distance_m = position(result.robot_from_view).norm();
+  // r = R(-theta) (v - x): moves against x, and across with the heading.
+  Eigen::Matrix<double, 2, 3> moved;
+  moved.leftCols<2>() = -rotation(-hypothesis.map_from_robot.theta_rad);
+  moved.col(2) = Vector2(result.robot_from_view.y_m, -result.robot_from_view.x_m);
+  result.covariance_m2 = moved * hypothesis.covariance * moved.transpose() +
+                         sighting.spread_m * sighting.spread_m * Eigen::Matrix2d::Identity();
+  return result;
+}
+
+/// A measurement against what is expected.
+struct Agreement {
+  double squared = 0.0;    // of the differences, in standard deviations
+  double sharpness = 1.0;  // spread of the measurement over that of what was expected, of 0 to 1
+};
+
+Agreement agreement(const PoseHypothesis& hypothesis, const Expected& view, const SightedDirection& seen,
+                    const PoseHypothesesConfig& config) {
+  constexpr double kMost = 50.0;
+  constexpr double kNearest_m = 0.5;
+  constexpr double kDistanceSpread = 0.9;  // of the logarithm
+  const Vector2 along(std::cos(seen.bearing_rad), std::sin(seen.bearing_rad));
+  const Vector2 across(-along.y(), along.x());
+  const Vector2 at_m = position(view.robot_from_view);
+  const double measured = std::pow(config.bearing_rad * std::max(0.2, view.distance_m), 2) + 0.05 * 0.05;
+  const double variance = across.dot(view.covariance_m2 * across) + measured;
+  const double off_m = across.dot(at_m);
+  Agreement result;
+  result.squared = off_m * off_m / variance;
+  // Behind the robot in place of ahead.
+  const double behind_m = -along.dot(at_m);
+  if (behind_m > 0.0) result.squared += behind_m * behind_m / (along.dot(view.covariance_m2 * along) + measured);
+  const double turned = config.turn_rad * config.turn_rad;
+  const double turn_variance = hypothesis.covariance(2, 2) + turned;
+  const double off_rad = wrap_angle(seen.turn_rad - view.robot_from_view.theta_rad);
+  // The share of features recognised tells the distance to a factor; by night less is recognised of what is near.
+  const double farther =
+      std::log(std::max(kNearest_m, view.distance_m) / std::max(kNearest_m, seen.distance_m)) / kDistanceSpread;
+  result.squared += off_rad * off_rad / turn_variance + farther * farther;
+  result.squared = std::min(kMost, result.squared);
+  result.sharpness = std::sqrt(measured / variance * turned / turn_variance);
+  return result;
+}
+
+/// What a local map says as a measurement of the robot's own pose.
+struct MeasuredPose {
+  Pose2 map_from_robot;
+  Eigen::Matrix3d covariance;
+};
+
+MeasuredPose measured(const ViewSighting& sighting, const PoseHypothesesConfig& config) {
+  MeasuredPose result;
+  result.map_from_robot = sighting.map_from_view * inverse(sighting.pose->robot_from_view);
+  const Eigen::Matrix2d turned = rotation(result.map_from_robot.theta_rad);
+  result.covariance.setZero();
+  result.covariance.topLeftCorner<2, 2>() = turned * sighting.pose->covariance_m2 * turned.transpose() +
+                                            sighting.spread_m * sighting.spread_m * Eigen::Matrix2d::Identity();
+  result.covariance(2, 2) = config.turn_rad * config.turn_rad;
+  return result;
+}
+
+Eigen::Vector3d difference(const Pose2& to, const Pose2& from) {
+  return {to.x_m - from.x_m, to.y_m - from.y_m, wrap_angle(to.theta_rad - from.theta_rad)};
+}
+
+Agreement agreement(const PoseHypothesis& hypothesis, const MeasuredPose& seen) {
+  constexpr double kMost = 50.0;
+  const Eigen::Matrix3d sum = hypothesis.covariance + seen.covariance;
+  const Eigen::Vector3d off = difference(seen.map_from_robot, hypothesis.map_from_robot);
+  return {std::min(kMost, off.dot(sum.llt().solve(off))),
+          std::sqrt(std::max(0.0, seen.covariance.determinant() / sum.determinant()))};
+}
+
+Agreement agreement(const PoseHypothesis& hypothesis, const ViewSighting& sighting,
+                    const PoseHypothesesConfig& config) {
+  if (sighting.pose) return agreement(hypothesis, measured(sighting, config));
+  return agreement(hypothesis, expected(hypothesis, sighting), *sighting.direction, config);
+}
+
+/// Kalman's update with rows of measurements of the pose.
+template <int Rows>
+void update(PoseHypothesis& hypothesis, const Eigen::Matrix<double, Rows, 3>& rows,
+            const Eigen::Matrix<double, Rows, 1>& off, const Eigen::Matrix<double, Rows, Rows>& noise) {
+  const Eigen::Matrix<double, Rows, Rows> sum = rows * hypothesis.covariance * rows.transpose() + noise;
+  const Eigen::Matrix<double, 3, Rows> gain = hypothesis.covariance * rows.transpose() * sum.inverse();
+  const Eigen::Vector3d moved = gain * off;
+  hypothesis.map_from_robot.x_m += moved.x();
+  hypothesis.map_from_robot.y_m += moved.y();
+  hypothesis.map_from_robot.theta_rad = wrap_angle(hypothesis.map_from_robot.theta_rad + moved.z());
+  hypothesis.covariance -= gain * rows * hypothesis.covariance;
+  hypothesis.covariance = 0.5 * (hypothesis.covariance + hypothesis.covariance.transpose()).eval();
+}
+
+/// A robot that sees a view so far away in this direction.
+PoseHypothesis begun_at(const ViewSighting& sighting, double distance_m, const PoseHypothesesConfig& config) {
+  const SightedDirection& seen = *sighting.direction;
+  PoseHypothesis one;
+  const Pose2 robot_from_view{distance_m * std::cos(seen.bearing_rad), distance_m * std::sin(seen.bearing_rad),
+                              seen.turn_rad};
+  one.map_from_robot = sighting.map_from_view * inverse(robot_from_view);
+  const double angle_rad = one.map_from_robot.theta_rad + seen.bearing_rad;
+  const Vector2 along(std::cos(angle_rad), std::sin(angle_rad));
+  const Vector2 across(-along.y(), along.x());
+  const double along_m = 0.35 * distance_m + sighting.spread_m;
+  const double across_m = 1.5 * config.bearing_rad * distance_m + sighting.spread_m;
+  one.covariance.setZero();
+  one.covariance.topLeftCorner<2, 2>() =
+      along_m * along_m * along * along.transpose() + across_m * across_m * across * across.transpose();
+  one.covariance(2, 2) = 4.0 * config.turn_rad * config.turn_rad;
+  return one;
+}
+
+}  // namespace
+
+void PoseHypotheses::predict(const Pose2& before_from_now) {
+  const double driven_m = std::hypot(before_from_now.x_m, before_from_now.y_m);
+  const double turned_rad = std::abs(before_from_now.theta_rad);
+  driven_m_ += driven_m;
+  const double way = config_.odometry_m_per_sqrt_m * config_.odometry_m_per_sqrt_m * driven_m;
+  const double turn = config_.odometry_rad_per_sqrt_m * config_.odometry_rad_per_sqrt_m * driven_m +
+                      config_.odometry_rad_per_sqrt_rad * config_.odometry_rad_per_sqrt_rad * turned_rad;
+  for (PoseHypothesis& hypothesis : hypotheses_) {
+    const Vector2 step = rotation(hypothesis.map_from_robot.theta_rad) * position(before_from_now);
+    Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();
+    moved(0, 2) = -step.y();
+    moved(1, 2) = step.x();
+    hypothesis.covariance = moved * hypothesis.covariance * moved.transpose();
+    hypothesis.covariance.diagonal() += Eigen::Vector3d(way, way, turn);
+    hypothesis.map_from_robot = hypothesis.map_from_robot * before_from_now;
+  }
+}
+
+/// The likelihood of the picture by the view near the hypothesis that explains it best.
+double PoseHypotheses::explained(const PoseHypothesis& hypothesis, std::span<const ViewSighting> sightings) const {
+  double most = 0.0;
+  bool any = false;
+  for (const ViewSighting& sighting : sightings) {
+    const Expected view = expected(hypothesis, sighting);
+    const double doubt_m = std::sqrt(0.5 * view.covariance_m2.trace());
+    const double reach_m = sighting.direction ? config_.far_view_m : config_.near_view_m;
+    if (view.distance_m > reach_m + std::min(doubt_m, config_.near_view_m)) continue;
+    any = true;
+    double agrees = config_.chance_agreement;
+    if (sighting.direction || sighting.pose) {
+      const Agreement with = agreement(hypothesis, sighting, config_);
+      const double confidence = sighting.direction ? std::min(config_.most_confidence, sighting.direction->confidence)
+                                                   : config_.most_confidence;
+      agrees = confidence * std::exp(-0.5 * with.squared) * std::clamp(with.sharpness, 0.4, 1.0) +
+               (1.0 - confidence) * config_.chance_agreement;
+    }
+    most = std::max(most, sighting.likelihood * agrees);
+  }
+  // Nothing that is near it was compared: no better and no worse than being elsewhere.
+  return any ? most : config_.elsewhere_likelihood * config_.chance_agreement;
+}
+
+void PoseHypotheses::move(PoseHypothesis& hypothesis, const ViewSighting& sighting, double independent) const {
+  if (!sighting.direction && !sighting.pose) return;
+  if (agreement(hypothesis, sighting, config_).squared > config_.gate * config_.gate) return;
+  if (sighting.pose) {
+    const MeasuredPose seen = measured(sighting, config_);
+    update<3>(hypothesis, Eigen::Matrix3d::Identity(), difference(seen.map_from_robot, hypothesis.map_from_robot),
+              seen.covariance / independent);
+  } else {
+    const Expected view = expected(hypothesis, sighting);
+    const SightedDirection& seen = *sighting.direction;
+    const Vector2 across(-std::sin(seen.bearing_rad), std::cos(seen.bearing_rad));
+    Eigen::Matrix<double, 2, 3> rows = Eigen::Matrix<double, 2, 3>::Zero();
+    // How far the view lies across its bearing, which is to be zero; and its heading less the robot's.
+    rows.block<1, 2>(0, 0) = -(across.transpose() * rotation(-hypothesis.map_from_robot.theta_rad));
+    rows(0, 2) = across.dot(Vector2(view.robot_from_view.y_m, -view.robot_from_view.x_m));
+    rows(1, 2) = -1.0;
+    const Vector2 off(-across.dot(position(view.robot_from_view)),
+                      wrap_angle(seen.turn_rad - view.robot_from_view.theta_rad));
+    const double doubt = 1.0 / std::max(0.1, std::min(config_.most_confidence, seen.confidence));
+    Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();
+    noise(0, 0) = std::pow(config_.bearing_rad * std::max(0.2, view.distance_m), 2) + 0.05 * 0.05 +
+                  sighting.spread_m * sighting.spread_m;
+    noise(1, 1) = config_.turn_rad * config_.turn_rad;
+    update<2>(hypothesis, rows, off, noise * doubt / independent);
+  }
+  const double least[] = {config_.least_position_m, config_.least_position_m, config_.least_heading_rad};
+  for (int k = 0; k < 3; ++k) {
+    hypothesis.covariance(k, k) = std::max(hypothesis.covariance(k, k), least[k] * least[k]);
+  }
+}
+
+/// A clear sighting that agrees with no hypothesis is one: at three distances, for that is what it does not tell. They
+/// enter with the share that is given to whatever was not thought of before.
+std::vector<PoseHypothesis> PoseHypotheses::begun_by(std::span<const ViewSighting> sightings,
+                                                     double independent) const {
+  constexpr double kLeastConfidence = 0.3;
+  constexpr std::array kDistances = {0.5, 1.0, 2.0};
+  std::vector<PoseHypothesis> begun;
+  for (const ViewSighting& sighting : sightings) {
+    if (!sighting.direction || sighting.direction->confidence < kLeastConfidence) continue;
+    const SightedDirection& seen = *sighting.direction;
+    const bool known = std::ranges::any_of(hypotheses_, [&](const PoseHypothesis& hypothesis) {
+      const Expected view = expected(hypothesis, sighting);
+      return view.distance_m < kDistances.back() * seen.distance_m + config_.near_view_m &&
+             agreement(hypothesis, view, seen, config_).squared < config_.gate * config_.gate;
+    });
+    if (known) continue;
+    for (const double factor : kDistances) {
+      PoseHypothesis one = begun_at(sighting, factor * seen.distance_m, config_);
+      one.weight = independent * sighting.prior_share / kDistances.size();
+      begun.push_back(one);
+    }
+  }
+  return begun;
+}
+
+void PoseHypotheses::weigh(std::span<const ViewSighting> sightings) {
+  constexpr double kLeastNews = 0.08;  // of a robot that stands: people walk by, and lights change
+  // Of nothing that is known anywhere: somebody stands before the camera.
+  const bool recognised =
+      std::ranges::any_of(sightings, [](const ViewSighting& sighting) { return sighting.direction || sighting.pose; });
+  if (!recognised) return;
+  const double independent = std::clamp(driven_m_ / config_.independent_m, kLeastNews, 1.0);
+  driven_m_ = 0.0;
+  const double leaves = config_.leave_probability * independent;
+  const std::vector<PoseHypothesis> begun = begun_by(sightings, independent);
+  elsewhere_ += leaves * (1.0 - elsewhere_);
+  for (PoseHypothesis& hypothesis : hypotheses_) hypothesis.weight *= 1.0 - leaves;
+  hypotheses_.insert(hypotheses_.end(), begun.begin(), begun.end());
+  std::vector<double> likelihoods;
+  const double of_elsewhere = config_.elsewhere_likelihood * config_.chance_agreement;
+  double most = of_elsewhere;
+  for (const PoseHypothesis& hypothesis : hypotheses_) {
+    likelihoods.push_back(explained(hypothesis, sightings));
+    most = std::max(most, likelihoods.back());
+  }
+  // Of two places that look alike one explains a picture somewhat better, and the next ones too: that is no evidence.
+  const auto evidence = [&](double likelihood) {
+    return std::pow(std::min(1.0, likelihood / (config_.clearly_worse * most)), independent);
+  };
+  elsewhere_ *= evidence(of_elsewhere);
+  for (std::size_t k = 0; k < hypotheses_.size(); ++k) hypotheses_[k].weight *= evidence(likelihoods[k]);
+  // Begun ones hold what this picture says already.
+  for (std::size_t k = 0; k + begun.size() < hypotheses_.size(); ++k) {
+    for (const ViewSighting& sighting : sightings) move(hypotheses_[k], sighting, independent);
+  }
+  settle();
+}
+
+void PoseHypotheses::refine(const ViewSighting& sighting) {
+  constexpr double kNews = 0.1;  // pictures of one moment share their errors
+  for (PoseHypothesis& hypothesis : hypotheses_) move(hypothesis, sighting, kNews);
+}
+
+const PoseHypothesis* PoseHypotheses::best() const { return hypotheses_.empty() ? nullptr : &hypotheses_.front(); }
+
+double PoseHypotheses::best_probability() const {
+  if (hypotheses_.empty()) return 0.0;
+  const Vector2 at_m = position(hypotheses_.front().map_from_robot);
+  double sum = 0.0;
+  for (const PoseHypothesis& one : hypotheses_) {
+    if ((position(one.map_from_robot) - at_m).norm() < config_.cluster_m) sum += one.weight;
+  }
+  return sum;
+}
+
+double PoseHypotheses::probability_within(const Vector2& point_m, double radius_m) const {
+  constexpr int kSteps = 10;      // of a grid over each Gaussian
+  constexpr double kReach = 2.5;  // standard deviations
+  double sum = 0.0;
+  for (const PoseHypothesis& one : hypotheses_) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(one.covariance.topLeftCorner<2, 2>());
+    const Vector2 spread_m = axes.eigenvalues().cwiseMax(1e-8).cwiseSqrt();
+    double all = 0.0;
+    double inside = 0.0;
+    for (int i = 0; i <= kSteps; ++i) {
+      for (int j = 0; j <= kSteps; ++j) {
+        const Vector2 unit = kReach * (2.0 / kSteps * Vector2(i, j) - Vector2(1.0, 1.0));
+        const double density = std::exp(-0.5 * unit.squaredNorm());
+        const Vector2 at_m = position(one.map_from_robot) + axes.eigenvectors() * unit.cwiseProduct(spread_m);
+        all += density;
+        if ((at_m - point_m).norm() < radius_m) inside += density;
+      }
+    }
+    sum += one.weight * inside / all;
+  }
+  return sum;
+}
+
+bool PoseHypotheses::agrees(const ViewSighting& sighting) const {
+  if (hypotheses_.empty() || (!sighting.direction && !sighting.pose)) return false;
+  return agreement(hypotheses_.front(), sighting, config_).squared < config_.gate * config_.gate;
+}
+
+/// One of several that say the same; none that says next to nothing; and the weights are probabilities.
+void PoseHypotheses::settle() {
+  constexpr std::size_t kMost = 24;
+  constexpr double kLeast = 1e-9;
+  constexpr double kSame_m = 0.25;
+  constexpr double kSame_rad = 0.2;
+  std::ranges::stable_sort(hypotheses_, std::greater<>(), &PoseHypothesis::weight);
+  std::vector<PoseHypothesis> kept;
+  for (const PoseHypothesis& one : hypotheses_) {
+    const auto same = std::ranges::find_if(kept, [&](const PoseHypothesis& other) {
+      const Eigen::Vector3d off = difference(one.map_from_robot, other.map_from_robot);
+      return off.head<2>().norm() < kSame_m && std::abs(off.z()) < kSame_rad;
+    });
+    if (same != kept.end()) {
+      same->weight += one.weight;
+    } else if (kept.size() < kMost) {
+      kept.push_back(one);
+    }
+  }
+  double sum = elsewhere_;
+  for (const PoseHypothesis& one : kept) sum += one.weight;
+  for (PoseHypothesis& one : kept) one.weight /= sum;
+  elsewhere_ /= sum;
+  std::erase_if(kept, [&](const PoseHypothesis& one) { return one.weight < kLeast; });
+  hypotheses_ = std::move(kept);
+}
+
+}  // namespace homeward::agent

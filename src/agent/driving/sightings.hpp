@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "agent/driving/follow.hpp"
+
+namespace homeward::agent {
+
+/// One view of the map and what the latest picture says of it.
+struct ComparedView {
+  int view = 0;  // of the path, then of those nearby
+  ViewSighting sighting;
+  double share = 0.0;  // of the features that agree
+};
+
+/// Compares a picture with the views that it may be of: those near to where the robot may be, those of the path that
+/// come next, and the few of all that look most like it.
+std::vector<ComparedView> compare_views(const FollowState& state, const VisualPath& path,
+                                        const features::Appearance& seen, const FollowConfig& config,
+                                        std::uint64_t seed);
+
+}  // namespace homeward::agent

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/driving/pose_hypotheses.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/angles.hpp"
+
+namespace homeward::agent {
+namespace {
+
+/// What a robot at `map_from_robot` truly sees of a view, well recognised.
+ViewSighting seen_from(const Pose2& map_from_robot, const Pose2& map_from_view) {
+  const Pose2 robot_from_view = inverse(map_from_robot) * map_from_view;
+  ViewSighting sighting;
+  sighting.map_from_view = map_from_view;
+  sighting.likelihood = 0.6;
+  sighting.direction = SightedDirection{std::atan2(robot_from_view.y_m, robot_from_view.x_m), robot_from_view.theta_rad,
+                                        0.95, std::max(0.5, std::hypot(robot_from_view.x_m, robot_from_view.y_m))};
+  return sighting;
+}
+
+/// A view near the robot in which nothing is recognised.
+ViewSighting not_seen(const Pose2& map_from_view) {
+  ViewSighting sighting;
+  sighting.map_from_view = map_from_view;
+  sighting.likelihood = 1e-3;
+  return sighting;
+}
+
+Pose2 along(double x_m) { return {x_m, 0.0, 0.0}; }
+
+/// The views of a corridor lie a metre apart, and now left, now right of the robot's way.
+Pose2 view_of(double number, double corridor_m = 0.0) {
+  const double aside_m = std::fmod(number, 2.0) == 0.0 ? 0.4 : -0.4;
+  return {number + 0.4, corridor_m + aside_m, 0.0};
+}
+
+/// Drives straight on along a corridor with a view every metre, seeing the views around it.
+class Corridor {
+ public:
+  Corridor() { look(1.0); }
+
+  void drive(double way_m) {
+    constexpr double kStep_m = 0.1;
+    for (double left_m = way_m; left_m > 1e-9; left_m -= kStep_m) {
+      at_m_ += kStep_m;
+      hypotheses_.predict({kStep_m, 0.0, 0.0});
+      look(1e-3);
+    }
+  }
+  void look(double prior_share) {
+    std::vector<ViewSighting> sightings;
+    for (const double number : {std::floor(at_m_), std::floor(at_m_) + 1.0}) {
+      sightings.push_back(seen_from(along(at_m_), view_of(number)));
+      sightings.back().prior_share = prior_share;
+    }
+    hypotheses_.weigh(sightings);
+  }
+  [[nodiscard]] double error_m() const {
+    const Pose2& pose = hypotheses_.best()->map_from_robot;
+    return std::hypot(pose.x_m - at_m_, pose.y_m);
+  }
+
+  PoseHypotheses hypotheses_;
+  double at_m_ = 0.0;
+};
+
+TEST(PoseHypotheses, KnowsNothingBeforeItHasSeenAnything) {
+  PoseHypotheses hypotheses;
+  hypotheses.predict({1.0, 0.0, 0.0});
+  hypotheses.weigh(std::vector<ViewSighting>{not_seen(along(0.0))});
+  EXPECT_EQ(hypotheses.best(), nullptr);
+  EXPECT_EQ(hypotheses.best_probability(), 0.0);
+  EXPECT_EQ(hypotheses.probability_within({0.0, 0.0}, 1.0), 0.0);
+  EXPECT_NEAR(hypotheses.elsewhere(), 1.0, 1e-12);
+}
+
+TEST(PoseHypotheses, FollowsARobotThatDrivesPastItsViews) {
+  Corridor corridor;
+  corridor.drive(6.0);
+  EXPECT_LT(corridor.error_m(), 0.15);
+  EXPECT_GT(corridor.hypotheses_.best_probability(), 0.95);
+  EXPECT_GT(corridor.hypotheses_.probability_within({corridor.at_m_, 0.0}, 0.5), 0.9);
+  EXPECT_LT(corridor.hypotheses_.probability_within({corridor.at_m_ - 3.0, 0.0}, 0.5), 0.05);
+}
+
+TEST(PoseHypotheses, AClearViewOfAnotherCorridorMovesItNotAtAllAsLongAsItsOwnViewsAreSeen) {
+  Corridor corridor;
+  corridor.drive(3.0);
+  // Four places ahead, in a corridor that looks alike: as clear as its own views, again and again.
+  for (int k = 0; k < 40; ++k) {
+    corridor.at_m_ += 0.1;
+    corridor.hypotheses_.predict({0.1, 0.0, 0.0});
+    std::vector<ViewSighting> sightings;
+    sightings.push_back(seen_from(along(corridor.at_m_), view_of(std::floor(corridor.at_m_))));
+    sightings.push_back(seen_from({corridor.at_m_, 20.0, 0.0}, view_of(std::floor(corridor.at_m_) + 4.0, 20.0)));
+    sightings.back().likelihood = 0.8;
+    corridor.hypotheses_.weigh(sightings);
+    EXPECT_LT(corridor.error_m(), 0.3) << k;
+    EXPECT_GT(corridor.hypotheses_.best_probability(), 0.9) << k;
+  }
+}
+
+TEST(PoseHypotheses, CarriedOffItBelievesSoOnceTheViewsThereAreSeenAndItsOwnAreNot) {
+  Corridor corridor;
+  corridor.drive(3.0);
+  double way_m = 0.0;
+  for (; way_m < 4.0; way_m += 0.1) {
+    corridor.hypotheses_.predict({0.1, 0.0, 0.0});
+    corridor.at_m_ += 0.1;
+    const Pose2 truly{corridor.at_m_, 20.0, 0.0};
+    const std::vector<ViewSighting> sightings = {not_seen(view_of(std::floor(corridor.at_m_))),
+                                                 seen_from(truly, view_of(std::floor(corridor.at_m_), 20.0)),
+                                                 seen_from(truly, view_of(std::floor(corridor.at_m_) + 1.0, 20.0))};
+    corridor.hypotheses_.weigh(sightings);
+    if (corridor.hypotheses_.best()->map_from_robot.y_m > 15.0 && corridor.hypotheses_.best_probability() > 0.7) break;
+  }
+  EXPECT_LT(way_m, 2.0);
+  EXPECT_GT(way_m, 0.05);  // but not by one picture
+}
+
+TEST(PoseHypotheses, TwoPlacesThatLookAlikeStayTwoUntilOneExplainsMuchMore) {
+  // Both corridors are equally likely at first, and one explains each picture a little better.
+  PoseHypotheses hypotheses;
+  const auto look = [&](double x_m, double of_other) {
+    std::vector<ViewSighting> sightings;
+    for (const double number : {std::floor(x_m), std::floor(x_m) + 1.0}) {
+      sightings.push_back(seen_from(along(x_m), view_of(number)));
+      sightings.push_back(seen_from({x_m, 20.0, 0.0}, view_of(number, 20.0)));
+      sightings.back().likelihood *= of_other;
+    }
+    for (ViewSighting& sighting : sightings) sighting.prior_share = 0.5;
+    hypotheses.weigh(sightings);
+  };
+  double x_m = 0.0;
+  look(x_m, 1.0);
+  for (; x_m < 8.0; x_m += 0.1) {
+    hypotheses.predict({0.1, 0.0, 0.0});
+    look(x_m + 0.1, 0.7);
+  }
+  EXPECT_LT(hypotheses.best_probability(), 0.7);
+  for (; x_m < 12.0; x_m += 0.1) {
+    hypotheses.predict({0.1, 0.0, 0.0});
+    look(x_m + 0.1, 0.1);
+  }
+  EXPECT_GT(hypotheses.best_probability(), 0.95);
+  EXPECT_NEAR(hypotheses.best()->map_from_robot.y_m, 0.0, 0.3);
+}
+
+TEST(PoseHypotheses, StandingStillManyPicturesSayLittleMoreThanOne) {
+  Corridor moving;
+  Corridor standing;
+  moving.drive(3.0);
+  standing.drive(3.0);
+  const auto off = [](Corridor& corridor) {
+    const std::vector<ViewSighting> sightings = {not_seen(view_of(std::floor(corridor.at_m_))),
+                                                 seen_from({0.0, 20.0, 0.0}, view_of(0.0, 20.0))};
+    corridor.hypotheses_.weigh(sightings);
+  };
+  for (int k = 0; k < 6; ++k) off(standing);
+  for (int k = 0; k < 6; ++k) {
+    moving.hypotheses_.predict({0.3, 0.0, 0.0});
+    moving.at_m_ += 0.3;
+    off(moving);
+  }
+  EXPECT_GT(standing.hypotheses_.best_probability(), 0.9);
+  EXPECT_LT(std::abs(standing.hypotheses_.best()->map_from_robot.y_m), 1.0);
+}
+
+TEST(PoseHypotheses, WhatShowsNothingKnownChangesNothing) {
+  Corridor corridor;
+  corridor.drive(3.0);
+  const double before = corridor.hypotheses_.best_probability();
+  for (int k = 0; k < 30; ++k) corridor.hypotheses_.weigh(std::vector<ViewSighting>{not_seen(along(3.4))});
+  EXPECT_EQ(corridor.hypotheses_.best_probability(), before);
+}
+
+TEST(PoseHypotheses, ALocalMapPlacesItToCentimetresAndOnlyWhereThatCanBe) {
+  Corridor corridor;
+  corridor.drive(3.0);
+  ViewSighting sighting;
+  sighting.map_from_view = along(3.6);
+  sighting.spread_m = 0.02;
+  sighting.pose =
+      SightedPose{inverse(Pose2{3.08, 0.05, 0.02}) * sighting.map_from_view, 1e-4 * Eigen::Matrix2d::Identity()};
+  ASSERT_TRUE(corridor.hypotheses_.agrees(sighting));
+  for (int k = 0; k < 60; ++k) corridor.hypotheses_.refine(sighting);
+  EXPECT_NEAR(corridor.hypotheses_.best()->map_from_robot.x_m, 3.08, 0.03);
+  EXPECT_NEAR(corridor.hypotheses_.best()->map_from_robot.y_m, 0.05, 0.03);
+  sighting.pose->robot_from_view = inverse(Pose2{6.0, 0.0, 0.0}) * sighting.map_from_view;
+  EXPECT_FALSE(corridor.hypotheses_.agrees(sighting));
+  corridor.hypotheses_.refine(sighting);
+  EXPECT_NEAR(corridor.hypotheses_.best()->map_from_robot.x_m, 3.08, 0.03);
+}
+
+TEST(PoseHypotheses, TheProbabilityOfBeingThereGrowsWithTheRadius) {
+  Corridor corridor;
+  corridor.drive(2.0);
+  const Eigen::Vector2d here_m(2.0, 0.0);
+  double before = 0.0;
+  for (const double radius_m : {0.01, 0.05, 0.2, 1.0, 5.0}) {
+    const double probability = corridor.hypotheses_.probability_within(here_m, radius_m);
+    EXPECT_GE(probability, before);
+    EXPECT_LE(probability, 1.0 + 1e-12);
+    before = probability;
+  }
+  EXPECT_GT(before, 0.95);
+}
+
+TEST(PoseHypotheses, WeightsAreProbabilities) {
+  Corridor corridor;
+  corridor.drive(2.5);
+  double sum = corridor.hypotheses_.elsewhere();
+  for (const PoseHypothesis& one : corridor.hypotheses_.all()) sum += one.weight;
+  EXPECT_NEAR(sum, 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace homeward::agent
