@@ -21,7 +21,9 @@ struct SimulateTourOptions {
 Status make_tour(const SimulateTourOptions& options) {
   auto writer = TourWriter::open(options.stage);
   if (!writer) return pass_on(writer);
-  const auto stops = sim::plan_tour(writer->world(), options.rooms, options.step_m);
+  const bool all = options.rooms == std::vector<std::string>{"all"};
+  const auto rooms = all ? sim::all_rooms(writer->world()) : options.rooms;
+  const auto stops = sim::plan_tour(writer->world(), rooms, options.step_m);
   if (!stops) return pass_on(stops);
   sim::WheelOdometry wheels(options.stage.seed);
   std::vector<std::pair<std::string, std::string>> marks;
@@ -55,7 +57,11 @@ void register_simulate_tour(CLI::App& simulate) {
   CLI::App* command = simulate.add_subcommand("tour", "A guided tour from room to room");
   const auto options = std::make_shared<SimulateTourOptions>();
   add_stage_options(*command, options->stage);
-  command->add_option("--rooms", options->rooms, "Rooms in the order of the visit")->required()->delimiter(',');
+  command
+      ->add_option("--rooms", options->rooms,
+                   "Rooms in the order of the visit, or all: every one, the next always the nearest")
+      ->required()
+      ->delimiter(',');
   command->add_option("--step-m", options->step_m, "Way between two pictures")->capture_default_str();
   command->add_flag("--marks", options->marks, "Mark each room's point as a destination");
   run_on(*command, [options] { return make_tour(*options); });

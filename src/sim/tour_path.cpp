@@ -60,6 +60,22 @@ Result<Eigen::Vector2d> room_point(const World& world, const std::string& room) 
               world.name);
 }
 
+std::vector<std::string> all_rooms(const World& world) {
+  std::vector<const Room*> left;
+  for (const Room& room : world.rooms) left.push_back(&room);
+  std::vector<std::string> tour;
+  for (std::size_t next = 0; !left.empty();) {
+    const Room& here = *left[next];
+    tour.push_back(here.name);
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
+    const auto nearest = std::ranges::min_element(
+        left, {}, [&](const Room* room) { return std::hypot(room->x_m - here.x_m, room->y_m - here.y_m); });
+    next = static_cast<std::size_t>(nearest - left.begin());
+  }
+  if (tour.size() > 1) tour.push_back(tour.front());
+  return tour;
+}
+
 Result<std::vector<TourStop>> plan_tour(const World& world, const std::vector<std::string>& rooms, double step_m) {
   if (rooms.size() < 2) return fail(ErrorCode::kTooFewImages, "A tour goes through at least two rooms.", world.name);
   if (!(step_m >= 0.05 && step_m <= 5.0)) {

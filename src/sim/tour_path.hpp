@@ -22,6 +22,10 @@ struct TourStop {
 /// rooms), kNoRoute.
 Result<std::vector<TourStop>> plan_tour(const World& world, const std::vector<std::string>& rooms, double step_m);
 
+/// All rooms of a world from its first on, the next always the one whose point is nearest, and back to the first. Of a
+/// world with one room or none: those.
+std::vector<std::string> all_rooms(const World& world);
+
 /// The point of a room. Errors: kNotFound, which names the rooms there are.
 Result<Eigen::Vector2d> room_point(const World& world, const std::string& room);
 

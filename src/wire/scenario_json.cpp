@@ -74,14 +74,23 @@ void read_camera(ObjectReader& outer, ScenarioFile& scenario) {
   outer.close(reader);
 }
 
-void read_tour(ObjectReader& outer, ScenarioFile& scenario) {
-  ObjectReader reader(outer.value("tour"), outer.path_of("tour"));
-  for (const json& room : reader.array("rooms", 1000)) {
+void read_rooms(ObjectReader& tour, std::vector<std::string>& rooms) {
+  for (const json& room : tour.array("rooms", 1000)) {
     if (!room.is_string()) {
-      reader.problem("rooms", "Each of 'rooms' must be a room's name.");
+      tour.problem("rooms", "Each of 'rooms' must be a room's name.");
       break;
     }
-    scenario.tour_rooms.push_back(room.get<std::string>());
+    rooms.push_back(room.get<std::string>());
+  }
+}
+
+void read_tour(ObjectReader& outer, ScenarioFile& scenario) {
+  ObjectReader reader(outer.value("tour"), outer.path_of("tour"));
+  if (reader.value("rooms").is_string()) {
+    reader.choice("rooms", {"all"});
+    scenario.tours_all_rooms = true;
+  } else {
+    read_rooms(reader, scenario.tour_rooms);
   }
   scenario.tour_light = light_of(reader);
   if (reader.has("step_m")) scenario.tour_step_m = reader.number("step_m", 0.05, 5.0);

@@ -42,6 +42,7 @@ struct ScenarioFile {
   std::string robot = "disc";                  // "disc" or "chair"
   std::string ranges = "laser";                // or "ultrasound"
   std::vector<std::string> tour_rooms;
+  bool tours_all_rooms = false;  // in place of `tour_rooms`: every room of the world, the next always the nearest one
   std::string tour_light = "day";
   double tour_step_m = 0.4;
   std::vector<ScenarioMission> missions;

@@ -7,10 +7,11 @@
 #include "agent/scenario/check_scenario.hpp"
 #include "agent/scenario/mission_run.hpp"
 #include "agent/scenario/taught_world.hpp"
+#include "sim/tour_path.hpp"
 
 namespace homeward::agent {
 
-Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder, const ScenarioListener& listener,
+Status run_scenario(wire::ScenarioFile scenario, const std::string& folder, const ScenarioListener& listener,
                     const std::optional<RecordingOptions>& record, const std::set<int>& only) {
   const auto told = [&](const std::string& what) {
     if (listener.told) listener.told(what);
@@ -24,6 +25,7 @@ Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folde
   }
   auto world = world_of(scenario, folder);
   if (!world) return pass_on(world);
+  if (scenario.tours_all_rooms) scenario.tour_rooms = sim::all_rooms(*world);
   // All that can be known is said before the long tour.
   if (const auto problems = check_scenario(scenario, *world); !problems.empty())
     return tl::unexpected<Error>(error_of(problems));

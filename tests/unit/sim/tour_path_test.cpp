@@ -75,5 +75,27 @@ TEST(PlanTour, SaysWhatIsWrong) {
   EXPECT_EQ(plan_tour(world, {"west", "east"}, 0.4).error().code, ErrorCode::kNoRoute);
 }
 
+Room room_with_point(const std::string& name, double x_m, double y_m) {
+  Room room;
+  room.name = name;
+  room.x_m = x_m;
+  room.y_m = y_m;
+  return room;
+}
+
+TEST(AllRooms, EachIsFollowedByTheNearestOfThoseThatAreLeft) {
+  World world;
+  world.rooms = {room_with_point("hall", 0.0, 0.0), room_with_point("far", 9.0, 0.0), room_with_point("near", 0.0, 2.0),
+                 room_with_point("middle", 5.0, 0.0)};
+  EXPECT_EQ(all_rooms(world), (std::vector<std::string>{"hall", "near", "middle", "far", "hall"}));
+}
+
+TEST(AllRooms, OfFewRoomsThereIsNothingToComeBackTo) {
+  World world;
+  EXPECT_TRUE(all_rooms(world).empty());
+  world.rooms = {room_with_point("hall", 0.0, 0.0)};
+  EXPECT_EQ(all_rooms(world), std::vector<std::string>{"hall"});
+}
+
 }  // namespace
 }  // namespace homeward::sim
