@@ -28,7 +28,10 @@ std::vector<Way> failed_ways(const FailedDrive& failed) {
 std::optional<std::vector<Way>> detour_after(const FailedDrive& failed) {
   if (failed.detours >= kMostDetours || failed.here == failed.destination) return std::nullopt;
   auto ways = failed_ways(failed);
-  if (ways.empty()) return std::nullopt;
+  // At no place of its path before it drove any of it: it was sent from elsewhere than it stood, and no edge is to
+  // blame.
+  const bool elsewhere = failed.index == 0 && std::ranges::find(failed.path, failed.here) == failed.path.end();
+  if (ways.empty() && !elsewhere) return std::nullopt;
   return ways;
 }
 

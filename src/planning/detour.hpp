@@ -23,8 +23,9 @@ struct FailedDrive {
 /// further already, the edge after that; both directions of them. Nothing where no edge can be blamed.
 std::vector<Way> failed_ways(const FailedDrive& failed);
 
-/// Whether another way is worth looking for, and what to close for it beside what is closed already. Nothing: a person
-/// decides, because the destination's own place is reached, no edge can be blamed, or the mission has had its detours.
+/// Whether another way is worth looking for, and what to close for it beside what is closed already: no edge where the
+/// robot was sent from another place than it stood at. Nothing: a person decides, because the destination's own place
+/// is reached, no edge can be blamed, or the mission has had its detours.
 std::optional<std::vector<Way>> detour_after(const FailedDrive& failed);
 
 /// Whether it failed where the mission failed before: all of `failed` were in `closed` already.

@@ -38,7 +38,16 @@ TEST(Detour, IsLookedForThreeTimesAtMost) {
 
 TEST(Detour, IsNotLookedForAtTheDestinationOrWithoutAnEdgeToBlame) {
   EXPECT_FALSE(detour_after(failed(3, "p4")));
-  EXPECT_FALSE(detour_after(failed(0, "p9")));
+  FailedDrive short_one = failed(0, "p1");
+  short_one.path.resize(1);
+  EXPECT_FALSE(detour_after(short_one));
+}
+
+TEST(Detour, ClosesNothingWhereTheRobotWasSentFromElsewhereThanItStood) {
+  EXPECT_EQ(detour_after(failed(0, "p9")), Ways());
+  FailedDrive often = failed(0, "p9");
+  often.detours = 3;
+  EXPECT_FALSE(detour_after(often));
 }
 
 TEST(Detour, GoesRoundWhatIsClosed) {
