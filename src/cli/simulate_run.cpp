@@ -40,7 +40,8 @@ nlohmann::json to_json(const agent::MissionResult& result) {
                           {"duration_s", result.duration_s},
                           {"detours", result.detours},
                           {"moved_after_stop", result.moved_after_stop},
-                          {"moved_furniture", result.moved_furniture}};
+                          {"moved_furniture", result.moved_furniture},
+                          {"belief_apart_s", result.belief_apart_s}};
   if (result.arrival_probability) value["arrival_probability"] = *result.arrival_probability;
   for (const agent::StopEvent& stop : result.stops) {
     value["stops"].push_back({{"t_s", stop.t_s}, {"reason", stop.reason}});
@@ -68,6 +69,7 @@ nlohmann::json to_json(const agent::CycleTrace& cycle) {
           {"position_probability", cycle.position_probability},
           {"arrival_probability", cycle.arrival_probability},
           {"elsewhere", cycle.elsewhere},
+          {"continuity", cycle.continuity ? nlohmann::json(*cycle.continuity) : nlohmann::json()},
           {"estimate_error_m", cycle.estimate_error_m ? nlohmann::json(*cycle.estimate_error_m) : nlohmann::json()},
           {"bearing_rad", cycle.bearing_rad},
           {"confidence", cycle.confidence},

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "agent/driving/homed_view.hpp"
 #include "agent/driving/sightings.hpp"
@@ -29,6 +30,7 @@ void drive_on(FollowState& state, const Pose2& odometry, const FollowConfig& con
   const Pose2 step = inverse(state.odometry) * odometry;
   const double driven_m = std::hypot(step.x_m, step.y_m);
   state.blind_m += driven_m;
+  state.unheard_m += driven_m;
   state.odometry = odometry;
   if (state.view.known()) state.view.drift(driven_m, config.track);
   state.hypotheses.predict(step);
@@ -143,6 +145,20 @@ bool take_local_map(FollowState& state, const VisualPath& path, const Result<hom
   return take_in(state, answer, config, result);
 }
 
+/// The server's belief is one more piece of evidence: of the whole map, but by the same pictures, so that it counts
+/// little, and only once for a stretch of the way.
+void hear_belief(FollowState& state, const VisualPath& path, const FollowConfig& config) {
+  constexpr double kSure = 0.8;
+  constexpr double kOdds = 3.0;
+  constexpr double kWithin_m = 2.0;
+  if (!state.belief || state.belief->probability < kSure || state.hypotheses.empty()) return;
+  if (state.unheard_m < config.pose.independent_m) return;
+  state.unheard_m = 0.0;
+  std::optional<Vector2> at_m;
+  if (state.belief->view) at_m = position(path.pose(*state.belief->view));
+  state.hypotheses.hear(at_m, kWithin_m, kOdds);
+}
+
 void end_picture(FollowState& state, const VisualPath& path, const FollowConfig& config, FollowResult& result) {
   choose_view(state, path, config, result);
   place_view(state, path);
@@ -170,6 +186,9 @@ FollowResult follow_path(FollowState& state, const VisualPath& path, const featu
     sightings.push_back(one.sighting);
   }
   state.hypotheses.weigh(sightings);
+  result.recognised =
+      std::ranges::any_of(sightings, [](const ViewSighting& sighting) { return sighting.direction || sighting.pose; });
+  hear_belief(state, path, config);
   const bool agrees = std::ranges::any_of(sightings, [&](const ViewSighting& sighting) {
     return sighting.direction && sighting.direction->confidence >= config.believe && state.hypotheses.agrees(sighting);
   });
@@ -236,7 +255,8 @@ std::optional<double> off_belief_m(const FollowState& state, const VisualPath& p
   constexpr double kSure = 0.8;
   if (path.alone() || !state.belief || state.belief->probability < kSure) return std::nullopt;
   if (position_probability(state, path) < config.drive_above) return std::nullopt;
-  return (position(path.pose(state.belief->view)) - position(state.hypotheses.best()->map_from_robot)).norm();
+  if (!state.belief->view) return std::numeric_limits<double>::infinity();
+  return (position(path.pose(*state.belief->view)) - position(state.hypotheses.best()->map_from_robot)).norm();
 }
 
 std::optional<Eigen::Vector2d> goal(const FollowState& state, const Pose2& odometry, const FollowConfig& config) {

@@ -39,9 +39,9 @@ struct FollowConfig {
   double arrived_probability = 0.9;  // with at least this probability
 };
 
-/// The view of the place that the server's belief names, which is of all pictures since long before the mission.
+/// What the server's belief names, which is of all pictures since long before the mission.
 struct BelievedView {
-  int view = 0;
+  std::optional<int> view;  // of the place that it names; nothing: it is none that the mission tells of
   double probability = 0.0;
 };
 
@@ -55,6 +55,7 @@ struct FollowState {
   Pose2 odometry;                      // at the latest picture
   bool begun = false;
   double blind_m = 0.0;         // driven since the last answer that was believed
+  double unheard_m = 1e9;       // and since the belief was heard
   homing::VisualHoming visual;  // to the view homed to
   int visual_index = -1;        // which one that is
   int contradictions = 0;       // local maps in a row that said something else than the estimate
@@ -71,6 +72,7 @@ struct FollowResult {
   std::optional<homing::HomeVector> vector;  // the fresh answer of the view homed to, when there is one
   homing::TrackCounts tracks;                // of its features
   bool answered = false;                     // some view answered
+  bool recognised = false;                   // something in the picture is of some view, wherever that is
   bool at_end = false;                       // the destination's view is reached
 };
 
@@ -108,7 +110,8 @@ std::optional<PlaceId> estimated_place(const FollowState& state, const VisualPat
 /// How far from its path the robot is by the estimate; nothing where that is not sure enough to drive by.
 std::optional<double> off_path_m(const FollowState& state, const VisualPath& path, const FollowConfig& config);
 
-/// How far the estimate is from the place that the server's belief names; nothing where either is not sure.
+/// How far the estimate is from the place that the server's belief names; infinity where the mission tells of no such
+/// place, nothing where either is not sure.
 std::optional<double> off_belief_m(const FollowState& state, const VisualPath& path, const FollowConfig& config);
 
 /// Where to drive now, robot frame: the view homed to, or nothing when too little is known of it.

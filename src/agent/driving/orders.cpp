@@ -49,6 +49,7 @@ struct Clerk {
     state.reason.clear();
     state.follow = {};
     state.looking = {};
+    state.continuity = {};
     state.off_path_since_ms.reset();
     state.off_belief_since_ms.reset();
     state.seen = {};
@@ -78,9 +79,8 @@ struct Clerk {
   void operator()(const wire::BeliefReport& belief) const {
     state.follow.belief.reset();
     if (!state.mission || belief.lost || !belief.place) return;
-    if (const auto view = state.mission->path.view_of(*belief.place)) {
-      state.follow.belief = BelievedView{*view, belief.probability};
-    }
+    state.follow.belief = BelievedView{state.mission->path.view_of(*belief.place), belief.probability};
+    state.belief_ms = now_ms;
   }
   void operator()(const wire::LinkError&) const {}
 };

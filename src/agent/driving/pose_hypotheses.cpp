@@ -278,6 +278,18 @@ void PoseHypotheses::weigh(std::span<const ViewSighting> sightings) {
   settle();
 }
 
+void PoseHypotheses::hear(const std::optional<Vector2>& point_m, double radius_m, double odds) {
+  bool known = false;
+  for (PoseHypothesis& hypothesis : hypotheses_) {
+    if (!point_m || (position(hypothesis.map_from_robot) - *point_m).norm() > radius_m) continue;
+    hypothesis.weight *= odds;
+    known = true;
+  }
+  // It may be right although no hypothesis is there.
+  if (!known) elsewhere_ *= odds;
+  settle();
+}
+
 void PoseHypotheses::refine(const ViewSighting& sighting) {
   constexpr double kNews = 0.1;  // pictures of one moment share their errors
   for (PoseHypothesis& hypothesis : hypotheses_) move(hypothesis, sighting, kNews);

@@ -80,6 +80,10 @@ class PoseHypotheses {
   /// One picture. `sightings`: the views that it was compared with; those near to the hypotheses must be among them.
   void weigh(std::span<const ViewSighting> sightings);
 
+  /// Somebody else says that the robot is within `radius_m` of a point of the map, or, without one, at a place that is
+  /// none of those that were compared. `odds`: how many times more probable that makes it.
+  void hear(const std::optional<Eigen::Vector2d>& point_m, double radius_m, double odds);
+
   /// What a local map says between two pictures that are recognised: moves the hypotheses, weighs nothing.
   void refine(const ViewSighting& sighting);
 

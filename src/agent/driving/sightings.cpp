@@ -62,7 +62,7 @@ std::vector<int> worth_comparing(const FollowState& state, const VisualPath& pat
   if (!knows) {
     for (const int view : nearest(path, path.pose(0), kOfBest, kReach_m)) add(views, view);
   }
-  if (state.belief) add(views, state.belief->view);
+  if (state.belief && state.belief->view) add(views, *state.belief->view);
   // What looks most like it, wherever that is: somebody may have carried the robot off.
   constexpr std::size_t kAlike = 3;
   if (path.index) {
@@ -81,7 +81,7 @@ std::vector<ComparedView> compare_views(const FollowState& state, const VisualPa
   constexpr double kCarriedShare = 1e-3;  // or somebody has carried the robot anywhere
   // At first it is where the path begins, if those are right who say so; else at one of the views that look like it.
   constexpr double kElsewhereShare = 0.02;
-  constexpr double kOfOthers = 0.2;
+  constexpr double kOfOthers = 0.5;
   const double elsewhere_share = std::max(kElsewhereShare, kOfOthers * (1.0 - path.start_probability));
   constexpr double kBelievedShare = 0.05;  // the server's belief, where it is sure
   const PoseHypothesis* best = state.hypotheses.best();

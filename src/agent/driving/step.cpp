@@ -12,6 +12,7 @@
 namespace homeward::agent {
 namespace {
 
+constexpr const char* kDisplaced = "All at once I see something else: was I lifted? I look where I am.";
 constexpr int kFewestFeatures = 20;  // with fewer the camera is taken to be covered
 
 void take_picture(DrivingState& state, const SeenPicture& picture, const DrivingConfig& config, Milliseconds now_ms) {
@@ -31,6 +32,14 @@ void take_picture(DrivingState& state, const SeenPicture& picture, const Driving
                                            picture.odometry, config.follow, state.pictures)
                                   : track(state.follow, state.mission->path, picture.frame, picture.odometry,
                                           config.follow, state.pictures);
+  // What is of nowhere hides the view: that says nothing of where the robot is.
+  if (picture.appearance && state.seen.recognised &&
+      breaks_off(state.continuity, {picture.appearance, picture.odometry, picture.taken_ms}, state.pictures)) {
+    ++state.displaced;
+    state.follow = {};
+    state.seen = {};
+    return end_mission(state, wire::DriveState::kFailed, kDisplaced);
+  }
   if (state.seen.answered) {
     state.last_answer_ms = now_ms;
     state.answers_ms.push_back(now_ms);
@@ -284,6 +293,7 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   if (rider && state.drive == wire::DriveState::kDriving)
     end_mission(state, wire::DriveState::kStopped, kRiderTookOver);
   obey(state, inputs.messages, rider, config, now_ms, outputs);
+  if (now_ms - state.belief_ms > config.belief_silence_ms) state.follow.belief.reset();
   if (state.mission != before) {
     state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = state.last_picture_ms = sensors_ms;
     state.gain_from = inputs.odometry;

@@ -97,6 +97,7 @@ Status DriveLoop::cycle() {
     const bool ended = was_driving && state_.drive != wire::DriveState::kDriving;
     if (ended && !state_.reason.empty()) stops_.push_back({elapsed_s(), state_.reason, {}});
     listen_for_doubt();
+    compare_with_belief();
     if (state_.drive != wire::DriveState::kDriving && state_.drive != wire::DriveState::kArrived && !moves(robot_))
       halted_ = true;
     if (listener_.cycled) listener_.cycled(trace(*outputs));
@@ -191,6 +192,19 @@ void DriveLoop::listen_for_doubt() {
     told_after_s_ = elapsed_s() - *kidnapped_at_s_;
 }
 
+void DriveLoop::compare_with_belief() {
+  constexpr double kApart_m = 2.0;
+  std::optional<double> off_m;
+  if (state_.drive == wire::DriveState::kDriving)
+    off_m = off_belief_m(state_.follow, state_.mission->path, config_.follow);
+  if (!off_m || *off_m <= kApart_m) {
+    apart_since_s_.reset();
+    return;
+  }
+  apart_since_s_ = apart_since_s_.value_or(elapsed_s());
+  belief_apart_s_ = std::max(belief_apart_s_, elapsed_s() - *apart_since_s_);
+}
+
 void DriveLoop::move(bool frozen) {
   constexpr int kParts = 5;
   const bool must_rest = halted_;
@@ -244,6 +258,7 @@ CycleTrace DriveLoop::trace(const Outputs& outputs) const {
   const auto index = static_cast<std::size_t>(now.index);
   now.view = (index + 1 < static_cast<std::size_t>(now.views) ? order_.path[index].image : order_.final_image).str();
   now.answered = state_.seen.answered;
+  now.continuity = state_.continuity.share;
   if (state_.mission && state_.follow.begun) {
     now.position_probability = position_probability(state_.follow, state_.mission->path);
     now.arrival_probability = arrival_probability(state_.follow, state_.mission->path, config_.follow);

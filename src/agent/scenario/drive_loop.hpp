@@ -63,6 +63,8 @@ class DriveLoop {
   /// How long after that it gave up, or said that something is wrong. Nothing: never, or it took itself to have
   /// arrived.
   [[nodiscard]] const std::optional<double>& told_after_s() const { return told_after_s_; }
+  /// The longest that a sure belief of the map and a sure estimate were more than 2 m apart while it drove.
+  [[nodiscard]] double belief_apart_s() const { return belief_apart_s_; }
   /// About the last seconds' pictures, one a second, oldest first.
   [[nodiscard]] const std::deque<DrivenPicture>& pictures() const { return pictures_; }
 
@@ -73,6 +75,7 @@ class DriveLoop {
   void place_boxes();
   Status kidnap();
   void listen_for_doubt();
+  void compare_with_belief();
   void move(bool frozen);
   void close_stop();
   [[nodiscard]] bool on(const char* kind) const { return faults_.active(kind, elapsed_s()); }
@@ -100,6 +103,8 @@ class DriveLoop {
   Elsewhere elsewhere_;
   std::optional<double> kidnapped_at_s_;
   std::optional<double> told_after_s_;
+  std::optional<double> apart_since_s_;
+  double belief_apart_s_ = 0.0;
   Milliseconds now_ms_ = 0;
   double commanded_s_ = 0.0;  // the last command that reached the base
   double heard_s_ = 0.0;      // when the house last heard of the agent

@@ -63,6 +63,24 @@ Result<wire::MissionOrder> House::order_from(const PlaceId& place) {
   return order;
 }
 
+/// Where the robot stands that was lifted: by what it sees now alone. Where that says little, the likeliest place.
+Result<std::optional<PlaceId>> House::look_anew(DriveLoop& drive) {
+  constexpr int kLooks = 4;
+  tracker_.restart();
+  belief_ = {};
+  for (int look = 0; look < kLooks; ++look) {
+    const auto seen = drive.look_again();
+    if (!seen) return pass_on(seen);
+    if (!*seen) continue;
+    const auto belief = tracker_.update((*seen)->picture, (*seen)->odometry);
+    if (!belief) return pass_on(belief);
+    belief_ = *belief;
+  }
+  if (belief_.top.empty()) return std::nullopt;
+  begin_by_belief();
+  return belief_.top.front().place;
+}
+
 /// Where the robot stands after a failed drive: by the last seconds' pictures and some more, which look first beside
 /// the places that it has just passed; where that says nothing, anew among all places.
 Result<std::optional<PlaceId>> House::find_again(DriveLoop& drive) {
@@ -87,16 +105,29 @@ Result<std::optional<PlaceId>> House::find_again(DriveLoop& drive) {
 }
 
 Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, std::string& why) {
-  const std::int64_t index = drive.state().follow.index;
+  const DrivingState& robot = drive.state();
+  const std::int64_t index = robot.follow.index;
+  const bool displaced = robot.displaced > displaced_;
+  displaced_ = robot.displaced;
+  const bool sees = robot.mission && !robot.covered && !displaced;
   // The belief is of the whole map and of all pictures of the drive; where it is lost, the robot's own estimate.
-  // Of a covered camera neither says anything.
-  Result<std::optional<PlaceId>> here = drive.state().covered ? std::nullopt : place_of(belief_);
+  // Of a covered camera neither says anything, nor of a robot that was lifted.
+  Result<std::optional<PlaceId>> here = sees ? place_of(belief_) : std::nullopt;
   begin_by_belief();
-  if (!*here && drive.state().mission && !drive.state().covered) {
-    here = estimated_place(drive.state().follow, drive.state().mission->path, FollowConfig{});
-    start_probability_ = std::min(start_probability_, 0.5);
+  if (sees) {
+    constexpr double kBothMayBeRight = 0.5;
+    constexpr double kApart_m = 2.0;
+    const auto estimated = estimated_place(robot.follow, robot.mission->path, FollowConfig{});
+    const auto off_m = off_belief_m(robot.follow, robot.mission->path, FollowConfig{});
+    if (!*here || (off_m && *off_m > kApart_m)) start_probability_ = std::min(start_probability_, kBothMayBeRight);
+    if (!*here) here = estimated;
+    if (estimated) likely_.push_back(*estimated);
   }
-  if (!*here) {
+  if (displaced) {
+    const auto found = look_anew(drive);
+    if (!found) return pass_on(found);
+    here = *found;
+  } else if (!*here) {
     here = find_again(drive);
     start_probability_ = 1.0;
   }

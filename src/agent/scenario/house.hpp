@@ -35,6 +35,7 @@ class House {
  private:
   Result<std::optional<PlaceId>> find_again(DriveLoop& drive);
   void begin_by_belief();
+  Result<std::optional<PlaceId>> look_anew(DriveLoop& drive);
   House(const TaughtWorld& taught, const map::Destination& destination, pipeline::BeliefTracker tracker)
       : taught_(&taught), destination_(&destination), tracker_(std::move(tracker)) {}
 
@@ -45,6 +46,7 @@ class House {
   std::vector<planning::Way> closed_;
   std::vector<PlaceId> likely_;     // where else the robot may be, as it begins
   double start_probability_ = 1.0;  // that it is where its path begins
+  int displaced_ = 0;               // how often the robot had noticed a lift when its belief was begun anew
   localisation::Belief belief_;     // the latest
   int detours_ = 0;
   bool fails_again_ = false;  // where it failed before

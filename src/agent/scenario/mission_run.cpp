@@ -39,6 +39,7 @@ MissionResult result_of(DriveLoop& drive) {
   result.moved_after_stop = drive.moved_after_stop();
   result.kidnapped_at_s = drive.kidnapped_at_s();
   result.told_after_s = drive.told_after_s();
+  result.belief_apart_s = drive.belief_apart_s();
   return result;
 }
 

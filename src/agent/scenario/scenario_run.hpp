@@ -39,6 +39,7 @@ struct MissionResult {
   int moved_after_stop = 0;                   // control cycles with motion between a stop and the next order
   int moved_furniture = 0;                    // pieces that stood elsewhere than in the tour
   std::optional<double> arrival_probability;  // stated, of being within half a metre; where it says that it arrived
+  double belief_apart_s = 0.0;  // longest that a sure belief of the map and a sure estimate were over 2 m apart
   /// When it was lifted and put down elsewhere.
   std::optional<double> kidnapped_at_s;
   /// From then until it gave up or said that something is wrong. Nothing: never.
@@ -57,6 +58,7 @@ struct CycleTrace {
   double position_probability = 0.0;  // of where the robot believes to be
   double arrival_probability = 0.0;
   double elsewhere = 0.0;
+  std::optional<double> continuity;        // share of features seen again from the picture before
   std::optional<double> estimate_error_m;  // true
   double bearing_rad = 0.0;
   double confidence = 0.0;
@@ -86,7 +88,7 @@ struct ScenarioListener {
 /// of each mission, named by number, start and destination. Errors: also those of Recorder. `only`: numbers of the
 /// missions to drive, from 1; each goes as it goes among all. Empty: all. Errors: kInvalidInput for a number that the
 /// scenario has no mission of.
-Status run_scenario(const wire::ScenarioFile& scenario, const std::string& folder, const ScenarioListener& listener,
+Status run_scenario(wire::ScenarioFile scenario, const std::string& folder, const ScenarioListener& listener,
                     const std::optional<RecordingOptions>& record = std::nullopt, const std::set<int>& only = {});
 
 }  // namespace homeward::agent

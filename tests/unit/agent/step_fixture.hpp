@@ -58,7 +58,7 @@ class StepTest : public ::testing::Test {
     inputs.link_up = link_up_;
     inputs.odometry = pose_;
     inputs.messages = std::move(messages);
-    if (server_talks_) inputs.messages.emplace_back(wire::BeliefReport{});
+    if (server_talks_) inputs.messages.emplace_back(belief_);
     if (pictures_) {
       const auto count = static_cast<std::uint64_t>(now_ms_);
       const bool covered = covered_ || (covered_now_and_then_ && (now_ms_ / kTick_ms) % 8 == 0);
@@ -170,6 +170,7 @@ class StepTest : public ::testing::Test {
   Milliseconds sweep_age_ms_ = 0;
   bool link_up_ = true;
   bool server_talks_ = true;
+  wire::BeliefReport belief_;  // that it tells each time
   bool pictures_ = true;
   bool sweeps_ = true;
   bool covered_ = false;
