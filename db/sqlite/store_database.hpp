@@ -121,4 +121,8 @@ inline std::optional<std::int64_t> optional_integer(SQLite::Statement& row, int 
   return row.isColumnNull(column) ? std::nullopt : std::optional(integer(row, column));
 }
 
+inline std::optional<double> optional_number(SQLite::Statement& row, int column) {
+  return row.isColumnNull(column) ? std::nullopt : std::optional(real(row, column));
+}
+
 }  // namespace homeward::db

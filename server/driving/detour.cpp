@@ -78,6 +78,7 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   plan.mission.path = places;
   plan.again = detour->again;
   plan.mission.path_index = 0;
+  plan.mission.arrival_probability.reset();
   plan.order.mission = mission;
   plan.order.map = plan.mission.map;
   plan.order.valid_for_ms = kPermitMs;

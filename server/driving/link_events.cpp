@@ -92,6 +92,7 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
     const std::int64_t index = std::clamp<std::int64_t>(now.path_index, 0, std::max<std::int64_t>(0, last));
     const bool moved_on = index != mission.path_index;
     mission.path_index = index;
+    mission.arrival_probability = now.arrival_probability;
     switch (now.state) {
       case wire::DriveState::kArrived:
         mission.reason = now.reason;  // what is left to say; that of a detour is over

@@ -72,6 +72,14 @@ std::optional<HomeReport> read_home(ObjectReader& reader) {
   return home;
 }
 
+std::optional<EstimateReport> read_estimate(ObjectReader& reader) {
+  if (!reader.has("estimate")) return std::nullopt;
+  ObjectReader inner(reader.value("estimate"), reader.path_of("estimate"));
+  EstimateReport estimate{PlaceId(inner.text("place", 100)), inner.number("probability", 0.0, 1.0)};
+  reader.close(inner);
+  return estimate;
+}
+
 AgentStatus read_status(ObjectReader& reader) {
   AgentStatus m;
   m.seq = reader.integer("seq", 0, kMost);
@@ -88,6 +96,8 @@ AgentStatus read_status(ObjectReader& reader) {
   m.home = read_home(reader);
   m.min_range_m = number_or_null(reader, "min_range_m");
   m.vectors_per_s = reader.number("vectors_per_s", 0.0, 1000.0);
+  if (reader.has("arrival_probability")) m.arrival_probability = reader.number("arrival_probability", 0.0, 1.0);
+  m.estimate = read_estimate(reader);
   return m;
 }
 

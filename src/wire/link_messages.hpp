@@ -59,6 +59,12 @@ struct HomeReport {
   std::int64_t inliers = 0;
 };
 
+/// The place of the map that the robot is at by its own estimate.
+struct EstimateReport {
+  PlaceId place;
+  double probability = 0.0;
+};
+
 struct AgentStatus {
   std::int64_t seq = 0;
   TimeUs t_us = 0;
@@ -71,6 +77,10 @@ struct AgentStatus {
   std::optional<HomeReport> home;
   std::optional<double> min_range_m;
   double vectors_per_s = 0.0;
+  /// Of being within half a metre of the mission's destination, as of the latest picture of the drive. Nothing: not
+  /// known.
+  std::optional<double> arrival_probability = std::nullopt;
+  std::optional<EstimateReport> estimate = std::nullopt;  // nothing: it is not sure enough to drive by it
 };
 
 /// The driver was commanded to zero because of `stop_id`.

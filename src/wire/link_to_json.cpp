@@ -52,6 +52,9 @@ json write(const AgentStatus& m) {
   }
   value["min_range_m"] = or_null(m.min_range_m);
   value["vectors_per_s"] = m.vectors_per_s;
+  value["arrival_probability"] = or_null(m.arrival_probability);
+  value["estimate"] = nullptr;
+  if (m.estimate) value["estimate"] = {{"place", m.estimate->place.str()}, {"probability", m.estimate->probability}};
   return value;
 }
 

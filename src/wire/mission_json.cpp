@@ -51,6 +51,7 @@ json mission_to_json(const MissionView& mission) {
           {"seq", mission.seq},
           {"path", ids_to_json(mission.path)},
           {"path_index", mission.path_index},
+          {"arrival_probability", or_null(mission.arrival_probability)},
           {"created_us", mission.created_us},
           {"by", mission.by}};
 }
@@ -72,6 +73,8 @@ Result<MissionView> mission_from_json(const json& value, const std::string& path
   mission.seq = reader.integer("seq", 0, kLargest);
   mission.path = read_path(reader);
   mission.path_index = reader.integer("path_index", 0, 2000);
+  if (!reader.value("arrival_probability").is_null())
+    mission.arrival_probability = reader.number("arrival_probability", 0.0, 1.0);
   mission.created_us = reader.integer("created_us", 0, kLargest);
   mission.by = reader.text("by", 200);
   if (const Status status = reader.finish(); !status) return pass_on(status);

@@ -34,6 +34,9 @@ struct MissionView {
   std::int64_t seq = 0;
   std::vector<PlaceId> path;
   std::int64_t path_index = 0;  // the place in `path` that the robot drives to
+  /// What the robot states of being within half a metre of its destination: while it drives as of now, afterwards as it
+  /// ended. Nothing: not known.
+  std::optional<double> arrival_probability = std::nullopt;
   TimeUs created_us = 0;
   std::string by;  // user name
 };

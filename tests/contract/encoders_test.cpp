@@ -38,6 +38,7 @@ MissionView sample_mission() {
   mission.destination = DestinationId("d1");
   mission.place = PlaceId("p2");
   mission.path = {PlaceId("p1"), PlaceId("p2")};
+  mission.arrival_probability = 0.97;
   mission.by = "anna";
   return mission;
 }

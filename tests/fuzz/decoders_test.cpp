@@ -142,6 +142,8 @@ std::vector<Bytes> agent_messages() {
   status.mission = MissionId("m1");
   status.reason = "Because.";
   status.home = wire::HomeReport{0.5, 0.9, 30};
+  status.arrival_probability = 0.25;
+  status.estimate = wire::EstimateReport{PlaceId("p1"), 0.75};
   wire::Hello hello;
   hello.agent = "homeward-agent/0.1.0";
   hello.robot_name = "chair";

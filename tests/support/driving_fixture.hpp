@@ -38,6 +38,8 @@ class FakeAgent {
     status.state = state;
     status.path_index = index;
     status.reason = reason;
+    status.arrival_probability = arrival_probability;
+    status.estimate = estimate;
     if (order) {
       status.mission = order->mission;
       status.epoch = order->order.epoch;
@@ -90,6 +92,9 @@ class FakeAgent {
 
   SocketClient socket;
   std::optional<wire::AgentStatus> latest;  // told again while it waits
+  // What it states in each status from now on.
+  std::optional<double> arrival_probability;
+  std::optional<wire::EstimateReport> estimate;
   std::function<void()> while_waiting;
   std::int64_t status_seq = 0;
   std::int64_t frame_seq = 0;

@@ -74,6 +74,7 @@ function startMission(house, { user, body, args }) {
     seq: 1,
     path,
     path_index: 0,
+    arrival_probability: null,
     created_us: Date.now() * 1000,
     by: user.name,
   };

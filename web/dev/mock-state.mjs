@@ -13,6 +13,7 @@ export class House {
       seq: 0,
       ids: 0,
       unreachable: false,
+      sureness: 0.995, // of the next arrivals
       tell: () => undefined,
       dropClients: () => undefined,
     });
@@ -192,7 +193,7 @@ export class House {
     };
     const arrived = mission.state === 'driving' && mission.path_index >= mission.path.length - 1;
     robot.mission = arrived
-      ? { ...mission, state: 'arrived' }
+      ? { ...mission, state: 'arrived', arrival_probability: this.sureness }
       : {
           ...mission,
           state: 'driving',

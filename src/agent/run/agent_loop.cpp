@@ -10,6 +10,7 @@
 #include <stop_token>
 
 #include "agent/drivers/joystick.hpp"
+#include "agent/driving/stated.hpp"
 #include "agent/driving/step.hpp"
 #include "agent/link/link_client.hpp"
 #include "agent/recording/recorder.hpp"
@@ -44,7 +45,8 @@ std::string random_session() {
   return text;
 }
 
-wire::AgentStatus status_of(const DrivingState& state, const Reading& reading, std::int64_t seq) {
+wire::AgentStatus status_of(const DrivingState& state, const DrivingConfig& config, const Reading& reading,
+                            std::int64_t seq) {
   wire::AgentStatus status;
   status.seq = seq;
   status.t_us = now_us();
@@ -60,6 +62,8 @@ wire::AgentStatus status_of(const DrivingState& state, const Reading& reading, s
   }
   status.min_range_m = state.min_range_m;
   status.vectors_per_s = static_cast<double>(state.answers_ms.size());
+  status.arrival_probability = stated_arrival(state, config);
+  status.estimate = stated_estimate(state, config);
   return status;
 }
 
@@ -169,7 +173,7 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
     told_state = state.drive;
     if (changed || now - status_ms >= kStatusPeriod_ms) {
       status_ms = now;
-      link.send(status_of(state, reading, ++status_seq));
+      link.send(status_of(state, config, reading, ++status_seq));
     }
     if (Clock::now() >= next_cycle) next_cycle = std::max(next_cycle + kCycle, Clock::now());
     // What is heard is obeyed at once, and its silence counts from when it came.

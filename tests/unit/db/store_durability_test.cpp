@@ -71,6 +71,7 @@ TEST_F(StoreDurability, MissionsUnderWayAreStoppedByARestart) {
   wire::MissionView arrived = *store().add_mission(mission);
   arrived.state = wire::MissionState::kArrived;
   arrived.path_index = 1;
+  arrived.arrival_probability = 0.96875;
   ASSERT_TRUE(store().update_mission(arrived));
   open();
   const wire::MissionView stopped = store().mission(driving).value();
@@ -81,6 +82,8 @@ TEST_F(StoreDurability, MissionsUnderWayAreStoppedByARestart) {
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0].state, wire::MissionState::kArrived);
   EXPECT_EQ(all[0].path_index, 1);
+  EXPECT_EQ(all[0].arrival_probability, 0.96875);
+  EXPECT_EQ(all[1].arrival_probability, std::nullopt) << "it was never known";
 }
 
 TEST_F(StoreDurability, AnEmptyFileBecomesADatabaseAndANewerOneIsRefused) {
@@ -94,7 +97,7 @@ TEST_F(StoreDurability, AnEmptyFileBecomesADatabaseAndANewerOneIsRefused) {
   close();
   {
     SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
-    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 3);
+    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 4);
     EXPECT_EQ(database.execAndGet("PRAGMA journal_mode").getString(), "wal");
     database.exec("PRAGMA user_version = 999");
   }
@@ -134,6 +137,34 @@ TEST_F(StoreDurability, AnOlderDatabaseKeepsItsMapsAndJobs) {
   EXPECT_EQ(job.notes, std::vector<std::string>{"A note."});
   EXPECT_EQ(job.gained, 0);
   EXPECT_EQ(store().unfinished_jobs()->at(0).id.str(), "open");
+}
+
+TEST_F(StoreDurability, AnOlderDatabaseKeepsItsMissionsAndKnowsNotHowSureTheirArrivalsWere) {
+  close();
+  std::filesystem::remove_all(folder());
+  std::filesystem::create_directories(folder());
+  {
+    SQLite::Database database((folder() / "homeward.db").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    for (const char* file : {"0001_first.sql", "0002_job_notes.sql", "0003_learning.sql"}) {
+      std::ostringstream sql;
+      sql << std::ifstream(testing::project_folder() / "db/migrations" / file).rdbuf();
+      database.exec(sql.str());
+    }
+    database.exec(
+        "INSERT INTO robots (id, name, created_us) VALUES ('r', 'chair', 1);"
+        "INSERT INTO missions VALUES ('x', 'r', 'm', 3, NULL, 'p2', 'arrived', NULL, 1, 2, '[\"p1\",\"p2\"]', 1, 7, "
+        "'anna');");
+    database.exec("PRAGMA application_id = " + std::to_string(0x48575354));
+    database.exec("PRAGMA user_version = 3");
+  }
+  open();
+  wire::MissionView mission = store().mission(MissionId("x")).value();
+  EXPECT_EQ(mission.state, wire::MissionState::kArrived);
+  EXPECT_EQ(mission.by, "anna");
+  EXPECT_EQ(mission.arrival_probability, std::nullopt);
+  mission.arrival_probability = 0.5;
+  ASSERT_TRUE(store().update_mission(mission));
+  EXPECT_EQ(store().mission(MissionId("x"))->arrival_probability, 0.5);
 }
 
 TEST_F(StoreDurability, AFileThatIsNoDatabaseIsNamed) {

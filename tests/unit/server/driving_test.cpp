@@ -102,6 +102,8 @@ TEST_F(DrivingTest, AMissionIsPermittedUntilItArrives) {
   ASSERT_TRUE(order->surroundings) << "the robot is told where the places of its path lie";
   EXPECT_EQ(order->surroundings->path.size(), order->path.size());
   wire::Order newest = order->order;
+  EXPECT_TRUE(sent.json().at("arrival_probability").is_null());
+  agent.arrival_probability = 0.125;
   for (int i = 0; i < 5; ++i) {
     agent.status(wire::DriveState::kDriving, order, 1);
     const auto permit = agent.await<wire::Permit>(milliseconds(2000));
@@ -110,15 +112,21 @@ TEST_F(DrivingTest, AMissionIsPermittedUntilItArrives) {
     EXPECT_GT(permit->order, newest) << "each permit is newer";
     newest = permit->order;
   }
-  EXPECT_EQ(wait_for_state(sent.json(), "driving").at("path_index"), 1);
+  const json under_way = wait_for_state(sent.json(), "driving");
+  EXPECT_EQ(under_way.at("path_index"), 1);
+  EXPECT_EQ(under_way.at("arrival_probability"), 0.125);
+  agent.arrival_probability = 0.96875;
   agent.status(wire::DriveState::kArrived, order, 2, "I am there, but cannot turn to the right heading.");
   const nlohmann::json arrived = wait_for_state(sent.json(), "arrived");
   EXPECT_EQ(arrived.at("state"), "arrived");
   EXPECT_EQ(arrived.at("reason"), "I am there, but cannot turn to the right heading.");
+  EXPECT_EQ(arrived.at("arrival_probability"), 0.96875);
   while (agent.await<wire::Permit>(milliseconds(150))) {
   }
   EXPECT_FALSE(agent.await<wire::Permit>(milliseconds(400))) << "no permits after the end";
   EXPECT_EQ(admin->get(root + "/missions").json().at("missions").size(), 1U);
+  restart();
+  EXPECT_EQ(mission_now(sent.json()).at("arrival_probability"), 0.96875) << "of the arrival, for good";
 }
 
 TEST_F(DrivingTest, AStopOvertakesAndALostLinkStops) {

@@ -29,6 +29,7 @@ const mission: Mission = {
   seq: 1,
   path: ['p1'],
   path_index: 0,
+  arrival_probability: null,
   created_us: 10,
   by: 'anna',
 };

@@ -49,7 +49,7 @@ export function nameOf(graph: Graph, place: string): string | null {
 }
 
 /** Names of people and things that carry a capital or a possessive go without an article. */
-function withArticle(name: string): string {
+export function withArticle(name: string): string {
   return /^[A-Z]|^(the|my|our) |^\d|'s\b/.test(name) ? name : `the ${name}`;
 }
 

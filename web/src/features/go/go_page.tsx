@@ -13,7 +13,7 @@ import { goalsOf, leadsTo, targetOf } from './goals';
 import { FirstSteps } from './first_steps';
 import { hindrance, journeyOf, type Journey, type Target } from './journey';
 import { JourneyCard } from './journey_card';
-import { heading, reasonOf } from './journey_words';
+import { announcement } from './journey_words';
 import { LeasePrompt, WhoDrives } from './lease_prompt';
 import { WhereaboutsCard } from './whereabouts_card';
 
@@ -73,7 +73,7 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
       )}
       {/* There from the start, so that screen readers announce each change of it. */}
       <p class="hidden-text" role="status">
-        {journey && [heading(journey, graph), reasonOf(journey)].filter(Boolean).join('. ')}
+        {journey && announcement(journey, graph)}
       </p>
       <div id="go-top" class={journey ? 'go-top two' : 'go-top'}>
         <WhereaboutsCard robot={robot} graph={graph} />

@@ -18,6 +18,7 @@ const mission: Mission = {
   seq: 1,
   path: ['p1', 'p2', 'p3', 'p4', 'p5'],
   path_index: 2,
+  arrival_probability: null,
   created_us: 100,
   by: 'anna',
 };

@@ -26,6 +26,7 @@ export interface Journey {
   by: string | null;
   path: readonly string[];
   path_index: number;
+  arrival_probability: number | null; // what the robot states of being there
 }
 
 export function isActive(phase: Phase | undefined): boolean {
@@ -43,6 +44,7 @@ export function journeyOf(robot: Robot, command: Command | undefined): Journey |
       by: null,
       path: [],
       path_index: 0,
+      arrival_probability: null,
     };
   }
   const mission = newest(robot.mission, command?.kind === 'sent' ? command.mission : null);
@@ -56,6 +58,7 @@ export function journeyOf(robot: Robot, command: Command | undefined): Journey |
     by: mission.by,
     path: mission.path,
     path_index: Math.min(Math.max(0, mission.path_index), Math.max(0, mission.path.length - 1)),
+    arrival_probability: mission.arrival_probability,
   };
 }
 

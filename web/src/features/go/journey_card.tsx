@@ -6,7 +6,7 @@ import { Bar } from '../../components/notice';
 import { placeTitle } from '../../lib/whereabouts';
 import { count } from '../../lib/words';
 import { isActive, placesToGo, progressOf, type Journey } from './journey';
-import { heading, reasonOf, toneOf } from './journey_words';
+import { arrivalSureness, heading, reasonOf, toneOf } from './journey_words';
 
 const kShownSteps = 6;
 
@@ -21,6 +21,7 @@ interface Props {
 export function JourneyCard({ journey, graph, onAgain, onDismiss }: Props) {
   const { phase } = journey;
   const reason = reasonOf(journey);
+  const sureness = arrivalSureness(journey, graph);
   const active = isActive(phase) || phase === 'asking';
   const steps = Math.max(0, journey.path.length - 1);
   return (
@@ -35,6 +36,7 @@ export function JourneyCard({ journey, graph, onAgain, onDismiss }: Props) {
         <h2>{heading(journey, graph)}</h2>
       </div>
       {reason !== null && <p>{reason}</p>}
+      {sureness !== null && <p>{sureness}</p>}
       {isActive(phase) && steps > 0 && (
         <div class="stack tight">
           <Bar share={progressOf(journey)} label="Progress" />

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
 import type { Journey } from './journey';
-import { heading, reasonOf } from './journey_words';
+import type { Graph } from '../../api/types';
+import { announcement, arrivalSureness, heading, reasonOf } from './journey_words';
 
 const journey: Journey = {
   id: 'one',
@@ -12,6 +13,20 @@ const journey: Journey = {
   by: 'anna',
   path: ['p1', 'p5'],
   path_index: 1,
+  arrival_probability: null,
+};
+const graph: Graph = {
+  format: 'homeward-graph',
+  version: 1,
+  map: 'm',
+  revision: 1,
+  places: [
+    { id: 'p5', label: '', prototype: 't/5.jpg', members: ['t/5.jpg'], features: 9, x: 0, y: 0 },
+    { id: 'p6', label: "Anna's room", prototype: 't/6.jpg', members: ['t/6.jpg'], features: 9, x: 1, y: 0 },
+  ],
+  edges: [],
+  destinations: [{ id: 'kitchen', place: 'p5', image: 't/5.jpg', label: 'south_hall' }],
+  hypotheses: [],
 };
 
 describe('what a journey says', () => {
@@ -23,5 +38,38 @@ describe('what a journey says', () => {
   it('says what was not right where it arrived', () => {
     const beside = { ...journey, reason: 'I am there, but cannot turn to the right heading.' };
     expect(reasonOf(beside)).toBe('I am there, but cannot turn to the right heading.');
+  });
+
+  it('says how sure an arrival is where that is worth a look, and only then', () => {
+    const said = (arrival_probability: number | null) =>
+      arrivalSureness({ ...journey, arrival_probability }, graph);
+    expect(said(null)).toBeNull();
+    expect(said(1)).toBeNull();
+    expect(said(0.99)).toBeNull();
+    expect(said(0.989)).toBe('I am quite sure that this is the south hall.');
+    expect(said(0.95)).toBe('I am quite sure that this is the south hall.');
+    expect(said(0.949)).toBe('I am fairly sure that this is the south hall. Please have a look.');
+    expect(said(0.9)).toBe('I am fairly sure that this is the south hall. Please have a look.');
+    expect(said(0.6)).toBe('I am not sure that this is the south hall. Please have a look.');
+  });
+
+  it('says nothing of arriving before it has arrived, nor where it ended otherwise', () => {
+    for (const phase of ['driving', 'stopped', 'failed'] as const)
+      expect(arrivalSureness({ ...journey, phase, arrival_probability: 0.95 }, graph)).toBeNull();
+  });
+
+  it('is announced as whole sentences', () => {
+    expect(announcement(journey, graph)).toBe('Arrived: South hall');
+    expect(announcement({ ...journey, reason: 'I cannot turn', arrival_probability: 0.96 }, graph)).toBe(
+      'Arrived: South hall. I cannot turn. I am quite sure that this is the south hall.',
+    );
+  });
+
+  it('names where it went as a person would', () => {
+    const sure = { ...journey, arrival_probability: 0.96 };
+    expect(arrivalSureness({ ...sure, destination: null, place: 'p6' }, graph)).toBe(
+      "I am quite sure that this is Anna's room.",
+    );
+    expect(arrivalSureness(sure, null)).toBe('I am quite sure that this is the place you chose.');
   });
 });

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/driving/stated.hpp"
+
+#include <algorithm>
+
+namespace homeward::agent {
+namespace {
+
+/// Sums of weights may be off by their last digits; what is told is a probability.
+double as_probability(double value) { return std::clamp(value, 0.0, 1.0); }
+
+}  // namespace
+
+std::optional<double> stated_arrival(const DrivingState& state, const DrivingConfig& config) {
+  if (!state.mission || state.mission->path.alone() || state.follow.hypotheses.empty()) return std::nullopt;
+  return as_probability(arrival_probability(state.follow, state.mission->path, config.follow));
+}
+
+std::optional<wire::EstimateReport> stated_estimate(const DrivingState& state, const DrivingConfig& config) {
+  if (!state.mission || state.covered || state.follow.hypotheses.empty()) return std::nullopt;
+  const auto place = estimated_place(state.follow, state.mission->path, config.follow);
+  if (!place) return std::nullopt;
+  return wire::EstimateReport{*place, as_probability(position_probability(state.follow, state.mission->path))};
+}
+
+}  // namespace homeward::agent
