@@ -119,7 +119,8 @@ bool unpack_sweep(std::span<const std::uint8_t> bytes, RecordedSweep& sweep) {
 }
 
 std::string_view message_type(const wire::ServerMessage& message) {
-  constexpr std::array<std::string_view, 6> kNames = {"welcome", "mission", "permit", "stop", "belief", "error"};
+  constexpr std::array<std::string_view, 7> kNames = {"welcome", "mission", "permit", "stop",
+                                                      "belief",  "answer",  "error"};
   static_assert(std::variant_size_v<wire::ServerMessage> == kNames.size());
   return kNames[message.index()];
 }

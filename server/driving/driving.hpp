@@ -55,6 +55,16 @@ class Driving : public LinkListener {
   /// Errors: kNotFound, kLeaseHeld, kRobotOffline, kLost, kConflict (no map), kUnknownPlace, kNoRoute.
   Result<wire::MissionView> start(const RobotId& id, const MissionRequest& request);
   Result<wire::MissionView> mission(const RobotId& id, const MissionId& mission);
+  /// What a person says to the question that the robot asks on a mission.
+  struct GivenAnswer {
+    std::string lease_id;
+    std::int64_t question = 0;  // its number
+    bool here = false;          // whether the robot is at its destination
+    std::string by;
+  };
+  /// Passes it on; the first answer counts. Errors: kNotFound, kLeaseHeld, kRobotOffline, kConflict (nothing is asked,
+  /// another question, or somebody has answered).
+  Result<wire::MissionView> answer(const RobotId& id, const MissionId& mission, const GivenAnswer& given);
   /// Anyone may stop. Does not wait for the disk. Returns the stop's id.
   Result<std::string> stop(const RobotId& id, const std::string& by, const std::string& reason);
 

@@ -21,12 +21,7 @@ std::string where_of(const RobotUnit& unit) { return "robots/" + unit.id.str(); 
 
 // What forbids a mission now, with the unit locked.
 Status may_start(const RobotUnit& unit, const std::string& lease_id, SteadyTime now) {
-  if (!unit.lease || now >= unit.lease->expires || unit.lease->id != lease_id) {
-    const bool other = unit.lease && now < unit.lease->expires;
-    return fail(ErrorCode::kLeaseHeld,
-                other ? unit.lease->holder + " is driving." : "Take the lease first; this one is over.",
-                where_of(unit) + "/lease");
-  }
+  if (const Status lease = unit.holds_lease(lease_id, now); !lease) return lease;
   if (!unit.online()) return fail(ErrorCode::kRobotOffline, "The robot is not connected.", where_of(unit));
   if (!unit.map) return fail(ErrorCode::kConflict, "The robot has no map to drive on.", where_of(unit));
   if (!unit.belief || unit.belief->lost || !unit.belief->place) {
@@ -129,6 +124,7 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
   unit.fails_again = false;
   unit.looking_for_detour = false;
   unit.sights.clear();
+  unit.answered.reset();
   unit.mission_at = now;
   unit.link->send(planned->order);
   spdlog::info("robot {} mission {} to {} over {} places, by {}", id.str(), mission.id.str(), mission.place.str(),

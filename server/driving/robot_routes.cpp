@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/driving/robot_routes.hpp"
 
+#include <limits>
+
 #include "server/auth/account_routes.hpp"
 #include "server/http/json_body.hpp"
 #include "wire/mission_json.hpp"
@@ -101,6 +103,20 @@ Response start_mission(Driving& driving, const Request& request) {
   return mission ? json_response(201, wire::mission_to_json(*mission)) : problem_of(mission);
 }
 
+Response answer(Driving& driving, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  Driving::GivenAnswer given;
+  given.lease_id = reader.text("lease_id", 100);
+  given.question = reader.integer("question", 1, std::numeric_limits<std::int64_t>::max());
+  given.here = reader.boolean("here");
+  if (const Status status = reader.finish(); !status) return problem_of(status);
+  given.by = request.caller.name;
+  const auto mission = driving.answer(robot_in(request), MissionId(request.parameter("mission")), given);
+  return mission ? json_response(202, wire::mission_to_json(*mission)) : problem_of(mission);
+}
+
 Response list_missions(Driving& driving, db::Store& store, const Request& request) {
   if (const auto robot = driving.get(robot_in(request)); !robot) return problem_of(robot);
   const auto missions = store.missions(robot_in(request));
@@ -150,6 +166,7 @@ void add_robot_routes(Router& router, Driving& driving, db::Store& store) {
     const auto mission = d->mission(robot_in(request), MissionId(request.parameter("mission")));
     return mission ? json_response(200, wire::mission_to_json(*mission)) : problem_of(mission);
   });
+  add("POST", "/{robot}/missions/{mission}/answer", "rider", [d](Request& request) { return answer(*d, request); });
   router.add({"POST", root + "/{robot}/stop", "viewer", Lane::kNow, 4096,
               [d](Request& request) { return stop(*d, request); }});
   add("GET", "/{robot}/frame", "viewer", [d](Request& request) {

@@ -69,11 +69,26 @@ struct RobotUnit {
   // Another way after a part of the present one failed; of this mission alone.
   std::vector<planning::Way> closed;
   int detours = 0;
-  bool fails_again = false;         // where it failed before
-  bool looking_for_detour = false;  // no permit goes out until the new way is sent
-  DriveSights sights;               // of this mission
+  bool fails_again = false;              // where it failed before
+  bool looking_for_detour = false;       // no permit goes out until the new way is sent
+  DriveSights sights;                    // of this mission
+  std::optional<std::int64_t> answered;  // number of the question of this mission that somebody has answered last
 
   [[nodiscard]] bool online() const { return link != nullptr && welcomed; }
+  /// Whether this lease is the one that lives. Errors: kLeaseHeld.
+  [[nodiscard]] Status holds_lease(const std::string& lease_id, SteadyTime now) const {
+    const bool lives = lease && now < lease->expires;
+    if (lives && lease->id == lease_id) return {};
+    return fail(ErrorCode::kLeaseHeld,
+                lives ? lease->holder + " is driving." : "Take the lease first; this one is over.",
+                "robots/" + id.str() + "/lease");
+  }
+  /// What the robot asks on its mission. Nothing: it asks nothing, or somebody has answered.
+  [[nodiscard]] std::optional<wire::QuestionReport> open_question() const {
+    if (!under_way || !status || status->state != wire::DriveState::kDriving || status->mission != mission->id)
+      return std::nullopt;
+    return status->question && status->question->number != answered ? status->question : std::nullopt;
+  }
   /// The belief is of now and names a place.
   [[nodiscard]] bool knows_where(SteadyTime now) const {
     return belief && !belief->lost && belief->place && now - belief_at <= kBeliefFresh;

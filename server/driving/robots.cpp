@@ -61,6 +61,7 @@ wire::RobotView Driving::view(const RobotUnit& unit, SteadyTime now) const {
   }
   view.belief = unit.belief;
   view.mission = unit.mission;
+  view.question = unit.open_question();
   if (lease_lives(unit, now)) {
     view.lease = lease_view(unit, now);
     view.lease->id.reset();  // the holder's secret

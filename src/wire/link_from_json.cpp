@@ -80,6 +80,16 @@ std::optional<EstimateReport> read_estimate(ObjectReader& reader) {
   return estimate;
 }
 
+std::optional<QuestionReport> read_question(ObjectReader& reader) {
+  if (!reader.has("question")) return std::nullopt;
+  constexpr double kLongest_s = 3600.0;
+  ObjectReader inner(reader.value("question"), reader.path_of("question"));
+  QuestionReport question{inner.integer("number", 1, kMost), PlaceId(inner.text("place", 100)),
+                          inner.text("label", 400), inner.number("left_s", 0.0, kLongest_s)};
+  reader.close(inner);
+  return question;
+}
+
 AgentStatus read_status(ObjectReader& reader) {
   AgentStatus m;
   m.seq = reader.integer("seq", 0, kMost);
@@ -98,6 +108,7 @@ AgentStatus read_status(ObjectReader& reader) {
   m.vectors_per_s = reader.number("vectors_per_s", 0.0, 1000.0);
   if (reader.has("arrival_probability")) m.arrival_probability = reader.number("arrival_probability", 0.0, 1.0);
   m.estimate = read_estimate(reader);
+  m.question = read_question(reader);
   return m;
 }
 
@@ -278,6 +289,9 @@ Result<ServerMessage> server_message_from_json(const json& value) {
                            r.has("seq") ? r.integer("seq", 0, kMost) : 0};
         }
         if (type == "belief") return read_belief(r);
+        if (type == "answer") {
+          return Answer{MissionId(r.text("mission", 100)), r.integer("question", 1, kMost), r.boolean("here")};
+        }
         if (type == "error") return LinkError{r.text("code", 100), r.text("message")};
         return std::nullopt;
       });

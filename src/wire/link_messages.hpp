@@ -65,6 +65,14 @@ struct EstimateReport {
   double probability = 0.0;
 };
 
+/// Whether this is the destination, which the robot stands beside and is not certain of.
+struct QuestionReport {
+  std::int64_t number = 1;  // what an answer names
+  PlaceId place;
+  std::string label;    // of the destination, for people
+  double left_s = 0.0;  // so long it still waits
+};
+
 struct AgentStatus {
   std::int64_t seq = 0;
   TimeUs t_us = 0;
@@ -81,6 +89,7 @@ struct AgentStatus {
   /// known.
   std::optional<double> arrival_probability = std::nullopt;
   std::optional<EstimateReport> estimate = std::nullopt;  // nothing: it is not sure enough to drive by it
+  std::optional<QuestionReport> question = std::nullopt;
 };
 
 /// The driver was commanded to zero because of `stop_id`.
@@ -174,13 +183,20 @@ struct BeliefReport {
   bool lost = true;
 };
 
+/// What somebody says to a robot's question: evidence, no command.
+struct Answer {
+  MissionId mission;
+  std::int64_t question = 1;  // its number
+  bool here = false;          // whether the robot is where it asks about
+};
+
 struct LinkError {
   std::string code;
   std::string message;
 };
 
 using AgentMessage = std::variant<Hello, Frame, AgentStatus, Stopped, MissionRefused>;
-using ServerMessage = std::variant<Welcome, MissionOrder, Permit, StopOrder, BeliefReport, LinkError>;
+using ServerMessage = std::variant<Welcome, MissionOrder, Permit, StopOrder, BeliefReport, Answer, LinkError>;
 
 std::vector<std::uint8_t> encode(const AgentMessage& message);
 std::vector<std::uint8_t> encode(const ServerMessage& message);
@@ -197,5 +213,6 @@ Result<AgentMessage> agent_message_from_json(const nlohmann::json& value);
 Result<ServerMessage> server_message_from_json(const nlohmann::json& value);
 
 std::string_view drive_state_name(DriveState state);
+nlohmann::json question_to_json(const QuestionReport& question);
 
 }  // namespace homeward::wire

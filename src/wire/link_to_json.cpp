@@ -55,6 +55,8 @@ json write(const AgentStatus& m) {
   value["arrival_probability"] = or_null(m.arrival_probability);
   value["estimate"] = nullptr;
   if (m.estimate) value["estimate"] = {{"place", m.estimate->place.str()}, {"probability", m.estimate->probability}};
+  value["question"] = nullptr;
+  if (m.question) value["question"] = question_to_json(*m.question);
   return value;
 }
 
@@ -163,6 +165,14 @@ json write(const BeliefReport& m) {
   return value;
 }
 
+json write(const Answer& m) {
+  json value = start("answer");
+  value["mission"] = m.mission.str();
+  value["question"] = m.question;
+  value["here"] = m.here;
+  return value;
+}
+
 json write(const LinkError& m) {
   json value = start("error");
   value["code"] = m.code;
@@ -175,6 +185,13 @@ json write(const LinkError& m) {
 std::string_view drive_state_name(DriveState state) {
   constexpr std::array<std::string_view, 5> kNames = {"idle", "driving", "arrived", "stopped", "failed"};
   return kNames[static_cast<std::size_t>(state)];
+}
+
+json question_to_json(const QuestionReport& question) {
+  return {{"number", question.number},
+          {"place", question.place.str()},
+          {"label", question.label},
+          {"left_s", question.left_s}};
 }
 
 json to_json(const AgentMessage& message) {

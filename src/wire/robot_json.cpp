@@ -25,6 +25,7 @@ json robot_to_json(const RobotView& robot) {
                 {"min_range_m", or_null(robot.min_range_m)},
                 {"belief", nullptr},
                 {"mission", nullptr},
+                {"question", nullptr},
                 {"lease", nullptr},
                 {"status_age_ms", or_null(robot.status_age_ms)}};
   if (robot.state) value["state"] = drive_state_name(*robot.state);
@@ -35,6 +36,7 @@ json robot_to_json(const RobotView& robot) {
   }
   if (robot.belief) value["belief"] = belief_to_json(*robot.belief);
   if (robot.mission) value["mission"] = mission_to_json(*robot.mission);
+  if (robot.question) value["question"] = question_to_json(*robot.question);
   if (robot.lease) {
     LeaseView shown = *robot.lease;
     shown.id.reset();  // whoever knows it can drive

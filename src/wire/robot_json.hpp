@@ -32,7 +32,8 @@ struct RobotView {
   std::optional<HomeReport> home;
   std::optional<double> min_range_m;
   std::optional<BeliefView> belief;
-  std::optional<MissionView> mission;  // the latest one
+  std::optional<MissionView> mission;                     // the latest one
+  std::optional<QuestionReport> question = std::nullopt;  // nothing: it asks nothing, or somebody has answered
   std::optional<LeaseView> lease;
   std::optional<std::int64_t> status_age_ms;  // since the agent's last status
 };

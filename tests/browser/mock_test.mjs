@@ -48,6 +48,16 @@ const tab = (page, name) =>
   page.getByRole('navigation', { name: 'Pages' }).getByRole('link', { name }).click();
 const destination = (page, name) => page.locator('.destination', { hasText: name });
 
+const question = (page) => page.getByTestId('question');
+
+/** Sends the chair, which comes to stand and asks whether it is there. */
+async function askAt(page, house, name) {
+  await destination(page, name).click();
+  await phaseIs(page, 'driving');
+  house.steer({ do: 'ask' });
+  await question(page).waitFor();
+}
+
 async function phaseIs(page, phase) {
   await page.locator(`[data-testid=journey][data-phase=${phase}]`).waitFor();
 }
@@ -184,6 +194,73 @@ const checks = [
       await destination(page, 'Kitchen').click();
       await phaseIs(page, 'refused');
       await journey(page).getByText('Chair does not know where it is.').waitFor();
+    }),
+  ],
+  [
+    'a chair that is not certain of its destination asks, and a yes makes it arrive',
+    withHouse(
+      async (page, house) => {
+        assert.equal(await question(page).count(), 0);
+        await askAt(page, house, 'Living room');
+        await question(page).getByRole('heading', { name: 'Is this the living room?' }).waitFor();
+        await page.getByRole('alert').getByText('Chair asks: Is this the living room?').waitFor();
+        await question(page).getByText('60 s more').waitFor();
+        for (const name of ['Yes, this is it', 'No']) {
+          const box = await question(page).getByRole('button', { name, exact: true }).boundingBox();
+          assert.ok(box.width >= 120 && box.height >= 80, `${name} is small`);
+          assert.ok(box.y >= 0 && box.y + box.height <= kPhone.height, `${name} is out of view`);
+        }
+        const stop = await page.getByRole('button', { name: /^STOP/ }).boundingBox();
+        assert.ok(stop.y >= 0 && stop.y + stop.height <= kPhone.height, 'STOP is out of view');
+        await question(page).getByRole('button', { name: 'Yes, this is it' }).click();
+        await phaseIs(page, 'arrived');
+        await journey(page).getByText('I am quite sure that this is the living room.').waitFor();
+        await question(page).waitFor({ state: 'detached' });
+        assert.deepEqual(house.answers, [{ here: true, by: 'anna' }]);
+      },
+      { size: kPhone },
+    ),
+  ],
+  [
+    'a no ends the journey with who said so, and a stop takes the question away',
+    withHouse(async (page, house) => {
+      await askAt(page, house, 'Kitchen');
+      await question(page).getByRole('button', { name: 'No', exact: true }).click();
+      await phaseIs(page, 'failed');
+      await journey(page).getByText('Somebody says that this is not kitchen.').waitFor();
+      await question(page).waitFor({ state: 'detached' });
+      await page.getByRole('button', { name: 'Try again' }).click();
+      await phaseIs(page, 'driving');
+      house.steer({ do: 'ask' });
+      await question(page).waitFor();
+      await page.keyboard.press('Escape');
+      await phaseIs(page, 'stopped');
+      await question(page).waitFor({ state: 'detached' });
+    }),
+  ],
+  [
+    'of two browsers the first answer counts, and both see the question vanish',
+    withHouse(async (page, house, mock) => {
+      await askAt(page, house, 'Kitchen');
+      const other = await openPage(browser, { base: mock.url });
+      await signIn(other, 'ben', 'homeward');
+      await question(other).waitFor();
+      await question(other).getByRole('button', { name: 'No', exact: true }).click();
+      await question(other).getByText('Anna is driving this robot.').waitFor();
+      assert.deepEqual(house.answers, []);
+      const viewer = await openPage(browser, { base: mock.url });
+      await signIn(viewer, 'vera', 'homeward');
+      await question(viewer).getByText('Somebody who may drive the chair can answer.').waitFor();
+      assert.equal(await question(viewer).getByRole('button').count(), 0);
+      const again = await openPage(browser, { base: mock.url });
+      await signIn(again, 'anna', 'homeward');
+      await question(again).getByRole('button', { name: 'Yes, this is it' }).click();
+      for (const one of [page, other, viewer, again]) {
+        await question(one).waitFor({ state: 'detached' });
+        await phaseIs(one, 'arrived');
+      }
+      assert.equal(house.answers.length, 1);
+      for (const one of [other, viewer, again]) await one.context().close();
     }),
   ],
   [
@@ -392,6 +469,10 @@ async function accessible() {
         await destination(page, 'Bathroom').click();
         await phaseIs(page, 'driving');
         await see('driving');
+        house.steer({ do: 'ask' });
+        await question(page).waitFor();
+        await see('question');
+        await question(page).getByRole('button', { name: 'Yes, this is it' }).click();
         await phaseIs(page, 'arrived');
         await see('arrived');
         for (const name of ['Tours', 'Robots', 'Settings']) {

@@ -90,7 +90,7 @@ std::map<std::string, Recode> all_codecs() {
       return with_base64(wire::to_json(*again));
     };
   }
-  for (const char* name : {"welcome", "mission", "permit", "stop", "belief", "error"}) {
+  for (const char* name : {"welcome", "mission", "permit", "stop", "belief", "answer", "error"}) {
     codecs[std::string("link_") + name] = [](const json& value) -> Result<json> {
       const auto message = wire::decode_server_message(json::to_cbor(with_bytes(value)));
       if (!message) return pass_on(message);

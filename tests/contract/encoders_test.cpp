@@ -54,6 +54,7 @@ RobotView sample_robot() {
   robot.home = HomeReport{0.1, 0.9, 80};
   robot.belief = BeliefView{3, PlaceId("p1"), 0.8, {{PlaceId("p1"), 0.8}, {PlaceId("p2"), 0.1}}, false, 40.0, 12};
   robot.mission = sample_mission();
+  robot.question = QuestionReport{3, PlaceId("p2"), "kitchen", 41.5};
   robot.lease = LeaseView{"secret", "anna", 3, 9000};
   robot.status_age_ms = 120;
   return robot;

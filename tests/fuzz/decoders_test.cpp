@@ -130,6 +130,7 @@ std::vector<Bytes> server_messages() {
                                                      wire::Permit{MissionId("m1"), {3, 5}, 1500},
                                                      wire::StopOrder{"s1", 3, "", "anna"},
                                                      wire::BeliefReport{7, PlaceId("p1"), 0.5, false},
+                                                     wire::Answer{MissionId("m1"), 3, false},
                                                      wire::LinkError{"kConflict", "No."}};
   std::vector<Bytes> encoded;
   for (const auto& message : messages) encoded.push_back(wire::encode(message));
@@ -144,6 +145,7 @@ std::vector<Bytes> agent_messages() {
   status.home = wire::HomeReport{0.5, 0.9, 30};
   status.arrival_probability = 0.25;
   status.estimate = wire::EstimateReport{PlaceId("p1"), 0.75};
+  status.question = wire::QuestionReport{3, PlaceId("p1"), "kitchen", 7.5};
   wire::Hello hello;
   hello.agent = "homeward-agent/0.1.0";
   hello.robot_name = "chair";

@@ -40,6 +40,7 @@ class FakeAgent {
     status.reason = reason;
     status.arrival_probability = arrival_probability;
     status.estimate = estimate;
+    status.question = question;
     if (order) {
       status.mission = order->mission;
       status.epoch = order->order.epoch;
@@ -95,6 +96,7 @@ class FakeAgent {
   // What it states in each status from now on.
   std::optional<double> arrival_probability;
   std::optional<wire::EstimateReport> estimate;
+  std::optional<wire::QuestionReport> question;
   std::function<void()> while_waiting;
   std::int64_t status_seq = 0;
   std::int64_t frame_seq = 0;

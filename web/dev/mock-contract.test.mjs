@@ -57,6 +57,14 @@ describe('the mock server', () => {
       destination: 'kitchen',
     });
     expect(problemsOf('mission', mission)).toEqual([]);
+    mock.house.steer({ do: 'ask' });
+    const asking = (await ask('GET', 'robots')).body.robots[0];
+    expect([asking.question.label, problemsOf('robot', asking)]).toEqual(['kitchen', []]);
+    const answer = { lease_id: taken.lease.id, question: asking.question.number, here: true };
+    const answered = await ask('POST', `robots/${robot.id}/missions/${mission.id}/answer`, answer);
+    expect([answered.status, problemsOf('mission', answered.body)]).toEqual([202, []]);
+    const late = await ask('POST', `robots/${robot.id}/missions/${mission.id}/answer`, answer);
+    expect([late.status, late.body.code]).toEqual([409, 'conflict']);
     const refused = await ask('GET', 'maps/none/graph');
     expect([refused.status, problemsOf('problem', refused.body)]).toEqual([404, []]);
     const { body: built } = await ask('POST', 'maps', { name: 'second', tours: ['t1'] });

@@ -82,6 +82,16 @@ function startMission(house, { user, body, args }) {
   return { status: 201, body: mission };
 }
 
+function answer(house, { user, body, args }) {
+  const robot = house.find(house.robots, args[0]);
+  ownLease(robot, body.lease_id);
+  if (robot.mission?.id !== args[1]) throw new Refusal(404, 'not_found', `there is no '${args[1]}'`);
+  if (robot.question?.number !== body.question)
+    throw new Refusal(409, 'conflict', 'the robot asks nothing on this mission now');
+  house.hear(robot, body.here, user.name);
+  return { status: 202, body: robot.mission };
+}
+
 function stop(house, { user, args }) {
   const robot = house.find(house.robots, args[0]);
   setTimeout(() => house.halt(robot, `${user.name} pressed stop`), 200);
@@ -257,6 +267,7 @@ export const kRoutes = [
   [/^PUT robots\/([^/]+)\/lease$/, 'rider', keepLease],
   [/^DELETE robots\/([^/]+)\/lease$/, 'rider', releaseLease],
   [/^POST robots\/([^/]+)\/missions$/, 'rider', startMission],
+  [/^POST robots\/([^/]+)\/missions\/([^/]+)\/answer$/, 'rider', answer],
   [/^POST robots\/([^/]+)\/stop$/, 'viewer', stop],
   [
     /^GET robots\/([^/]+)\/frame$/,

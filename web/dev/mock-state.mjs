@@ -84,6 +84,7 @@ export class House {
       state: map ? 'idle' : null,
       belief: map ? belief : null,
       mission: null,
+      question: null,
       lease: null,
       status_age_ms: map ? 120 : null,
     };
@@ -203,8 +204,37 @@ export class House {
     if (arrived) clearInterval(robot.timer);
     this.tellRobot(robot);
   }
+  /** Stands at the end of its way and asks whether this is it. */
+  ask(robot) {
+    const { mission } = robot;
+    clearInterval(robot.timer);
+    const label = this.graph.destinations.find((one) => one.id === mission.destination)?.label ?? '';
+    robot.mission = {
+      ...mission,
+      state: 'driving',
+      path_index: mission.path.length - 1,
+      arrival_probability: 0.81,
+    };
+    robot.belief = { ...robot.belief, probability: 0.62 };
+    robot.state = 'driving';
+    robot.question = { number: this.ids + 1, place: mission.place, label, left_s: 60 };
+    this.ids += 1;
+    this.answers = [];
+    this.tellRobot(robot);
+  }
+  hear(robot, here, by) {
+    const { label } = robot.question;
+    this.answers.push({ here, by });
+    robot.question = null;
+    robot.mission = here
+      ? { ...robot.mission, state: 'arrived', arrival_probability: 0.97 }
+      : { ...robot.mission, state: 'failed', reason: `Somebody says that this is not ${label}.` };
+    robot.state = robot.mission.state;
+    this.tellRobot(robot);
+  }
   halt(robot, reason) {
     clearInterval(robot.timer);
+    robot.question = null;
     if (robot.mission && ['accepted', 'driving'].includes(robot.mission.state))
       robot.mission = { ...robot.mission, state: 'stopped', reason };
     robot.state = 'stopped';
@@ -262,7 +292,8 @@ export class House {
     return job;
   }
 
-  /** Orders of the tests: {do: "unreachable", on}, {do: "robot", set: {...}}, {do: "edit"}, {do: "hold", holder}, {do: "offer"}. */
+  /** Orders of the tests: {do: "unreachable", on}, {do: "robot", set: {...}}, {do: "edit"}, {do: "hold", holder}, {do: "offer"},
+   *  {do: "ask"}: the robot that is under way stands and asks whether this is it. */
   steer(order) {
     const robot = this.robots[0];
     if (order.do === 'unreachable') {
@@ -274,6 +305,8 @@ export class House {
     } else if (order.do === 'edit') {
       // Another person's change that this browser has not heard of yet.
       this.graph.revision += 1;
+    } else if (order.do === 'ask') {
+      this.ask(robot);
     } else if (order.do === 'offer') {
       this.offer(this.maps[0]);
     } else if (order.do === 'hold') {

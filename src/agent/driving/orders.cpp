@@ -50,6 +50,7 @@ struct Clerk {
     state.follow = {};
     state.looking = {};
     state.continuity = {};
+    withdraw(state.asking);
     state.off_path_since_ms.reset();
     state.off_belief_since_ms.reset();
     state.seen = {};
@@ -82,6 +83,15 @@ struct Clerk {
     state.follow.belief = BelievedView{state.mission->path.view_of(*belief.place), belief.probability};
     state.belief_ms = now_ms;
   }
+
+  void operator()(const wire::Answer& answer) const {
+    if (state.drive != wire::DriveState::kDriving || answer.mission != state.mission->id) return;
+    if (!hear(state.asking, answer.question, answer.here)) return;
+    const VisualPath& path = state.mission->path;
+    const Pose2& there = path.pose(path.size() - 1);
+    state.follow.hypotheses.told({there.x_m, there.y_m}, config.follow.arrived_within_m,
+                                 answer.here ? kAnswerOdds : 1.0 / kAnswerOdds);
+  }
   void operator()(const wire::LinkError&) const {}
 };
 
@@ -91,6 +101,7 @@ void end_mission(DrivingState& state, wire::DriveState how, std::string reason) 
   state.drive = how;
   state.reason = std::move(reason);
   state.docking = false;
+  withdraw(state.asking);
 }
 
 void obey(DrivingState& state, const std::vector<wire::ServerMessage>& messages, bool rider_steers,

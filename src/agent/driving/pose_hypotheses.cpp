@@ -145,6 +145,26 @@ PoseHypothesis begun_at(const ViewSighting& sighting, double distance_m, const P
   return one;
 }
 
+/// The share of a hypothesis that lies within `radius_m` of a point.
+double share_within(const PoseHypothesis& one, const Vector2& point_m, double radius_m) {
+  constexpr int kSteps = 10;      // of a grid over the Gaussian
+  constexpr double kReach = 2.5;  // standard deviations
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(one.covariance.topLeftCorner<2, 2>());
+  const Vector2 spread_m = axes.eigenvalues().cwiseMax(1e-8).cwiseSqrt();
+  double all = 0.0;
+  double inside = 0.0;
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; j <= kSteps; ++j) {
+      const Vector2 unit = kReach * (2.0 / kSteps * Vector2(i, j) - Vector2(1.0, 1.0));
+      const double density = std::exp(-0.5 * unit.squaredNorm());
+      const Vector2 at_m = position(one.map_from_robot) + axes.eigenvectors() * unit.cwiseProduct(spread_m);
+      all += density;
+      if ((at_m - point_m).norm() < radius_m) inside += density;
+    }
+  }
+  return inside / all;
+}
+
 }  // namespace
 
 void PoseHypotheses::predict(const Pose2& before_from_now) {
@@ -295,6 +315,20 @@ void PoseHypotheses::refine(const ViewSighting& sighting) {
   for (PoseHypothesis& hypothesis : hypotheses_) move(hypothesis, sighting, kNews);
 }
 
+void PoseHypotheses::told(const Vector2& point_m, double radius_m, double odds) {
+  for (PoseHypothesis& one : hypotheses_) {
+    const double inside = share_within(one, point_m, radius_m);
+    one.weight *= inside * odds + 1.0 - inside;
+    if (inside * odds <= 1.0 - inside || odds <= 1.0) continue;
+    // It is there, if anywhere: at the point, within the radius twice of three times.
+    Eigen::Matrix<double, 2, 3> rows = Eigen::Matrix<double, 2, 3>::Zero();
+    rows.leftCols<2>().setIdentity();
+    const double spread_m = 0.5 * radius_m;
+    update<2>(one, rows, point_m - position(one.map_from_robot), spread_m * spread_m * Eigen::Matrix2d::Identity());
+  }
+  settle();
+}
+
 const PoseHypothesis* PoseHypotheses::best() const { return hypotheses_.empty() ? nullptr : &hypotheses_.front(); }
 
 double PoseHypotheses::best_probability() const {
@@ -308,25 +342,8 @@ double PoseHypotheses::best_probability() const {
 }
 
 double PoseHypotheses::probability_within(const Vector2& point_m, double radius_m) const {
-  constexpr int kSteps = 10;      // of a grid over each Gaussian
-  constexpr double kReach = 2.5;  // standard deviations
   double sum = 0.0;
-  for (const PoseHypothesis& one : hypotheses_) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(one.covariance.topLeftCorner<2, 2>());
-    const Vector2 spread_m = axes.eigenvalues().cwiseMax(1e-8).cwiseSqrt();
-    double all = 0.0;
-    double inside = 0.0;
-    for (int i = 0; i <= kSteps; ++i) {
-      for (int j = 0; j <= kSteps; ++j) {
-        const Vector2 unit = kReach * (2.0 / kSteps * Vector2(i, j) - Vector2(1.0, 1.0));
-        const double density = std::exp(-0.5 * unit.squaredNorm());
-        const Vector2 at_m = position(one.map_from_robot) + axes.eigenvectors() * unit.cwiseProduct(spread_m);
-        all += density;
-        if ((at_m - point_m).norm() < radius_m) inside += density;
-      }
-    }
-    sum += one.weight * inside / all;
-  }
+  for (const PoseHypothesis& one : hypotheses_) sum += one.weight * share_within(one, point_m, radius_m);
   return sum;
 }
 

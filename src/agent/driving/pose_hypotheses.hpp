@@ -87,6 +87,11 @@ class PoseHypotheses {
   /// What a local map says between two pictures that are recognised: moves the hypotheses, weighs nothing.
   void refine(const ViewSighting& sighting);
 
+  /// Somebody says that the robot is within `radius_m` of a point of the map, or that it is not: `odds` multiplies the
+  /// odds of what lies there against all else, being elsewhere included. Where that makes it likely that it is there,
+  /// the word is a measurement of the position as well.
+  void told(const Eigen::Vector2d& point_m, double radius_m, double odds);
+
   /// The most probable one, or null.
   [[nodiscard]] const PoseHypothesis* best() const;
   /// Probability that the robot is where the best one says, within cluster_m.

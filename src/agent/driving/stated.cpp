@@ -23,4 +23,13 @@ std::optional<wire::EstimateReport> stated_estimate(const DrivingState& state, c
   return wire::EstimateReport{*place, as_probability(position_probability(state.follow, state.mission->path))};
 }
 
+std::optional<wire::QuestionReport> open_question(const DrivingState& state, const DrivingConfig& config,
+                                                  Milliseconds now_ms) {
+  if (!state.mission || !state.asking.since_ms || state.asking.said) return std::nullopt;
+  const VisualPath& path = state.mission->path;
+  const Milliseconds left_ms = std::max<Milliseconds>(0, config.asks_ms - (now_ms - *state.asking.since_ms));
+  return wire::QuestionReport{state.asking.number, path.place_of(path.size() - 1), state.mission->label,
+                              0.001 * static_cast<double>(left_ms)};
+}
+
 }  // namespace homeward::agent

@@ -17,4 +17,9 @@ std::optional<double> stated_arrival(const DrivingState& state, const DrivingCon
 /// sure enough to drive by it, or its camera is covered.
 std::optional<wire::EstimateReport> stated_estimate(const DrivingState& state, const DrivingConfig& config);
 
+/// The question that waits for an answer. Nothing: it asks nothing, or somebody has answered. `now_ms`: by the sensors'
+/// clock, as of `step`.
+std::optional<wire::QuestionReport> open_question(const DrivingState& state, const DrivingConfig& config,
+                                                  Milliseconds now_ms);
+
 }  // namespace homeward::agent

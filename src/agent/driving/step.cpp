@@ -142,6 +142,10 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     const double turn = std::clamp(1.5 * left_rad, -0.6, 0.6);
     return {0.0, std::copysign(std::max(0.12, std::abs(turn)), left_rad)};
   }
+  if (state.asking.since_ms) {
+    forget_standing(state.give_way);
+    return {};
+  }
   const auto goal_m = goal(state.follow, inputs.odometry, config.follow);
   const bool sure = position_probability(state.follow, state.mission->path) >= config.follow.drive_above;
   if (!sure && !state.covered) return look(state, inputs, config, points_m);
@@ -208,15 +212,53 @@ bool lasts(std::optional<Milliseconds>& since_ms, const std::optional<double>& d
   return now_ms - *since_ms > most_ms;
 }
 
+std::string destination_of(const Mission& mission) {
+  return mission.label.empty() ? std::string("the destination") : mission.label;
+}
+
+/// It asks people no longer; what it said of that is over as well.
+void stop_asking(DrivingState& state) {
+  if (!state.asking.since_ms) return;
+  withdraw(state.asking);
+  state.reason.clear();
+}
+
+/// Beside its destination and not certain of it, the robot asks people; whether it does, and so stands and waits. Their
+/// answer has moved the estimate already (orders.cpp): what is left to say here is that it was not enough.
+bool ask_people(DrivingState& state, bool certain, const DrivingConfig& config, Milliseconds now_ms) {
+  const std::string where = destination_of(*state.mission);
+  if (!state.asking.since_ms) {
+    if (certain || !state.near_since_ms || now_ms - *state.near_since_ms <= config.doubtful_ms) return false;
+    ask(state.asking, now_ms);
+    state.reason = "I am not sure that this is " + where + "; I ask whether it is.";
+  }
+  // Whoever comes to answer may stand before the camera; and it makes no way because it does not want to.
+  state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = now_ms;
+  if (state.asking.said) {
+    end_mission(state, wire::DriveState::kFailed,
+                *state.asking.said ? "I am not sure that this is " + where + ", though somebody says so."
+                                   : "Somebody says that this is not " + where + ".");
+  } else if (now_ms - *state.asking.since_ms > config.asks_ms) {
+    end_mission(state, wire::DriveState::kFailed, "I am not sure that this is " + where + ".");
+  }
+  return true;
+}
+
 void judge_progress(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
   // Somebody who stands before the camera for a moment does not move the robot away.
   const auto near = is_near(state, config);
   if (near && *near) state.near_since_ms = state.near_since_ms.value_or(now_ms);
-  if (near && !*near) state.near_since_ms.reset();
+  if (near && !*near) {
+    state.near_since_ms.reset();
+    stop_asking(state);
+  }
   const bool certain =
       arrival_probability(state.follow, state.mission->path, config.follow) >= config.follow.arrived_probability;
   const bool near_enough = certain && state.near_since_ms && now_ms - *state.near_since_ms > config.near_ms;
-  if ((state.seen.at_end || near_enough) && !state.docking) {
+  const bool confirmed = certain && state.asking.since_ms;  // by an answer, or by what it has seen since it asks
+  const bool denied = state.asking.said == false;
+  if ((state.seen.at_end || near_enough || confirmed) && !denied && !state.docking) {
+    stop_asking(state);
     if (!state.mission->dock) return end_mission(state, wire::DriveState::kArrived, "");
     state.docking = true;
     state.last_gain_ms = now_ms;
@@ -229,6 +271,7 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
     }
     return;
   }
+  if (ask_people(state, certain, config, now_ms)) return;
   if (now_ms - state.last_answer_ms > config.blind_ms) {
     return end_mission(state, wire::DriveState::kFailed, "I do not recognise the way any more.");
   }
@@ -247,11 +290,6 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   if (lasts(state.off_belief_since_ms, off_belief_m(state.follow, state.mission->path, config.follow),
             config.off_belief_m, now_ms, config.off_belief_ms)) {
     return end_mission(state, wire::DriveState::kFailed, "I am not sure where I am: the map says another place.");
-  }
-  if (state.near_since_ms && now_ms - *state.near_since_ms > config.doubtful_ms) {
-    const std::string& where = state.mission->label;
-    return end_mission(state, wire::DriveState::kFailed,
-                       "I am not sure that this is " + (where.empty() ? std::string("the destination") : where) + ".");
   }
   // Beside its destination it waits for `near_ms` and has then arrived.
   const bool stirs = state.stirring.seen_ms && now_ms - *state.stirring.seen_ms < config.stuck_ms;

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "agent/driving/asking.hpp"
 #include "agent/driving/body.hpp"
 #include "agent/driving/continuity.hpp"
 #include "agent/driving/follow.hpp"
@@ -48,7 +49,8 @@ struct DrivingConfig {
   Milliseconds off_belief_ms = 3000;      // so long the server's belief may name another place
   double off_belief_m = 2.0;              // farther off than that
   Milliseconds belief_silence_ms = 2000;  // a belief as old as that says nothing any more
-  Milliseconds doubtful_ms = 12'000;      // so long it tries to make sure that it is at the destination
+  Milliseconds doubtful_ms = 12'000;      // so long it tries to make sure that it is at the destination,
+  Milliseconds asks_ms = 60'000;          // and so long it then stands there and asks people
   Milliseconds stuck_ms = 20'000;         // no way gained for so long: the mission fails,
   Milliseconds patience_ms = 90'000;      // after so long where somebody stirs about the robot
   double near_m = 0.25;                   // of the destination: what is in the way there may stay in the way
@@ -110,6 +112,7 @@ struct DrivingState {
   LongPlan plan;       // of a body that is not round
   TurnRate turning;    // of the body, as it moves now
   LookAround looking;  // for where it is
+  Asking asking;       // people, whether this is the destination
   std::optional<Milliseconds> off_path_since_ms;
   std::optional<Milliseconds> off_belief_since_ms;
   GiveWay give_way;       // to whoever stands in the way

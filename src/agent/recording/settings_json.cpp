@@ -151,8 +151,8 @@ template <class Fields, class Config>
 void driving_fields(Fields& fields, Config& driving) {
   auto& [body, follow, feature_config_id, link_silence_ms, frame_silence_ms, first_frame_ms, scan_silence_ms,
          rider_silence_ms, loop_silence_ms, held_up_ms, stands_within_ms, reaction_ms, blind_ms, unsure_ms, off_path_ms,
-         off_path_m, off_belief_ms, off_belief_m, belief_silence_ms, doubtful_ms, stuck_ms, patience_ms, near_m,
-         near_ms, turn_gain, dock_within_rad] = driving;
+         off_path_m, off_belief_ms, off_belief_m, belief_silence_ms, doubtful_ms, asks_ms, stuck_ms, patience_ms,
+         near_m, near_ms, turn_gain, dock_within_rad] = driving;
   body_fields(fields, body);
   follow_fields(fields, follow);
   fields("feature_config_id", feature_config_id);
@@ -173,6 +173,7 @@ void driving_fields(Fields& fields, Config& driving) {
   fields("off_belief_m", off_belief_m);
   fields("belief_silence_ms", belief_silence_ms);
   fields("doubtful_ms", doubtful_ms);
+  fields("asks_ms", asks_ms);
   fields("stuck_ms", stuck_ms);
   fields("patience_ms", patience_ms);
   fields("near_m", near_m);
@@ -276,6 +277,7 @@ void memory_fields(Fields& fields, State& s) {
   fields("pictures", s.pictures);
   fields("covered", s.covered);
   fields("refuses_until_ms", s.refuses_until_ms);
+  fields("questions", s.asking.number);
   fields("give_way", s.give_way);
   fields("stirring", s.stirring);
 }

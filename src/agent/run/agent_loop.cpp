@@ -8,6 +8,7 @@
 #include <ctime>
 #include <memory>
 #include <stop_token>
+#include <utility>
 
 #include "agent/drivers/joystick.hpp"
 #include "agent/driving/stated.hpp"
@@ -64,6 +65,7 @@ wire::AgentStatus status_of(const DrivingState& state, const DrivingConfig& conf
   status.vectors_per_s = static_cast<double>(state.answers_ms.size());
   status.arrival_probability = stated_arrival(state, config);
   status.estimate = stated_estimate(state, config);
+  status.question = open_question(state, config, reading.t_ms);
   return status;
 }
 
@@ -136,6 +138,7 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
   std::int64_t status_seq = 0;
   Milliseconds status_ms = 0;
   wire::DriveState told_state = wire::DriveState::kIdle;
+  bool told_question = false;
   auto next_cycle = Clock::now();
   while (!stop.stop_requested()) {
     if (auto trouble = looker.trouble()) return tl::unexpected<Error>(*trouble);
@@ -171,7 +174,9 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
       options.told(std::string(wire::drive_state_name(state.drive)) +
                    (state.reason.empty() ? "" : ": " + state.reason));
     told_state = state.drive;
-    if (changed || now - status_ms >= kStatusPeriod_ms) {
+    const bool asks = open_question(state, config, reading.t_ms).has_value();
+    const bool asks_anew = asks != std::exchange(told_question, asks);
+    if (changed || asks_anew || now - status_ms >= kStatusPeriod_ms) {
       status_ms = now;
       link.send(status_of(state, config, reading, ++status_seq));
     }

@@ -209,6 +209,69 @@ TEST(PoseHypotheses, TheProbabilityOfBeingThereGrowsWithTheRadius) {
   EXPECT_GT(before, 0.95);
 }
 
+/// Sees `here` and another view that look alike; how probable it is to be within half a metre of the robot's true
+/// place.
+class Told : public ::testing::Test {
+ protected:
+  void look(double prior_here, double prior_there) {
+    std::vector<ViewSighting> sightings = {seen_from(along(0.0), along(1.0)), seen_from(along(30.0), along(31.0))};
+    sightings[0].prior_share = prior_here;
+    sightings[1].prior_share = prior_there;
+    hypotheses_.weigh(sightings);
+  }
+  [[nodiscard]] double here() const { return hypotheses_.probability_within({0.0, 0.0}, kRadius_m); }
+  void told(double odds) { hypotheses_.told({0.0, 0.0}, kRadius_m, odds); }
+  static double with_odds(double probability, double odds) {
+    return probability * odds / (probability * odds + 1.0 - probability);
+  }
+
+  static constexpr double kRadius_m = 2.5;  // it is known to half the distance of what it sees
+  PoseHypotheses hypotheses_;
+};
+
+TEST_F(Told, MultipliesTheOddsByAFactor) {
+  look(0.5, 0.5);
+  const double before = here();
+  ASSERT_GT(before, 0.2);
+  ASSERT_LT(before, 0.6);
+  told(19.0);
+  EXPECT_NEAR(here(), with_odds(before, 19.0), 0.02);
+  told(1.0 / 19.0);
+  EXPECT_NEAR(here(), before, 0.05) << "the contrary takes it back";
+}
+
+TEST_F(Told, MakesNoArrivalOfWhatIsImprobable) {
+  look(0.001, 0.999);
+  const double before = here();
+  ASSERT_LT(before, 0.002);
+  told(19.0);
+  EXPECT_GT(here(), before);
+  EXPECT_LT(here(), 0.04);
+}
+
+TEST_F(Told, OfBeingElsewhereCountsTheSame) {
+  look(0.3, 1e-6);
+  const double elsewhere = hypotheses_.elsewhere();
+  ASSERT_GT(elsewhere, 0.001);
+  told(1.0 / 19.0);
+  EXPECT_GT(hypotheses_.elsewhere(), 5.0 * elsewhere);
+}
+
+TEST_F(Told, PlacesARobotThatKnewItRoughly) {
+  look(1.0, 1e-6);
+  hypotheses_.predict({0.0, 0.0, 0.0});
+  const double rough = hypotheses_.probability_within({0.0, 0.0}, 0.5);
+  hypotheses_.told({0.0, 0.0}, 0.5, 19.0);
+  EXPECT_GT(hypotheses_.probability_within({0.0, 0.0}, 0.5), rough);
+  EXPECT_GT(hypotheses_.probability_within({0.0, 0.0}, 0.5), 0.9);
+}
+
+TEST_F(Told, SaysNothingToARobotThatKnowsNothing) {
+  told(19.0);
+  EXPECT_TRUE(hypotheses_.empty());
+  EXPECT_NEAR(hypotheses_.elsewhere(), 1.0, 1e-12);
+}
+
 TEST(PoseHypotheses, WeightsAreProbabilities) {
   Corridor corridor;
   corridor.drive(2.5);

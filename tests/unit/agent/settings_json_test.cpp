@@ -47,6 +47,7 @@ TEST(SettingsJson, KeepWhatOutlivesTheBeginningOfAMission) {
   before.least_epoch = 6;
   before.pictures = 1'000'000'000'000;
   before.covered = true;
+  before.asking.number = 7;
   before.drive = wire::DriveState::kDriving;
   const auto read = memory_from_json(memory_to_json(before));
   ASSERT_TRUE(read);
@@ -54,6 +55,7 @@ TEST(SettingsJson, KeepWhatOutlivesTheBeginningOfAMission) {
   EXPECT_EQ(read->least_epoch, 6);
   EXPECT_EQ(read->pictures, before.pictures);
   EXPECT_TRUE(read->covered);
+  EXPECT_EQ(read->asking.number, 7) << "an answer names the question that was asked";
   EXPECT_EQ(read->drive, wire::DriveState::kIdle) << "there is no mission before the first step";
 }
 

@@ -108,6 +108,11 @@ export const startMission = (
   robot: string,
   body: { lease_id: string; destination?: string; place?: string },
 ) => call<Mission>(`/robots/${id(robot)}/missions`, { method: 'POST', body });
+export const answerQuestion = (
+  robot: string,
+  mission: string,
+  body: { lease_id: string; question: number; here: boolean },
+) => call<Mission>(`/robots/${id(robot)}/missions/${id(mission)}/answer`, { method: 'POST', body });
 /** `key` stays the same over the repetitions of one press, so that they count once. */
 export const stopRobot = (robot: string, key: string) =>
   call<{ stop_id: string }>(`/robots/${id(robot)}/stop`, {

@@ -41,6 +41,12 @@ export async function send(robot: string, target: Target, take_over = false): Pr
   }
 }
 
+/** Says whether the robot is where it asks about. Takes the lease when nobody has it, never from somebody else. */
+export async function answer(robot: string, mission: string, question: number, here: boolean): Promise<void> {
+  const lease_id = await ensureLease(robot, false);
+  await calls.answerQuestion(robot, mission, { lease_id, question, here });
+}
+
 async function start(robot: string, lease_id: string, target: Target) {
   const what =
     target.destination === undefined ? { place: target.place } : { destination: target.destination };

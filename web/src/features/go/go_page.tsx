@@ -15,6 +15,7 @@ import { hindrance, journeyOf, type Journey, type Target } from './journey';
 import { JourneyCard } from './journey_card';
 import { announcement } from './journey_words';
 import { LeasePrompt, WhoDrives } from './lease_prompt';
+import { QuestionCard } from './question_card';
 import { WhereaboutsCard } from './whereabouts_card';
 
 const kHereProbability = 0.5;
@@ -75,6 +76,7 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
       <p class="hidden-text" role="status">
         {journey && announcement(journey, graph)}
       </p>
+      <QuestionCard robot={robot} mayAnswer={atLeast(me.value?.role, 'rider')} />
       <div id="go-top" class={journey ? 'go-top two' : 'go-top'}>
         <WhereaboutsCard robot={robot} graph={graph} />
         {journey && (
