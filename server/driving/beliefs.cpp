@@ -81,6 +81,7 @@ void Driving::look(const Unit& unit) {
     link = unit->link;
   }
   PlaceId sure;
+  double near_share = 0.0;
   Result<wire::BeliefView> seen = fail(ErrorCode::kConflict, "The robot has no map.", "robots/" + unit->id.str());
   if (frame && map && link) {
     const auto look_once = [&]() -> Result<wire::BeliefView> {
@@ -93,6 +94,7 @@ void Driving::look(const Unit& unit) {
       const auto belief = tracking->tracker.update(*picture, frame->odometry);
       if (!belief) return pass_on(belief);
       sure = pipeline::sure_place(*belief, {});
+      near_share = belief->near_share;
       wire::BeliefView view = view_of(*belief);
       view.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
       view.t_us = frame->t_us;
@@ -112,6 +114,7 @@ void Driving::look(const Unit& unit) {
   if (frame && unit->link == link && link && unit->map == map && !unit->restart_tracking) {
     if (seen) {
       unit->belief = *seen;
+      unit->near_share = near_share;
       unit->belief_at = std::chrono::steady_clock::now();
       if (unit->under_way && unit->sights.due(frame->t_us))
         unit->sights.add(frame->t_us, sure, tracking->tracker.seen());

@@ -14,16 +14,17 @@ namespace {
 
 // What must hold for a robot that failed to be sent on, with the unit locked.
 bool may_go_on(const RobotUnit& unit, SteadyTime now) {
-  return unit.under_way && unit.online() && unit.lease && now < unit.lease->expires && unit.knows_where(now);
+  return unit.under_way && unit.online() && unit.lease && now < unit.lease->expires && unit.known_start(now);
 }
 
 }  // namespace
 
 bool Driving::begin_detour(const Unit& found, const std::string& reason) {
   RobotUnit& unit = *found;
-  if (!may_go_on(unit, std::chrono::steady_clock::now())) return false;
+  const auto now = std::chrono::steady_clock::now();
+  if (!may_go_on(unit, now)) return false;
   const auto ways = planning::detour_after(
-      {unit.mission->path, unit.mission->path_index, *unit.belief->place, unit.mission->place, unit.detours});
+      {unit.mission->path, unit.mission->path_index, unit.known_start(now)->place, unit.mission->place, unit.detours});
   if (!ways) return false;
   unit.fails_again = planning::fails_again(unit.closed, *ways);
   unit.closed.insert(unit.closed.end(), ways->begin(), ways->end());
@@ -44,15 +45,19 @@ bool Driving::begin_detour(const Unit& found, const std::string& reason) {
 Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mission) {
   Plan plan;
   planning::RouteRequest asked;
+  Start start;
+  std::vector<PlaceId> likely;
   bool fails_again = false;
   {
     const std::scoped_lock lock(unit->mutex);
-    if (!unit->looking_for_detour || !unit->mission || unit->mission->id != mission || !unit->belief ||
-        !unit->belief->place) {
+    const auto known = unit->known_start(std::chrono::steady_clock::now());
+    if (!unit->looking_for_detour || !unit->mission || unit->mission->id != mission || !known) {
       return fail(ErrorCode::kConflict, "The mission has ended in the meantime.", "missions/" + mission.str());
     }
     plan.mission = *unit->mission;
-    asked.from = *unit->belief->place;
+    start = *known;
+    likely = unit->likely_places();
+    asked.from = start.place;
     asked.closed = unit->closed;
     fails_again = unit->fails_again;
   }
@@ -73,7 +78,8 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   plan.order = destination != map.destinations.end() ? wire::order_for_route(map, places, *destination)
                                                      : wire::order_for_route(map, places);
   const auto layout = maps_.layout(*loaded);
-  wire::add_surroundings(map, *layout, planning::surroundings(map, places, {}, *layout), plan.order);
+  wire::add_surroundings(map, *layout, planning::surroundings(map, places, likely, *layout), plan.order);
+  if (const Status begins = set_start(start, plan.order); !begins) return pass_on(begins);
   plan.mission.revision = map.revision;
   plan.mission.path = places;
   plan.again = detour->again;

@@ -104,6 +104,8 @@ class Driving : public LinkListener {
   Result<std::shared_ptr<Tracking>> tracking_for(std::shared_ptr<Tracking> present, const MapId& map,
                                                  const camera::CameraConfig& camera);
   Result<Plan> plan(const Unit& unit, const MissionRequest& request);
+  // Tells the robot how probable its start is. Errors: kLost where it is unsure and could not find out.
+  static Status set_start(const Start& start, wire::MissionOrder& order);
   void keep(const wire::MissionView& mission);
   void hand_over_sights(RobotUnit& unit);  // with the unit locked
 

@@ -106,12 +106,16 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
       case wire::DriveState::kStopped:
         end_mission(unit, wire::MissionState::kStopped, now.reason.value_or("the robot stopped"));
         break;
-      case wire::DriveState::kDriving:
-        if (mission.state != wire::MissionState::kDriving || moved_on) {
+      case wire::DriveState::kDriving: {
+        // Its own estimate is sure enough to drive by.
+        const bool found_itself = now.estimate && mission.reason == kLooksAroundFirst;
+        if (found_itself) mission.reason.reset();
+        if (mission.state != wire::MissionState::kDriving || moved_on || found_itself) {
           mission.state = wire::MissionState::kDriving;
           keep(mission);
         }
         break;
+      }
       case wire::DriveState::kIdle:
         break;
     }

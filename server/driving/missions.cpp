@@ -24,10 +24,10 @@ Status may_start(const RobotUnit& unit, const std::string& lease_id, SteadyTime 
   if (const Status lease = unit.holds_lease(lease_id, now); !lease) return lease;
   if (!unit.online()) return fail(ErrorCode::kRobotOffline, "The robot is not connected.", where_of(unit));
   if (!unit.map) return fail(ErrorCode::kConflict, "The robot has no map to drive on.", where_of(unit));
-  if (!unit.belief || unit.belief->lost || !unit.belief->place) {
+  if (!unit.belief || !unit.belief->place) {
     return fail(ErrorCode::kLost, "The robot does not know where it is.", where_of(unit));
   }
-  if (now - unit.belief_at > kBeliefFresh) {
+  if (!unit.believes_now(now)) {
     return fail(ErrorCode::kLost, "The robot has not sent a picture for a while.", where_of(unit));
   }
   return {};
@@ -35,19 +35,28 @@ Status may_start(const RobotUnit& unit, const std::string& lease_id, SteadyTime 
 
 }  // namespace
 
+Status Driving::set_start(const Start& start, wire::MissionOrder& order) {
+  const bool can_find_out = order.surroundings && (order.path.size() > 1 || !order.surroundings->nearby.empty());
+  if (start.unsure && !can_find_out) {
+    return fail(ErrorCode::kLost,
+                "The robot does not know where it is, and the map says too little of where its places lie to find out.",
+                "places/" + start.place.str());
+  }
+  if (order.surroundings) order.surroundings->start_probability = std::clamp(start.probability, 0.0, 1.0);
+  return {};
+}
+
 Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& request) {
   MapId map_id;
-  PlaceId from;
-  double start_probability = 1.0;
+  Start start;
   std::vector<PlaceId> likely;
   {
     const std::scoped_lock lock(unit->mutex);
     const Status status = may_start(*unit, request.lease_id, std::chrono::steady_clock::now());
     if (!status) return pass_on(status);
     map_id = *unit->map;
-    from = *unit->belief->place;
-    start_probability = unit->belief->probability.value_or(1.0);
-    for (const wire::PlaceShare& share : unit->belief->top) likely.push_back(share.place);
+    start = unit->likeliest();
+    likely = unit->likely_places();
   }
   const auto loaded = maps_.load(map_id);
   if (!loaded) return pass_on(loaded);
@@ -67,7 +76,7 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
     plan.mission.place = destination->place;
   }
   planning::RouteRequest asked;
-  asked.from = from;
+  asked.from = start.place;
   asked.to = plan.mission.place;
   const auto route = planning::plan_route(map, asked);
   if (!route) return pass_on(route);
@@ -75,7 +84,8 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
                                       : wire::order_for_route(map, route->places);
   const auto layout = maps_.layout(*loaded);
   wire::add_surroundings(map, *layout, planning::surroundings(map, route->places, likely, *layout), plan.order);
-  if (plan.order.surroundings) plan.order.surroundings->start_probability = start_probability;
+  if (const Status begins = set_start(start, plan.order); !begins) return pass_on(begins);
+  if (start.unsure) plan.mission.reason = kLooksAroundFirst;
   plan.mission.id = MissionId(db::random_id());
   plan.mission.robot = unit->id;
   plan.mission.map = map_id;

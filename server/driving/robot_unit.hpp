@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "pipeline/belief_tracker.hpp"
 #include "planning/route.hpp"
@@ -20,6 +23,16 @@ constexpr std::chrono::seconds kBeliefFresh{5};  // an older belief is none
 constexpr std::int64_t kPermitMs = 1500;
 // So slow that braking at 1 m/s^2 ends within half a second of a link that falls silent.
 constexpr double kTopSpeedMps = 0.4;
+
+/// What a mission says while its robot has yet to find out where it is.
+constexpr const char* kLooksAroundFirst = "The robot is not sure where it is; it looks around first.";
+
+/// Where a way begins, and how probable it is that the robot is there.
+struct Start {
+  PlaceId place;
+  double probability = 1.0;
+  bool unsure = false;  // the robot has to find out by itself before it goes anywhere
+};
 
 /// The right to drive.
 struct Lease {
@@ -58,6 +71,8 @@ struct RobotUnit {
   bool restart_tracking = false;
   bool restart_odometry = false;  // the robot's odometry began anew
   std::optional<wire::BeliefView> belief;
+  double near_share =
+      0.0;  // of that belief: in the first of its places and the neighbours of it, also where it is lost
   SteadyTime belief_at;
 
   std::optional<Lease> lease;
@@ -89,9 +104,31 @@ struct RobotUnit {
       return std::nullopt;
     return status->question && status->question->number != answered ? status->question : std::nullopt;
   }
-  /// The belief is of now and names a place.
-  [[nodiscard]] bool knows_where(SteadyTime now) const {
-    return belief && !belief->lost && belief->place && now - belief_at <= kBeliefFresh;
+  /// The belief is of now, lost or not.
+  [[nodiscard]] bool believes_now(SteadyTime now) const {
+    return belief && belief->place && now - belief_at <= kBeliefFresh;
+  }
+  /// The likeliest place and how probable it is to be there. Precondition: believes_now.
+  [[nodiscard]] Start likeliest() const {
+    return {*belief->place, belief->lost ? near_share : belief->probability.value_or(near_share), belief->lost};
+  }
+  /// Where it may be as well, most probable first.
+  [[nodiscard]] std::vector<PlaceId> likely_places() const {
+    std::vector<PlaceId> places;
+    if (belief) {
+      for (const wire::PlaceShare& share : belief->top) places.push_back(share.place);
+    }
+    return places;
+  }
+  /// Where a robot may be sent on from by itself after a drive that failed: the belief, which is of the whole map and
+  /// of all pictures; where that is lost, its own estimate as it stopped, which is then worth no more than an even
+  /// chance.
+  [[nodiscard]] std::optional<Start> known_start(SteadyTime now) const {
+    if (believes_now(now) && !belief->lost) return likeliest();
+    const bool told = status && status_at && status->estimate && now - *status_at <= kBeliefFresh;
+    if (!told || !mission || status->mission != mission->id) return std::nullopt;
+    constexpr double kMost = 0.5;
+    return Start{status->estimate->place, std::min(kMost, status->estimate->probability), true};
   }
 };
 

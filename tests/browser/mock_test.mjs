@@ -197,6 +197,24 @@ const checks = [
     }),
   ],
   [
+    'a chair that is not sure where it is can be sent, and says that it looks around first',
+    withHouse(async (page, house) => {
+      const belief = {
+        updates: 3,
+        place: 'p1',
+        probability: 0.2,
+        top: [{ place: 'p1', probability: 0.2 }],
+        lost: true,
+      };
+      house.steer({ do: 'robot', set: { belief } });
+      await page.getByText('I am not sure where I am.').waitFor();
+      await destination(page, 'Bedroom').click();
+      await journey(page).getByText('The robot is not sure where it is; it looks around first.').waitFor();
+      await phaseIs(page, 'arrived');
+      assert.equal(await journey(page).getByText('it looks around first').count(), 0);
+    }),
+  ],
+  [
     'a chair that is not certain of its destination asks, and a yes makes it arrive',
     withHouse(
       async (page, house) => {

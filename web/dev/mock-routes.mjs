@@ -53,11 +53,12 @@ function startMission(house, { user, body, args }) {
   const robot = house.find(house.robots, args[0]);
   const lease = ownLease(robot, body.lease_id);
   if (!robot.online) throw new Refusal(409, 'robot_offline', `${robot.name} is not connected`);
-  if (robot.belief.lost) throw new Refusal(409, 'lost', `${robot.name} does not know where it is`);
+  const from = robot.belief.place ?? robot.belief.top[0]?.place;
+  if (robot.belief.lost && !from) throw new Refusal(409, 'lost', `${robot.name} does not know where it is`);
   const destination = house.graph.destinations.find((one) => one.id === body.destination);
   const place = destination?.place ?? house.graph.places.find((one) => one.id === body.place)?.id;
   if (!place) throw new Refusal(404, 'unknown_place', `there is no '${body.destination ?? body.place}'`);
-  const path = wayBetween(house.graph, robot.belief.place, place);
+  const path = wayBetween(house.graph, from, place);
   if (!path) throw new Refusal(409, 'no_route', 'there is no way from here to there');
   const mission = {
     format: 'homeward-mission',
@@ -69,7 +70,7 @@ function startMission(house, { user, body, args }) {
     destination: destination?.id ?? null,
     place,
     state: 'accepted',
-    reason: null,
+    reason: robot.belief.lost ? 'The robot is not sure where it is; it looks around first.' : null,
     epoch: lease.epoch,
     seq: 1,
     path,

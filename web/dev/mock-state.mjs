@@ -198,6 +198,7 @@ export class House {
       : {
           ...mission,
           state: 'driving',
+          reason: robot.mission.state === 'driving' ? null : mission.reason, // a moment for looking around
           path_index: Math.min(mission.path_index + 1, mission.path.length - 1),
         };
     robot.state = arrived ? 'arrived' : 'driving';

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/driving_fixture.hpp"
+
+namespace homeward::server {
+namespace {
+
+using nlohmann::json;
+using std::chrono::milliseconds;
+using testing::Answer;
+using testing::DrivingTest;
+using testing::FakeAgent;
+
+constexpr const char* kLooksAround = "The robot is not sure where it is; it looks around first.";
+
+/// A robot whose belief may be lost.
+class LostTest : public DrivingTest {
+ protected:
+  void connect() {
+    add_robot();
+    put_on_map();
+    ASSERT_EQ(agent.connect(app->port(), robot, token), 101);
+    lease = take_lease(*admin);
+    find_itself(agent);
+  }
+  /// Looks at what is in no map until the belief is lost.
+  void get_lost() {
+    for (unsigned room = 70; room < 90; ++room) {
+      agent.look(room);
+      const auto belief = agent.await<wire::BeliefReport>(milliseconds(60'000));
+      ASSERT_TRUE(belief);
+      if (belief->lost) return;
+    }
+    FAIL() << "the fake agent was never lost";
+  }
+  json belief() { return admin->get(root).json().at("belief"); }
+
+  FakeAgent agent;
+  std::string lease;
+};
+
+TEST_F(LostTest, ARobotThatHasSeenNothingIsSentNowhere) {
+  add_robot();
+  put_on_map();
+  ASSERT_EQ(agent.connect(app->port(), robot, token), 101);
+  lease = take_lease(*admin);
+  agent.hello();
+  ASSERT_TRUE(agent.await<wire::Welcome>());
+  EXPECT_EQ(send_home(lease).code(), "lost");
+}
+
+TEST_F(LostTest, ALostRobotIsSentFromTheLikeliestPlaceAndLooksAroundFirst) {
+  connect();
+  const json sure = send_home(lease).json();
+  EXPECT_TRUE(sure.at("reason").is_null());
+  const double surely = agent.await<wire::MissionOrder>().value().surroundings.value().start_probability;
+  get_lost();
+  ASSERT_TRUE(belief().at("lost").get<bool>());
+  const Answer sent = send_home(lease);
+  ASSERT_EQ(sent.status, 201) << sent.body;
+  EXPECT_EQ(sent.json().at("reason"), kLooksAround);
+  const auto order = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(order);
+  EXPECT_EQ(order->path.front().place.str(), belief().at("top")[0].at("place").get<std::string>());
+  ASSERT_TRUE(order->surroundings);
+  EXPECT_LT(order->surroundings->start_probability, 0.7) << "it drives nowhere before it knows more";
+  EXPECT_LT(order->surroundings->start_probability, surely);
+
+  agent.status(wire::DriveState::kDriving, order, 0, "I am not sure where I am; I drive on a little and look.");
+  EXPECT_EQ(wait_for_state(sent.json(), "driving").at("reason"), kLooksAround);
+  agent.estimate = wire::EstimateReport{order->path.front().place, 0.9};
+  agent.status(wire::DriveState::kDriving, order, 0);
+  for (int i = 0; i < 100 && !mission_now(sent.json()).at("reason").is_null(); ++i)
+    std::this_thread::sleep_for(milliseconds(20));
+  EXPECT_TRUE(mission_now(sent.json()).at("reason").is_null()) << "it knows where it is now";
+}
+
+TEST_F(LostTest, AfterAFailedDriveALostRobotGoesOnFromItsOwnEstimate) {
+  connect();
+  const Answer sent = send_home(lease);
+  const auto first = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(first);
+  ASSERT_GE(first->path.size(), 3U);
+  agent.status(wire::DriveState::kDriving, first, 1);
+  wait_for_state(sent.json(), "driving");
+  get_lost();
+  agent.estimate = wire::EstimateReport{first->path[1].place, 0.9};
+  agent.status(wire::DriveState::kFailed, first, 2, "The way is blocked.");
+  const auto second = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(second) << mission_now(sent.json()).dump();
+  EXPECT_EQ(second->mission, first->mission);
+  EXPECT_EQ(second->path.front().place, first->path[1].place);
+  ASSERT_TRUE(second->surroundings);
+  EXPECT_EQ(second->surroundings->start_probability, 0.5) << "an even chance, however sure it was";
+}
+
+TEST_F(LostTest, AfterAFailedDriveWithNeitherBeliefNorEstimateItEnds) {
+  connect();
+  const Answer sent = send_home(lease);
+  const auto first = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(first);
+  agent.status(wire::DriveState::kDriving, first, 1);
+  wait_for_state(sent.json(), "driving");
+  get_lost();
+  agent.status(wire::DriveState::kFailed, first, 1, "I am not sure where I am.");
+  EXPECT_EQ(wait_for_state(sent.json(), "failed").at("reason"), "I am not sure where I am.");
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(400)));
+}
+
+TEST_F(LostTest, AfterAFailedDriveItIsToldHowProbableItsStartIs) {
+  connect();
+  const Answer sent = send_home(lease);
+  const auto first = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(first);
+  agent.status(wire::DriveState::kDriving, first, 1);
+  wait_for_state(sent.json(), "driving");
+  agent.look(1);
+  ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
+  agent.status(wire::DriveState::kFailed, first, 1, "The way is blocked.");
+  const auto second = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(second && second->surroundings) << mission_now(sent.json()).dump();
+  EXPECT_EQ(second->surroundings->start_probability, belief().at("probability"));
+}
+
+}  // namespace
+}  // namespace homeward::server
