@@ -41,7 +41,8 @@ nlohmann::json to_json(const agent::MissionResult& result) {
                           {"detours", result.detours},
                           {"moved_after_stop", result.moved_after_stop},
                           {"moved_furniture", result.moved_furniture},
-                          {"belief_apart_s", result.belief_apart_s}};
+                          {"belief_apart_s", result.belief_apart_s},
+                          {"asked", result.asked}};
   if (result.arrival_probability) value["arrival_probability"] = *result.arrival_probability;
   for (const agent::StopEvent& stop : result.stops) {
     value["stops"].push_back({{"t_s", stop.t_s}, {"reason", stop.reason}});

@@ -47,6 +47,7 @@ ScenarioMission read_mission(ObjectReader& outer, const json& value, const std::
   if (reader.has("people")) mission.people = static_cast<int>(reader.integer("people", 0, 100));
   if (reader.has("moved_furniture"))
     mission.moved_furniture = static_cast<int>(reader.integer("moved_furniture", 0, 1000));
+  if (reader.has("answers")) mission.answers = reader.choice("answers", {"nobody", "right", "yes"});
   if (reader.has("faults")) {
     const std::vector<json> faults = reader.array("faults", 100);
     for (std::size_t i = 0; i < faults.size(); ++i) {

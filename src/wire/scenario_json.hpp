@@ -29,6 +29,8 @@ struct ScenarioMission {
   std::string light = "day";
   int people = 0;
   int moved_furniture = 0;  // pieces in each room
+  /// What somebody says when the robot asks whether it is at its destination: "nobody", "right" (the truth) or "yes".
+  std::string answers = "nobody";
   std::vector<ScenarioFault> faults;
 };
 

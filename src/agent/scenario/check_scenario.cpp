@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "agent/files/world_folder.hpp"
+#include "agent/scenario/bystander.hpp"
 #include "agent/scenario/look_alike_spot.hpp"
 #include "agent/scenario/mission_plan.hpp"
 #include "agent/scenario/starting_pose.hpp"
@@ -100,6 +101,8 @@ class Checker {
                                       (visited_.empty() ? "no room of this world" : listed(visited_)));
     }
     check_light(entry(index) + ".light", mission.light);
+    if (!answers_named(mission.answers, {}))
+      add(entry(index) + ".answers", "nobody answers '" + mission.answers + "'; there are nobody, right and yes");
     if (mission.moved_furniture > 0 && world_.furniture.empty())
       add(entry(index) + ".moved_furniture",
           "furniture can be moved in generated worlds alone: a mesh does not say which of its triangles are a piece of "

@@ -79,9 +79,20 @@ void DriveLoop::hear_the_house(bool link_up) {
   if (!link_up) return;
   if (elapsed_s() - heard_s_ <= kHeardWithin_s)
     messages_.emplace_back(wire::Permit{order_.mission, {order_.order.epoch, ++order_.order.seq}, kPermit_ms});
+  answer_question();
   if (!on("stop")) return;
   messages_.emplace_back(wire::StopOrder{"s1", order_.order.epoch, "Stopped by hand.", "test"});
   stopped_by_hand_ = true;
+}
+
+/// Somebody has heard the question and looked about.
+void DriveLoop::answer_question() {
+  constexpr Milliseconds kAfter_ms = 2000;
+  const Asking& asking = state_.asking;
+  if (!answers_ || !asking.since_ms || asking.number == answered_ || now_ms_ - *asking.since_ms < kAfter_ms) return;
+  answered_ = asking.number;
+  if (const auto here = answers_(robot_.vehicle().pose()))
+    messages_.emplace_back(wire::Answer{order_.mission, asking.number, *here});
 }
 
 Status DriveLoop::cycle() {

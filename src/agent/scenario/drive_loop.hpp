@@ -10,6 +10,7 @@
 #include "agent/drivers/simulated_robot.hpp"
 #include "agent/driving/step.hpp"
 #include "agent/recording/look.hpp"
+#include "agent/scenario/bystander.hpp"
 #include "agent/scenario/fault_schedule.hpp"
 #include "agent/scenario/scenario_run.hpp"
 #include "pipeline/eye.hpp"
@@ -42,6 +43,8 @@ class DriveLoop {
   void kidnap_to(Elsewhere elsewhere) { elsewhere_ = std::move(elsewhere); }
   /// Whom the robot's recognised pictures are told, twice a second, and who answers; without it nobody does.
   void ask_belief(Believes believes) { believes_ = std::move(believes); }
+  /// Who answers when the robot asks whether it is at its destination, 2 s after; without it nobody does.
+  void answer_by(Answers answers) { answers_ = std::move(answers); }
   /// Drives an order, numbered later than all before, until the robot stands, however that came about.
   /// `way`: where its pictures were truly taken, one for each view of its path; may be empty.
   Status run(wire::MissionOrder order, std::vector<Pose2> way = {});
@@ -72,6 +75,7 @@ class DriveLoop {
   Status cycle();
   Result<Outputs> step_once(bool link_up);
   void hear_the_house(bool link_up);
+  void answer_question();
   void place_boxes();
   Status kidnap();
   void listen_for_doubt();
@@ -91,6 +95,8 @@ class DriveLoop {
   wire::MissionOrder order_;
   std::vector<Pose2> way_;
   Believes believes_;
+  Answers answers_;
+  std::int64_t answered_ = 0;         // number of the last question that somebody heard
   Milliseconds believed_ms_ = -1000;  // when the house was asked last
   DrivingState state_;
   std::vector<wire::ServerMessage> messages_;

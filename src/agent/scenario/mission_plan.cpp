@@ -20,7 +20,7 @@ std::vector<MissionPlan> plan_missions(const wire::ScenarioFile& scenario, std::
   for (std::size_t entry = 0; entry < scenario.missions.size(); ++entry) {
     const wire::ScenarioMission& mission = scenario.missions[entry];
     MissionPlan plan{mission.from,   mission.to, mission.light, mission.people, mission.moved_furniture,
-                     mission.faults, 0,          entry};
+                     mission.faults, 0,          entry,         mission.answers};
     const int count = std::max(1, mission.random);
     for (int i = 0; i < count; ++i) {
       if (mission.random > 0) {

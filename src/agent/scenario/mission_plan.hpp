@@ -19,7 +19,8 @@ struct MissionPlan {
   int moved_furniture = 0;  // pieces in each room
   std::vector<wire::ScenarioFault> faults;
   std::uint64_t seed = 1;
-  std::size_t entry = 0;  // of the scenario's missions
+  std::size_t entry = 0;           // of the scenario's missions
+  std::string answers = "nobody";  // what somebody says whom the robot asks (bystander.hpp)
 };
 
 /// How many missions a scenario has, those at random counted one by one.

@@ -40,6 +40,7 @@ MissionResult result_of(DriveLoop& drive) {
   result.kidnapped_at_s = drive.kidnapped_at_s();
   result.told_after_s = drive.told_after_s();
   result.belief_apart_s = drive.belief_apart_s();
+  result.asked = static_cast<int>(drive.state().asking.number);
   return result;
 }
 
@@ -148,6 +149,7 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
     }
     DriveLoop drive(*robot, *eye, FaultSchedule(plan.faults), config, listener, recorder.get());
     drive.kidnap_to([&] { return look_alike_spot(taught, *robot, *eye); });
+    if (auto answers = answers_named(plan.answers, target->second)) drive.answer_by(std::move(*answers));
     drive.ask_belief(
         [&](const features::Appearance& seen, const Pose2& odometry) { return house->believe(seen, odometry); });
     auto driven = drive_mission(drive, *house, *order);

@@ -40,6 +40,7 @@ struct MissionResult {
   int moved_furniture = 0;                    // pieces that stood elsewhere than in the tour
   std::optional<double> arrival_probability;  // stated, of being within half a metre; where it says that it arrived
   double belief_apart_s = 0.0;  // longest that a sure belief of the map and a sure estimate were over 2 m apart
+  int asked = 0;                // how often it asked whether it was at its destination
   /// When it was lifted and put down elsewhere.
   std::optional<double> kidnapped_at_s;
   /// From then until it gave up or said that something is wrong. Nothing: never.

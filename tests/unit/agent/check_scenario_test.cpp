@@ -82,6 +82,14 @@ TEST(CheckScenario, FindsNothingWhereAllIsWell) {
   EXPECT_THAT(problems(house, sim::generate_house(1)), IsEmpty());
 }
 
+TEST(CheckScenario, NamesAnAnswerThatThereIsNot) {
+  EXPECT_THAT(problems_when([](auto& scenario) { scenario.missions[0].answers = "wrong"; }),
+              ElementsAre("missions[0].answers: nobody answers 'wrong'; there are nobody, right and yes"));
+  for (const char* name : {"nobody", "right", "yes"}) {
+    EXPECT_THAT(problems_when([&](auto& scenario) { scenario.missions[0].answers = name; }), IsEmpty()) << name;
+  }
+}
+
 TEST(CheckScenario, NamesADestinationThatTheTourDoesNotVisit) {
   wire::ScenarioFile house = there_and_back();
   house.tour_rooms = {"hall", "kitchen", "hall"};

@@ -3,7 +3,9 @@
 
 #include "agent/drivers/simulated_robot.hpp"
 #include "agent/drivers/usual_cameras.hpp"
+#include "agent/scenario/bystander.hpp"
 #include "agent/scenario/fault_schedule.hpp"
+#include "agent/scenario/mission_plan.hpp"
 #include "agent/scenario/starting_pose.hpp"
 #include "sim/floor.hpp"
 #include "sim/generate/worlds.hpp"
@@ -78,6 +80,25 @@ TEST(BoxAhead, IsNeverPutOnTheRobot) {
   ASSERT_TRUE(box);
   EXPECT_GE(std::hypot(box->pose.x_m, box->pose.y_m), 1.0);
   EXPECT_FALSE(box_ahead({0.0, 0.0, 0.0}, {{1.2, 0.0}}));
+}
+
+TEST(Bystander, SaysTheTruthOrYesOrNothing) {
+  const Pose2 there{3.0, 4.0, 1.0};
+  const auto says = [&](const char* name, const Pose2& robot) { return answers_named(name, there).value()(robot); };
+  EXPECT_EQ(says("right", {3.3, 4.39, -1.0}), true) << "just within half a metre";
+  EXPECT_EQ(says("right", {3.3, 4.41, 1.0}), false);
+  EXPECT_EQ(says("yes", {30.0, 4.0, 1.0}), true);
+  EXPECT_EQ(says("nobody", there), std::nullopt);
+  EXPECT_FALSE(answers_named("wrong", there));
+}
+
+TEST(MissionPlan, TakesOverWhoAnswers) {
+  wire::ScenarioFile scenario;
+  wire::ScenarioMission mission;
+  mission.random = 2;
+  mission.answers = "right";
+  scenario.missions = {mission};
+  for (const MissionPlan& plan : plan_missions(scenario, {"hall", "kitchen"})) EXPECT_EQ(plan.answers, "right");
 }
 
 /// A robot in the generated offices.
