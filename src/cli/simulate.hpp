@@ -41,7 +41,7 @@ class TourWriter {
   Status add(const Pose2& pose, const std::string& room, const Pose2* odometry);
   /// The name of the picture written last.
   [[nodiscard]] const std::string& last_name() const;
-  /// Writes poses.csv, odometry.csv, times.csv, scans.csv, camera.json and, with marks, tour.json.
+  /// Writes poses.csv, odometry.csv, times.csv, scans.csv, scans.json, camera.json and, with marks, tour.json.
   Status finish(const std::vector<std::pair<std::string, std::string>>& marks);
 
  private:

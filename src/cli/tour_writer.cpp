@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "agent/drivers/simulated_robot.hpp"
 #include "agent/drivers/usual_cameras.hpp"
 #include "agent/files/read_file.hpp"
 #include "agent/files/world_folder.hpp"
@@ -10,6 +11,7 @@
 #include "imageio/decode.hpp"
 #include "sim/laser.hpp"
 #include "wire/camera_json.hpp"
+#include "wire/scans_json.hpp"
 
 namespace homeward::cli {
 
@@ -43,6 +45,7 @@ struct TourWriter::Parts {
   std::string odometry = "t_us,x_m,y_m,theta_rad\n";
   std::string times = "filename,t_us\n";
   std::string scans{};
+  RangeSweep scanner{};  // how its sweeps are to be read
 };
 
 TourWriter::TourWriter(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -99,7 +102,10 @@ Status TourWriter::add(const Pose2& pose, const std::string& room, const Pose2* 
     p.odometry +=
         std::to_string(p.t_us) + formatted(",%.4f,%.4f,%.5f\n", odometry->x_m, odometry->y_m, odometry->theta_rad);
   }
-  const sim::LaserConfig laser;
+  // What the simulated chair drives by: a tour that sees less would call free what is under a table.
+  const sim::LaserConfig laser = agent::safety_scanner();
+  p.scanner.angle_step_rad = 2.0 * kPi / laser.rays;
+  p.scanner.range_max_m = laser.range_max_m;
   const std::vector<float> ranges = sim::scan(p.world.rays(), pose, {}, laser, noise_seed);
   if (p.scans.empty()) {
     p.scans = "filename";
@@ -124,6 +130,7 @@ Status TourWriter::finish(const std::vector<std::pair<std::string, std::string>>
       {"poses.csv", p.poses},
       {"times.csv", p.times},
       {"scans.csv", p.scans},
+      {"scans.json", wire::scans_to_json(p.scanner).dump(2) + "\n"},
       {"camera.json", wire::camera_to_json(p.camera).dump(2) + "\n"}};
   if (p.odometry.find('\n') + 1 < p.odometry.size()) files.emplace_back("odometry.csv", p.odometry);
   if (!marks.empty()) {

@@ -8,6 +8,7 @@
 #include "core/ids.hpp"
 #include "core/image.hpp"
 #include "core/pose2.hpp"
+#include "core/range_sweep.hpp"
 #include "core/result.hpp"
 #include "core/time.hpp"
 
@@ -17,7 +18,8 @@ namespace homeward::pipeline {
 struct TourImage {
   ImageId id;  // "tour/file"
   std::optional<TimeUs> t_us;
-  std::optional<Pose2> odometry;  // tour frame
+  std::optional<Pose2> odometry;                   // tour frame
+  std::optional<RangeSweep> sweep = std::nullopt;  // of a range sensor, taken with it
 };
 
 /// A mark of tour.json: this picture is its own prototype and a destination.

@@ -7,6 +7,7 @@
 #include "agent/files/csv.hpp"
 #include "agent/files/grey_map.hpp"
 #include "agent/files/tour_folder.hpp"
+#include "agent/files/tour_scans.hpp"
 #include "camera/camera.hpp"
 #include "fuzz/mutate.hpp"
 #include "support/folders.hpp"
@@ -15,6 +16,7 @@
 #include "wire/edit_json.hpp"
 #include "wire/json_reader.hpp"
 #include "wire/rosbridge_json.hpp"
+#include "wire/scans_json.hpp"
 #include "wire/scenario_json.hpp"
 #include "wire/world_json.hpp"
 
@@ -63,6 +65,19 @@ TEST(FuzzTexts, Camera) {
     }
     return camera;
   });
+}
+
+TEST(FuzzTexts, Scans) {
+  fuzz("scans", 1000, [](const std::string& text) { return wire::parse_scans(text, "scans.json"); });
+  const std::string about = examples("scans").front();
+  Mutator mutator(7);
+  for (int i = 0; i < 300; ++i) {
+    const ScratchFolder folder;
+    folder.put("scans.json", about);
+    folder.put("scans.csv", mutator.damaged("filename,r0,r1\n00000.jpg,1.25,12.000\n00001.jpg,,0.5\n"));
+    const auto sweeps = agent::read_scans(folder.path());
+    if (!sweeps) expect_message(sweeps.error(), folder.text("scans.csv"));
+  }
 }
 
 TEST(FuzzTexts, World) {

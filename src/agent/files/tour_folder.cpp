@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "agent/files/read_file.hpp"
+#include "agent/files/tour_scans.hpp"
 
 namespace homeward::agent {
 namespace {
@@ -143,6 +144,17 @@ Status read_odometry(const fs::path& folder, std::vector<pipeline::TourImage>& i
   return {};
 }
 
+Status read_sweeps(const fs::path& folder, std::vector<pipeline::TourImage>& images,
+                   const std::vector<fs::path>& files) {
+  auto sweeps = read_scans(folder);
+  if (!sweeps) return pass_on(sweeps);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const auto found = sweeps->find(files[i].filename().string());
+    if (found != sweeps->end()) images[i].sweep = std::move(found->second);
+  }
+  return {};
+}
+
 Result<std::vector<pipeline::TourMark>> read_marks(const fs::path& folder) {
   std::vector<pipeline::TourMark> marks;
   const fs::path file = folder / "tour.json";
@@ -192,6 +204,7 @@ Result<TourFolder> TourFolder::open(const fs::path& folder) {
   }
   if (const Status read = read_times(folder, tour.images_, tour.files_); !read) return pass_on(read);
   if (const Status read = read_odometry(folder, tour.images_); !read) return pass_on(read);
+  if (const Status read = read_sweeps(folder, tour.images_, tour.files_); !read) return pass_on(read);
   auto marks = read_marks(folder);
   if (!marks) return pass_on(marks);
   tour.marks_ = std::move(*marks);

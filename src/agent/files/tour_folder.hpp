@@ -17,6 +17,8 @@ Result<std::vector<std::filesystem::path>> pictures_in(const std::filesystem::pa
 ///   times.csv      filename,t_us
 ///   odometry.csv   t_us,x_m,y_m,theta_rad: interpolated to the times of the pictures; without times.csv it has one row
 ///                  for each picture
+///   scans.csv      filename,r0,r1,...: a sweep of a range sensor for each picture, with scans.json beside it
+///                  (tour_scans.hpp); pictures that it does not name have none
 /// poses.csv is truth for evaluation and never read.
 class TourFolder final : public pipeline::TourSource {
  public:

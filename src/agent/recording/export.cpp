@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "agent/files/write_file.hpp"
 #include "db/recording.hpp"
 #include "imageio/decode.hpp"
+#include "wire/scans_json.hpp"
 
 namespace homeward::agent {
 namespace {
@@ -43,7 +45,8 @@ class TourTables {
     const std::pair<const char*, const std::string*> files[] = {{"camera.json", &header_.camera_json},
                                                                 {"times.csv", &times_},
                                                                 {"odometry.csv", &odometry_},
-                                                                {"scans.csv", &scans_}};
+                                                                {"scans.csv", &scans_},
+                                                                {"scans.json", &about_}};
     for (const auto& [name, text] : files) {
       if (text->empty()) continue;
       if (const Status written = write_file(folder / name, *text); !written) return written;
@@ -53,17 +56,21 @@ class TourTables {
 
  private:
   void add_sweep(const std::string& name, const db::RecordedSweep& sweep) {
+    RangeSweep geometry{{}, sweep.angle_min_rad, sweep.angle_step_rad, sweep.range_max_m, sweep.robot_from_scan};
+    const std::string about = wire::scans_to_json(geometry).dump(2) + "\n";
     if (scans_.empty()) {
+      about_ = about;
       rays_ = sweep.ranges_m.size();
       scans_ = "filename";
       for (std::size_t i = 0; i < rays_; ++i) scans_ += ",r" + std::to_string(i);
       scans_ += "\n";
     }
-    if (sweep.ranges_m.size() != rays_) return;  // the table has one width
+    if (sweep.ranges_m.size() != rays_ || about != about_) return;  // the table has one width and one geometry
     scans_ += name;
     for (const float range_m : sweep.ranges_m) {
       char text[24];
-      const double shown_m = std::isfinite(range_m) ? std::min<double>(range_m, sweep.range_max_m) : sweep.range_max_m;
+      const bool hit = std::isfinite(range_m) && range_m >= 0.0F;
+      const double shown_m = hit ? std::min<double>(range_m, sweep.range_max_m) : sweep.range_max_m;
       std::snprintf(text, sizeof text, ",%.3f", shown_m);
       scans_ += text;
     }
@@ -77,6 +84,7 @@ class TourTables {
   std::string times_ = "filename,t_us\n";
   std::string odometry_ = "t_us,x_m,y_m,theta_rad\n";
   std::string scans_;
+  std::string about_;  // scans.json
 };
 
 }  // namespace

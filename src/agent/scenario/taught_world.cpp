@@ -3,11 +3,13 @@
 
 #include <filesystem>
 
+#include "agent/drivers/simulated_robot.hpp"
 #include "agent/drivers/usual_cameras.hpp"
 #include "agent/files/read_file.hpp"
 #include "agent/files/world_folder.hpp"
 #include "imageio/decode.hpp"
 #include "pipeline/build_map.hpp"
+#include "sim/laser.hpp"
 #include "sim/motion.hpp"
 #include "sim/tour_path.hpp"
 
@@ -17,9 +19,9 @@ namespace {
 /// A tour kept in memory as JPEGs, as a camera would have delivered it.
 class RenderedTour final : public pipeline::TourSource {
  public:
-  void add(std::vector<std::uint8_t> jpeg, const Pose2& odometry) {
+  void add(std::vector<std::uint8_t> jpeg, const Pose2& odometry, RangeSweep sweep) {
     const std::string name = std::to_string(100000 + jpegs_.size()).substr(1) + ".jpg";
-    images_.push_back({ImageId("tour/" + name), std::nullopt, odometry});
+    images_.push_back({ImageId("tour/" + name), std::nullopt, odometry, std::move(sweep)});
     jpegs_.push_back(std::move(jpeg));
   }
   [[nodiscard]] const ImageId& last() const { return images_.back().id; }
@@ -35,6 +37,16 @@ class RenderedTour final : public pipeline::TourSource {
   std::vector<pipeline::TourImage> images_;
   std::vector<pipeline::TourMark> marks_;
 };
+
+/// What the range sensor of the simulated chair sees at a pose.
+RangeSweep sweep_at(sim::LitWorld& world, const Pose2& pose, std::uint64_t seed) {
+  static const sim::LaserConfig kLaser = safety_scanner();
+  RangeSweep sweep;
+  sweep.ranges_m = sim::scan(world.rays(), pose, {}, kLaser, seed);
+  sweep.angle_step_rad = 2.0 * kPi / kLaser.rays;
+  sweep.range_max_m = kLaser.range_max_m;
+  return sweep;
+}
 
 }  // namespace
 
@@ -69,7 +81,9 @@ Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string&
   for (std::size_t i = 0; i < stops->size(); ++i) {
     const sim::TourStop& stop = (*stops)[i];
     if (i > 0) wheels.follow((*stops)[i - 1].pose, stop.pose);
-    tour.add(imageio::encode_jpeg(renderer.render(stop.pose, {}, seed * 1'000'003 + i), kQuality), wheels.reading());
+    const std::uint64_t noise_seed = seed * 1'000'003 + i;
+    tour.add(imageio::encode_jpeg(renderer.render(stop.pose, {}, noise_seed), kQuality), wheels.reading(),
+             sweep_at(*taught.world, stop.pose, noise_seed));
     taught.picture_poses.emplace(tour.last(), stop.pose);
     if (!stop.arrived) continue;
     tour.mark_last(*stop.arrived);

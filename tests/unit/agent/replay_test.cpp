@@ -198,6 +198,7 @@ TEST_F(Replay, WritesARecordingOutAsATour) {
   EXPECT_THAT(folder_.text("tour/times.csv"), HasSubstr("filename,t_us\n00000.jpg,"));
   EXPECT_THAT(folder_.text("tour/odometry.csv"), HasSubstr(",0.000000,0.000000,0.000000\n"));
   EXPECT_THAT(folder_.text("tour/scans.csv"), HasSubstr("00000.jpg,3.000,3.000"));
+  EXPECT_THAT(folder_.text("tour/scans.json"), HasSubstr("homeward-scans"));
   EXPECT_THAT(folder_.text("tour/camera.json"), HasSubstr("homeward-camera"));
   EXPECT_EQ(export_recording(recording(), out).error().code, ErrorCode::kConflict);
 }

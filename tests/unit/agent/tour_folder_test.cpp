@@ -124,6 +124,65 @@ TEST(TourFolder, NamesFileAndLineOfWhatIsWrong) {
   }
 }
 
+constexpr const char* kScans =
+    R"({"format":"homeward-scans","version":1,"angle_min_rad":-1.5,"angle_step_rad":0.5,"range_max_m":8,)"
+    R"("robot_from_scan":{"x_m":0.3,"y_m":0,"theta_rad":0.1}})";
+
+TEST(TourFolder, ReadsSweepsWithTheirGeometry) {
+  const Tour tour;
+  tour.folder.put("tour/scans.json", kScans);
+  tour.folder.put("tour/scans.csv", "filename,r0,r1,r2\r\nc.jpeg,1.5,,8.000\na.PNG,0,2,3\nother.jpg,1,1,1\n");
+  const auto opened = tour.open();
+  ASSERT_TRUE(opened) << opened.error().message << opened.error().where;
+  ASSERT_TRUE(opened->images()[2].sweep);
+  const RangeSweep& sweep = *opened->images()[2].sweep;
+  ASSERT_EQ(sweep.ranges_m.size(), 3U);
+  EXPECT_FLOAT_EQ(sweep.ranges_m[0], 1.5F);
+  EXPECT_FALSE(std::isfinite(sweep.ranges_m[1]));
+  EXPECT_FLOAT_EQ(sweep.ranges_m[2], 8.0F);
+  EXPECT_DOUBLE_EQ(sweep.angle_min_rad, -1.5);
+  EXPECT_DOUBLE_EQ(sweep.angle_step_rad, 0.5);
+  EXPECT_DOUBLE_EQ(sweep.range_max_m, 8.0);
+  EXPECT_DOUBLE_EQ(sweep.robot_from_scan.x_m, 0.3);
+  EXPECT_TRUE(opened->images()[0].sweep);
+  EXPECT_FALSE(opened->images()[1].sweep);
+}
+
+TEST(TourFolder, LeavesSweepsWhoseRaysPointNobodyKnowsWhere) {
+  const Tour tour;
+  tour.folder.put("tour/scans.csv", "filename,r0\na.PNG,1\n");
+  const auto opened = tour.open();
+  ASSERT_TRUE(opened) << opened.error().message;
+  EXPECT_FALSE(opened->images()[0].sweep);
+}
+
+TEST(TourFolder, NamesLineAndColumnOfAWrongSweep) {
+  const auto error_of = [](const std::string& text, const char* about = kScans) {
+    const Tour tour;
+    tour.folder.put("tour/scans.json", about);
+    tour.folder.put("tour/scans.csv", text);
+    const auto opened = tour.open();
+    EXPECT_FALSE(opened) << text;
+    return opened ? Error{} : opened.error();
+  };
+  for (const char* text : {"", "filename\n", "filename,r1\n", "name,r0\na.PNG,1\n"}) {
+    EXPECT_TRUE(error_of(text).where.ends_with("scans.csv:1")) << text;
+  }
+  EXPECT_TRUE(error_of("filename,r0,r1\na.PNG,1,1\nb.png,1\n").where.ends_with("scans.csv:3"));
+  EXPECT_TRUE(error_of("filename,r0\n,1\n").where.ends_with("scans.csv:2"));
+  for (const char* cell : {"-1", "nan", "inf", "far", "1 ", "1e99"}) {
+    const Error error = error_of("filename,r0,r1\na.PNG,1," + std::string(cell) + "\n");
+    EXPECT_EQ(error.code, ErrorCode::kInvalidInput) << cell;
+    EXPECT_TRUE(error.where.ends_with("scans.csv:2")) << cell;
+    EXPECT_NE(error.message.find("Column r1"), std::string::npos) << error.message;
+  }
+  EXPECT_NE(error_of("filename,r0\na.PNG,1\na.PNG,2\n").message.find("already"), std::string::npos);
+  EXPECT_NE(error_of("filename,r0\na.PNG,1\n", "{}").where.find("scans.json"), std::string::npos);
+  std::string header = "filename";
+  for (int i = 0; i <= 10'000; ++i) header += ",r" + std::to_string(i);
+  EXPECT_EQ(error_of(header + "\n").code, ErrorCode::kTooLarge);
+}
+
 TEST(TourFolder, SaysWhenThereIsNothing) {
   const ScratchFolder folder;
   EXPECT_EQ(TourFolder::open(folder.path() / "none").error().code, ErrorCode::kNotFound);
