@@ -117,6 +117,7 @@ void add_edges(const TopologicalMap& map, Numbers& numbers, std::vector<Link>& l
     if (edge.bearing_rad) told.insert(std::minmax(edge.from, edge.to));
   }
   for (const Edge& edge : map.edges) {
+    if (edge.shortcut) continue;  // what it says, it has from a layout
     if (!edge.bearing_rad && !told.insert(std::minmax(edge.from, edge.to)).second) continue;
     const auto from = places.find(edge.from);
     const auto to = places.find(edge.to);

@@ -51,6 +51,26 @@ struct Edge {
   bool weak = false;          // homing along it is likely to fail
   bool blocked = false;       // by a person or because driving failed
   std::string by = "method";  // "method" or "person"
+  bool shortcut = false;      // no tour drove it: an accepted Shortcut
+};
+
+enum class ShortcutState { kProposed, kAccepted, kRejected };
+
+/// A straight way that no tour drove, between the prototypes of two places, with what speaks for it. Driven only once a
+/// person has accepted it: then both directions are edges of the map.
+struct Shortcut {
+  ImageId image_a;
+  ImageId image_b;
+  double bearing_rad = 0.0;       // of the second viewpoint in the first picture's frame, as the two pictures say
+  double turn_rad = 0.0;          // second heading minus first
+  double back_bearing_rad = 0.0;  // of the first viewpoint in the second picture's frame
+  double length_m = 0.0;          // by the map's metric layout
+  double way_m = 0.0;             // the shortest way over the map's edges when it was proposed
+  double clear_m = 0.0;           // width that the sweeps of the tour saw free all along it
+  double confidence = 0.0;        // that the pictures' bearings are right within 15 degrees
+  int inliers = 0;                // features that both pictures see and that one motion explains
+  ShortcutState state = ShortcutState::kProposed;
+  std::string by = "method";  // or the person who decided
 };
 
 /// Dempster-Shafer masses over {true, false, unknown}; they sum to 1.
@@ -98,14 +118,26 @@ struct BeliefCalibration {
   double slope = 1.0;
 };
 
-enum class EditKind { kRename, kMerge, kSplit, kDelete, kMove, kAddEdge, kRemoveEdge, kBlockEdge, kDecide };
+enum class EditKind {
+  kRename,
+  kMerge,
+  kSplit,
+  kDelete,
+  kMove,
+  kAddEdge,
+  kRemoveEdge,
+  kBlockEdge,
+  kDecide,
+  kDecideShortcut
+};
 
 /// One edit by a person, keyed to images so that it outlives a rebuild.
 struct Edit {
   EditKind kind = EditKind::kRename;
   ImageId image_a;   // any image of the first place concerned (or the first prototype of a hypothesis)
   ImageId image_b;   // of the second one, where there is one
-  std::string text;  // the new label for kRename, "accept"/"reject" for kDecide, "true"/"false" for kBlockEdge
+  std::string text;  // the new label for kRename, "accept"/"reject" for kDecide and kDecideShortcut, "true"/"false" for
+                     // kBlockEdge
   std::vector<ImageId> images;  // for kSplit and kMove: the images that go
   std::string by;               // user name
   TimeUs t_us = 0;
@@ -124,6 +156,7 @@ struct TopologicalMap {
   std::vector<Place> places;
   std::vector<Edge> edges;  // directed
   std::vector<Hypothesis> hypotheses;
+  std::vector<Shortcut> shortcuts;
   std::vector<Destination> destinations;
   MotionStatistics motion;
   BeliefCalibration calibration;

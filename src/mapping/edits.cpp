@@ -6,6 +6,7 @@
 #include <set>
 
 #include "map/lookup.hpp"
+#include "mapping/shortcut_edges.hpp"
 
 namespace homeward::mapping {
 namespace {
@@ -34,6 +35,7 @@ void sort_members(const TopologicalMap& map, Place& place) {
 void tidy_edges(TopologicalMap& map) {
   const auto index = map::place_indices(map);
   std::set<std::pair<PlaceId, PlaceId>> seen;
+  std::ranges::stable_partition(map.edges, [](const map::Edge& edge) { return !edge.shortcut; });
   std::erase_if(map.edges, [&](const map::Edge& edge) {
     if (edge.from == edge.to || !index.contains(edge.from) || !index.contains(edge.to)) return true;
     return !seen.emplace(edge.from, edge.to).second;
@@ -207,6 +209,20 @@ Status add_edge(TopologicalMap& map, const Edit& edit) {
   return {};
 }
 
+/// Without its edges a shortcut is one that the person does not want.
+void reject_shortcuts(TopologicalMap& map, const EdgeEnds& ends, const std::string& by) {
+  for (map::Shortcut& shortcut : map.shortcuts) {
+    if (shortcut.state != map::ShortcutState::kAccepted) continue;
+    const Place* a = map::find_place_of(map, shortcut.image_a);
+    const Place* b = map::find_place_of(map, shortcut.image_b);
+    if (a == nullptr || b == nullptr) continue;
+    const bool these = (a->id == ends.from && b->id == ends.to) || (a->id == ends.to && b->id == ends.from);
+    if (!these) continue;
+    shortcut.state = map::ShortcutState::kRejected;
+    shortcut.by = by;
+  }
+}
+
 Status remove_edge(TopologicalMap& map, const Edit& edit) {
   const auto ends = edge_ends(map, edit);
   if (!ends) return pass_on(ends);
@@ -214,6 +230,7 @@ Status remove_edge(TopologicalMap& map, const Edit& edit) {
     return (edge.from == ends->from && edge.to == ends->to) || (edge.from == ends->to && edge.to == ends->from);
   });
   if (removed == 0) return no_edge(*ends);
+  reject_shortcuts(map, *ends, edit.by);
   return {};
 }
 
@@ -279,6 +296,13 @@ Status decide(TopologicalMap& map, const Edit& edit) {
   return {};
 }
 
+Status decide_on_shortcut(TopologicalMap& map, const Edit& edit) {
+  if (edit.text != "accept" && edit.text != "reject") {
+    return fail(ErrorCode::kInvalidInput, "A shortcut can be decided with \"accept\" or \"reject\".", "decision");
+  }
+  return decide_shortcut(map, edit.image_a, edit.image_b, edit.text == "accept", edit.by);
+}
+
 Status apply_to(TopologicalMap& map, const Edit& edit) {
   switch (edit.kind) {
     case EditKind::kRename:
@@ -299,6 +323,8 @@ Status apply_to(TopologicalMap& map, const Edit& edit) {
       return block_edge(map, edit);
     case EditKind::kDecide:
       return decide(map, edit);
+    case EditKind::kDecideShortcut:
+      return decide_on_shortcut(map, edit);
   }
   return fail(ErrorCode::kInvalidInput, "This kind of edit is not known.", "kind");
 }
@@ -342,8 +368,24 @@ Status undo_add_edge(TopologicalMap& map, const Edit& undone) {
   std::erase_if(map.edges, [&](const map::Edge& edge) {
     const bool these =
         (edge.from == ends->from && edge.to == ends->to) || (edge.from == ends->to && edge.to == ends->from);
-    return these && edge.by == "person";
+    return these && edge.by == "person" && !edge.shortcut;
   });
+  return {};
+}
+
+/// Back to what the decisions before say: proposed where there is none.
+Status undo_decide_shortcut(TopologicalMap& map, const Edit& undone) {
+  map::Shortcut* shortcut = find_shortcut(map, undone.image_a, undone.image_b);
+  if (shortcut == nullptr) return decide_on_shortcut(map, undone);
+  shortcut->state = map::ShortcutState::kProposed;
+  shortcut->by = "method";
+  for (const Edit& edit : map.edits) {
+    if (edit.kind != EditKind::kDecideShortcut || edit.undone) continue;
+    if (find_shortcut(map, edit.image_a, edit.image_b) != shortcut) continue;
+    shortcut->state = edit.text == "accept" ? map::ShortcutState::kAccepted : map::ShortcutState::kRejected;
+    shortcut->by = edit.by;
+  }
+  settle_shortcuts(map);
   return {};
 }
 
@@ -351,6 +393,7 @@ Status undo_add_edge(TopologicalMap& map, const Edit& undone) {
 
 Status apply_edit(TopologicalMap& map, const Edit& edit) {
   if (const Status applied = apply_to(map, edit); !applied) return applied;
+  settle_shortcuts(map);
   map.edits.push_back(edit);
   map.edits.back().undone = false;
   ++map.revision;
@@ -373,6 +416,9 @@ Status undo_last_edit(TopologicalMap& map) {
     case EditKind::kAddEdge:
       undone = undo_add_edge(map, *latest);
       break;
+    case EditKind::kDecideShortcut:
+      undone = undo_decide_shortcut(map, *latest);
+      break;
     default:
       undone = fail(ErrorCode::kConflict,
                     "This edit changed which places and edges there are: rebuild the map to take it back.");
@@ -381,6 +427,7 @@ Status undo_last_edit(TopologicalMap& map) {
     latest->undone = false;
     return undone;
   }
+  settle_shortcuts(map);
   ++map.revision;
   return {};
 }
@@ -390,6 +437,7 @@ void replay_edits(TopologicalMap& map, const std::vector<Edit>& log) {
     // What the rebuilt map no longer has cannot be edited; the person's word stays in the log for the next rebuild.
     if (!edit.undone) static_cast<void>(apply_to(map, edit));
   }
+  settle_shortcuts(map);
   map.edits = log;
 }
 

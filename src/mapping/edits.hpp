@@ -16,14 +16,15 @@ namespace homeward::mapping {
 ///   kAddEdge     an edge both ways between the places of image_a and image_b, if there is none
 ///   kRemoveEdge  both edges between these two places go
 ///   kBlockEdge   the edge from image_a's to image_b's place is blocked ("true") or opened again ("false")
+///   kDecideShortcut  the shortcut between image_a and image_b is accepted, and then an edge both ways, or rejected
 ///   kDecide      the hypothesis image_a, image_b is accepted or rejected; the two places merge or split accordingly
-/// Errors: kInvalidInput (what is wrong with the edit), kNotFound (image, edge or hypothesis); the map is then
-/// unchanged.
+/// Shortcuts whose pictures are no longer the prototypes of two places go. Errors: kInvalidInput (what is wrong with
+/// the edit), kNotFound (image, edge, hypothesis or shortcut); the map is then unchanged.
 Status apply_edit(map::TopologicalMap& map, const map::Edit& edit);
 
 /// Takes back the latest edit that still stands: it stays in the log, marked undone; the revision rises by one.
-/// Labels, blocked edges and added edges return to what the edits before them say. Errors: kNotFound (no edit to undo),
-/// kConflict (the edit changed which images make up a place: only a rebuild can take it back).
+/// Labels, blocked edges, added edges and shortcuts return to what the edits before them say. Errors: kNotFound (no
+/// edit to undo), kConflict (the edit changed which images make up a place: only a rebuild can take it back).
 Status undo_last_edit(map::TopologicalMap& map);
 
 /// Applies the edits of `log` that stand to a rebuilt map, oldest first, and makes `log` its log. Edits whose images or

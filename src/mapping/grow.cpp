@@ -12,6 +12,7 @@
 #include "mapping/growth_statistics.hpp"
 #include "mapping/loops.hpp"
 #include "mapping/old_places.hpp"
+#include "mapping/shortcut_edges.hpp"
 #include "mapping/subclusters.hpp"
 
 namespace homeward::mapping {
@@ -52,6 +53,7 @@ class Growth {
     put_in_extra_places();
     add_places(grown);
     add_edges(grown);
+    settle_shortcuts(grown.map);
     add_destinations(grown);
     add_hypotheses(grown);
     const UsualDistances usual = usual_distances(fresh_, path_, config_);
@@ -165,7 +167,9 @@ class Growth {
 
   /// Edges that are there already, or that a person took away.
   void settle() {
-    for (const map::Edge& edge : old_.edges) settled_.emplace(edge.from, edge.to);
+    for (const map::Edge& edge : old_.edges) {
+      if (!edge.shortcut) settled_.emplace(edge.from, edge.to);
+    }
     for (const map::Edit& edit : old_.edits) {
       if (edit.kind != map::EditKind::kRemoveEdge || edit.undone) continue;
       const map::Place* a = map::find_place_of(old_, edit.image_a);

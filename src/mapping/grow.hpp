@@ -33,8 +33,8 @@ struct GrownMap {
 /// count between old and new as far as they were right where the way could tell, in the old map and on the new tours,
 /// and as far as the two ways bear each other out (old_places.hpp). Nothing of the old map is changed or taken away:
 /// places keep id, label, prototype, members and appearances, and never merge; edges, decisions and edits stay; an edge
-/// that a person removed does not come back. Spreads are those of old and new tours together; the calibration stays
-/// that of the old map. The revision rises by one.
+/// that a person removed does not come back; a shortcut that a new tour drives gives way to its edge. Spreads are those
+/// of old and new tours together; the calibration stays that of the old map. The revision rises by one.
 GrownMap grow_map(const map::TopologicalMap& old, const GrowthInput& input, const PairTable& pairs,
                   const MappingConfig& config);
 

@@ -16,6 +16,7 @@
 #include "mapping/extra_places.hpp"
 #include "mapping/identity.hpp"
 #include "mapping/loops.hpp"
+#include "mapping/shortcut_edges.hpp"
 #include "mapping/similarity.hpp"
 #include "mapping/subclusters.hpp"
 
@@ -216,6 +217,9 @@ NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, 
   // Edits first: the places that a person made keep their ids like all others.
   if (previous != nullptr) {
     map.revision = previous->revision + 1;
+    map.shortcuts = previous->shortcuts;
+    std::erase_if(map.shortcuts, [](const map::Shortcut& one) { return one.state == map::ShortcutState::kProposed; });
+    settle_shortcuts(map);
     replay_edits(map, previous->edits);
   }
   keep_identity(map, previous);

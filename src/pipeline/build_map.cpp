@@ -14,6 +14,7 @@
 #include "pipeline/learn_calibration.hpp"
 #include "pipeline/picture_frame.hpp"
 #include "pipeline/tour_check.hpp"
+#include "pipeline/tour_shortcuts.hpp"
 
 namespace homeward::pipeline {
 namespace {
@@ -243,6 +244,7 @@ Result<BuiltMap> build_noted_map(const std::vector<const TourSource*>& tours, co
   if (!mapping::count_common_features(map, {}, options.threads, stop)) {
     return fail(ErrorCode::kCancelled, "The build was cancelled.");
   }
+  add_shortcuts(map, tours);
   stage("places", 1.0, 0.0)(0.0);
   return BuiltMap{std::move(made.map),
                   {pictures->tour_of, std::move(*appearances), std::move(*pairs), std::move(made.notes),

@@ -10,6 +10,7 @@
 #include "pipeline/eye.hpp"
 #include "pipeline/learn_calibration.hpp"
 #include "pipeline/look_at_tours.hpp"
+#include "pipeline/tour_shortcuts.hpp"
 
 namespace homeward::pipeline {
 namespace {
@@ -88,6 +89,7 @@ Result<ToursAdded> add_tours(const map::TopologicalMap& old, const std::vector<c
   if (!mapping::count_common_features(result.grown.map, {}, options.threads, stop)) {
     return fail(ErrorCode::kCancelled, "Adding to the map was cancelled.");
   }
+  add_shortcuts(result.grown.map, tours);
   stage("places", 1.0, 0.0)(0.0);
   return result;
 }

@@ -13,8 +13,8 @@ namespace {
 using map::EditKind;
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 9> kKinds = {"rename",   "merge",       "split",      "delete", "move",
-                                                    "add_edge", "remove_edge", "block_edge", "decide"};
+constexpr std::array<std::string_view, 10> kKinds = {
+    "rename", "merge", "split", "delete", "move", "add_edge", "remove_edge", "block_edge", "decide", "decide_shortcut"};
 
 EditKind read_kind(ObjectReader& reader) {
   const std::string name = reader.choice("kind", {kKinds.begin(), kKinds.end()});
@@ -71,6 +71,11 @@ void read_fields(ObjectReader& reader, EditRequest& edit) {
       edit.prototype_b = ImageId(reader.text("prototype_b", 600));
       edit.yes = reader.boolean("accept");
       break;
+    case EditKind::kDecideShortcut:
+      edit.prototype_a = ImageId(reader.text("image_a", 600));
+      edit.prototype_b = ImageId(reader.text("image_b", 600));
+      edit.yes = reader.boolean("accept");
+      break;
   }
 }
 
@@ -107,6 +112,11 @@ json edit_to_json(const EditRequest& edit) {
     case EditKind::kDecide:
       value["prototype_a"] = edit.prototype_a.str();
       value["prototype_b"] = edit.prototype_b.str();
+      value["accept"] = edit.yes;
+      break;
+    case EditKind::kDecideShortcut:
+      value["image_a"] = edit.prototype_a.str();
+      value["image_b"] = edit.prototype_b.str();
       value["accept"] = edit.yes;
       break;
   }
@@ -148,7 +158,7 @@ Result<map::Edit> edit_for_map(const EditRequest& request, const map::Topologica
   edit.images = request.images;
   edit.by = by;
   edit.t_us = t_us;
-  if (request.kind == EditKind::kDecide) {
+  if (request.kind == EditKind::kDecide || request.kind == EditKind::kDecideShortcut) {
     edit.image_a = request.prototype_a;
     edit.image_b = request.prototype_b;
     edit.text = request.yes ? "accept" : "reject";

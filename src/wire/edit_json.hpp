@@ -17,14 +17,14 @@ namespace homeward::wire {
 /// (proto/schemas/edits.schema.json). Which fields count depends on the kind:
 ///   rename {place, label}         merge {place, into}          split {place, images}      move {images, into}
 ///   delete {place}                add_edge / remove_edge {from, to}    block_edge {from, to, blocked}
-///   decide {prototype_a, prototype_b, accept}
+///   decide {prototype_a, prototype_b, accept}                  decide_shortcut {image_a, image_b, accept}
 struct EditRequest {
   map::EditKind kind = map::EditKind::kRename;
   PlaceId place;  // also: from
   PlaceId other;  // into, to
   std::string label;
   std::vector<ImageId> images;
-  ImageId prototype_a;
+  ImageId prototype_a;  // also: image_a, image_b
   ImageId prototype_b;
   bool yes = false;  // blocked, accept
 };

@@ -57,6 +57,16 @@ TEST(EditJson, DecidesAHypothesisByItsPrototypes) {
   EXPECT_EQ(edit->image_b.str(), "tour/00002.jpg");
 }
 
+TEST(EditJson, DecidesAShortcutByItsPictures) {
+  const auto edit =
+      edit_from(R"({"kind":"decide_shortcut","image_a":"tour/00000.jpg","image_b":"tour/00002.jpg","accept":false})");
+  ASSERT_TRUE(edit);
+  EXPECT_EQ(edit->kind, map::EditKind::kDecideShortcut);
+  EXPECT_EQ(edit->text, "reject");
+  EXPECT_EQ(edit->image_a.str(), "tour/00000.jpg");
+  EXPECT_EQ(edit->image_b.str(), "tour/00002.jpg");
+}
+
 TEST(EditJson, RefusesPlacesThatAreNotInTheMap) {
   const auto edit = edit_from(R"({"kind":"block_edge","from":"p1","to":"p9","blocked":true})");
   ASSERT_FALSE(edit);
