@@ -124,11 +124,15 @@ map::LengthSource old_length_source(const map::TopologicalMap& map, const map::E
   return metric ? map::LengthSource::kOdometry : map::LengthSource::kTourImages;
 }
 
+int version_of(SQLite::Database& database) { return database.execAndGet("PRAGMA user_version").getInt(); }
+
 void get_edges(SQLite::Database& database, ContentDigest& digest, map::TopologicalMap& map) {
-  const bool tells_source = database.execAndGet("PRAGMA user_version").getInt() >= kFirstVersionWithLengthSource;
+  const bool tells_source = version_of(database) >= kFirstVersionWithLengthSource;
+  const bool knows_shortcuts = version_of(database) >= kFirstVersionWithShortcuts;
   const std::string sql =
       std::string("SELECT from_place, to_place, bearing_rad, turn_rad, length_m, confidence, weak, blocked, by") +
-      (tells_source ? ", length_from, inliers" : "") + " FROM edges ORDER BY position";
+      (tells_source ? ", length_from, inliers" : "") + (knows_shortcuts ? ", shortcut" : "") +
+      " FROM edges ORDER BY position";
   DigestedRows select(database, sql.c_str(), digest);
   while (select.step()) {
     map::Edge edge;
@@ -151,7 +155,34 @@ void get_edges(SQLite::Database& database, ContentDigest& digest, map::Topologic
       edge.length_from = static_cast<map::LengthSource>(source);
       edge.inliers = select.column(10).getInt();
     }
+    if (knows_shortcuts) edge.shortcut = select.column(11).getInt() != 0;
     map.edges.push_back(std::move(edge));
+  }
+}
+
+void get_shortcuts(SQLite::Database& database, ContentDigest& digest, map::TopologicalMap& map) {
+  if (version_of(database) < kFirstVersionWithShortcuts) return;
+  DigestedRows select(database,
+                      "SELECT image_a, image_b, bearing_rad, turn_rad, back_bearing_rad, length_m, way_m, clear_m, "
+                      "confidence, inliers, state, by FROM shortcuts ORDER BY position",
+                      digest);
+  while (select.step()) {
+    map::Shortcut shortcut;
+    shortcut.image_a = ImageId(select.column(0).getString());
+    shortcut.image_b = ImageId(select.column(1).getString());
+    int column = 2;
+    for (double* value : {&shortcut.bearing_rad, &shortcut.turn_rad, &shortcut.back_bearing_rad, &shortcut.length_m,
+                          &shortcut.way_m, &shortcut.clear_m, &shortcut.confidence}) {
+      *value = select.column(column++).getDouble();
+    }
+    shortcut.inliers = select.column(9).getInt();
+    const int state = select.column(10).getInt();
+    if (state < 0 || state > static_cast<int>(map::ShortcutState::kRejected)) {
+      refuse("A shortcut is in an unknown state.", "shortcuts");
+    }
+    shortcut.state = static_cast<map::ShortcutState>(state);
+    shortcut.by = select.column(11).getString();
+    map.shortcuts.push_back(std::move(shortcut));
   }
 }
 
@@ -206,7 +237,8 @@ void get_edits(SQLite::Database& database, ContentDigest& digest, map::Topologic
   while (select.step()) {
     map::Edit edit;
     const int kind = select.column(0).getInt();
-    if (kind < 0 || kind > static_cast<int>(map::EditKind::kDecide)) refuse("An edit has an unknown kind.", "edits");
+    if (kind < 0 || kind > static_cast<int>(map::EditKind::kDecideShortcut))
+      refuse("An edit has an unknown kind.", "edits");
     edit.kind = static_cast<map::EditKind>(kind);
     edit.image_a = ImageId(select.column(1).getString());
     edit.image_b = ImageId(select.column(2).getString());
@@ -241,6 +273,11 @@ void check_references(const map::TopologicalMap& map) {
       refuse("An edge names a place that the map does not hold.", "edges");
     }
   }
+  for (const map::Shortcut& shortcut : map.shortcuts) {
+    if (!images.contains(shortcut.image_a) || !images.contains(shortcut.image_b)) {
+      refuse("A shortcut names an image that the map does not hold.", "shortcuts");
+    }
+  }
   for (const map::Destination& destination : map.destinations) {
     if (!places.contains(destination.place)) {
       refuse("A destination names a place that the map does not hold.", "destinations/" + destination.id.str());
@@ -270,6 +307,7 @@ MapContents read_contents(SQLite::Database& database) {
   get_places(database, digest, map);
   get_edges(database, digest, map);
   get_hypotheses(database, digest, map);
+  get_shortcuts(database, digest, map);
   get_destinations(database, digest, map);
   get_edits(database, digest, map);
   get_thumbnails(database, digest, contents.stored);

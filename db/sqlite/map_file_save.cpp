@@ -117,7 +117,7 @@ void put_places(SQLite::Database& database, const map::TopologicalMap& map) {
 }
 
 void put_edges(SQLite::Database& database, const map::TopologicalMap& map) {
-  SQLite::Statement insert(database, "INSERT INTO edges VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  SQLite::Statement insert(database, "INSERT INTO edges VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   std::int64_t position = 0;
   for (const map::Edge& edge : map.edges) {
     insert.bind(1, position++);
@@ -132,6 +132,27 @@ void put_edges(SQLite::Database& database, const map::TopologicalMap& map) {
     insert.bind(10, edge.by);
     insert.bind(11, static_cast<int>(edge.length_from));
     insert.bind(12, edge.inliers);
+    insert.bind(13, edge.shortcut ? 1 : 0);
+    insert.exec();
+    insert.reset();
+  }
+}
+
+void put_shortcuts(SQLite::Database& database, const map::TopologicalMap& map) {
+  SQLite::Statement insert(database, "INSERT INTO shortcuts VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  std::int64_t position = 0;
+  for (const map::Shortcut& shortcut : map.shortcuts) {
+    insert.bind(1, position++);
+    insert.bind(2, shortcut.image_a.str());
+    insert.bind(3, shortcut.image_b.str());
+    int index = 4;
+    for (const double value : {shortcut.bearing_rad, shortcut.turn_rad, shortcut.back_bearing_rad, shortcut.length_m,
+                               shortcut.way_m, shortcut.clear_m, shortcut.confidence}) {
+      insert.bind(index++, value);
+    }
+    insert.bind(11, shortcut.inliers);
+    insert.bind(12, static_cast<int>(shortcut.state));
+    insert.bind(13, shortcut.by);
     insert.exec();
     insert.reset();
   }
@@ -217,6 +238,7 @@ void fill_database(SQLite::Database& database, const map::TopologicalMap& map, c
   put_places(database, map);
   put_edges(database, map);
   put_hypotheses(database, map);
+  put_shortcuts(database, map);
   put_destinations(database, map);
   put_edits(database, map);
   put_thumbnails(database, thumbnails);

@@ -6,12 +6,14 @@ namespace homeward::db {
 /// "HWMP" in SQLite's application_id field: what makes an SQLite file a Homeward map.
 inline constexpr int kMapApplicationId = 0x48574D50;
 /// user_version of the map file. A released schema is never edited; a newer file is refused.
-inline constexpr int kMapFileVersion = 4;
-/// Version 3 is without document frequencies in its appearances (wire/appearance_blob.hpp). Version 2 is without the
-/// checksum, and its edges do not say what their length was taken from and how much both ends see.
+inline constexpr int kMapFileVersion = 5;
+/// Version 4 knows no shortcuts. Version 3 is without document frequencies in its appearances
+/// (wire/appearance_blob.hpp). Version 2 is without the checksum, and its edges do not say what their length was taken
+/// from and how much both ends see.
 inline constexpr int kOldestMapFileVersion = 2;
 inline constexpr int kFirstVersionWithChecksum = 3;
 inline constexpr int kFirstVersionWithLengthSource = 3;
+inline constexpr int kFirstVersionWithShortcuts = 5;
 
 inline constexpr const char* kSelectChecksum = "SELECT value FROM meta WHERE key = 'checksum'";
 inline constexpr const char* kInsertChecksum = "INSERT INTO meta(key, value) VALUES ('checksum', ?)";
@@ -33,7 +35,12 @@ CREATE TABLE edges (
   position INTEGER PRIMARY KEY, from_place TEXT NOT NULL REFERENCES places(id),
   to_place TEXT NOT NULL REFERENCES places(id), bearing_rad REAL, turn_rad REAL, length_m REAL NOT NULL,
   confidence REAL NOT NULL, weak INTEGER NOT NULL, blocked INTEGER NOT NULL, by TEXT NOT NULL,
-  length_from INTEGER NOT NULL, inliers INTEGER NOT NULL) STRICT;
+  length_from INTEGER NOT NULL, inliers INTEGER NOT NULL, shortcut INTEGER NOT NULL) STRICT;
+CREATE TABLE shortcuts (
+  position INTEGER PRIMARY KEY, image_a TEXT NOT NULL REFERENCES images(id),
+  image_b TEXT NOT NULL REFERENCES images(id), bearing_rad REAL NOT NULL, turn_rad REAL NOT NULL,
+  back_bearing_rad REAL NOT NULL, length_m REAL NOT NULL, way_m REAL NOT NULL, clear_m REAL NOT NULL,
+  confidence REAL NOT NULL, inliers INTEGER NOT NULL, state INTEGER NOT NULL, by TEXT NOT NULL) STRICT;
 CREATE TABLE hypotheses (
   position INTEGER PRIMARY KEY, prototype_a TEXT NOT NULL, prototype_b TEXT NOT NULL, similarity REAL NOT NULL,
   before_true REAL NOT NULL, before_false REAL NOT NULL, before_unknown REAL NOT NULL,

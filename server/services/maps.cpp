@@ -94,9 +94,11 @@ Result<std::int64_t> MapService::edit(const MapId& id, std::int64_t revision,
     for (std::size_t i = 0; i < edits.size(); ++i) {
       const std::string where = "body/edits/" + std::to_string(i);
       const map::EditKind kind = edits[i].kind;
-      if (kind != map::EditKind::kRename && kind != map::EditKind::kBlockEdge) {
+      if (kind != map::EditKind::kRename && kind != map::EditKind::kBlockEdge &&
+          kind != map::EditKind::kDecideShortcut) {
         return fail(ErrorCode::kInvalidInput,
-                    "This version applies rename and block_edge, not " + std::string(wire::edit_kind_name(kind)) + ".",
+                    "This version applies rename, block_edge and decide_shortcut, not " +
+                        std::string(wire::edit_kind_name(kind)) + ".",
                     where);
       }
       const auto lasting = wire::edit_for_map(edits[i], map, by, wall_clock_us());

@@ -64,8 +64,9 @@ Response answer_route(MapService& maps, const MapId& map, const Request& request
   if (!found) return problem_of(found);
   std::vector<wire::RouteView> views;
   for (const planning::Route& route : *found) {
-    wire::RouteView view{route.places, route.cost_m, route.length_m, route.length_from, route.time_s, {}};
+    wire::RouteView view{route.places, route.cost_m, route.length_m, route.length_from, route.time_s, {}, {}};
     for (const planning::Way& way : route.weak) view.weak.push_back({way.from, way.to});
+    for (const planning::Way& way : route.shortcuts) view.shortcuts.push_back({way.from, way.to});
     views.push_back(std::move(view));
   }
   return json_response(200, wire::routes_to_json(views));

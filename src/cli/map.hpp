@@ -9,5 +9,6 @@ void register_map_build(CLI::App& map);
 void register_map_inspect(CLI::App& map);
 void register_map_export(CLI::App& map);
 void register_map_refine(CLI::App& map);
+void register_map_shortcuts(CLI::App& map);
 
 }  // namespace homeward::cli

@@ -25,10 +25,17 @@ void print_summary(const db::StoredMap& stored) {
   for (const map::Place& place : map.places) appearances += place.appearances.size();
   int weak = 0;
   for (const map::Edge& edge : map.edges) weak += edge.weak ? 1 : 0;
+  int proposed = 0;
+  int driven = 0;
+  for (const map::Shortcut& shortcut : map.shortcuts) {
+    proposed += shortcut.state == map::ShortcutState::kProposed ? 1 : 0;
+    driven += shortcut.state == map::ShortcutState::kAccepted ? 1 : 0;
+  }
   std::cout << "revision      " << map.revision << "\npictures      " << map.images.size() << "\nplaces        "
             << map.places.size() << " (" << appearances << " appearances)\nedges         " << map.edges.size() << " ("
             << weak << " weak)\nloops closed  " << accepted << " of " << map.hypotheses.size()
-            << " hypotheses\nbytes         " << stored.bytes << "\n";
+            << " hypotheses\nshortcuts     " << driven << " accepted, " << proposed
+            << " proposed (homeward map shortcuts)\nbytes         " << stored.bytes << "\n";
   for (const map::Destination& d : map.destinations) {
     std::cout << "destination   " << d.id.str() << " " << d.label << " at " << d.place.str() << "\n";
   }

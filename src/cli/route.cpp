@@ -66,8 +66,9 @@ void print_no_route(const map::TopologicalMap& map, const planning::RouteRequest
 void print_json(const std::vector<planning::Route>& routes) {
   std::vector<wire::RouteView> views;
   for (const planning::Route& route : routes) {
-    wire::RouteView view{route.places, route.cost_m, route.length_m, route.length_from, route.time_s, {}};
+    wire::RouteView view{route.places, route.cost_m, route.length_m, route.length_from, route.time_s, {}, {}};
     for (const planning::Way& way : route.weak) view.weak.push_back({way.from, way.to});
+    for (const planning::Way& way : route.shortcuts) view.shortcuts.push_back({way.from, way.to});
     views.push_back(std::move(view));
   }
   std::cout << wire::routes_to_json(views).dump() << "\n";

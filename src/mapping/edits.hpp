@@ -19,7 +19,8 @@ namespace homeward::mapping {
 ///   kDecideShortcut  the shortcut between image_a and image_b is accepted, and then an edge both ways, or rejected
 ///   kDecide      the hypothesis image_a, image_b is accepted or rejected; the two places merge or split accordingly
 /// Shortcuts whose pictures are no longer the prototypes of two places go. Errors: kInvalidInput (what is wrong with
-/// the edit), kNotFound (image, edge, hypothesis or shortcut); the map is then unchanged.
+/// the edit), kNotFound (image, edge, hypothesis or shortcut), kConflict (a shortcut that no longer holds); the map is
+/// then unchanged.
 Status apply_edit(map::TopologicalMap& map, const map::Edit& edit);
 
 /// Takes back the latest edit that still stands: it stays in the log, marked undone; the revision rises by one.

@@ -77,8 +77,19 @@ Status decide_shortcut(TopologicalMap& map, const ImageId& image_a, const ImageI
     return fail(ErrorCode::kNotFound,
                 "The map has no shortcut between " + image_a.str() + " and " + image_b.str() + ".", image_a.str());
   }
-  shortcut->state = accept ? ShortcutState::kAccepted : ShortcutState::kRejected;
-  shortcut->by = by;
+  Shortcut decided = *shortcut;
+  decided.state = accept ? ShortcutState::kAccepted : ShortcutState::kRejected;
+  decided.by = by;
+  // As an edge it may be there already.
+  const bool was_edge = shortcut->state == ShortcutState::kAccepted;
+  if (accept && !was_edge && !stands(map, decided)) {
+    return fail(
+        ErrorCode::kConflict,
+        "What the tour saw of this shortcut holds no more: its pictures are not the prototypes of two places that "
+        "no way joins.",
+        image_a.str());
+  }
+  *shortcut = std::move(decided);
   settle_shortcuts(map);
   return {};
 }

@@ -15,7 +15,7 @@ map::Shortcut* find_shortcut(map::TopologicalMap& map, const ImageId& image_a, c
 /// that was blocked stays blocked. To be called after whatever changes places, edges or decisions.
 void settle_shortcuts(map::TopologicalMap& map);
 
-/// Accepts or rejects the shortcut between two pictures. Errors: kNotFound.
+/// Accepts or rejects the shortcut between two pictures. Errors: kNotFound; kConflict (it would go at once, see above).
 Status decide_shortcut(map::TopologicalMap& map, const ImageId& image_a, const ImageId& image_b, bool accept,
                        const std::string& by);
 

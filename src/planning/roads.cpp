@@ -62,7 +62,9 @@ Roads::Roads(const map::TopologicalMap& map, const RouteRequest& request)
 
 double Roads::seconds(int edge) const {
   const map::Edge& way = map_.edges[at(edge)];
-  return std::max(way.length_m, 0.0) / (travel_.speed_mps * (way.weak ? travel_.weak_speed_share : 1.0));
+  double speed_mps = travel_.speed_mps * (way.weak ? travel_.weak_speed_share : 1.0);
+  if (way.shortcut) speed_mps = std::min(speed_mps, travel_.shortcut_mps);
+  return std::max(way.length_m, 0.0) / speed_mps;
 }
 
 double Roads::turn_seconds(int before, int after) const {

@@ -36,7 +36,8 @@ Result<Task> task_of(const map::TopologicalMap& map, const RouteRequest& request
   const auto to = index_of(map, request.to, "to");
   if (!to) return pass_on(to);
   const TravelModel& travel = request.travel;
-  if (!(travel.speed_mps > 0.0) || !(travel.turn_radps > 0.0) || !(travel.weak_speed_share > 0.0)) {
+  if (!(travel.speed_mps > 0.0) || !(travel.turn_radps > 0.0) || !(travel.weak_speed_share > 0.0) ||
+      !(travel.shortcut_mps > 0.0)) {
     return fail(ErrorCode::kInvalidInput, "Speeds of travel must be above 0.", "travel");
   }
   Task task{*from, *to, std::vector<char>(map.edges.size(), 0), std::vector<char>(map.places.size(), 0)};
@@ -72,6 +73,7 @@ Route route_along(const map::TopologicalMap& map, const Roads& roads, int from, 
     route.length_m += std::max(edge.length_m, 0.0);
     route.time_s += roads.seconds(chain[i]) + (i > 0 ? roads.turn_seconds(chain[i - 1], chain[i]) : 0.0);
     if (edge.weak) route.weak.push_back({edge.from, edge.to});
+    if (edge.shortcut) route.shortcuts.push_back({edge.from, edge.to});
     const bool unknown = edge.length_from == map::LengthSource::kUnknown;
     if (route.length_from != map::LengthSource::kUnknown) {
       route.length_from = unknown ? edge.length_from : std::max(route.length_from, edge.length_from);

@@ -13,12 +13,14 @@ namespace homeward::planning {
 /// What a route should have little of.
 enum class RouteCost { kLength, kTime };
 
-/// How long driving takes: an edge its length over the speed, a weak one at a share of it; where two edges meet, the
-/// turn from one direction of travel into the other. A turn between edges of which one has no bearing counts as none.
+/// How long driving takes: an edge its length over the speed, a weak one at a share of it, a shortcut no faster than
+/// its own speed; where two edges meet, the turn from one direction of travel into the other. A turn between edges of
+/// which one has no bearing counts as none.
 struct TravelModel {
   double speed_mps = 0.4;
   double turn_radps = 0.6;
   double weak_speed_share = 1.0 / 3.0;
+  double shortcut_mps = 0.25;  // as the robot drives it
 };
 
 /// The way from one place to a neighbour.
@@ -44,6 +46,7 @@ struct Route {
   double length_m = 0.0;
   double time_s = 0.0;
   std::vector<Way> weak;                                         // edges of it where homing is likely to fail
+  std::vector<Way> shortcuts = {};                               // edges of it that no tour drove
   map::LengthSource length_from = map::LengthSource::kOdometry;  // the roughest source of a length in it
 };
 

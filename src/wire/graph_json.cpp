@@ -48,6 +48,7 @@ json graph_to_json(const map::TopologicalMap& map, const MapId& id, const std::v
                                      {"image", destination.image.str()},
                                      {"label", destination.label}});
   }
+  value["shortcuts"] = shortcuts_to_json(map);
   for (const map::Hypothesis& h : map.hypotheses) value["hypotheses"].push_back(hypothesis_to_json(h));
   return value;
 }

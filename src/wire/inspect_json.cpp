@@ -2,6 +2,7 @@
 #include "wire/inspect_json.hpp"
 
 #include <array>
+#include <unordered_map>
 
 #include "map/parts.hpp"
 #include "wire/json_write.hpp"
@@ -48,7 +49,37 @@ json edge_to_json(const map::Edge& edge) {
           {"length_from", length_source_name(edge.length_from)},
           {"confidence", edge.confidence},
           {"inliers", edge.inliers},
-          {"weak", edge.weak}};
+          {"weak", edge.weak},
+          {"shortcut", edge.shortcut}};
+}
+
+std::string_view shortcut_state_name(map::ShortcutState state) {
+  constexpr std::array<std::string_view, 3> kNames = {"proposed", "accepted", "rejected"};
+  return kNames[static_cast<std::size_t>(state)];
+}
+
+json shortcuts_to_json(const map::TopologicalMap& map) {
+  std::unordered_map<ImageId, PlaceId> place_of;
+  for (const map::Place& place : map.places) {
+    for (const ImageId& image : place.members) place_of.emplace(image, place.id);
+  }
+  json list = json::array();
+  for (const map::Shortcut& shortcut : map.shortcuts) {
+    list.push_back({{"image_a", shortcut.image_a.str()},
+                    {"image_b", shortcut.image_b.str()},
+                    {"place_a", place_of[shortcut.image_a].str()},
+                    {"place_b", place_of[shortcut.image_b].str()},
+                    {"bearing_rad", shortcut.bearing_rad},
+                    {"turn_rad", shortcut.turn_rad},
+                    {"length_m", shortcut.length_m},
+                    {"way_m", shortcut.way_m},
+                    {"clear_m", shortcut.clear_m},
+                    {"confidence", shortcut.confidence},
+                    {"inliers", shortcut.inliers},
+                    {"state", shortcut_state_name(shortcut.state)},
+                    {"by", shortcut.by}});
+  }
+  return list;
 }
 
 json hypothesis_to_json(const map::Hypothesis& hypothesis) {
@@ -69,6 +100,7 @@ json inspect_to_json(const map::TopologicalMap& map, std::int64_t bytes) {
   for (const map::Place& place : map.places) value["places"].push_back(place_to_json(place));
   for (const map::Edge& edge : map.edges) value["edges"].push_back(edge_to_json(edge));
   for (const map::Hypothesis& h : map.hypotheses) value["hypotheses"].push_back(hypothesis_to_json(h));
+  value["shortcuts"] = shortcuts_to_json(map);
   for (const map::MapPart& part : map::parts(map)) value["components"].push_back(part_to_json(part));
   return value;
 }

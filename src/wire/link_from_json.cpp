@@ -121,6 +121,7 @@ std::optional<PathEdge> read_edge(ObjectReader& outer) {
   edge.turn_rad = number_or_null(reader, "turn_rad");
   edge.length_m = number_or_null(reader, "length_m");
   edge.weak = reader.boolean("weak");
+  if (reader.has("shortcut")) edge.shortcut = reader.boolean("shortcut");
   if (const Status status = reader.finish(); !status) outer.take<int>(pass_on(status));
   return edge;
 }

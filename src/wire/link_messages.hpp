@@ -118,7 +118,8 @@ struct PathEdge {
   std::optional<double> bearing_rad;  // of the next prototype in this prototype's frame
   std::optional<double> turn_rad;     // next heading minus this one
   std::optional<double> length_m;
-  bool weak = false;  // homing along it is likely to fail
+  bool weak = false;      // homing along it is likely to fail
+  bool shortcut = false;  // no tour drove it: slowly
 };
 
 struct PathPlace {

@@ -91,10 +91,12 @@ json write(const Welcome& m) {
 
 json edge_to_json(const std::optional<PathEdge>& edge) {
   if (!edge) return nullptr;
-  return {{"bearing_rad", or_null(edge->bearing_rad)},
-          {"turn_rad", or_null(edge->turn_rad)},
-          {"length_m", or_null(edge->length_m)},
-          {"weak", edge->weak}};
+  json value = {{"bearing_rad", or_null(edge->bearing_rad)},
+                {"turn_rad", or_null(edge->turn_rad)},
+                {"length_m", or_null(edge->length_m)},
+                {"weak", edge->weak}};
+  if (edge->shortcut) value["shortcut"] = true;
+  return value;
 }
 
 json pose_to_json(const Pose2& pose) { return {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"theta_rad", pose.theta_rad}}; }

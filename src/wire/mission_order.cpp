@@ -16,7 +16,8 @@ std::optional<PathEdge> edge_between(const map::TopologicalMap& map, const Place
   if (edge == map.edges.end()) return std::nullopt;
   // A robot that counts on a length needs a measured one.
   const bool metric = edge->length_from == map::LengthSource::kOdometry;
-  return PathEdge{edge->bearing_rad, edge->turn_rad, metric ? std::optional(edge->length_m) : std::nullopt, edge->weak};
+  return PathEdge{edge->bearing_rad, edge->turn_rad, metric ? std::optional(edge->length_m) : std::nullopt, edge->weak,
+                  edge->shortcut};
 }
 
 }  // namespace

@@ -11,15 +11,20 @@ namespace {
 
 using nlohmann::json;
 
+json ways_to_json(const std::vector<WayView>& ways) {
+  json list = json::array();
+  for (const WayView& way : ways) list.push_back({{"from", way.from.str()}, {"to", way.to.str()}});
+  return list;
+}
+
 json route_to_json(const RouteView& route) {
-  json weak = json::array();
-  for (const WayView& way : route.weak) weak.push_back({{"from", way.from.str()}, {"to", way.to.str()}});
   return {{"places", ids_to_json(route.places)},
           {"cost_m", route.cost_m},
           {"length_m", route.length_m},
           {"length_from", length_source_name(route.length_from)},
           {"time_s", route.time_s},
-          {"weak", std::move(weak)}};
+          {"weak", ways_to_json(route.weak)},
+          {"shortcuts", ways_to_json(route.shortcuts)}};
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ struct RouteView {
   map::LengthSource length_from = map::LengthSource::kUnknown;
   double time_s = 0.0;
   std::vector<WayView> weak;
+  std::vector<WayView> shortcuts = {};
 };
 
 /// The best way and, as `others`, the next best ones (proto/schemas/route.schema.json). Precondition: not empty.

@@ -75,7 +75,7 @@ TEST(Encoders, WriteRoutesThatTheSchemasAccept) {
   const json routes = routes_to_json({way, other});
   EXPECT_THAT(schemas().problems("route", routes), IsEmpty());
   EXPECT_EQ(routes["others"][0], json::parse(R"({"places":["p1","p3","p2"],"cost_m":6.0,"length_m":6.0,
-    "length_from":"tour_time","time_s":15.0,"weak":[]})"));
+    "length_from":"tour_time","time_s":15.0,"weak":[],"shortcuts":[]})"));
   EXPECT_EQ(routes["weak"], json::parse(R"([{"from":"p1","to":"p2"}])"));
   const json none =
       no_route_to_json("Blocked.", true, {{"blocked", PlaceId("p1"), PlaceId("p2")}, {"avoided", {}, PlaceId("p3")}});
@@ -89,7 +89,7 @@ TEST(Encoders, TellEverythingOfAMap) {
   EXPECT_EQ(graph["places"][1], json::parse(R"({"id":"p2","label":"kitchen","prototype":"tour/00002.jpg",
     "members":["tour/00002.jpg"],"features":20,"x":1.0,"y":0.75})"));
   EXPECT_EQ(graph["edges"][1], json::parse(R"({"from":"p2","to":"p1","bearing_rad":null,"turn_rad":null,"length_m":1.5,
-    "length_from":"unknown","confidence":0.1,"inliers":0,"weak":true,"blocked":true})"));
+    "length_from":"unknown","confidence":0.1,"inliers":0,"weak":true,"blocked":true,"shortcut":false})"));
   EXPECT_EQ(graph["destinations"][0],
             json::parse(R"({"id":"d1","place":"p2","image":"tour/00002.jpg","label":"kitchen"})"));
   EXPECT_EQ(graph["hypotheses"][0]["masses_after"], json::parse(R"({"true":0.1,"false":0.8,"unknown":0.1})"));

@@ -28,7 +28,8 @@ inline features::Appearance random_appearance(int count, unsigned seed) {
   return appearance;
 }
 
-/// A small valid map with one of everything: 3 images, 2 places, 2 edges, a hypothesis, a destination, an edit.
+/// A small valid map with one of everything: 3 images, 2 places, 2 edges, a hypothesis, a rejected
+/// shortcut, a destination, an edit.
 inline map::TopologicalMap sample_map() {
   map::TopologicalMap map;
   map.name = "sample";
@@ -68,6 +69,20 @@ inline map::TopologicalMap sample_map() {
   hypothesis.plausibility = 0.2;
   hypothesis.decision = map::Decision::kRejected;
   map.hypotheses = {hypothesis};
+  map::Shortcut shortcut;
+  shortcut.image_a = map.images[0].id;
+  shortcut.image_b = map.images[2].id;
+  shortcut.bearing_rad = 0.5;
+  shortcut.turn_rad = -0.25;
+  shortcut.back_bearing_rad = -2.5;
+  shortcut.length_m = 2.5;
+  shortcut.way_m = 9.75;
+  shortcut.clear_m = 1.25;
+  shortcut.confidence = 0.875;
+  shortcut.inliers = 48;
+  shortcut.state = map::ShortcutState::kRejected;
+  shortcut.by = "anna";
+  map.shortcuts = {shortcut};
   map.destinations = {{DestinationId("d1"), PlaceId("p2"), map.images[2].id, "kitchen", random_appearance(15, 9)}};
   map::Edit edit;
   edit.kind = map::EditKind::kRename;

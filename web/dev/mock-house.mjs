@@ -90,6 +90,7 @@ export function newGraph(map) {
       inliers: 40,
       weak: way === 'p12-p13',
       blocked: false,
+      shortcut: false,
     };
   });
   const destinations = places
@@ -113,6 +114,23 @@ export function newGraph(map) {
         support: 0.05,
         plausibility: 0.15,
         decision: 'rejected',
+        by: 'method',
+      },
+    ],
+    shortcuts: [
+      {
+        image_a: 't1/p2.jpg',
+        image_b: 't1/p6.jpg',
+        place_a: 'p2',
+        place_b: 'p6',
+        bearing_rad: 1.2,
+        turn_rad: 0.1,
+        length_m: 2.6,
+        way_m: 9.4,
+        clear_m: 1.3,
+        confidence: 0.93,
+        inliers: 71,
+        state: 'proposed',
         by: 'method',
       },
     ],

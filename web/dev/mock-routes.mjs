@@ -107,6 +107,7 @@ function edit(house, { user, body, headers, args }) {
   for (const one of body.edits) {
     if (one.kind === 'rename') rename(house.graph, one);
     else if (one.kind === 'block_edge') block(house.graph, one);
+    else if (one.kind === 'decide_shortcut') decideShortcut(house.graph, one, user.name);
     else throw new Refusal(422, 'invalid_input', `this version cannot ${one.kind}`);
     house.edits.push(logged(one, user.name));
   }
@@ -116,12 +117,12 @@ function edit(house, { user, body, headers, args }) {
 }
 
 function logged(one, by) {
-  const image_a = `t1/${one.place ?? one.from}.jpg`;
+  const image_a = one.image_a ?? `t1/${one.place ?? one.from}.jpg`;
   const t_us = Date.now() * 1000;
   return {
     kind: one.kind,
     image_a,
-    image_b: null,
+    image_b: one.image_b ?? null,
     text: one.label ?? '',
     images: [],
     by,
@@ -140,6 +141,12 @@ function rename(graph, { place, label }) {
 function block(graph, { from, to, blocked }) {
   for (const one of graph.edges)
     if ((one.from === from && one.to === to) || (one.from === to && one.to === from)) one.blocked = blocked;
+}
+
+function decideShortcut(graph, { image_a, image_b, accept }, by) {
+  const found = graph.shortcuts.find((one) => one.image_a === image_a && one.image_b === image_b);
+  if (!found) throw new Refusal(404, 'not_found', 'there is no such shortcut');
+  Object.assign(found, { state: accept ? 'accepted' : 'rejected', by });
 }
 
 function addTour(house, { body }) {

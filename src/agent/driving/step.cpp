@@ -82,6 +82,8 @@ Motion slowed_by_silence(const Motion& wanted, const DrivingState& state, const 
 
 constexpr double kFinal_m = 0.35;  // so near, the destination is driven to straight, backwards where it lies behind
 
+constexpr double kShortcut_mps = 0.25;  // where no tour drove
+
 constexpr double kBack_mps = 0.25;  // when it makes room for somebody
 
 /// Whether a little more straight ahead, or back, leaves the body more room than it needs to pass a door: the last
@@ -129,6 +131,12 @@ Motion look(DrivingState& state, const Inputs& inputs, const DrivingConfig& conf
   return steer_round(state.plan, config.body, points_m, *aim_m, inputs.odometry, kLook_mps, config.turn_gain);
 }
 
+/// How fast it may drive at most here: a way that no tour drove, slowly.
+double speed_limit_mps(const DrivingState& state, const DrivingConfig& config) {
+  const double limit_mps = std::min(state.mission->speed_limit_mps, config.body.max_speed_mps);
+  return state.mission->path.on_shortcut(state.follow.index) ? std::min(limit_mps, kShortcut_mps) : limit_mps;
+}
+
 Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& config,
              const std::vector<Eigen::Vector2d>& points_m, Milliseconds now_ms) {
   const bool last_view = state.follow.index + 1 == static_cast<int>(state.mission->path.views.size());
@@ -167,7 +175,7 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     if (back_m->isZero()) return {};
     return steer_round(state.plan, config.body, points_m, *back_m, inputs.odometry, kBack_mps, config.turn_gain);
   }
-  double speed_mps = std::min(state.mission->speed_limit_mps, config.body.max_speed_mps);
+  double speed_mps = speed_limit_mps(state, config);
   Eigen::Vector2d aim_m = *goal_m;
   if (last_view) {
     // The destination is approached so slowly that one picture's way is a fraction of the tolerance. How near it is, is
@@ -370,7 +378,7 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   Motion wanted = drive(state, inputs, config, points_m, sensors_ms);
   if (state.drive != wire::DriveState::kDriving) return outputs;
   // The last decimetres and backing off have speeds of their own, which the limit holds for as well.
-  const double limit_mps = std::min(state.mission->speed_limit_mps, config.body.max_speed_mps);
+  const double limit_mps = speed_limit_mps(state, config);
   wanted.speed_mps = std::clamp(wanted.speed_mps, -limit_mps, limit_mps);
   Motion heard = slowed_by_silence(wanted, state, config, now_ms, sensors_ms);
   // What no sensor looks at may be anything.

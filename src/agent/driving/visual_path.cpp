@@ -62,6 +62,12 @@ std::optional<int> VisualPath::view_of(const PlaceId& place) const {
   return std::nullopt;
 }
 
+bool VisualPath::on_shortcut(int view) const {
+  if (view < 1 || view > static_cast<int>(edges.size())) return false;
+  const auto& edge = edges[at(view) - 1];
+  return edge && edge->shortcut;
+}
+
 void place_by_edges(VisualPath& path) {
   constexpr double kUnknownLength_m = 1.0;
   constexpr double kMeasuredSpread = 0.25;  // of an edge's length: prototypes lie anywhere in their places

@@ -56,6 +56,8 @@ struct VisualPath {
   [[nodiscard]] std::optional<int> view_of(const PlaceId& place) const;
   /// Of a view; empty where it is not known.
   [[nodiscard]] PlaceId place_of(int view) const;
+  /// Whether the way to this view of the path is one that no tour drove.
+  [[nodiscard]] bool on_shortcut(int view) const;
   [[nodiscard]] int placed() const { return static_cast<int>(views.size() + nearby.size()); }
 };
 

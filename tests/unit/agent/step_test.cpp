@@ -277,6 +277,29 @@ TEST_F(StepTest, KeepsToTheLimitOfTheMissionToTheLastCentimetre) {
   EXPECT_GT(fastest_mps, 0.09);
 }
 
+TEST_F(StepTest, DrivesSlowlyWhereNoTourDrove) {
+  const auto fastest_mps = [this](bool shortcut, int epoch) {
+    pose_ = {};
+    wire::MissionOrder order = mission("m1", epoch, 1);
+    order.path[0].next->shortcut = shortcut;
+    double fastest = 0.0;
+    seq_ = 1;
+    for (int k = 0; k < 600 && (k == 0 || state_.drive == DriveState::kDriving); ++k) {
+      std::vector<wire::ServerMessage> messages;
+      if (k == 0) messages.emplace_back(order);
+      messages.emplace_back(permit("m1", epoch, ++seq_));
+      const Outputs outputs = tick(std::move(messages));
+      if (state_.follow.index == 1) fastest = std::max(fastest, std::abs(outputs.motion.speed_mps));
+    }
+    EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+    return fastest;
+  };
+  EXPECT_GT(fastest_mps(false, 1), 0.3);
+  const double slow_mps = fastest_mps(true, 2);
+  EXPECT_LE(slow_mps, 0.25);
+  EXPECT_GT(slow_mps, 0.1);
+}
+
 TEST_F(StepTest, AMissionThatAStopHasOvertakenMovesNothing) {
   tick({wire::StopOrder{"s1", 3, "Enough.", "anna", 7}});
   EXPECT_TRUE(stands(tick({mission("m1", 3, 6)})));

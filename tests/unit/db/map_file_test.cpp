@@ -11,6 +11,7 @@
 #include <random>
 #include <thread>
 
+#include "db/sqlite/map_file_contents.hpp"
 #include "support/sample_map.hpp"
 #include "wire/appearance_blob.hpp"
 
@@ -45,6 +46,8 @@ TEST_F(MapFile, GivesBackWhatWasSaved) {
   map::TopologicalMap before = sample_map();
   before.feature_config.sift_windows = 2;
   before.calibration = {0.25, 0.75};
+  before.edges[1].shortcut = true;
+  before.edits[0].kind = map::EditKind::kDecideShortcut;
   const Thumbnails thumbnails = {{before.images[0].id, {1, 2, 3}}};
   ASSERT_TRUE(save_map(file(), before, thumbnails));
   const auto stored = load_map(file());
@@ -74,6 +77,23 @@ TEST_F(MapFile, GivesBackWhatWasSaved) {
   EXPECT_EQ(after.edges[0].length_from, map::LengthSource::kOdometry);
   EXPECT_EQ(after.edges[1].length_from, map::LengthSource::kUnknown);
   EXPECT_EQ(after.edges[0].inliers, 64);
+  EXPECT_FALSE(after.edges[0].shortcut);
+  EXPECT_TRUE(after.edges[1].shortcut);
+  ASSERT_EQ(after.shortcuts.size(), 1U);
+  const map::Shortcut& shortcut = after.shortcuts[0];
+  EXPECT_EQ(shortcut.image_a, before.images[0].id);
+  EXPECT_EQ(shortcut.image_b, before.images[2].id);
+  EXPECT_EQ(shortcut.bearing_rad, 0.5);
+  EXPECT_EQ(shortcut.turn_rad, -0.25);
+  EXPECT_EQ(shortcut.back_bearing_rad, -2.5);
+  EXPECT_EQ(shortcut.length_m, 2.5);
+  EXPECT_EQ(shortcut.way_m, 9.75);
+  EXPECT_EQ(shortcut.clear_m, 1.25);
+  EXPECT_EQ(shortcut.confidence, 0.875);
+  EXPECT_EQ(shortcut.inliers, 48);
+  EXPECT_EQ(shortcut.state, map::ShortcutState::kRejected);
+  EXPECT_EQ(shortcut.by, "anna");
+  EXPECT_EQ(after.edits[0].kind, map::EditKind::kDecideShortcut);
   ASSERT_EQ(after.hypotheses.size(), 1U);
   EXPECT_EQ(after.hypotheses[0].decision, map::Decision::kRejected);
   EXPECT_DOUBLE_EQ(after.hypotheses[0].masses_after.is_false, 0.8);
@@ -137,12 +157,44 @@ TEST_F(MapFile, OpensFilesOfVersionTwo) {
   EXPECT_EQ(load_map(file())->map.edges[0].length_from, map::LengthSource::kTourImages);
 }
 
+TEST_F(MapFile, OpensFilesFromBeforeShortcuts) {
+  ASSERT_TRUE(save_map(file(), sample_map(), {}));
+  forget_checksum();
+  change("PRAGMA user_version = 2; DROP TABLE shortcuts; ALTER TABLE edges DROP COLUMN shortcut");
+  change("ALTER TABLE edges DROP COLUMN inliers; ALTER TABLE edges DROP COLUMN length_from");
+  ASSERT_TRUE(load_map(file())) << load_map(file()).error().message;
+  EXPECT_TRUE(load_map(file())->map.shortcuts.empty());
+  // Version 4 with its own checksum, as a program of before wrote it.
+  ASSERT_TRUE(save_map(file(), sample_map(), {}));
+  change("DROP TABLE shortcuts; ALTER TABLE edges DROP COLUMN shortcut; PRAGMA user_version = 4");
+  change("DELETE FROM meta WHERE key = 'checksum'");
+  {
+    SQLite::Database database(file().string(), SQLite::OPEN_READWRITE);
+    const std::string checksum = read_contents(database).checksum;
+    database.exec("INSERT INTO meta(key, value) VALUES ('checksum', '" + checksum + "')");
+  }
+  const auto old = load_map(file());
+  ASSERT_TRUE(old) << old.error().message;
+  EXPECT_TRUE(old->map.shortcuts.empty());
+  EXPECT_FALSE(old->map.edges[1].shortcut);
+  EXPECT_EQ(old->map.edges[0].inliers, 64);
+}
+
+TEST_F(MapFile, RefusesShortcutsThatCannotBe) {
+  ASSERT_TRUE(save_map(file(), sample_map(), {}));
+  forget_checksum();
+  change("PRAGMA user_version = 5; UPDATE shortcuts SET state = 3");
+  EXPECT_THAT(load_map(file()).error().message, ::testing::HasSubstr("unknown state"));
+  change("PRAGMA foreign_keys = OFF; UPDATE shortcuts SET state = 0, image_b = 'tour/absent.jpg'");
+  EXPECT_THAT(load_map(file()).error().message, ::testing::HasSubstr("A shortcut names an image"));
+}
+
 TEST_F(MapFile, RefusesOtherDatabasesNewerVersionsAndDanglingReferences) {
   ASSERT_TRUE(save_map(file(), sample_map(), {}));
   change("UPDATE edges SET length_from = 9");
   EXPECT_THAT(load_map(file()).error().message, ::testing::HasSubstr("unknown source"));
   forget_checksum();
-  for (const auto& [version, what] : {std::pair("1", "Rebuild the map"), std::pair("5", "A newer Homeward wrote it")}) {
+  for (const auto& [version, what] : {std::pair("1", "Rebuild the map"), std::pair("6", "A newer Homeward wrote it")}) {
     change(std::string("PRAGMA user_version = ") + version);
     const auto refused = load_map(file());
     ASSERT_FALSE(refused);

@@ -49,6 +49,43 @@ TEST_F(Rebuild, WithoutChangeKeepsEveryId) {
   EXPECT_EQ(again.next_place_number, map_.next_place_number);
 }
 
+TEST_F(Rebuild, DecisionsOnShortcutsOutliveItAndProposalsDoNot) {
+  const auto prototype = [&](std::size_t place) { return map_.places[place].prototype; };
+  const std::size_t last = map_.places.size() - 1;
+  ASSERT_GE(last, 4U);
+  const auto propose = [&](std::size_t a, std::size_t b) {
+    map::Shortcut shortcut;
+    shortcut.image_a = prototype(a);
+    shortcut.image_b = prototype(b);
+    shortcut.length_m = 2.5;
+    map_.shortcuts.push_back(shortcut);
+  };
+  propose(0, last);
+  propose(0, 2);
+  propose(1, last);
+  const auto decide = [&](std::size_t a, std::size_t b, const char* text) {
+    map::Edit edit;
+    edit.kind = map::EditKind::kDecideShortcut;
+    edit.image_a = prototype(a);
+    edit.image_b = prototype(b);
+    edit.text = text;
+    edit.by = "anna";
+    ASSERT_TRUE(apply_edit(map_, edit));
+  };
+  decide(0, last, "accept");
+  decide(0, 2, "reject");
+  const map::TopologicalMap again = make_map(tour_.input(), {}, &map_);
+  ASSERT_EQ(again.shortcuts.size(), 2U);
+  EXPECT_EQ(again.shortcuts[0].state, map::ShortcutState::kAccepted);
+  EXPECT_EQ(again.shortcuts[0].by, "anna");
+  EXPECT_EQ(again.shortcuts[1].state, map::ShortcutState::kRejected);
+  const map::Edge* edge = map::find_edge(again, map_.places[0].id, map_.places[last].id);
+  ASSERT_NE(edge, nullptr);
+  EXPECT_TRUE(edge->shortcut);
+  EXPECT_EQ(edge->length_m, 2.5);
+  EXPECT_EQ(map::find_edge(again, map_.places[0].id, map_.places[2].id), nullptr);
+}
+
 TEST_F(Rebuild, LabelsBlocksAndEdgesOutliveIt) {
   edit(map::EditKind::kRename, kFirst, -1, "kitchen");
   edit(map::EditKind::kAddEdge, kFirst, kLast);

@@ -96,6 +96,16 @@ TEST(ShortcutEdges, SaysWhatIsWrongWithADecision) {
   EXPECT_TRUE(map.edits.empty());
 }
 
+TEST(ShortcutEdges, IsNotAcceptedWhereATourHasDriven) {
+  testing::Horseshoe tour;
+  tour.map = with_shortcut();
+  ASSERT_TRUE(apply_edit(tour.map, decide("reject")));
+  tour.join(0, 10);
+  EXPECT_EQ(apply_edit(tour.map, decide("accept")).error().code, ErrorCode::kConflict);
+  EXPECT_EQ(tour.map.shortcuts[0].state, ShortcutState::kRejected);
+  EXPECT_EQ(tour.map.edits.size(), 1U);
+}
+
 TEST(ShortcutEdges, BlocksLikeAnyEdgeAndStaysBlocked) {
   map::TopologicalMap map = with_shortcut();
   ASSERT_TRUE(apply_edit(map, decide("accept")));

@@ -35,6 +35,30 @@ D---E
 
 TEST(PlanRoute, EndsWhereItStarts) { expect_route(homeward::testing::ascii_map("A-B"), "A", "A", "A", 0.0); }
 
+TEST(PlanRoute, TakesAShortcutForItsLengthAndNamesIt) {
+  auto map = homeward::testing::ascii_map(R"(
+A--B
+|  |
+C--D
+)");
+  for (map::Edge& edge : map.edges) {
+    edge.shortcut = (edge.from == PlaceId("A") && edge.to == PlaceId("C")) ||
+                    (edge.from == PlaceId("C") && edge.to == PlaceId("A"));
+  }
+  const RouteRequest request{.from = PlaceId("A"), .to = PlaceId("C"), .avoid = {}};
+  const auto route = plan_route(map, request);
+  ASSERT_TRUE(route);
+  EXPECT_EQ(homeward::testing::spelled(route->places), "A C");
+  EXPECT_DOUBLE_EQ(route->cost_m, 1.0);
+  EXPECT_DOUBLE_EQ(route->time_s, 1.0 / 0.25);
+  ASSERT_EQ(route->shortcuts.size(), 1U);
+  EXPECT_EQ(route->shortcuts[0], (Way{PlaceId("A"), PlaceId("C")}));
+  RouteRequest closed = request;
+  closed.closed = {{PlaceId("A"), PlaceId("C")}};
+  EXPECT_EQ(homeward::testing::spelled(plan_route(map, closed)->places), "A B D C");
+  EXPECT_TRUE(plan_route(map, closed)->shortcuts.empty());
+}
+
 TEST(PlanRoute, PrefersAFirmDetourToAWeakEdge) {
   const auto map = homeward::testing::ascii_map(R"(
 A~B

@@ -64,6 +64,14 @@ TEST(AddSurroundings, TellsWhereThePathLiesInItsOrder) {
   EXPECT_EQ(beside.appearance, encode_appearance(map.places[4].appearances.front()));
 }
 
+TEST(OrderForRoute, SaysWhichWayNoTourDrove) {
+  map::TopologicalMap map = corridor();
+  for (map::Edge& edge : map.edges) edge.shortcut = edge.from == PlaceId("B") && edge.to == PlaceId("C");
+  const MissionOrder order = order_for_route(map, places("ABC"));
+  EXPECT_FALSE(order.path[0].next->shortcut);
+  EXPECT_TRUE(order.path[1].next->shortcut);
+}
+
 TEST(AddSurroundings, EndsAtThePrototypeOfAPlaceThatIsNoDestination) {
   const map::TopologicalMap map = corridor();
   MissionOrder order = order_for_route(map, places("ABC"));

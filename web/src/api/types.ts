@@ -23,6 +23,7 @@ export type Place = Schemas['Place'];
 export type Edge = Schemas['Edge'];
 export type Destination = Schemas['Destination'];
 export type Hypothesis = Schemas['Hypothesis'];
+export type Shortcut = Schemas['Shortcut'];
 export type Tour = Schemas['Tour'];
 export type Edit = Schemas['Edit'];
 export type LoggedEdit = Schemas['LoggedEdit'];

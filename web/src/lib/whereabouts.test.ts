@@ -23,11 +23,13 @@ function drawn(line: string): Graph {
       inliers: 40,
       weak: false,
       blocked: false,
+      shortcut: false,
     })),
     destinations: names
       .filter((id) => id.length > 2)
       .map((id) => ({ id: `d-${id}`, place: id, image: `t/${id}.jpg`, label: id })),
     hypotheses: [],
+    shortcuts: [],
   };
 }
 

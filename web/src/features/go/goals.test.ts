@@ -22,6 +22,7 @@ const graph: Graph = {
   edges: [],
   destinations: [{ id: 'd1', place: 'p1', image: 't/p1.jpg', label: 'kitchen' }],
   hypotheses: [],
+  shortcuts: [],
 };
 
 it('offers the destinations and every other place with a name, each once', () => {

@@ -49,6 +49,8 @@ export function graphStyle(diameter: number, zoom: number): StylesheetJson {
     { selector: 'node.chosen', style: { 'border-color': token('focus'), 'border-width': 2.5 * ring } },
     { selector: 'edge', style: { width: 3, 'line-color': token('line-strong'), 'curve-style': 'straight' } },
     { selector: 'edge.weak', style: { 'line-style': 'dashed' } },
+    { selector: 'edge.shortcut', style: { 'line-color': token('focus') } },
+    { selector: 'edge.proposed', style: { 'line-style': 'dashed', 'line-color': token('focus'), width: 2 } },
     { selector: 'edge.way', style: { width: 7, 'line-color': token('brand') } },
     {
       selector: 'edge.blocked',

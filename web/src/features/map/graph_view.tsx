@@ -5,6 +5,7 @@ import * as calls from '../../api/calls';
 import type { Belief, Graph } from '../../api/types';
 import { graphStyle } from './graph_style';
 import { drawnEdges, pictureShare, placeViews } from './place_views';
+import { proposedLines } from './shortcut_words';
 
 const kSize = 1000; // the unit square of the layout, in the drawing's own units
 const kMargin = 26;
@@ -149,7 +150,13 @@ function elementsOf(graph: Graph): ElementDefinition[] {
   }));
   const edges = drawnEdges(graph).map((edge) => ({
     data: { id: edge.id, source: edge.from, target: edge.to },
-    classes: [edge.weak ? 'weak' : '', edge.blocked ? 'blocked' : ''].join(' '),
+    classes: [edge.weak ? 'weak' : '', edge.blocked ? 'blocked' : '', edge.shortcut ? 'shortcut' : ''].join(
+      ' ',
+    ),
   }));
-  return [...nodes, ...edges];
+  const proposed = proposedLines(graph).map((line) => ({
+    data: { id: line.id, source: line.from, target: line.to },
+    classes: 'proposed',
+  }));
+  return [...nodes, ...edges, ...proposed];
 }

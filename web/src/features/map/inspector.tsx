@@ -8,6 +8,7 @@ import type { CommandHandle } from '../../lib/command';
 import { nameOf, placeTitle } from '../../lib/whereabouts';
 import { count } from '../../lib/words';
 import { waysOut } from './place_views';
+import { Shortcuts } from './shortcuts';
 
 const kShownPictures = 5;
 
@@ -52,6 +53,7 @@ export function Inspector({ graph, place, mayEdit, command, done, onEdit, onChoo
         onEdit={onEdit}
         onChoose={onChoose}
       />
+      <Shortcuts graph={graph} place={place.id} mayEdit={mayEdit} busy={command.busy} onEdit={onEdit} />
     </section>
   );
 }
@@ -145,6 +147,7 @@ function Ways({ graph, place, mayEdit, busy, onEdit, onChoose }: WaysProps) {
               </button>
               <span class="row">
                 {way.weak && <span class="pill warn">Hard to drive</span>}
+                {way.shortcut && <span class="pill">Shortcut</span>}
                 {way.blocked && <span class="pill bad">Closed</span>}
                 {mayEdit && (
                   <button

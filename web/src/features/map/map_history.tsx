@@ -19,6 +19,7 @@ const kVerbs: Readonly<Record<LoggedEdit['kind'], string>> = {
   remove_edge: 'removed a way',
   block_edge: 'closed or opened a way',
   decide: 'decided whether two places are one',
+  decide_shortcut: 'accepted or rejected a shortcut',
 };
 
 interface Props {

@@ -20,6 +20,7 @@ import { Inspector } from './inspector';
 import { LookAlikes } from './look_alikes';
 import { MapHistory } from './map_history';
 import { PlaceList } from './place_list';
+import { Shortcuts } from './shortcuts';
 
 const wantedMap = signal<string | null>(null);
 const wantedPlace = signal<string | null>(null);
@@ -156,6 +157,7 @@ function Drawn({ map, graph }: { map: MapInfo; graph: Graph }) {
           <PlaceList graph={graph} belief={belief} chosen={place?.id ?? null} onChoose={choose} />
         </div>
       </div>
+      <Shortcuts graph={graph} place={null} mayEdit={mayEdit} busy={command.busy} onEdit={edit} />
       <LookAlikes graph={graph} />
       <MapHistory
         graph={graph}

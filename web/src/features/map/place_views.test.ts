@@ -23,6 +23,7 @@ const edge = (from: string, to: string, part: Partial<Edge> = {}): Edge => ({
   inliers: 40,
   weak: false,
   blocked: false,
+  shortcut: false,
   ...part,
 });
 const graph: Graph = {
@@ -38,6 +39,7 @@ const graph: Graph = {
   ],
   destinations: [],
   hypotheses: [],
+  shortcuts: [],
 };
 
 describe('placeViews', () => {
@@ -66,8 +68,8 @@ describe('placeViews', () => {
 describe('ways', () => {
   it('takes two directions as one way with the worse of both', () => {
     expect(waysOut(graph, 'p2')).toEqual([
-      { other: 'p1', length_m: 2, weak: false, blocked: true },
-      { other: 'p3', length_m: 1, weak: true, blocked: false },
+      { other: 'p1', length_m: 2, weak: false, blocked: true, shortcut: false },
+      { other: 'p3', length_m: 1, weak: true, blocked: false, shortcut: false },
     ]);
     expect(drawnEdges(graph).map((one) => [one.id, one.blocked])).toEqual([
       ['p1|p2', true],

@@ -48,6 +48,7 @@ export interface WayOut {
   length_m: number;
   weak: boolean;
   blocked: boolean;
+  shortcut: boolean;
 }
 
 export function waysOut(graph: Graph, place: string): WayOut[] {
@@ -61,6 +62,7 @@ export function waysOut(graph: Graph, place: string): WayOut[] {
       length_m: seen ? Math.max(seen.length_m, edge.length_m) : edge.length_m,
       weak: edge.weak || (seen?.weak ?? false),
       blocked: edge.blocked || (seen?.blocked ?? false),
+      shortcut: edge.shortcut,
     });
   }
   return [...ways.values()];
@@ -71,11 +73,19 @@ function otherEnd(edge: Edge, place: string): string | null {
   return edge.to === place ? edge.from : null;
 }
 
+/** An edge to draw. */
+export interface Line {
+  id: string;
+  from: string;
+  to: string;
+  weak: boolean;
+  blocked: boolean;
+  shortcut: boolean;
+}
+
 /** The edges to draw: one line for two directions. */
-export function drawnEdges(
-  graph: Graph,
-): { id: string; from: string; to: string; weak: boolean; blocked: boolean }[] {
-  const lines = new Map<string, { id: string; from: string; to: string; weak: boolean; blocked: boolean }>();
+export function drawnEdges(graph: Graph): Line[] {
+  const lines = new Map<string, Line>();
   for (const edge of graph.edges) {
     const id = edge.from < edge.to ? `${edge.from}|${edge.to}` : `${edge.to}|${edge.from}`;
     const seen = lines.get(id);
@@ -85,6 +95,7 @@ export function drawnEdges(
       to: edge.to,
       weak: edge.weak || (seen?.weak ?? false),
       blocked: edge.blocked || (seen?.blocked ?? false),
+      shortcut: edge.shortcut,
     });
   }
   return [...lines.values()];

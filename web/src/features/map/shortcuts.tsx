@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+import * as calls from '../../api/calls';
+import type { Edit, Graph, Shortcut } from '../../api/types';
+import { placeTitle } from '../../lib/whereabouts';
+import { evidenceOf, shortcutsAt, shortcutsToShow } from './shortcut_words';
+
+const kSaid: Readonly<Record<Shortcut['state'], string>> = {
+  proposed: 'Proposed',
+  accepted: 'Accepted',
+  rejected: 'Rejected',
+};
+
+interface Props {
+  graph: Graph;
+  place: string | null; // of this one alone; null: of the whole map
+  mayEdit: boolean;
+  busy: boolean;
+  onEdit: (edits: Edit[], done: string) => void;
+}
+
+/** Straight ways that no tour drove: two pictures, the evidence in words, and the decision. */
+export function Shortcuts({ graph, place, mayEdit, busy, onEdit }: Props) {
+  const shown = place === null ? shortcutsToShow(graph) : shortcutsAt(graph, place);
+  if (shown.length === 0) return null;
+  const title = place === null ? 'Shortcuts' : 'Shortcuts from here';
+  const decide = (one: Shortcut, accept: boolean) =>
+    onEdit(
+      [{ kind: 'decide_shortcut', image_a: one.image_a, image_b: one.image_b, accept }],
+      accept ? 'The chair may take this shortcut now, slowly.' : 'This shortcut is not offered any more.',
+    );
+  return (
+    <section class={place === null ? 'card stack' : 'stack'} aria-label={title}>
+      {place === null ? <h2>{title}</h2> : <h3>{title}</h3>}
+      <p class="soft">
+        Straight ways that no tour drove. Accept one only if you know that the chair fits through there.
+      </p>
+      <ul class="pairs">
+        {shown.map((one) => {
+          const from = placeTitle(graph, one.place_a);
+          const to = placeTitle(graph, one.place_b);
+          return (
+            <li key={`${one.image_a}|${one.image_b}`}>
+              <div class="pair">
+                {[one.image_a, one.image_b].map((image, i) => (
+                  <img
+                    key={image}
+                    class="picture whole"
+                    src={calls.imageThumbnailUrl(graph.map, image)}
+                    alt={i === 0 ? from : to}
+                    loading="lazy"
+                  />
+                ))}
+              </div>
+              <p class="small">
+                <span class="pill">{kSaid[one.state]}</span>{' '}
+                <strong>
+                  {from} – {to}
+                </strong>
+              </p>
+              <p class="soft small">{evidenceOf(one)}</p>
+              {mayEdit && (
+                <p class="row">
+                  {one.state !== 'accepted' && (
+                    <button
+                      type="button"
+                      class="button small"
+                      disabled={busy}
+                      aria-label={`Accept the shortcut from ${from} to ${to}`}
+                      onClick={() => decide(one, true)}
+                    >
+                      Accept
+                    </button>
+                  )}
+                  {one.state !== 'rejected' && (
+                    <button
+                      type="button"
+                      class="button small"
+                      disabled={busy}
+                      aria-label={`Reject the shortcut from ${from} to ${to}`}
+                      onClick={() => decide(one, false)}
+                    >
+                      Reject
+                    </button>
+                  )}
+                </p>
+              )}
+            </li>
+          );
+        })}
+      </ul>
+    </section>
+  );
+}
