@@ -26,23 +26,25 @@ struct SimulateRunOptions {
 };
 
 nlohmann::json to_json(const agent::MissionResult& result) {
-  nlohmann::json value = {{"from", result.from},
-                          {"to", result.to},
-                          {"arrived", result.arrived},
-                          {"final_error_m", result.final_error_m},
-                          {"final_error_rad", result.final_error_rad},
-                          {"path_m", result.path_m},
-                          {"shortest_m", result.shortest_m},
-                          {"min_clearance_m", result.min_clearance_m},
-                          {"collisions", result.collisions},
-                          {"stops", nlohmann::json::array()},
-                          {"vectors_per_s", result.vectors_per_s},
-                          {"duration_s", result.duration_s},
-                          {"detours", result.detours},
-                          {"moved_after_stop", result.moved_after_stop},
-                          {"moved_furniture", result.moved_furniture},
-                          {"belief_apart_s", result.belief_apart_s},
-                          {"asked", result.asked}};
+  nlohmann::json value = {
+      {"from", result.from},
+      {"to", result.to},
+      {"arrived", result.arrived},
+      {"final_error_m", result.final_error_m},
+      {"final_error_rad", result.final_error_rad},
+      {"path_m", result.path_m},
+      {"shortest_m", result.shortest_m},
+      {"tour_graph_m", result.tour_graph_m ? nlohmann::json(*result.tour_graph_m) : nlohmann::json()},
+      {"min_clearance_m", result.min_clearance_m},
+      {"collisions", result.collisions},
+      {"stops", nlohmann::json::array()},
+      {"vectors_per_s", result.vectors_per_s},
+      {"duration_s", result.duration_s},
+      {"detours", result.detours},
+      {"moved_after_stop", result.moved_after_stop},
+      {"moved_furniture", result.moved_furniture},
+      {"belief_apart_s", result.belief_apart_s},
+      {"asked", result.asked}};
   if (result.arrival_probability) value["arrival_probability"] = *result.arrival_probability;
   for (const agent::StopEvent& stop : result.stops) {
     value["stops"].push_back({{"t_s", stop.t_s}, {"reason", stop.reason}});

@@ -95,6 +95,7 @@ void read_tour(ObjectReader& outer, ScenarioFile& scenario) {
   }
   scenario.tour_light = light_of(reader);
   if (reader.has("step_m")) scenario.tour_step_m = reader.number("step_m", 0.05, 5.0);
+  if (reader.has("shortcuts")) scenario.tour_shortcuts = reader.boolean("shortcuts");
   outer.close(reader);
 }
 

@@ -47,6 +47,7 @@ struct ScenarioFile {
   bool tours_all_rooms = false;  // in place of `tour_rooms`: every room of the world, the next always the nearest one
   std::string tour_light = "day";
   double tour_step_m = 0.4;
+  bool tour_shortcuts = false;  // all that are proposed after the tour are accepted
   std::vector<ScenarioMission> missions;
 };
 

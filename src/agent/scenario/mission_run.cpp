@@ -10,6 +10,7 @@
 #include "agent/scenario/house.hpp"
 #include "agent/scenario/look_alike_spot.hpp"
 #include "agent/scenario/starting_pose.hpp"
+#include "agent/scenario/true_ways.hpp"
 #include "core/angles.hpp"
 #include "sim/floor.hpp"
 #include "sim/moved_furniture.hpp"
@@ -161,6 +162,8 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
   result.moved_furniture = moved_furniture;
   result.shortest_m = sim::length_m(
       sim::shortest_way(world->world().drivable, {start->x_m, start->y_m}, {target->second.x_m, target->second.y_m}));
+  result.tour_graph_m =
+      way_over_edges_m(*taught.map, taught.picture_poses, {start->x_m, start->y_m}, *destination, false);
   judge(robot->vehicle(), target->second, result);
   return result;
 }

@@ -7,9 +7,27 @@
 #include "agent/scenario/check_scenario.hpp"
 #include "agent/scenario/mission_run.hpp"
 #include "agent/scenario/taught_world.hpp"
+#include "agent/scenario/true_ways.hpp"
 #include "sim/tour_path.hpp"
 
 namespace homeward::agent {
+namespace {
+
+/// How many shortcuts were accepted, and how many of them a disc cannot drive in the world as it is.
+std::string shortcuts_in_words(const TaughtWorld& taught) {
+  const sim::Obstacles obstacles(taught.world->world());
+  int accepted = 0;
+  int touching = 0;
+  for (const map::Shortcut& one : taught.map->shortcuts) {
+    ++accepted;
+    const Pose2& a = taught.picture_poses.at(one.image_a);
+    const Pose2& b = taught.picture_poses.at(one.image_b);
+    touching += clearance_along_m(obstacles, sim::disc_profile(), a, b) <= 0.0 ? 1 : 0;
+  }
+  return std::to_string(accepted) + " shortcuts accepted, " + std::to_string(touching) + " of them lead into something";
+}
+
+}  // namespace
 
 Status run_scenario(wire::ScenarioFile scenario, const std::string& folder, const ScenarioListener& listener,
                     const std::optional<RecordingOptions>& record, const std::set<int>& only) {
@@ -34,6 +52,7 @@ Status run_scenario(wire::ScenarioFile scenario, const std::string& folder, cons
   if (!taught) return pass_on(taught);
   told(std::to_string(taught->map->images.size()) + " pictures, " + std::to_string(taught->map->places.size()) +
        " places");
+  if (scenario.tour_shortcuts) told(shortcuts_in_words(*taught));
   const sim::RobotProfile profile = profile_of(scenario);
   std::vector<std::string> destinations;
   for (const auto& [room, pose] : taught->destination_poses) destinations.push_back(room);

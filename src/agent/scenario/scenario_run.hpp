@@ -30,6 +30,7 @@ struct MissionResult {
   double final_error_rad = 0.0;
   double path_m = 0.0;
   double shortest_m = 0.0;
+  std::optional<double> tour_graph_m;  // shortest way over the edges that the tour drove; nothing: there is none
   double min_clearance_m = 0.0;
   int collisions = 0;
   std::vector<StopEvent> stops;

@@ -8,6 +8,7 @@
 #include "agent/files/read_file.hpp"
 #include "agent/files/world_folder.hpp"
 #include "imageio/decode.hpp"
+#include "mapping/shortcut_edges.hpp"
 #include "pipeline/build_map.hpp"
 #include "sim/laser.hpp"
 #include "sim/motion.hpp"
@@ -94,6 +95,13 @@ Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string&
   options.seed = seed;
   auto map = pipeline::build_map({&tour}, taught.camera, options);
   if (!map) return pass_on(map);
+  if (scenario.tour_shortcuts) {
+    for (map::Shortcut& shortcut : map->shortcuts) {
+      shortcut.state = map::ShortcutState::kAccepted;
+      shortcut.by = "scenario";
+    }
+    mapping::settle_shortcuts(*map);
+  }
   taught.map = std::make_shared<const map::TopologicalMap>(std::move(*map));
   taught.layout = map::metric_layout(*taught.map);
   return taught;

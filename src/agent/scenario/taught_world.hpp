@@ -22,7 +22,7 @@ struct TaughtWorld {
   std::shared_ptr<const map::TopologicalMap> map;
   map::MetricLayout layout;                        // map::metric_layout of it
   std::map<std::string, Pose2> destination_poses;  // by room; for judging only
-  std::map<ImageId, Pose2> picture_poses;          // of the tour; for putting things in the way only
+  std::map<ImageId, Pose2> picture_poses;          // of the tour; for judging and putting things in the way only
 };
 
 /// The world that a scenario in `folder` names. Errors: those of load_world.
