@@ -209,20 +209,6 @@ Status add_edge(TopologicalMap& map, const Edit& edit) {
   return {};
 }
 
-/// Without its edges a shortcut is one that the person does not want.
-void reject_shortcuts(TopologicalMap& map, const EdgeEnds& ends, const std::string& by) {
-  for (map::Shortcut& shortcut : map.shortcuts) {
-    if (shortcut.state != map::ShortcutState::kAccepted) continue;
-    const Place* a = map::find_place_of(map, shortcut.image_a);
-    const Place* b = map::find_place_of(map, shortcut.image_b);
-    if (a == nullptr || b == nullptr) continue;
-    const bool these = (a->id == ends.from && b->id == ends.to) || (a->id == ends.to && b->id == ends.from);
-    if (!these) continue;
-    shortcut.state = map::ShortcutState::kRejected;
-    shortcut.by = by;
-  }
-}
-
 Status remove_edge(TopologicalMap& map, const Edit& edit) {
   const auto ends = edge_ends(map, edit);
   if (!ends) return pass_on(ends);
@@ -230,7 +216,7 @@ Status remove_edge(TopologicalMap& map, const Edit& edit) {
     return (edge.from == ends->from && edge.to == ends->to) || (edge.from == ends->to && edge.to == ends->from);
   });
   if (removed == 0) return no_edge(*ends);
-  reject_shortcuts(map, *ends, edit.by);
+  reject_shortcuts(map, ends->from, ends->to, edit.by);
   return {};
 }
 
@@ -296,13 +282,6 @@ Status decide(TopologicalMap& map, const Edit& edit) {
   return {};
 }
 
-Status decide_on_shortcut(TopologicalMap& map, const Edit& edit) {
-  if (edit.text != "accept" && edit.text != "reject") {
-    return fail(ErrorCode::kInvalidInput, "A shortcut can be decided with \"accept\" or \"reject\".", "decision");
-  }
-  return decide_shortcut(map, edit.image_a, edit.image_b, edit.text == "accept", edit.by);
-}
-
 Status apply_to(TopologicalMap& map, const Edit& edit) {
   switch (edit.kind) {
     case EditKind::kRename:
@@ -324,7 +303,7 @@ Status apply_to(TopologicalMap& map, const Edit& edit) {
     case EditKind::kDecide:
       return decide(map, edit);
     case EditKind::kDecideShortcut:
-      return decide_on_shortcut(map, edit);
+      return decide_shortcut(map, edit);
   }
   return fail(ErrorCode::kInvalidInput, "This kind of edit is not known.", "kind");
 }
@@ -373,22 +352,6 @@ Status undo_add_edge(TopologicalMap& map, const Edit& undone) {
   return {};
 }
 
-/// Back to what the decisions before say: proposed where there is none.
-Status undo_decide_shortcut(TopologicalMap& map, const Edit& undone) {
-  map::Shortcut* shortcut = find_shortcut(map, undone.image_a, undone.image_b);
-  if (shortcut == nullptr) return decide_on_shortcut(map, undone);
-  shortcut->state = map::ShortcutState::kProposed;
-  shortcut->by = "method";
-  for (const Edit& edit : map.edits) {
-    if (edit.kind != EditKind::kDecideShortcut || edit.undone) continue;
-    if (find_shortcut(map, edit.image_a, edit.image_b) != shortcut) continue;
-    shortcut->state = edit.text == "accept" ? map::ShortcutState::kAccepted : map::ShortcutState::kRejected;
-    shortcut->by = edit.by;
-  }
-  settle_shortcuts(map);
-  return {};
-}
-
 }  // namespace
 
 Status apply_edit(TopologicalMap& map, const Edit& edit) {
@@ -417,7 +380,7 @@ Status undo_last_edit(TopologicalMap& map) {
       undone = undo_add_edge(map, *latest);
       break;
     case EditKind::kDecideShortcut:
-      undone = undo_decide_shortcut(map, *latest);
+      undone = undo_shortcut_decision(map, *latest);
       break;
     default:
       undone = fail(ErrorCode::kConflict,

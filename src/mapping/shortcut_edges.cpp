@@ -41,6 +41,17 @@ map::Edge edge_of(const Shortcut& shortcut, const PlaceId& from, const PlaceId& 
   return edge;
 }
 
+void decide(Shortcut& shortcut, const map::Edit& edit) {
+  shortcut.state = edit.text == "accept" ? ShortcutState::kAccepted : ShortcutState::kRejected;
+  shortcut.by = edit.by;
+}
+
+tl::unexpected<Error> no_shortcut(const map::Edit& edit) {
+  return fail(ErrorCode::kNotFound,
+              "The map has no shortcut between " + edit.image_a.str() + " and " + edit.image_b.str() + ".",
+              edit.image_a.str());
+}
+
 }  // namespace
 
 Shortcut* find_shortcut(TopologicalMap& map, const ImageId& image_a, const ImageId& image_b) {
@@ -70,28 +81,50 @@ void settle_shortcuts(TopologicalMap& map) {
   }
 }
 
-Status decide_shortcut(TopologicalMap& map, const ImageId& image_a, const ImageId& image_b, bool accept,
-                       const std::string& by) {
-  Shortcut* shortcut = find_shortcut(map, image_a, image_b);
-  if (shortcut == nullptr) {
-    return fail(ErrorCode::kNotFound,
-                "The map has no shortcut between " + image_a.str() + " and " + image_b.str() + ".", image_a.str());
+Status decide_shortcut(TopologicalMap& map, const map::Edit& edit) {
+  if (edit.text != "accept" && edit.text != "reject") {
+    return fail(ErrorCode::kInvalidInput, "A shortcut can be decided with \"accept\" or \"reject\".", "decision");
   }
+  Shortcut* shortcut = find_shortcut(map, edit.image_a, edit.image_b);
+  if (shortcut == nullptr) return no_shortcut(edit);
   Shortcut decided = *shortcut;
-  decided.state = accept ? ShortcutState::kAccepted : ShortcutState::kRejected;
-  decided.by = by;
+  decide(decided, edit);
   // As an edge it may be there already.
   const bool was_edge = shortcut->state == ShortcutState::kAccepted;
-  if (accept && !was_edge && !stands(map, decided)) {
+  if (decided.state == ShortcutState::kAccepted && !was_edge && !stands(map, decided)) {
     return fail(
         ErrorCode::kConflict,
         "What the tour saw of this shortcut holds no more: its pictures are not the prototypes of two places that "
         "no way joins.",
-        image_a.str());
+        edit.image_a.str());
   }
   *shortcut = std::move(decided);
   settle_shortcuts(map);
   return {};
+}
+
+Status undo_shortcut_decision(TopologicalMap& map, const map::Edit& undone) {
+  Shortcut* shortcut = find_shortcut(map, undone.image_a, undone.image_b);
+  if (shortcut == nullptr) return no_shortcut(undone);
+  shortcut->state = ShortcutState::kProposed;
+  shortcut->by = "method";
+  for (const map::Edit& edit : map.edits) {
+    if (edit.kind != map::EditKind::kDecideShortcut || edit.undone) continue;
+    if (find_shortcut(map, edit.image_a, edit.image_b) == shortcut) decide(*shortcut, edit);
+  }
+  settle_shortcuts(map);
+  return {};
+}
+
+void reject_shortcuts(TopologicalMap& map, const PlaceId& from, const PlaceId& to, const std::string& by) {
+  for (Shortcut& shortcut : map.shortcuts) {
+    if (shortcut.state != ShortcutState::kAccepted) continue;
+    const map::Place* a = map::find_place_of(map, shortcut.image_a);
+    const map::Place* b = map::find_place_of(map, shortcut.image_b);
+    if (a == nullptr || b == nullptr || std::minmax(a->id, b->id) != std::minmax(from, to)) continue;
+    shortcut.state = ShortcutState::kRejected;
+    shortcut.by = by;
+  }
 }
 
 }  // namespace homeward::mapping

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "core/result.hpp"
 #include "map/topological_map.hpp"
 
@@ -15,8 +17,15 @@ map::Shortcut* find_shortcut(map::TopologicalMap& map, const ImageId& image_a, c
 /// that was blocked stays blocked. To be called after whatever changes places, edges or decisions.
 void settle_shortcuts(map::TopologicalMap& map);
 
-/// Accepts or rejects the shortcut between two pictures. Errors: kNotFound; kConflict (it would go at once, see above).
-Status decide_shortcut(map::TopologicalMap& map, const ImageId& image_a, const ImageId& image_b, bool accept,
-                       const std::string& by);
+/// Accepts or rejects the shortcut that an edit of kind kDecideShortcut names. Errors: kInvalidInput (the edit's text),
+/// kNotFound; kConflict (it would go at once, see above).
+Status decide_shortcut(map::TopologicalMap& map, const map::Edit& edit);
+
+/// Back to what the decisions of the log say that stand, once `undone` is marked undone there; proposed where there is
+/// none. Errors: kNotFound.
+Status undo_shortcut_decision(map::TopologicalMap& map, const map::Edit& undone);
+
+/// Rejects the accepted shortcuts between two places: who takes away its edges does not want it.
+void reject_shortcuts(map::TopologicalMap& map, const PlaceId& from, const PlaceId& to, const std::string& by);
 
 }  // namespace homeward::mapping

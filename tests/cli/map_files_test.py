@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every command that reads a map, on files that are no whole map: what it says, and that it does not crash."""
 
+import json
 import os
 import random
 import shutil
@@ -17,6 +18,7 @@ EVERY_READER = (
     ("map", "inspect", "{}"),
     ("map", "inspect", "{}", "--json"),
     ("map", "export", "{}", "--format", "json"),
+    ("map", "shortcuts", "{}"),
     ("localise", "--map", "{}", "--images", "{tour}"),
     ("route", "--map", "{}", "--from", "corridor", "--to", "office_1"),
 )
@@ -47,8 +49,18 @@ class MapFiles(CliTest):
         self.assert_refused_by_all(2, ["empty"], "empty.map")
         self.assert_refused_by_all(2, ["folder"], "folder.map")
 
+    def test_shortcuts_that_the_map_does_not_have(self):
+        self.good_map()
+        self.assert_refused(2, ["There is no shortcut 1000"], "map", "shortcuts", "good.map", "--accept", "1000")
+        self.assert_refused(2, ["There is no shortcut 0"], "map", "shortcuts", "good.map", "--reject", "0")
+        listed = json.loads(self.result_of("map", "shortcuts", "good.map", "--json"))
+        self.assertEqual(listed["revision"], 1)
+        accepted = json.loads(self.result_of("map", "shortcuts", "good.map", "--accept-all", "--json"))
+        self.assertEqual(accepted["revision"], 1 + len(listed["shortcuts"]))
+        self.assertEqual({one["state"] for one in accepted["shortcuts"]} - {"accepted"}, set())
+
     def test_another_version(self):
-        for version, advice in ((1, "Rebuild the map"), (5, "newer Homeward")):
+        for version, advice in ((1, "Rebuild the map"), (6, "newer Homeward")):
             database = sqlite3.connect(self.good_map(f"v{version}.map"))
             database.execute(f"PRAGMA user_version = {version}")
             database.commit()

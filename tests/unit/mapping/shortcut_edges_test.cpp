@@ -139,7 +139,7 @@ TEST(ShortcutEdges, GoesWithThePlacesItJoins) {
 TEST(ShortcutEdges, GivesWayToAnEdgeThatATourDrove) {
   testing::Horseshoe tour;
   tour.map = with_shortcut();
-  ASSERT_TRUE(decide_shortcut(tour.map, ImageId("tour/100"), ImageId("tour/110"), true, "anna"));
+  ASSERT_TRUE(decide_shortcut(tour.map, decide("accept")));
   tour.join(0, 10);
   settle_shortcuts(tour.map);
   EXPECT_TRUE(tour.map.shortcuts.empty());
