@@ -396,6 +396,7 @@ Status undo_last_edit(TopologicalMap& map) {
 }
 
 void replay_edits(TopologicalMap& map, const std::vector<Edit>& log) {
+  forget_decisions(map, log);
   for (const Edit& edit : log) {
     // What the rebuilt map no longer has cannot be edited; the person's word stays in the log for the next rebuild.
     if (!edit.undone) static_cast<void>(apply_to(map, edit));

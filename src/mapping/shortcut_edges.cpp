@@ -116,6 +116,17 @@ Status undo_shortcut_decision(TopologicalMap& map, const map::Edit& undone) {
   return {};
 }
 
+void forget_decisions(TopologicalMap& map, const std::vector<map::Edit>& log) {
+  for (const map::Edit& edit : log) {
+    if (edit.kind != map::EditKind::kDecideShortcut) continue;
+    Shortcut* shortcut = find_shortcut(map, edit.image_a, edit.image_b);
+    if (shortcut == nullptr) continue;
+    shortcut->state = ShortcutState::kProposed;
+    shortcut->by = "method";
+  }
+  settle_shortcuts(map);
+}
+
 void reject_shortcuts(TopologicalMap& map, const PlaceId& from, const PlaceId& to, const std::string& by) {
   for (Shortcut& shortcut : map.shortcuts) {
     if (shortcut.state != ShortcutState::kAccepted) continue;

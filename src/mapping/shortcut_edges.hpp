@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/result.hpp"
 #include "map/topological_map.hpp"
@@ -24,6 +25,9 @@ Status decide_shortcut(map::TopologicalMap& map, const map::Edit& edit);
 /// Back to what the decisions of the log say that stand, once `undone` is marked undone there; proposed where there is
 /// none. Errors: kNotFound.
 Status undo_shortcut_decision(map::TopologicalMap& map, const map::Edit& undone);
+
+/// Shortcuts that a log decided on are proposed again, also where the decision was taken back since: the log says anew.
+void forget_decisions(map::TopologicalMap& map, const std::vector<map::Edit>& log);
 
 /// Rejects the accepted shortcuts between two places: who takes away its edges does not want it.
 void reject_shortcuts(map::TopologicalMap& map, const PlaceId& from, const PlaceId& to, const std::string& by);

@@ -358,6 +358,21 @@ const checks = [
     }),
   ],
   [
+    'a shortcut is accepted by what speaks for it, and rejected again',
+    withHouse(async (page, house) => {
+      await tab(page, 'Map');
+      const card = page.getByRole('region', { name: 'Shortcuts', exact: true });
+      await card.getByText('2.6 m straight instead of 9.4 m by the way that was driven.').waitFor();
+      assert.equal(await card.locator('img').count(), 2);
+      await card.getByRole('button', { name: /^Accept the shortcut/ }).click();
+      await card.getByText('Accepted', { exact: true }).waitFor();
+      assert.deepEqual([house.graph.shortcuts[0].state, house.graph.shortcuts[0].by], ['accepted', 'anna']);
+      await card.getByRole('button', { name: /^Reject the shortcut/ }).click();
+      await card.getByText('Rejected', { exact: true }).waitFor();
+      await page.getByText('accepted or rejected a shortcut').first().waitFor();
+    }),
+  ],
+  [
     'a press on a place of the drawing chooses it',
     withHouse(async (page) => {
       await tab(page, 'Map');

@@ -89,6 +89,23 @@ TEST(ShortcutEdges, ADecisionCanBeChangedAndTakenBack) {
   EXPECT_EQ(map.shortcuts[0].by, "method");
 }
 
+TEST(ShortcutEdges, ADecisionTakenBackDuringABuildIsNotBroughtBackByIt) {
+  map::TopologicalMap present = with_shortcut();
+  ASSERT_TRUE(apply_edit(present, decide("accept")));
+  map::TopologicalMap built = present;
+  ASSERT_TRUE(undo_last_edit(present));
+  replay_edits(built, present.edits);
+  EXPECT_EQ(built.shortcuts[0].state, ShortcutState::kProposed);
+  EXPECT_EQ(edge(built), nullptr);
+  // And one that stands, does.
+  ASSERT_TRUE(apply_edit(present, decide("accept")));
+  replay_edits(built, present.edits);
+  EXPECT_EQ(built.shortcuts[0].state, ShortcutState::kAccepted);
+  EXPECT_NE(edge(built), nullptr);
+  replay_edits(built, present.edits);
+  EXPECT_EQ(built.edges.size(), 22U);
+}
+
 TEST(ShortcutEdges, SaysWhatIsWrongWithADecision) {
   map::TopologicalMap map = with_shortcut();
   EXPECT_EQ(apply_edit(map, decide("perhaps")).error().code, ErrorCode::kInvalidInput);
