@@ -52,6 +52,7 @@ void Driving::heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& li
     unit->link = link;
     unit->welcomed = false;
     unit->hello = std::move(hello);
+    unit->displaced = 0;
     unit->status.reset();
     unit->belief.reset();
     unit->waiting_frame.reset();
@@ -82,6 +83,12 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
   unit.status_at = std::chrono::steady_clock::now();
   unit.status = std::move(status);
   const wire::AgentStatus& now = *unit.status;
+  if (now.displaced > unit.displaced) {
+    spdlog::info("robot {} was moved without its wheels", unit.id.str());
+    unit.restart_tracking = true;
+    unit.belief.reset();
+  }
+  unit.displaced = now.displaced;
   // Until the robot takes up another way it goes on telling of the one that failed.
   const bool of_failed_way =
       unit.looking_for_detour || (unit.detours > 0 && unit.mission->state == wire::MissionState::kAccepted &&

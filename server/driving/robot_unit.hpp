@@ -69,6 +69,7 @@ struct RobotUnit {
   std::shared_ptr<const wire::Frame> waiting_frame;  // the newest one that was not looked at
   std::shared_ptr<Tracking> tracking;                // the worker's while `looking`
   bool restart_tracking = false;
+  std::int64_t displaced = 0;     // as the robot told last
   bool restart_odometry = false;  // the robot's odometry began anew
   std::optional<wire::BeliefView> belief;
   double near_share =

@@ -109,6 +109,7 @@ AgentStatus read_status(ObjectReader& reader) {
   if (reader.has("arrival_probability")) m.arrival_probability = reader.number("arrival_probability", 0.0, 1.0);
   m.estimate = read_estimate(reader);
   m.question = read_question(reader);
+  if (reader.has("displaced")) m.displaced = reader.integer("displaced", 0, kMost);
   return m;
 }
 

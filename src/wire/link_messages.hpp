@@ -90,6 +90,8 @@ struct AgentStatus {
   std::optional<double> arrival_probability = std::nullopt;
   std::optional<EstimateReport> estimate = std::nullopt;  // nothing: it is not sure enough to drive by it
   std::optional<QuestionReport> question = std::nullopt;
+  /// How often it noticed that it was moved without its wheels, since its program began.
+  std::int64_t displaced = 0;
 };
 
 /// The driver was commanded to zero because of `stop_id`.

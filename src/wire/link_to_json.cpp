@@ -57,6 +57,7 @@ json write(const AgentStatus& m) {
   if (m.estimate) value["estimate"] = {{"place", m.estimate->place.str()}, {"probability", m.estimate->probability}};
   value["question"] = nullptr;
   if (m.question) value["question"] = question_to_json(*m.question);
+  value["displaced"] = m.displaced;
   return value;
 }
 

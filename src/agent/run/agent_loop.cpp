@@ -66,6 +66,7 @@ wire::AgentStatus status_of(const DrivingState& state, const DrivingConfig& conf
   status.arrival_probability = stated_arrival(state, config);
   status.estimate = stated_estimate(state, config);
   status.question = open_question(state, config, reading.t_ms);
+  status.displaced = state.displaced;
   return status;
 }
 

@@ -280,5 +280,34 @@ TEST(PoseHypotheses, WeightsAreProbabilities) {
   EXPECT_NEAR(sum, 1.0, 1e-6);
 }
 
+TEST(PoseHypotheses, AnothersWordMovesTheWeightsByItsOdds) {
+  PoseHypotheses hypotheses;
+  ViewSighting here = seen_from(along(1.0), view_of(1.0));
+  here.prior_share = 0.5;
+  ViewSighting twin = seen_from(along(1.0), view_of(1.0, 20.0));
+  twin.map_from_view.y_m = view_of(1.0).y_m + 20.0;
+  twin.direction = here.direction;
+  twin.prior_share = 0.5;
+  hypotheses.weigh(std::vector<ViewSighting>{here, twin});
+  const Eigen::Vector2d here_m(1.0, 0.0);
+  const Eigen::Vector2d there_m(1.0, 20.0);
+  const double before = hypotheses.probability_within(there_m, 3.0);
+  ASSERT_NEAR(before, 0.5, 0.1);
+  hypotheses.hear(there_m, 3.0, 3.0);
+  const double odds = hypotheses.probability_within(there_m, 3.0) / hypotheses.probability_within(here_m, 3.0);
+  EXPECT_NEAR(odds, 3.0 * before / (1.0 - before), 0.3);
+}
+
+TEST(PoseHypotheses, AWordOfAPlaceThatNobodyThoughtOfMakesItLessSure) {
+  Corridor corridor;
+  corridor.drive(3.0);
+  PoseHypotheses hypotheses = corridor.hypotheses_;
+  const double before = hypotheses.best_probability();
+  const double elsewhere = hypotheses.elsewhere();
+  hypotheses.hear(std::nullopt, 2.0, 3.0);
+  EXPECT_LT(hypotheses.best_probability(), before);
+  EXPECT_GT(hypotheses.elsewhere(), elsewhere);
+}
+
 }  // namespace
 }  // namespace homeward::agent

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <thread>
+
 #include "support/driving_fixture.hpp"
 
 namespace homeward::server {
@@ -119,6 +121,22 @@ TEST_F(LostTest, AfterAFailedDriveItIsToldHowProbableItsStartIs) {
   const auto second = agent.await<wire::MissionOrder>();
   ASSERT_TRUE(second && second->surroundings) << mission_now(sent.json()).dump();
   EXPECT_EQ(second->surroundings->start_probability, belief().at("probability"));
+}
+
+TEST_F(LostTest, ARobotThatWasMovedWithoutItsWheelsIsNotTakenToBeWhereItWas) {
+  connect();
+  ASSERT_FALSE(belief().is_null());
+  wire::AgentStatus lifted = FakeAgent::idle();
+  lifted.seq = ++agent.status_seq;
+  lifted.displaced = 1;
+  agent.say(lifted);
+  agent.latest = lifted;
+  const auto end = std::chrono::steady_clock::now() + milliseconds(10'000);
+  while (!belief().is_null() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(20));
+  EXPECT_TRUE(belief().is_null());
+  agent.look(0);
+  ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
+  EXPECT_FALSE(belief().is_null());  // told twice of one lift, it begins anew once
 }
 
 }  // namespace

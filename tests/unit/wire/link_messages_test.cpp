@@ -31,6 +31,7 @@ std::vector<AgentMessage> agent_messages() {
   driving.arrival_probability = 0.0625;
   driving.estimate = EstimateReport{PlaceId("p5"), 0.875};
   driving.question = QuestionReport{2, PlaceId("p7"), "south hall", 41.5};
+  driving.displaced = 2;
   AgentStatus stopped;
   stopped.state = DriveState::kStopped;
   stopped.reason = "The camera is silent.";
@@ -212,13 +213,13 @@ void expect_every_field_to_be_checked(const json& message, const Decode& decode)
     json missing = message;
     missing[key.parent_pointer()].erase(key.back());
     // Some keys of a camera may be absent, a robot need not have odometry, a map not know where its places lie, nor an
-    // older server number its stops, nor an older robot say where it takes itself to be, nor a way that a tour drove that
-    // it is no shortcut.
+    // older server number its stops, nor an older robot say where it takes itself to be, nor a way that a tour drove
+    // that it is no shortcut.
     const auto read = decode(missing);
     if (key.to_string() == "/odometry" && read) continue;
     if (key.to_string() == "/surroundings" && read) continue;
-    const bool states =
-        key.to_string() == "/arrival_probability" || key.to_string() == "/estimate" || key.to_string() == "/question";
+    const bool states = key.to_string() == "/arrival_probability" || key.to_string() == "/estimate" ||
+                        key.to_string() == "/question" || key.to_string() == "/displaced";
     if (states && read) continue;
     if (key.back() == "shortcut" && read) continue;
     if (message["type"] == "stop" && key.to_string() == "/seq" && read) continue;
