@@ -16,6 +16,12 @@ if(CCACHE_PROGRAM)
       ${CCACHE_PROGRAM})
 endif()
 
+# Each test is a program of its own: with the usual linker, linking them takes minutes.
+find_program(MOLD_PROGRAM mold)
+if(MOLD_PROGRAM)
+  add_link_options(-fuse-ld=mold)
+endif()
+
 add_library(homeward_options INTERFACE)
 target_compile_features(homeward_options INTERFACE cxx_std_20)
 target_compile_options(

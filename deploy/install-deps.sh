@@ -9,6 +9,7 @@ packages=(
   cmake
   ninja-build
   ccache
+  mold
   pkg-config
   git
   curl

@@ -27,6 +27,7 @@ const graph: Graph = {
   edges: [],
   destinations: [{ id: 'kitchen', place: 'p5', image: 't/5.jpg', label: 'south_hall' }],
   hypotheses: [],
+  shortcuts: [],
 };
 
 describe('what a journey says', () => {
