@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::size_t kSectors = 12;
 
-std::size_t sector_of(const features::FeatureSet& features, int feature) {
-  const double azimuth_rad = std::atan2(features.bearings(feature, 1), features.bearings(feature, 0));
+std::size_t sector_of(const features::FeatureSet& features, int feature, double turned_rad = 0.0) {
+  const double azimuth_rad =
+      wrap_angle(std::atan2(features.bearings(feature, 1), features.bearings(feature, 0)) - turned_rad);
   return std::min(kSectors - 1, static_cast<std::size_t>((azimuth_rad + kPi) / (2.0 * kPi) * kSectors));
 }
 
@@ -31,11 +32,14 @@ bool in_a_row(const RecognisedPicture& before, const RecognisedPicture& now) {
 }  // namespace
 
 std::optional<double> continued_share(const features::Appearance& before, const features::Appearance& now,
-                                      std::uint64_t seed) {
+                                      double turned_rad, std::uint64_t seed) {
   constexpr int kFewest = 8;  // features of a sector
   std::array<int, kSectors> all{};
+  std::array<int, kSectors> all_before{};
   std::array<int, kSectors> again{};
   for (int feature = 0; feature < now.sift.size(); ++feature) ++all[sector_of(now.sift, feature)];
+  for (int feature = 0; feature < before.sift.size(); ++feature)
+    ++all_before[sector_of(before.sift, feature, turned_rad)];
   if (const auto verified = matching::verify(now, before, {}, seed)) {
     for (const int inlier : verified->pose.inliers) {
       const matching::Match& match = verified->matches[static_cast<std::size_t>(inlier)];
@@ -44,7 +48,8 @@ std::optional<double> continued_share(const features::Appearance& before, const 
   }
   std::vector<double> shares;
   for (std::size_t sector = 0; sector < kSectors; ++sector) {
-    if (all[sector] >= kFewest) shares.push_back(static_cast<double>(again[sector]) / all[sector]);
+    if (all[sector] >= kFewest && all_before[sector] >= kFewest)
+      shares.push_back(static_cast<double>(again[sector]) / all[sector]);
   }
   if (shares.size() < kSectors / 2) return std::nullopt;
   const auto median = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
@@ -63,7 +68,8 @@ bool breaks_off(Continuity& continuity, const RecognisedPicture& now, std::uint6
   const RecognisedPicture before = std::exchange(continuity.latest, now);
   continuity.share.reset();
   if (!in_a_row(before, now)) return false;
-  continuity.share = continued_share(*before.appearance, *now.appearance, seed);
+  const double turned_rad = wrap_angle(now.odometry.theta_rad - before.odometry.theta_rad);
+  continuity.share = continued_share(*before.appearance, *now.appearance, turned_rad, seed);
   if (!continuity.share) return false;
   const double of_usual = *continuity.share / std::max(1e-6, continuity.usual);
   const bool knows_usual = continuity.counted >= kFewestCounted;

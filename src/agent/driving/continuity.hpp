@@ -30,9 +30,11 @@ struct Continuity {
 };
 
 /// The share of features that agree on one motion from the picture `before` to `now`: the median over twelve sectors of
-/// the panorama, so that whoever walks by hides some and not the median. Nothing where too few sectors show anything.
+/// the panorama that show something in both, so that whoever walks by hides some and not the median, and a lens that is
+/// half covered says nothing. `turned_rad`: the robot's turn between them, by odometry. Nothing where too few sectors
+/// are left.
 std::optional<double> continued_share(const features::Appearance& before, const features::Appearance& now,
-                                      std::uint64_t seed);
+                                      double turned_rad, std::uint64_t seed);
 
 /// Takes one more picture. True: it does not go on from the one before, which was taken within a second and half a
 /// metre by odometry. The method is ours.

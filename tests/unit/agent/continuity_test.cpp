@@ -59,6 +59,19 @@ class Drive {
     }
     return seen;
   }
+  /// What of the room lies in this part of the panorama alone.
+  [[nodiscard]] Landmarks seen_within(double half_rad) const {
+    Landmarks seen;
+    std::vector<int> kept;
+    for (std::size_t i = 0; i < room_.points_m.size(); ++i) {
+      const Eigen::Vector3d& point = room_.points_m[i];
+      if (std::abs(std::atan2(point.y() - at_.y_m, point.x() - at_.x_m)) > half_rad) continue;
+      seen.points_m.push_back(point);
+      kept.push_back(static_cast<int>(i));
+    }
+    seen.descriptors = room_.descriptors(kept, Eigen::all);
+    return seen;
+  }
   [[nodiscard]] const Continuity& continuity() const { return continuity_; }
 
  private:
@@ -97,6 +110,15 @@ TEST(Continuity, SomebodyWhoWalksByHidesAPartAndNothingBreaksOff) {
   Drive drive;
   drive.look_for(10);
   for (std::uint64_t k = 0; k < 6; ++k) EXPECT_FALSE(drive.look(drive.hidden_within(0.9, 100 + k))) << k;
+  EXPECT_FALSE(drive.look_for(5));
+}
+
+TEST(Continuity, ALensThatIsCoveredInPartAndUncoveredAgainBreaksOffNothing) {
+  Drive drive;
+  drive.look_for(10);
+  const Landmarks covered = drive.seen_within(1.2);
+  EXPECT_FALSE(drive.look(covered));
+  EXPECT_FALSE(drive.look(covered));
   EXPECT_FALSE(drive.look_for(5));
 }
 
