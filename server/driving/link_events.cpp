@@ -48,11 +48,13 @@ void Driving::heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& li
     const bool soon = unit->gone_at && std::chrono::steady_clock::now() - *unit->gone_at < kTrackingKept;
     const bool same_camera = wire::camera_to_json(unit->hello.camera) == wire::camera_to_json(hello.camera);
     if (!(unit->link || soon) || !same_camera) unit->restart_tracking = true;
-    if (unit->hello.session != hello.session) unit->restart_odometry = true;
+    if (unit->hello.session != hello.session) {
+      unit->restart_odometry = true;
+      unit->displaced = 0;  // another program counts anew; the same one must not be taken for lifted again
+    }
     unit->link = link;
     unit->welcomed = false;
     unit->hello = std::move(hello);
-    unit->displaced = 0;
     unit->status.reset();
     unit->belief.reset();
     unit->waiting_frame.reset();

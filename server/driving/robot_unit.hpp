@@ -72,8 +72,8 @@ struct RobotUnit {
   std::int64_t displaced = 0;     // as the robot told last
   bool restart_odometry = false;  // the robot's odometry began anew
   std::optional<wire::BeliefView> belief;
-  double near_share =
-      0.0;  // of that belief: in the first of its places and the neighbours of it, also where it is lost
+  /// Of that belief: in the first of its places and the neighbours of it, also where it is lost.
+  double near_share = 0.0;
   SteadyTime belief_at;
 
   std::optional<Lease> lease;
