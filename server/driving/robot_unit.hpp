@@ -119,17 +119,23 @@ struct RobotUnit {
     if (belief) {
       for (const wire::PlaceShare& share : belief->top) places.push_back(share.place);
     }
+    if (status && status->estimate && mission && status->mission == mission->id)
+      places.push_back(status->estimate->place);
     return places;
   }
-  /// Where a robot may be sent on from by itself after a drive that failed: the belief, which is of the whole map and
-  /// of all pictures; where that is lost, its own estimate as it stopped, which is then worth no more than an even
-  /// chance.
+  /// Where a robot may be sent on from by itself after a drive that failed: its own estimate as it stopped, which it
+  /// keeps; where it says nothing, the belief, which is of the whole map and of all pictures. Of two that are at odds
+  /// the belief begins, and is worth no more than an even chance.
   [[nodiscard]] std::optional<Start> known_start(SteadyTime now) const {
-    if (believes_now(now) && !belief->lost) return likeliest();
-    const bool told = status && status_at && status->estimate && now - *status_at <= kBeliefFresh;
-    if (!told || !mission || status->mission != mission->id) return std::nullopt;
-    constexpr double kMost = 0.5;
-    return Start{status->estimate->place, std::min(kMost, status->estimate->probability), true};
+    constexpr double kEven = 0.5;  // a robot at odds with the belief says no more of its estimate
+    const bool tells = status && status_at && status->estimate && now - *status_at <= kBeliefFresh && mission &&
+                       status->mission == mission->id;
+    const bool at_odds = tells && status->estimate->probability <= kEven;
+    const bool believes = believes_now(now) && !belief->lost;
+    if (tells && !(at_odds && believes)) return Start{status->estimate->place, status->estimate->probability, at_odds};
+    if (!believes) return std::nullopt;
+    const Start start = likeliest();
+    return at_odds ? Start{start.place, std::min(kEven, start.probability), true} : start;
   }
 };
 

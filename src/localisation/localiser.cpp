@@ -126,7 +126,9 @@ struct Localiser::Known {
 
 struct Localiser::State {
   explicit State(std::shared_ptr<const Known> k)
-      : known(std::move(k)), belief(known->motion, {known->config.jump_probability, known->config.leave_probability}) {}
+      : known(std::move(k)),
+        belief(known->motion, {known->config.jump_probability, known->config.rolled_jump_probability,
+                               known->config.leave_probability}) {}
 
   [[nodiscard]] Belief report(bool nothing_seen) const {
     Belief result;
@@ -160,6 +162,10 @@ struct Localiser::State {
         belief.predict();
       }
     }
+    // A robot that does not know where it is takes each picture for all that it says.
+    constexpr double kLeastNews = 0.3;
+    const bool goes_on = driven_m && !stands && !report(false).lost;
+    news = goes_on ? std::clamp(*driven_m / known->config.independent_m, kLeastNews, 1.0) : 1.0;
     spot = odometry;
     spot_seen.reset();
     return false;
@@ -174,6 +180,7 @@ struct Localiser::State {
   std::shared_ptr<const Known> known;
   PlaceBelief belief;
   int updates = 0;
+  double news = 1.0;                              // of the latest picture, of 0 to 1
   std::optional<Pose2> spot;                      // where the belief was last moved to
   std::optional<features::Appearance> spot_seen;  // the picture that counted there
 };
@@ -210,7 +217,8 @@ Belief Localiser::update(const features::Appearance& seen, const std::optional<P
   const bool left_out = state.move(seen, nothing_seen, odometry);
   ++state.updates;
   if (!nothing_seen && !left_out) {
-    state.belief.weigh(known.compare(seen, state.belief), known.config.sensor_floor, known.elsewhere_likelihood());
+    state.belief.weigh(known.compare(seen, state.belief), known.config.sensor_floor, known.elsewhere_likelihood(),
+                       state.news);
     if (odometry) state.spot_seen = seen;
   }
   return state.report(nothing_seen);

@@ -14,18 +14,20 @@
 namespace homeward::localisation {
 
 struct LocaliserConfig {
-  int max_candidates = 16;              // places compared by features per update; the rest get the floor
-  double negligible_share = 1e-2;       // places that could not get more of the belief need not be compared
-  double sensor_floor = 1e-6;           // likelihood of a place that was not seen, relative to a perfect match
-  double sensor_exponent = 2.0;         // how fast the likelihood falls with the visual distance
-  double unknown_distance = 4.0;        // visual distance at which "not in this map" explains a picture as well
-  int max_hops_per_update = 4;          // the robot is not expected to drive further between two pictures
-  double jump_probability = 0.01;       // that it was carried somewhere else
-  double leave_probability = 0.02;      // that it left the mapped part
-  double lost_below_probability = 0.3;  // best place and its neighbours together less probable than this: lost
-  int min_features = 20;                // a picture with fewer says nothing
-  double spot_radius_m = 0.2;           // pictures taken so near to each other, by odometry, are of one spot
-  double same_view = 0.5;               // and say nothing new when they differ by less, in usual distances
+  int max_candidates = 16;                // places compared by features per update; the rest get the floor
+  double negligible_share = 1e-2;         // places that could not get more of the belief need not be compared
+  double sensor_floor = 1e-6;             // likelihood of a place that was not seen, relative to a perfect match
+  double sensor_exponent = 2.0;           // how fast the likelihood falls with the visual distance
+  double unknown_distance = 4.0;          // visual distance at which "not in this map" explains a picture as well
+  int max_hops_per_update = 4;            // the robot is not expected to drive further between two pictures
+  double jump_probability = 0.01;         // that it was carried somewhere else,
+  double rolled_jump_probability = 1e-4;  // and that although its wheels say that it drove
+  double independent_m = 0.4;             // pictures so far from each other, by odometry, say something new each
+  double leave_probability = 0.02;        // that it left the mapped part
+  double lost_below_probability = 0.3;    // best place and its neighbours together less probable than this: lost
+  int min_features = 20;                  // a picture with fewer says nothing
+  double spot_radius_m = 0.2;             // pictures taken so near to each other, by odometry, are of one spot
+  double same_view = 0.5;                 // and say nothing new when they differ by less, in usual distances
 };
 
 struct PlaceProbability {

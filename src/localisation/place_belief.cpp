@@ -2,6 +2,7 @@
 #include "localisation/place_belief.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace homeward::localisation {
@@ -37,20 +38,21 @@ double PlaceBelief::of(int place) const {
 }
 
 void PlaceBelief::predict() {
-  if (motion_->places() > 0) move(motion_->predict(excess_), 0.0);
+  if (motion_->places() > 0) move(motion_->predict(excess_), 0.0, odds_.jump_probability);
 }
 
 void PlaceBelief::predict(const MetricMotion& motion, double driven_m) {
   if (motion_->places() == 0) return;
   DrivenBelief driven = motion.predict(excess_, driven_m);
-  move(std::move(driven.shares), driven.unexplained);
+  const double jump = driven_m > 0.0 ? odds_.rolled_jump_probability : odds_.jump_probability;
+  move(std::move(driven.shares), driven.unexplained, jump);
 }
 
-void PlaceBelief::move(std::vector<PlaceShare> driven, double unexplained) {
+void PlaceBelief::move(std::vector<PlaceShare> driven, double unexplained, double jump_probability) {
   const double inside = 1.0 - elsewhere_;
-  const double drove = 1.0 - odds_.jump_probability - odds_.leave_probability;
+  const double drove = 1.0 - jump_probability - odds_.leave_probability;
   const double without_way = 0.5 * drove * unexplained;  // half of it left the mapped part
-  const double evenly = odds_.jump_probability * inside + odds_.leave_probability * elsewhere_ + without_way;
+  const double evenly = jump_probability * inside + odds_.leave_probability * elsewhere_ + without_way;
   excess_ = std::move(driven);
   for (PlaceShare& share : excess_) share.probability *= drove;
   common_ = common_ * drove + evenly / motion_->places();
@@ -58,8 +60,13 @@ void PlaceBelief::move(std::vector<PlaceShare> driven, double unexplained) {
   forget_small();
 }
 
-void PlaceBelief::weigh(std::span<const PlaceShare> seen, double floor, double elsewhere) {
+void PlaceBelief::weigh(std::span<const PlaceShare> seen, double floor, double elsewhere, double news) {
   std::vector<PlaceShare> likelihoods(seen.begin(), seen.end());
+  if (news < 1.0) {
+    for (PlaceShare& share : likelihoods) share.probability = std::pow(std::max(floor, share.probability), news);
+    floor = std::pow(floor, news);
+    elsewhere = std::pow(elsewhere, news);
+  }
   std::ranges::sort(likelihoods, {}, &PlaceShare::place);
   std::vector<PlaceShare> weighed;
   auto next = excess_.begin();

@@ -11,8 +11,9 @@ namespace homeward::localisation {
 
 /// How far between two updates a robot may come without driving.
 struct MoveOdds {
-  double jump_probability = 0.01;   // that it was carried somewhere else in the map
-  double leave_probability = 0.02;  // that it left the mapped part
+  double jump_probability = 0.01;         // that it was carried somewhere else in the map,
+  double rolled_jump_probability = 1e-4;  // and that although odometry says that it drove
+  double leave_probability = 0.02;        // that it left the mapped part
 };
 
 /// Probabilities of all places and of "not in this map"; together they sum to 1. Nearly all places of a large map are
@@ -35,8 +36,9 @@ class PlaceBelief {
   void predict(const MetricMotion& motion, double driven_m);
 
   /// Bayes' rule. `seen`: likelihood P(z | x) of the picture at the places that were compared, each once; every other
-  /// place has `floor`, and being elsewhere has `elsewhere`. A likelihood below `floor` counts as `floor`.
-  void weigh(std::span<const PlaceShare> seen, double floor, double elsewhere);
+  /// place has `floor`, and being elsewhere has `elsewhere`. A likelihood below `floor` counts as `floor`. `news`: the
+  /// power that all of them are raised to, of 0 to 1, for a picture that says only in part what others did not.
+  void weigh(std::span<const PlaceShare> seen, double floor, double elsewhere, double news = 1.0);
 
   [[nodiscard]] double of(int place) const;
   [[nodiscard]] double elsewhere() const { return elsewhere_; }
@@ -48,7 +50,7 @@ class PlaceBelief {
 
  private:
   [[nodiscard]] double total() const;
-  void move(std::vector<PlaceShare> driven, double unexplained);
+  void move(std::vector<PlaceShare> driven, double unexplained, double jump_probability);
   void forget_small();
 
   const MotionModel* motion_;

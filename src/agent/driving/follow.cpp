@@ -75,28 +75,37 @@ void place_view(FollowState& state, const VisualPath& path) {
   state.view.settle(position(view), covariance, view.theta_rad);
 }
 
-/// The view of the path that comes next where the robot is: the end of the piece of the path that it is nearest to. At
+/// The end of that piece of the path, of those that end at the views `from` to `to`, that the robot is nearest to. At
 /// the path's first view begins no piece.
-int next_view(const FollowState& state, const VisualPath& path, const Vector2& here_m, const FollowConfig& config) {
-  const int last = path.size() - 1;
+struct NearestPiece {
+  int end = 0;
+  double away_m = 1e9;
+};
+NearestPiece nearest_piece(const FollowState& state, const VisualPath& path, const Vector2& here_m, int from, int to) {
   const auto at_m = [&](int view) { return position(path.pose(view)); };
   constexpr double kKeeps_m = 0.3;  // another piece must be nearer by so much
-  int next = state.index;
-  double least_m = 1e9;
-  for (int end = std::max(0, state.index - config.look_along); end <= std::min(last, state.index + config.look_along);
-       ++end) {
+  NearestPiece nearest;
+  for (int end = std::max(0, from); end <= std::min(path.size() - 1, to); ++end) {
     const Vector2 to_m = at_m(end);
     const Vector2 from_m = end > 0 ? at_m(end - 1) : to_m;
     const Vector2 piece_m = to_m - from_m;
     const double along = piece_m.squaredNorm() > 1e-9 ? (here_m - from_m).dot(piece_m) / piece_m.squaredNorm() : 1.0;
     const double away_m =
         (from_m + std::clamp(along, 0.0, 1.0) * piece_m - here_m).norm() + (end == state.index ? 0.0 : kKeeps_m);
-    if (away_m < least_m) {
-      least_m = away_m;
-      next = end;
-    }
+    if (away_m < nearest.away_m) nearest = {end, away_m};
   }
-  return next;
+  return nearest;
+}
+
+/// The view of the path that comes next where the robot is. It goes on from the view homed to; a robot that has just
+/// found out that it is on quite another piece of the path goes on from there.
+int next_view(const FollowState& state, const VisualPath& path, const Vector2& here_m, const FollowConfig& config) {
+  constexpr double kBeside_m = 2.0;
+  const NearestPiece near =
+      nearest_piece(state, path, here_m, state.index - config.look_along, state.index + config.look_along);
+  if (near.away_m < kBeside_m || state.hypotheses.best_probability() < config.leap_above) return near.end;
+  const NearestPiece any = nearest_piece(state, path, here_m, 0, path.size() - 1);
+  return any.away_m < kBeside_m ? any.end : near.end;
 }
 
 /// Whether a view on the way is done with: reached, or the robot is level with it on the way to the next.
@@ -147,16 +156,17 @@ bool take_local_map(FollowState& state, const VisualPath& path, const Result<hom
 
 /// The server's belief is one more piece of evidence: of the whole map, but by the same pictures, so that it counts
 /// little, and only once for a stretch of the way.
-void hear_belief(FollowState& state, const VisualPath& path, const FollowConfig& config) {
+void hear_belief(FollowState& state, const VisualPath& path) {
   constexpr double kSure = 0.8;
   constexpr double kOdds = 3.0;
   constexpr double kWithin_m = 2.0;
+  constexpr double kApart_m = 1.0;
   if (!state.belief || state.belief->probability < kSure || state.hypotheses.empty()) return;
-  if (state.unheard_m < config.pose.independent_m) return;
+  if (state.unheard_m < kApart_m) return;
   state.unheard_m = 0.0;
   std::optional<Vector2> at_m;
   if (state.belief->view) at_m = position(path.pose(*state.belief->view));
-  state.hypotheses.hear(at_m, kWithin_m, kOdds);
+  state.hypotheses.hear(at_m, kWithin_m, kOdds, std::min(kMostOfOthersWord, state.belief->probability));
 }
 
 void end_picture(FollowState& state, const VisualPath& path, const FollowConfig& config, FollowResult& result) {
@@ -188,7 +198,7 @@ FollowResult follow_path(FollowState& state, const VisualPath& path, const featu
   state.hypotheses.weigh(sightings);
   result.recognised =
       std::ranges::any_of(sightings, [](const ViewSighting& sighting) { return sighting.direction || sighting.pose; });
-  hear_belief(state, path, config);
+  hear_belief(state, path);
   const bool agrees = std::ranges::any_of(sightings, [&](const ViewSighting& sighting) {
     return sighting.direction && sighting.direction->confidence >= config.believe && state.hypotheses.agrees(sighting);
   });

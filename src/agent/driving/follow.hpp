@@ -16,6 +16,10 @@
 
 namespace homeward::agent {
 
+/// No more probable than that is where the robot is by what others say alone: they have seen the same pictures, and two
+/// halves of a building may look alike.
+inline constexpr double kMostOfOthersWord = 0.85;
+
 struct FollowConfig {
   homing::HomingConfig homing;
   homing::VisualHomingConfig visual;
@@ -35,6 +39,7 @@ struct FollowConfig {
   double nearby_m = 1.0;      // the destination's view counts as reached or left behind only when it must be so near
   double alike_share = 0.35;  // of the features that agree where two views coincide
   double drive_above = 0.7;   // probability of where the robot is below which it looks around
+  double leap_above = 0.9;    // and from which on it goes on from quite another piece of its path
   double arrived_within_m = 0.5;     // of the destination the robot is when it says that it has arrived,
   double arrived_probability = 0.9;  // with at least this probability
 };

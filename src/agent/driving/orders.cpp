@@ -43,11 +43,13 @@ struct Clerk {
       outputs.messages.emplace_back(wire::MissionRefused{order.mission, order.order, mission.error().message});
       return;
     }
+    state.follow = begun_from(state.kept, mission->path, mission->map, mission->revision, config.follow, now_ms,
+                              config.estimate_lives_ms);
     state.mission = std::make_shared<const Mission>(std::move(*mission));
     state.permit_ends_ms = now_ms + order.valid_for_ms;
     state.drive = wire::DriveState::kDriving;
     state.reason.clear();
-    state.follow = {};
+    state.at_odds = false;
     state.looking = {};
     state.continuity = {};
     withdraw(state.asking);
@@ -150,6 +152,8 @@ Result<Mission> decode_mission(const wire::MissionOrder& order, const DrivingCon
   }
   Mission mission;
   mission.id = order.mission;
+  mission.map = order.map;
+  mission.revision = order.revision;
   mission.label = order.label;
   mission.dock = order.dock;
   mission.speed_limit_mps = order.speed_limit_mps;

@@ -185,8 +185,10 @@ void PoseHypotheses::predict(const Pose2& before_from_now) {
   }
 }
 
-/// The likelihood of the picture by the view near the hypothesis that explains it best.
-double PoseHypotheses::explained(const PoseHypothesis& hypothesis, std::span<const ViewSighting> sightings) const {
+/// The likelihood of the picture by the view near the hypothesis that explains it best. Nothing where no view near it
+/// was compared.
+std::optional<double> PoseHypotheses::explained(const PoseHypothesis& hypothesis,
+                                                std::span<const ViewSighting> sightings) const {
   double most = 0.0;
   bool any = false;
   for (const ViewSighting& sighting : sightings) {
@@ -205,8 +207,7 @@ double PoseHypotheses::explained(const PoseHypothesis& hypothesis, std::span<con
     }
     most = std::max(most, sighting.likelihood * agrees);
   }
-  // Nothing that is near it was compared: no better and no worse than being elsewhere.
-  return any ? most : config_.elsewhere_likelihood * config_.chance_agreement;
+  return any ? std::optional(most) : std::nullopt;
 }
 
 void PoseHypotheses::move(PoseHypothesis& hypothesis, const ViewSighting& sighting, double independent) const {
@@ -278,19 +279,30 @@ void PoseHypotheses::weigh(std::span<const ViewSighting> sightings) {
   elsewhere_ += leaves * (1.0 - elsewhere_);
   for (PoseHypothesis& hypothesis : hypotheses_) hypothesis.weight *= 1.0 - leaves;
   hypotheses_.insert(hypotheses_.end(), begun.begin(), begun.end());
-  std::vector<double> likelihoods;
+  std::vector<std::optional<double>> likelihoods;
   const double of_elsewhere = config_.elsewhere_likelihood * config_.chance_agreement;
   double most = of_elsewhere;
   for (const PoseHypothesis& hypothesis : hypotheses_) {
     likelihoods.push_back(explained(hypothesis, sightings));
-    most = std::max(most, likelihoods.back());
+    most = std::max(most, likelihoods.back().value_or(0.0));
   }
   // Of two places that look alike one explains a picture somewhat better, and the next ones too: that is no evidence.
+  // Where even the best explains it badly, as by night, how much worse another one does says less.
+  const double clear = std::clamp(most / config_.clear_likelihood, config_.least_clear, 1.0);
   const auto evidence = [&](double likelihood) {
-    return std::pow(std::min(1.0, likelihood / (config_.clearly_worse * most)), independent);
+    return std::pow(std::min(1.0, likelihood / (config_.clearly_worse * most)), clear * independent);
   };
-  elsewhere_ *= evidence(of_elsewhere);
-  for (std::size_t k = 0; k < hypotheses_.size(); ++k) hypotheses_[k].weight *= evidence(likelihoods[k]);
+  double compared = elsewhere_;
+  double weighed = elsewhere_ *= evidence(of_elsewhere);
+  for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
+    if (!likelihoods[k]) continue;
+    compared += hypotheses_[k].weight;
+    weighed += hypotheses_[k].weight *= evidence(*likelihoods[k]);
+  }
+  // Of what was not compared the picture says nothing.
+  for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
+    if (!likelihoods[k]) hypotheses_[k].weight *= weighed / compared;
+  }
   // Begun ones hold what this picture says already.
   for (std::size_t k = 0; k + begun.size() < hypotheses_.size(); ++k) {
     for (const ViewSighting& sighting : sightings) move(hypotheses_[k], sighting, independent);
@@ -298,15 +310,22 @@ void PoseHypotheses::weigh(std::span<const ViewSighting> sightings) {
   settle();
 }
 
-void PoseHypotheses::hear(const std::optional<Vector2>& point_m, double radius_m, double odds) {
-  bool known = false;
-  for (PoseHypothesis& hypothesis : hypotheses_) {
-    if (!point_m || (position(hypothesis.map_from_robot) - *point_m).norm() > radius_m) continue;
-    hypothesis.weight *= odds;
-    known = true;
-  }
+void PoseHypotheses::hear(const std::optional<Vector2>& point_m, double radius_m, double odds, double most) {
+  const auto is_there = [&](const PoseHypothesis& one) {
+    return point_m && (position(one.map_from_robot) - *point_m).norm() <= radius_m;
+  };
+  double there = 0.0;
+  for (const PoseHypothesis& one : hypotheses_) there += is_there(one) ? one.weight : 0.0;
   // It may be right although no hypothesis is there.
-  if (!known) elsewhere_ *= odds;
+  const bool known = there > 0.0;
+  if (!known) there = elsewhere_;
+  if (there >= most || there >= 1.0) return;
+  const double most_odds = most >= 1.0 ? odds : most / (1.0 - most) * (1.0 - there) / std::max(1e-12, there);
+  const double times = std::min(odds, most_odds);
+  if (!known) elsewhere_ *= times;
+  for (PoseHypothesis& one : hypotheses_) {
+    if (known && is_there(one)) one.weight *= times;
+  }
   settle();
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/pose2.hpp"
@@ -56,6 +57,8 @@ struct PoseHypothesesConfig {
   double gate = 4.0;                     // standard deviations beyond which a sighting does not move a hypothesis
   double elsewhere_likelihood = 0.0035;  // of a picture that is of no view of the map
   double leave_probability = 0.002;      // for each independent picture
+  double clear_likelihood = 0.1;         // of the best: a picture that is explained as well says all that it says,
+  double least_clear = 0.3;              // and one that hardly is this share of it
   double clearly_worse = 0.4;            // of the best likelihood: only what explains a picture worse is less probable
   double cluster_m = 1.0;                // hypotheses so near are one answer to where the robot is
   double independent_m = 0.3;            // pictures so far from each other say something new each
@@ -70,6 +73,10 @@ class PoseHypotheses {
  public:
   PoseHypotheses() = default;
   explicit PoseHypotheses(const PoseHypothesesConfig& config) : config_(config) {}
+  /// As they were: `all`, `elsewhere` and `unweighed_m` of others.
+  PoseHypotheses(const PoseHypothesesConfig& config, std::vector<PoseHypothesis> all, double elsewhere,
+                 double unweighed_m)
+      : config_(config), hypotheses_(std::move(all)), elsewhere_(elsewhere), driven_m_(unweighed_m) {}
 
   /// Nothing is known of where the robot is.
   [[nodiscard]] bool empty() const { return hypotheses_.empty(); }
@@ -81,8 +88,9 @@ class PoseHypotheses {
   void weigh(std::span<const ViewSighting> sightings);
 
   /// Somebody else says that the robot is within `radius_m` of a point of the map, or, without one, at a place that is
-  /// none of those that were compared. `odds`: how many times more probable that makes it.
-  void hear(const std::optional<Eigen::Vector2d>& point_m, double radius_m, double odds);
+  /// none of those that were compared. `odds`: how many times more probable that makes it, but no more probable than
+  /// `most`: who says so has seen the same pictures, and is as sure as that.
+  void hear(const std::optional<Eigen::Vector2d>& point_m, double radius_m, double odds, double most);
 
   /// What a local map says between two pictures that are recognised: moves the hypotheses, weighs nothing.
   void refine(const ViewSighting& sighting);
@@ -101,11 +109,14 @@ class PoseHypotheses {
   /// Whether a sighting agrees with the best hypothesis.
   [[nodiscard]] bool agrees(const ViewSighting& sighting) const;
   [[nodiscard]] double elsewhere() const { return elsewhere_; }
+  /// The way since the last picture that was weighed.
+  [[nodiscard]] double unweighed_m() const { return driven_m_; }
   /// Most probable first.
   [[nodiscard]] const std::vector<PoseHypothesis>& all() const { return hypotheses_; }
 
  private:
-  [[nodiscard]] double explained(const PoseHypothesis& hypothesis, std::span<const ViewSighting> sightings) const;
+  [[nodiscard]] std::optional<double> explained(const PoseHypothesis& hypothesis,
+                                                std::span<const ViewSighting> sightings) const;
   void move(PoseHypothesis& hypothesis, const ViewSighting& sighting, double independent) const;
   [[nodiscard]] std::vector<PoseHypothesis> begun_by(std::span<const ViewSighting> sightings, double independent) const;
   void settle();

@@ -46,7 +46,7 @@ std::vector<int> nearest(const VisualPath& path, const Pose2& pose, std::size_t 
 std::vector<int> worth_comparing(const FollowState& state, const VisualPath& path, const features::Appearance& seen,
                                  const FollowConfig& config) {
   constexpr std::size_t kOfBest = 3;
-  constexpr double kWorth = 1e-4;  // weight of a hypothesis
+  constexpr double kWorth = 1e-8;  // weight of a hypothesis: what was begun must be looked at to become probable
   constexpr double kReach_m = 3.0;
   const auto most = static_cast<std::size_t>(config.most_compared);
   std::vector<int> views = {state.index};
@@ -65,8 +65,10 @@ std::vector<int> worth_comparing(const FollowState& state, const VisualPath& pat
   if (state.belief && state.belief->view) add(views, *state.belief->view);
   // What looks most like it, wherever that is: somebody may have carried the robot off.
   constexpr std::size_t kAlike = 3;
+  constexpr std::size_t kAlikeUnsure = 8;  // while it finds out which of them it is
   if (path.index) {
-    for (const int view : path.index->find(seen, kAlike)) add(views, view);
+    const bool sure = state.hypotheses.best_probability() >= config.leap_above;
+    for (const int view : path.index->find(seen, sure ? kAlike : kAlikeUnsure)) add(views, view);
   }
   return views;
 }
@@ -78,11 +80,12 @@ std::vector<ComparedView> compare_views(const FollowState& state, const VisualPa
                                         std::uint64_t seed) {
   constexpr double kBeside_m = 2.5;  // the wheels may have slipped so far,
   constexpr double kBesideShare = 1e-2;
-  constexpr double kCarriedShare = 1e-3;  // or somebody has carried the robot anywhere
+  constexpr double kCarriedShare = 1e-5;  // or somebody has carried the robot anywhere and nothing was noticed of it
   // At first it is where the path begins, if those are right who say so; else at one of the views that look like it.
   constexpr double kElsewhereShare = 0.02;
   constexpr double kOfOthers = 0.5;
-  const double elsewhere_share = std::max(kElsewhereShare, kOfOthers * (1.0 - path.start_probability));
+  const double start_probability = std::min(kMostOfOthersWord, path.start_probability);
+  const double elsewhere_share = std::max(kElsewhereShare, kOfOthers * (1.0 - start_probability));
   constexpr double kBelievedShare = 0.05;  // the server's belief, where it is sure
   const PoseHypothesis* best = state.hypotheses.best();
   std::vector<ComparedView> compared;
@@ -98,7 +101,7 @@ std::vector<ComparedView> compare_views(const FollowState& state, const VisualPa
                                         : apart_m(path.pose(0), path.pose(view)) < kBeside_m;
     one.sighting.prior_share = best != nullptr
                                    ? (beside ? kBesideShare : kCarriedShare)
-                                   : (beside ? std::max(kElsewhereShare, path.start_probability) : elsewhere_share);
+                                   : (beside ? std::max(kElsewhereShare, start_probability) : elsewhere_share);
     if (state.belief && state.belief->view == view) {
       one.sighting.prior_share = std::max(one.sighting.prior_share, kBelievedShare * state.belief->probability);
     }

@@ -20,7 +20,9 @@ std::optional<wire::EstimateReport> stated_estimate(const DrivingState& state, c
   if (!state.mission || state.covered || state.follow.hypotheses.empty()) return std::nullopt;
   const auto place = estimated_place(state.follow, state.mission->path, config.follow);
   if (!place) return std::nullopt;
-  return wire::EstimateReport{*place, as_probability(position_probability(state.follow, state.mission->path))};
+  constexpr double kAtOdds = 0.5;  // with a belief as sure as it
+  const double probability = as_probability(position_probability(state.follow, state.mission->path));
+  return wire::EstimateReport{*place, state.at_odds ? std::min(kAtOdds, probability) : probability};
 }
 
 std::optional<wire::QuestionReport> open_question(const DrivingState& state, const DrivingConfig& config,

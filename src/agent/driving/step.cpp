@@ -15,6 +15,14 @@ namespace {
 constexpr const char* kDisplaced = "All at once I see something else: was I lifted? I look where I am.";
 constexpr int kFewestFeatures = 20;  // with fewer the camera is taken to be covered
 
+void give_up_displaced(DrivingState& state) {
+  ++state.displaced;
+  state.follow = {};
+  state.kept.reset();
+  state.seen = {};
+  if (state.drive == wire::DriveState::kDriving) end_mission(state, wire::DriveState::kFailed, kDisplaced);
+}
+
 void take_picture(DrivingState& state, const SeenPicture& picture, const DrivingConfig& config, Milliseconds now_ms) {
   ++state.pictures;
   if (state.drive != wire::DriveState::kDriving) return;
@@ -35,10 +43,7 @@ void take_picture(DrivingState& state, const SeenPicture& picture, const Driving
   // What is of nowhere hides the view: that says nothing of where the robot is.
   if (picture.appearance && state.seen.recognised &&
       breaks_off(state.continuity, {picture.appearance, picture.odometry, picture.taken_ms}, state.pictures)) {
-    ++state.displaced;
-    state.follow = {};
-    state.seen = {};
-    return end_mission(state, wire::DriveState::kFailed, kDisplaced);
+    return give_up_displaced(state);
   }
   if (state.seen.answered) {
     state.last_answer_ms = now_ms;
@@ -297,6 +302,8 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   }
   if (lasts(state.off_belief_since_ms, off_belief_m(state.follow, state.mission->path, config.follow),
             config.off_belief_m, now_ms, config.off_belief_ms)) {
+    state.at_odds = true;
+    state.kept.reset();
     return end_mission(state, wire::DriveState::kFailed, "I am not sure where I am: the map says another place.");
   }
   // Beside its destination it waits for `near_ms` and has then arrived.
@@ -323,6 +330,19 @@ void notice_gap(DrivingState& state, const DrivingConfig& config, Milliseconds n
 /// no surfaces that several sweeps could agree on.
 bool steadies(const Body& body) { return !is_round(body.outline) && !body.vague_ranges; }
 
+/// The sweeps tell of a lift between missions, too: the estimate is kept from one to the next.
+void notice_lift(DrivingState& state, const Inputs& inputs, const DrivingConfig& config) {
+  if (config.body.vague_ranges) return;
+  if (breaks_off(state.going_on, state.scan->scan, inputs.odometry, state.scan->taken_ms)) give_up_displaced(state);
+}
+
+/// Between two missions a robot hardly moves: odometry that says otherwise has begun anew.
+void forget_where_odometry_jumped(DrivingState& state, const Pose2& odometry) {
+  constexpr double kFarthest_m = 1.0;
+  const Pose2 moved = inverse(state.follow.odometry) * odometry;
+  if (state.follow.begun && std::hypot(moved.x_m, moved.y_m) > kFarthest_m) state.follow = {};
+}
+
 void steady(DrivingState& state, const Inputs& inputs, const DrivingConfig& config) {
   if (state.scan && steadies(config.body))
     state.sweeps.observe(state.scan->scan, inputs.odometry, state.scan->taken_ms);
@@ -348,6 +368,7 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     state.sweeps = {};
     steady(state, inputs, config);
     begin_way(state.give_way);
+    forget_where_odometry_jumped(state, inputs.odometry);
   }
   state.turning.observe(inputs.odometry.theta_rad, sensors_ms);
   remember_trail(state.give_way, inputs.odometry);
@@ -357,6 +378,7 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     // The arcs of ultrasound come and go by themselves.
     if (!config.body.vague_ranges) watch(state.stirring, state.scan->scan, inputs.odometry, sensors_ms);
     steady(state, inputs, config);
+    notice_lift(state, inputs, config);
   }
   std::vector<Eigen::Vector2d> points_m;
   if (state.scan) points_m = steadies(config.body) ? state.sweeps.points_m() : hit_points(state.scan->scan);
@@ -365,6 +387,9 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     state.min_range_m = std::min(state.min_range_m.value_or(1e9), point.norm());
   }
   if (inputs.picture) take_picture(state, *inputs.picture, config, sensors_ms);
+  if (state.drive == wire::DriveState::kDriving) {
+    state.kept = keep_estimate(state.follow, state.mission->path, state.mission->map, state.mission->revision, now_ms);
+  }
   std::erase_if(state.answers_ms, [&](Milliseconds then) { return sensors_ms - then > 1000; });
   if (rider)
     outputs.motion = rider_motion(*inputs.rider, state.scan, points_m, state.turning.radps(), config, sensors_ms);

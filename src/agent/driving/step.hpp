@@ -13,11 +13,13 @@
 #include "agent/driving/continuity.hpp"
 #include "agent/driving/follow.hpp"
 #include "agent/driving/give_way.hpp"
+#include "agent/driving/kept_estimate.hpp"
 #include "agent/driving/long_plan.hpp"
 #include "agent/driving/look_around.hpp"
 #include "agent/driving/scan.hpp"
 #include "agent/driving/steady_sweep.hpp"
 #include "agent/driving/stirring.hpp"
+#include "agent/driving/sweep_continuity.hpp"
 #include "agent/driving/turn_rate.hpp"
 #include "core/pose2.hpp"
 #include "features/appearance.hpp"
@@ -32,31 +34,32 @@ using Milliseconds = std::int64_t;
 struct DrivingConfig {
   Body body;
   FollowConfig follow;
-  std::string feature_config_id;          // of this robot's eye: missions made with another are refused
-  Milliseconds link_silence_ms = 400;     // no message for so long while driving: stop
-  Milliseconds frame_silence_ms = 1000;   // no picture for so long while driving: stop
-  Milliseconds first_frame_ms = 4000;     // a mission waits so long, standing, for its first picture
-  Milliseconds scan_silence_ms = 400;     // no sweep for so long while driving: stop
-  Milliseconds rider_silence_ms = 300;    // a joystick that says nothing for so long counts as released
-  Milliseconds loop_silence_ms = 400;     // no step for so long while driving: stop
-  Milliseconds held_up_ms = 1000;         // no step for so long: missions that waited meanwhile are refused
-  Milliseconds stands_within_ms = 500;    // after the last message, picture or sweep it is at rest by itself
-  Milliseconds reaction_ms = 120;         // of it, from an arrival to the wheels
-  Milliseconds blind_ms = 8000;           // nothing recognised for so long: the mission fails
-  Milliseconds unsure_ms = 60'000;        // so long it looks around where it does not know where it is
-  Milliseconds off_path_ms = 1000;        // so long beside its path, by the estimate, and it needs another
-  double off_path_m = 3.0;                // by more than that
-  Milliseconds off_belief_ms = 3000;      // so long the server's belief may name another place
-  double off_belief_m = 2.0;              // farther off than that
-  Milliseconds belief_silence_ms = 2000;  // a belief as old as that says nothing any more
-  Milliseconds doubtful_ms = 12'000;      // so long it tries to make sure that it is at the destination,
-  Milliseconds asks_ms = 60'000;          // and so long it then stands there and asks people
-  Milliseconds stuck_ms = 20'000;         // no way gained for so long: the mission fails,
-  Milliseconds patience_ms = 90'000;      // after so long where somebody stirs about the robot
-  double near_m = 0.25;                   // of the destination: what is in the way there may stay in the way
-  Milliseconds near_ms = 8000;            // so long it tries to come nearer than that
-  double turn_gain = 1.8;                 // turn rate for each radian towards the carrot
-  double dock_within_rad = 0.02;          // heading at the end
+  std::string feature_config_id;            // of this robot's eye: missions made with another are refused
+  Milliseconds link_silence_ms = 400;       // no message for so long while driving: stop
+  Milliseconds frame_silence_ms = 1000;     // no picture for so long while driving: stop
+  Milliseconds first_frame_ms = 4000;       // a mission waits so long, standing, for its first picture
+  Milliseconds scan_silence_ms = 400;       // no sweep for so long while driving: stop
+  Milliseconds rider_silence_ms = 300;      // a joystick that says nothing for so long counts as released
+  Milliseconds loop_silence_ms = 400;       // no step for so long while driving: stop
+  Milliseconds held_up_ms = 1000;           // no step for so long: missions that waited meanwhile are refused
+  Milliseconds stands_within_ms = 500;      // after the last message, picture or sweep it is at rest by itself
+  Milliseconds reaction_ms = 120;           // of it, from an arrival to the wheels
+  Milliseconds blind_ms = 8000;             // nothing recognised for so long: the mission fails
+  Milliseconds unsure_ms = 60'000;          // so long it looks around where it does not know where it is
+  Milliseconds off_path_ms = 1000;          // so long beside its path, by the estimate, and it needs another
+  double off_path_m = 3.0;                  // by more than that
+  Milliseconds off_belief_ms = 3000;        // so long the server's belief may name another place
+  double off_belief_m = 2.0;                // farther off than that
+  Milliseconds estimate_lives_ms = 10'000;  // an estimate is kept for a mission that comes so soon after the last one
+  Milliseconds belief_silence_ms = 2000;    // a belief as old as that says nothing any more
+  Milliseconds doubtful_ms = 12'000;        // so long it tries to make sure that it is at the destination,
+  Milliseconds asks_ms = 60'000;            // and so long it then stands there and asks people
+  Milliseconds stuck_ms = 20'000;           // no way gained for so long: the mission fails,
+  Milliseconds patience_ms = 90'000;        // after so long where somebody stirs about the robot
+  double near_m = 0.25;                     // of the destination: what is in the way there may stay in the way
+  Milliseconds near_ms = 8000;              // so long it tries to come nearer than that
+  double turn_gain = 1.8;                   // turn rate for each radian towards the carrot
+  double dock_within_rad = 0.02;            // heading at the end
 };
 
 /// What is new since the last step. Pictures and sweeps carry the time at which they were taken, by the sensors' clock:
@@ -91,6 +94,8 @@ struct Inputs {
 /// One mission that was permitted.
 struct Mission {
   MissionId id;
+  MapId map;
+  std::int64_t revision = 0;
   std::string label;
   VisualPath path;
   bool dock = false;
@@ -115,12 +120,15 @@ struct DrivingState {
   Asking asking;       // people, whether this is the destination
   std::optional<Milliseconds> off_path_since_ms;
   std::optional<Milliseconds> off_belief_since_ms;
-  GiveWay give_way;       // to whoever stands in the way
-  Stirring stirring;      // of whoever that is
-  SteadySweep sweeps;     // round a body that is not round
-  Continuity continuity;  // of the pictures that are recognised
-  int displaced = 0;      // how often it noticed that it was moved without its wheels
-  bool covered = false;   // the latest picture shows next to nothing
+  bool at_odds = false;              // the mission has ended because belief and estimate named two places
+  std::optional<KeptEstimate> kept;  // of where it is, for the next mission
+  GiveWay give_way;                  // to whoever stands in the way
+  Stirring stirring;                 // of whoever that is
+  SteadySweep sweeps;                // round a body that is not round
+  Continuity continuity;             // of the pictures that are recognised
+  SweepContinuity going_on;          // of the sweeps
+  int displaced = 0;                 // how often it noticed that it was moved without its wheels
+  bool covered = false;              // the latest picture shows next to nothing
   std::optional<Milliseconds> last_step_ms;
   Milliseconds refuses_until_ms = 0;  // missions that waited while no step was made
   Milliseconds last_message_ms = 0;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "agent/files/write_file.hpp"
+#include "agent/recording/memory_json.hpp"
 #include "agent/recording/recorded_step.hpp"
 #include "agent/recording/settings_json.hpp"
 #include "wire/camera_json.hpp"

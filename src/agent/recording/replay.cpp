@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "agent/recording/look.hpp"
+#include "agent/recording/memory_json.hpp"
 #include "agent/recording/recorded_step.hpp"
 #include "agent/recording/settings_json.hpp"
 #include "wire/camera_json.hpp"

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/recording/settings_json.hpp"
 
-#include <cmath>
-#include <limits>
-#include <nlohmann/json.hpp>
-#include <set>
+#include "agent/recording/json_fields.hpp"
 
 namespace homeward::agent {
 namespace {
-
-using nlohmann::json;
 
 // Each of these names every member once, for writing and for reading. They take the structures apart, so that one with
 // a new member does not compile before the member is recorded as well.
@@ -101,7 +96,7 @@ template <class Fields, class Config>
 void pose_fields(Fields& fields, Config& pose) {
   auto& [odometry_m_per_sqrt_m, odometry_rad_per_sqrt_m, odometry_rad_per_sqrt_rad, least_position_m, least_heading_rad,
          bearing_rad, turn_rad, most_confidence, chance_agreement, near_view_m, far_view_m, gate, elsewhere_likelihood,
-         leave_probability, clearly_worse, cluster_m, independent_m] = pose;
+         leave_probability, clear_likelihood, least_clear, clearly_worse, cluster_m, independent_m] = pose;
   fields("pose_odometry_m_per_sqrt_m", odometry_m_per_sqrt_m);
   fields("pose_odometry_rad_per_sqrt_m", odometry_rad_per_sqrt_m);
   fields("pose_odometry_rad_per_sqrt_rad", odometry_rad_per_sqrt_rad);
@@ -116,6 +111,8 @@ void pose_fields(Fields& fields, Config& pose) {
   fields("pose_gate", gate);
   fields("pose_elsewhere_likelihood", elsewhere_likelihood);
   fields("pose_leave_probability", leave_probability);
+  fields("pose_clear_likelihood", clear_likelihood);
+  fields("pose_least_clear", least_clear);
   fields("pose_clearly_worse", clearly_worse);
   fields("pose_cluster_m", cluster_m);
   fields("pose_independent_m", independent_m);
@@ -124,8 +121,8 @@ void pose_fields(Fields& fields, Config& pose) {
 template <class Fields, class Config>
 void follow_fields(Fields& fields, Config& follow) {
   auto& [homing, visual, track, pose, pass_m, abreast_m, path_odds, believe, sure, sure_inliers, look_along,
-         most_compared, blind_m, reached_m, nearby_m, alike_share, drive_above, arrived_within_m, arrived_probability] =
-      follow;
+         most_compared, blind_m, reached_m, nearby_m, alike_share, drive_above, leap_above, arrived_within_m,
+         arrived_probability] = follow;
   homing_fields(fields, homing);
   visual_fields(fields, visual);
   track_fields(fields, track);
@@ -143,6 +140,7 @@ void follow_fields(Fields& fields, Config& follow) {
   fields("follow_nearby_m", nearby_m);
   fields("follow_alike_share", alike_share);
   fields("follow_drive_above", drive_above);
+  fields("follow_leap_above", leap_above);
   fields("follow_arrived_within_m", arrived_within_m);
   fields("follow_arrived_probability", arrived_probability);
 }
@@ -151,8 +149,8 @@ template <class Fields, class Config>
 void driving_fields(Fields& fields, Config& driving) {
   auto& [body, follow, feature_config_id, link_silence_ms, frame_silence_ms, first_frame_ms, scan_silence_ms,
          rider_silence_ms, loop_silence_ms, held_up_ms, stands_within_ms, reaction_ms, blind_ms, unsure_ms, off_path_ms,
-         off_path_m, off_belief_ms, off_belief_m, belief_silence_ms, doubtful_ms, asks_ms, stuck_ms, patience_ms,
-         near_m, near_ms, turn_gain, dock_within_rad] = driving;
+         off_path_m, off_belief_ms, off_belief_m, estimate_lives_ms, belief_silence_ms, doubtful_ms, asks_ms, stuck_ms,
+         patience_ms, near_m, near_ms, turn_gain, dock_within_rad] = driving;
   body_fields(fields, body);
   follow_fields(fields, follow);
   fields("feature_config_id", feature_config_id);
@@ -171,6 +169,7 @@ void driving_fields(Fields& fields, Config& driving) {
   fields("off_path_m", off_path_m);
   fields("off_belief_ms", off_belief_ms);
   fields("off_belief_m", off_belief_m);
+  fields("estimate_lives_ms", estimate_lives_ms);
   fields("belief_silence_ms", belief_silence_ms);
   fields("doubtful_ms", doubtful_ms);
   fields("asks_ms", asks_ms);
@@ -196,175 +195,28 @@ void feature_fields(Fields& fields, Config& features) {
   fields("sift_windows", sift_windows);
 }
 
-json numbers_of(const std::deque<Eigen::Vector2d>& points_m) {
-  json value = json::array();
-  for (const Eigen::Vector2d& point_m : points_m) value.push_back({point_m.x(), point_m.y()});
-  return value;
-}
-
-Eigen::Vector2d point_of(const json& value) { return {value.at(0).get<double>(), value.at(1).get<double>()}; }
-
-json numbers_of(const Pose2& pose) { return {pose.x_m, pose.y_m, pose.theta_rad}; }
-
-Pose2 pose_of(const json& value) {
-  return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
-}
-
-/// JSON knows neither infinity (here null: nothing was met) nor NaN (here -1: the ray failed).
-json numbers_of(const Scan& scan) {
-  json ranges_m = json::array();
-  for (const float range_m : scan.ranges_m) {
-    if (std::isnan(range_m)) {
-      ranges_m.push_back(-1.0);
-    } else {
-      ranges_m.push_back(std::isfinite(range_m) ? json(range_m) : json());
-    }
-  }
-  return {{"ranges_m", ranges_m},
-          {"angle_min_rad", scan.angle_min_rad},
-          {"angle_step_rad", scan.angle_step_rad},
-          {"range_max_m", scan.range_max_m},
-          {"robot_from_scan", numbers_of(scan.robot_from_scan)}};
-}
-
-Scan scan_of(const json& value) {
-  Scan scan;
-  for (const json& range : value.at("ranges_m")) {
-    const float range_m = range.is_null() ? std::numeric_limits<float>::infinity() : range.get<float>();
-    scan.ranges_m.push_back(range_m < 0.0F ? std::numeric_limits<float>::quiet_NaN() : range_m);
-  }
-  scan.angle_min_rad = value.at("angle_min_rad").get<double>();
-  scan.angle_step_rad = value.at("angle_step_rad").get<double>();
-  scan.range_max_m = value.at("range_max_m").get<double>();
-  scan.robot_from_scan = pose_of(value.at("robot_from_scan"));
-  return scan;
-}
-
-/// What is left of making room for somebody when a mission begins (`begin_way`).
-json numbers_of(const GiveWay& way) {
-  return {{"trail_m", numbers_of(way.trail_m)},
-          {"blocked_at_m", {way.blocked_at_m.x(), way.blocked_at_m.y()}},
-          {"times", way.times}};
-}
-
-void take(const json& value, GiveWay& way) {
-  for (const json& point : value.at("trail_m")) way.trail_m.push_back(point_of(point));
-  way.blocked_at_m = point_of(value.at("blocked_at_m"));
-  way.times = value.at("times").get<int>();
-}
-
-json numbers_of(const Stirring& stirring) {
-  const auto& [before, before_from, before_ms, seen_ms] = stirring;
-  return {{"before", before ? numbers_of(*before) : json()},
-          {"before_from", numbers_of(before_from)},
-          {"before_ms", before_ms},
-          {"seen_ms", seen_ms ? json(*seen_ms) : json()}};
-}
-
-void take(const json& value, Stirring& stirring) {
-  if (const json& before = value.at("before"); !before.is_null()) stirring.before = scan_of(before);
-  stirring.before_from = pose_of(value.at("before_from"));
-  stirring.before_ms = value.at("before_ms").get<std::int64_t>();
-  if (const json& seen = value.at("seen_ms"); !seen.is_null()) stirring.seen_ms = seen.get<std::int64_t>();
-}
-
-/// Not all of the state: a new mission makes the rest anew.
-template <class Fields, class State>
-void memory_fields(Fields& fields, State& s) {
-  fields("epoch", s.newest.epoch);
-  fields("seq", s.newest.seq);
-  fields("least_epoch", s.least_epoch);
-  fields("pictures", s.pictures);
-  fields("covered", s.covered);
-  fields("refuses_until_ms", s.refuses_until_ms);
-  fields("questions", s.asking.number);
-  fields("give_way", s.give_way);
-  fields("stirring", s.stirring);
-}
-
-struct Write {
-  json value = json::object();
-  void operator()(const char* key, const GiveWay& member) { value[key] = numbers_of(member); }
-  void operator()(const char* key, const Stirring& member) { value[key] = numbers_of(member); }
-  template <class T>
-  void operator()(const char* key, const T& member) {
-    value[key] = member;
-  }
-};
-
-/// Throws what json throws for a value of the wrong kind.
-struct Read {
-  const json& value;
-  std::set<std::string> known{};
-  template <class T>
-  void operator()(const char* key, T& member) {
-    known.insert(key);
-    const auto found = value.find(key);
-    if (found == value.end()) return;
-    if constexpr (requires { take(*found, member); }) {
-      take(*found, member);
-    } else {
-      found->get_to(member);
-    }
-  }
-};
-
-template <class T, class Visit>
-Result<T> read(const std::string& text, const char* what, Visit&& visit) {
-  const auto damaged = [&] {
-    return fail(ErrorCode::kCorruptFile, std::string("The recording is damaged: ") + what + " cannot be understood.",
-                "meta");
-  };
-  const json value = json::parse(text, nullptr, false);
-  if (!value.is_object()) return damaged();
-  T config;
-  Read fields{value};
-  try {
-    visit(fields, config);
-  } catch (const json::exception&) {
-    return damaged();
-  }
-  for (const auto& [key, ignored] : value.items()) {
-    if (fields.known.contains(key)) continue;
-    return fail(ErrorCode::kUnsupportedFormat,
-                std::string("The recording's ") + what + " have '" + key +
-                    "', which this program does not know: replay it with the program that recorded it.",
-                "meta");
-  }
-  return config;
-}
-
 }  // namespace
 
 std::string driving_to_json(const DrivingConfig& config) {
-  Write fields;
+  WriteFields fields;
   driving_fields(fields, config);
   return fields.value.dump();
 }
 
 Result<DrivingConfig> driving_from_json(const std::string& text) {
-  return read<DrivingConfig>(text, "settings of driving", [](auto& fields, auto& c) { driving_fields(fields, c); });
+  return read_fields<DrivingConfig>(text, "settings of driving",
+                                    [](auto& fields, auto& c) { driving_fields(fields, c); });
 }
 
 std::string features_to_json(const features::FeatureConfig& config) {
-  Write fields;
+  WriteFields fields;
   feature_fields(fields, config);
   return fields.value.dump();
 }
 
 Result<features::FeatureConfig> features_from_json(const std::string& text) {
-  return read<features::FeatureConfig>(text, "settings of features",
-                                       [](auto& fields, auto& c) { feature_fields(fields, c); });
-}
-
-std::string memory_to_json(const DrivingState& before) {
-  Write fields;
-  memory_fields(fields, before);
-  return fields.value.dump();
-}
-
-Result<DrivingState> memory_from_json(const std::string& text) {
-  return read<DrivingState>(text, "memories of before", [](auto& fields, auto& s) { memory_fields(fields, s); });
+  return read_fields<features::FeatureConfig>(text, "settings of features",
+                                              [](auto& fields, auto& c) { feature_fields(fields, c); });
 }
 
 }  // namespace homeward::agent

@@ -18,8 +18,4 @@ Result<DrivingConfig> driving_from_json(const std::string& text);
 std::string features_to_json(const features::FeatureConfig& config);
 Result<features::FeatureConfig> features_from_json(const std::string& text);
 
-/// What outlives the beginning of a mission in the heart's memory, but for the sweep.
-std::string memory_to_json(const DrivingState& before);
-Result<DrivingState> memory_from_json(const std::string& text);
-
 }  // namespace homeward::agent

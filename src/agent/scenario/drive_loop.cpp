@@ -40,12 +40,12 @@ Status DriveLoop::run(wire::MissionOrder order, std::vector<Pose2> way) {
   messages_.emplace_back(order_);
   halted_ = false;
   const double began_s = elapsed_s();
-  while (elapsed_s() < kLongest_s) {
+  while (elapsed_s() < kLongest_s && !is_ended_) {
     if (elapsed_s() > began_s) hear_the_house(!on("link_lost"));
     if (const Status cycled = cycle(); !cycled) return cycled;
     if (state_.drive != wire::DriveState::kDriving && !moves(robot_)) break;
   }
-  if (state_.drive == wire::DriveState::kDriving)
+  if (state_.drive == wire::DriveState::kDriving && !is_ended_)
     stops_.push_back({elapsed_s(), "The mission has lasted too long.", {}});
   close_stop();
   return {};
@@ -112,6 +112,7 @@ Status DriveLoop::cycle() {
     if (state_.drive != wire::DriveState::kDriving && state_.drive != wire::DriveState::kArrived && !moves(robot_))
       halted_ = true;
     if (listener_.cycled) listener_.cycled(trace(*outputs));
+    if (ended_ && ended_(trace(*outputs))) is_ended_ = true;
     robot_.command(outputs->motion);
     commanded_s_ = elapsed_s();
     if (link_up) heard_s_ = elapsed_s();
@@ -270,9 +271,11 @@ CycleTrace DriveLoop::trace(const Outputs& outputs) const {
   now.view = (index + 1 < static_cast<std::size_t>(now.views) ? order_.path[index].image : order_.final_image).str();
   now.answered = state_.seen.answered;
   now.continuity = state_.continuity.share;
+  now.contradiction = state_.going_on.contradiction;
   if (state_.mission && state_.follow.begun) {
     now.position_probability = position_probability(state_.follow, state_.mission->path);
     now.arrival_probability = arrival_probability(state_.follow, state_.mission->path, config_.follow);
+    now.off_belief_m = off_belief_m(state_.follow, state_.mission->path, config_.follow);
     now.elsewhere = state_.follow.hypotheses.elsewhere();
     now.measured = state_.follow.measured;
   }

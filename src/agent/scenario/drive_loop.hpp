@@ -45,6 +45,8 @@ class DriveLoop {
   void ask_belief(Believes believes) { believes_ = std::move(believes); }
   /// Who answers when the robot asks whether it is at its destination, 2 s after; without it nobody does.
   void answer_by(Answers answers) { answers_ = std::move(answers); }
+  /// A drive ends, wherever it is, once this says so after a cycle; without it no drive ends so.
+  void end_when(std::function<bool(const CycleTrace&)> ended) { ended_ = std::move(ended); }
   /// Drives an order, numbered later than all before, until the robot stands, however that came about.
   /// `way`: where its pictures were truly taken, one for each view of its path; may be empty.
   Status run(wire::MissionOrder order, std::vector<Pose2> way = {});
@@ -96,6 +98,8 @@ class DriveLoop {
   std::vector<Pose2> way_;
   Believes believes_;
   Answers answers_;
+  std::function<bool(const CycleTrace&)> ended_;
+  bool is_ended_ = false;
   std::int64_t answered_ = 0;         // number of the last question that somebody heard
   Milliseconds believed_ms_ = -1000;  // when the house was asked last
   DrivingState state_;

@@ -119,9 +119,15 @@ Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, s
     constexpr double kApart_m = 2.0;
     const auto estimated = estimated_place(robot.follow, robot.mission->path, FollowConfig{});
     const auto off_m = off_belief_m(robot.follow, robot.mission->path, FollowConfig{});
-    if (!*here || (off_m && *off_m > kApart_m)) start_probability_ = std::min(start_probability_, kBothMayBeRight);
-    if (!*here) here = estimated;
+    const double sure = position_probability(robot.follow, robot.mission->path);
     if (estimated) likely_.push_back(*estimated);
+    if (estimated && !robot.at_odds) {
+      here = estimated;
+      start_probability_ = sure;
+    } else {
+      if (!*here || (off_m && *off_m > kApart_m)) start_probability_ = std::min(start_probability_, kBothMayBeRight);
+      if (!*here) here = estimated;
+    }
   }
   if (displaced) {
     const auto found = look_anew(drive);

@@ -61,6 +61,8 @@ struct CycleTrace {
   double arrival_probability = 0.0;
   double elsewhere = 0.0;
   std::optional<double> continuity;        // share of features seen again from the picture before
+  std::optional<double> off_belief_m;      // between a sure belief and a sure estimate
+  std::optional<double> contradiction;     // of the latest sweep and the one before
   std::optional<double> estimate_error_m;  // true
   double bearing_rad = 0.0;
   double confidence = 0.0;

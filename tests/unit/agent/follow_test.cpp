@@ -106,6 +106,26 @@ TEST(Follow, SkipsAViewThatIsNotToBeSeenWhenALaterOneIs) {
   EXPECT_LT(driven.error_m, 0.2);
 }
 
+TEST(Follow, WhoKnowsToBeOnALaterPieceOfThePathGoesOnFromThere) {
+  std::vector<Pose2> along;
+  for (int k = 0; k < 12; ++k) along.push_back({0.8 * k, 0.0, 0.0});
+  const Landmarks landmarks = homeward::testing::landmarks_around(along, 300, 5);
+  VisualPath path;
+  for (std::size_t k = 0; k < along.size(); ++k) path.views.push_back(seen_from(landmarks, along[k], 100 + k));
+  path.edges.resize(along.size());
+  path.map_from_view = along;
+  const FollowConfig config;
+  for (const double weight : {0.95, 0.8}) {
+    FollowState state;
+    state.begun = true;
+    const Pose2 here{6.9, 0.05, 0.1};
+    state.hypotheses =
+        PoseHypotheses(config.pose, {{here, 0.01 * Eigen::Matrix3d::Identity(), weight}}, 1.0 - weight, 0.0);
+    track(state, path, {}, {}, config, 1);
+    EXPECT_EQ(state.index > 8, weight > config.leap_above) << weight;
+  }
+}
+
 TEST(Follow, AForeignPictureSaysNothingAndMovesNothing) {
   const Landmarks landmarks = corner();
   const VisualPath path = path_through(landmarks, true);

@@ -82,7 +82,7 @@ class RecordedDrive : public ::testing::Test {
       inputs.picture = look(sent, *eye_).value();
       bytes = sent.bytes;
     }
-    inputs.scan = SeenScan{now_ms_, {std::vector<float>(60, 3.0F), 0.0, kPi / 30.0, 12.0, {}}};
+    inputs.scan = SeenScan{now_ms_, {std::vector<float>(60, 3.0F), 0.0, kPi / 30.0, 3.0, {}}};
     inputs.rider = hand_;
     if (hand_) inputs.rider->said_ms = now_ms_;
     const Outputs outputs = recorder_->step(state_, inputs, bytes, now_ms_);

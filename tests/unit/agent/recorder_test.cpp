@@ -77,7 +77,7 @@ TEST_F(RecorderTest, GoesOnWithoutPicturesWhenItIsFull) {
     now_ms_ += 10;
     inputs.messages = {wire::Permit{MissionId("m1"), {1, ++seq_}, 1500}};
     inputs.picture = SeenPicture{now_ms_, std::make_shared<const features::Appearance>(), {}, pose_};
-    inputs.scan = SeenScan{now_ms_, {std::vector<float>(60, 3.0F), 0.0, kPi / 30.0, 12.0, {}}};
+    inputs.scan = SeenScan{now_ms_, {std::vector<float>(60, 3.0F), 0.0, kPi / 30.0, 3.0, {}}};
     recorder_->step(state_, inputs, sent.bytes, now_ms_);
   }
   ASSERT_EQ(state_.drive, wire::DriveState::kDriving) << state_.reason;

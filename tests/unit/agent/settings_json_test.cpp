@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace homeward::agent {
@@ -39,60 +37,6 @@ TEST(SettingsJson, KeepTheIdOfFeatures) {
   ASSERT_TRUE(read);
   EXPECT_EQ(features::feature_config_id(*read), features::feature_config_id(config));
   EXPECT_EQ(read->elevation_max_rad, config.elevation_max_rad);
-}
-
-TEST(SettingsJson, KeepWhatOutlivesTheBeginningOfAMission) {
-  DrivingState before;
-  before.newest = {7, 12};
-  before.least_epoch = 6;
-  before.pictures = 1'000'000'000'000;
-  before.covered = true;
-  before.asking.number = 7;
-  before.drive = wire::DriveState::kDriving;
-  const auto read = memory_from_json(memory_to_json(before));
-  ASSERT_TRUE(read);
-  EXPECT_EQ(read->newest, before.newest);
-  EXPECT_EQ(read->least_epoch, 6);
-  EXPECT_EQ(read->pictures, before.pictures);
-  EXPECT_TRUE(read->covered);
-  EXPECT_EQ(read->asking.number, 7) << "an answer names the question that was asked";
-  EXPECT_EQ(read->drive, wire::DriveState::kIdle) << "there is no mission before the first step";
-}
-
-TEST(SettingsJson, KeepTheWayBackAndWhoStirredToTheLastBit) {
-  constexpr float kNothing_m = std::numeric_limits<float>::infinity();
-  DrivingState before;
-  before.refuses_until_ms = 4711;
-  before.give_way.trail_m = {{0.1, 1.0 / 3.0}, {-2.0, 1e-17}};
-  before.give_way.blocked_at_m = {1.1, -0.7};
-  before.give_way.times = 2;
-  before.stirring.before =
-      Scan{{0.1F, kNothing_m, std::numeric_limits<float>::quiet_NaN(), 3.3F}, -0.5, 0.1, 11.0, {0.2, -0.1, 3.0}};
-  before.stirring.before_from = {1.0 / 7.0, 2.0, -3.0};
-  before.stirring.before_ms = 123'456'789'012;
-  before.stirring.seen_ms = 7;
-  const auto read = memory_from_json(memory_to_json(before));
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read->refuses_until_ms, 4711);
-  EXPECT_EQ(read->give_way.trail_m, before.give_way.trail_m);
-  EXPECT_EQ(read->give_way.blocked_at_m, before.give_way.blocked_at_m);
-  EXPECT_EQ(read->give_way.times, 2);
-  const Scan& scan = read->stirring.before.value();
-  ASSERT_EQ(scan.ranges_m.size(), 4U);
-  EXPECT_EQ(scan.ranges_m[0], 0.1F);
-  EXPECT_EQ(scan.ranges_m[1], kNothing_m);
-  EXPECT_TRUE(std::isnan(scan.ranges_m[2]));
-  EXPECT_EQ(scan.ranges_m[3], 3.3F);
-  EXPECT_EQ(scan.angle_min_rad, -0.5);
-  EXPECT_EQ(scan.angle_step_rad, 0.1);
-  EXPECT_EQ(scan.range_max_m, 11.0);
-  EXPECT_EQ(scan.robot_from_scan.theta_rad, 3.0);
-  EXPECT_EQ(read->stirring.before_from.x_m, 1.0 / 7.0);
-  EXPECT_EQ(read->stirring.before_ms, 123'456'789'012);
-  EXPECT_EQ(read->stirring.seen_ms, 7);
-  for (const char* damaged : {R"({"give_way": {}})", R"({"stirring": 3})", R"({"give_way": {"trail_m": [[1]]}})"}) {
-    EXPECT_FALSE(memory_from_json(damaged)) << damaged;
-  }
 }
 
 TEST(SettingsJson, RefuseWhatTheyDoNotKnow) {

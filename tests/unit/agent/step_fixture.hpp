@@ -17,6 +17,7 @@ namespace homeward::agent {
 class StepTest : public ::testing::Test {
  protected:
   static constexpr Milliseconds kTick_ms = 50;
+  static constexpr float kOpen_m = 20.0F;  // a range beyond the scanner's reach: nothing is there
 
   StepTest() : landmarks_(homeward::testing::landmarks_around(views(), 120, 3)) {
     config_.feature_config_id = "hw1-test";
@@ -141,8 +142,8 @@ class StepTest : public ::testing::Test {
     const double step_rad = 2.0 * kPi / static_cast<double>(ranges_m_.size());
     for (std::size_t i = 0; i < ranges_m_.size(); ++i) {
       const double towards = std::cos(pose_.theta_rad + step_rad * static_cast<double>(i));
-      const double range_m = towards > 0.0 ? (wall_x_m - pose_.x_m) / towards : 5.0;
-      ranges_m_[i] = static_cast<float>(std::min(range_m, 5.0));
+      const double range_m = towards > 0.0 ? (wall_x_m - pose_.x_m) / towards : kOpen_m;
+      ranges_m_[i] = std::min(static_cast<float>(range_m), kOpen_m);
     }
   }
 
@@ -177,7 +178,7 @@ class StepTest : public ::testing::Test {
   bool covered_now_and_then_ = false;
   bool hidden_ = false;           // somebody stands before all that it would recognise
   double field_rad_ = 2.0 * kPi;  // of the range sensor, about straight ahead
-  std::vector<float> ranges_m_ = std::vector<float>(90, 5.0F);
+  std::vector<float> ranges_m_ = std::vector<float>(90, kOpen_m);
 };
 
 }  // namespace homeward::agent

@@ -154,6 +154,38 @@ TEST(PlaceBelief, NamesTheMostProbablePlacesFirst) {
   EXPECT_NEAR(belief.of(2), 1.0 / 9.0, 1e-12);
 }
 
+TEST(PlaceBelief, HalfThePowerIsHalfTheNews) {
+  const map::TopologicalMap map = ring(8);
+  const map::PlaceGraph graph(map);
+  const MotionModel motion(graph, 1.0, 3);
+  PlaceBelief once(motion, {});
+  PlaceBelief twice(motion, {});
+  const std::vector<PlaceShare> seen = {{2, 0.9}, {5, 0.1}};
+  once.weigh(seen, kFloor, kElsewhere);
+  for (int k = 0; k < 2; ++k) twice.weigh(seen, kFloor, kElsewhere, 0.5);
+  for (int place = 0; place < 8; ++place) EXPECT_NEAR(twice.of(place), once.of(place), 1e-9) << place;
+  EXPECT_NEAR(twice.elsewhere(), once.elsewhere(), 1e-9);
+}
+
+TEST(PlaceBelief, ARobotThatDroveHasHardlyJumped) {
+  map::TopologicalMap map = ring(40);
+  for (map::Edge& edge : map.edges) {
+    edge.length_m = 1.0;
+    edge.length_from = map::LengthSource::kOdometry;
+  }
+  const map::PlaceGraph graph(map);
+  const MotionModel motion(graph, 1.0, 3);
+  const MetricMotion driven(map, graph);
+  const auto far_after = [&](double driven_m, double rolled_jump_probability) {
+    PlaceBelief belief(motion, {0.01, rolled_jump_probability, 0.0});
+    belief.weigh(std::vector<PlaceShare>{{10, 1.0}}, 1e-12, 1e-12);
+    belief.predict(driven, driven_m);
+    return belief.of(30);
+  };
+  EXPECT_DOUBLE_EQ(far_after(0.0, 0.01), far_after(0.0, 1e-4)) << "one that stands may have been carried";
+  EXPECT_NEAR(far_after(1.0, 0.01) - far_after(1.0, 1e-4), 0.0099 / 40.0, 0.001 / 40.0);
+}
+
 TEST(PlaceBelief, AMapWithoutPlacesIsElsewhere) {
   const MotionModel motion(map::PlaceGraph(map::TopologicalMap{}), 1.0, 1);
   PlaceBelief belief(motion, {});

@@ -85,14 +85,48 @@ TEST_F(LostTest, AfterAFailedDriveALostRobotGoesOnFromItsOwnEstimate) {
   agent.status(wire::DriveState::kDriving, first, 1);
   wait_for_state(sent.json(), "driving");
   get_lost();
-  agent.estimate = wire::EstimateReport{first->path[1].place, 0.9};
+  agent.estimate = wire::EstimateReport{first->path[1].place, 0.85};
   agent.status(wire::DriveState::kFailed, first, 2, "The way is blocked.");
   const auto second = agent.await<wire::MissionOrder>();
   ASSERT_TRUE(second) << mission_now(sent.json()).dump();
   EXPECT_EQ(second->mission, first->mission);
   EXPECT_EQ(second->path.front().place, first->path[1].place);
   ASSERT_TRUE(second->surroundings);
-  EXPECT_EQ(second->surroundings->start_probability, 0.5) << "an even chance, however sure it was";
+  EXPECT_EQ(second->surroundings->start_probability, 0.85);
+}
+
+TEST_F(LostTest, AfterAFailedDriveTheRobotsOwnEstimateIsWhereItBegins) {
+  connect();
+  const Answer sent = send_home(lease);
+  const auto first = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(first);
+  ASSERT_GE(first->path.size(), 3U);
+  agent.status(wire::DriveState::kDriving, first, 1);
+  wait_for_state(sent.json(), "driving");
+  ASSERT_FALSE(belief().at("lost").get<bool>());
+  ASSERT_NE(belief().at("place"), first->path[1].place.str());
+  agent.estimate = wire::EstimateReport{first->path[1].place, 0.97};
+  agent.status(wire::DriveState::kFailed, first, 2, "The way is blocked.");
+  const auto second = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(second && second->surroundings) << mission_now(sent.json()).dump();
+  EXPECT_EQ(second->path.front().place, first->path[1].place);
+  EXPECT_EQ(second->surroundings->start_probability, 0.97);
+}
+
+TEST_F(LostTest, AfterADriveAtOddsWithTheBeliefBothAreAsProbable) {
+  connect();
+  const Answer sent = send_home(lease);
+  const auto first = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(first);
+  ASSERT_GE(first->path.size(), 3U);
+  agent.status(wire::DriveState::kDriving, first, 1);
+  wait_for_state(sent.json(), "driving");
+  agent.estimate = wire::EstimateReport{first->path[1].place, 0.5};
+  agent.status(wire::DriveState::kFailed, first, 2, "I am not sure where I am: the map says another place.");
+  const auto second = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(second && second->surroundings) << mission_now(sent.json()).dump();
+  EXPECT_EQ(second->path.front().place.str(), belief().at("place").get<std::string>());
+  EXPECT_LE(second->surroundings->start_probability, 0.5);
 }
 
 TEST_F(LostTest, AfterAFailedDriveWithNeitherBeliefNorEstimateItEnds) {
