@@ -98,12 +98,13 @@ NearestPiece nearest_piece(const FollowState& state, const VisualPath& path, con
 }
 
 /// The view of the path that comes next where the robot is. It goes on from the view homed to; a robot that has just
-/// found out that it is on quite another piece of the path goes on from there.
+/// found out that it is on quite another piece of the path goes on from there, if a map says where the pieces lie.
 int next_view(const FollowState& state, const VisualPath& path, const Vector2& here_m, const FollowConfig& config) {
   constexpr double kBeside_m = 2.0;
   const NearestPiece near =
       nearest_piece(state, path, here_m, state.index - config.look_along, state.index + config.look_along);
-  if (near.away_m < kBeside_m || state.hypotheses.best_probability() < config.leap_above) return near.end;
+  const bool leaps = path.index != nullptr && state.hypotheses.best_probability() >= config.leap_above;
+  if (near.away_m < kBeside_m || !leaps) return near.end;
   const NearestPiece any = nearest_piece(state, path, here_m, 0, path.size() - 1);
   return any.away_m < kBeside_m ? any.end : near.end;
 }
@@ -173,8 +174,7 @@ void end_picture(FollowState& state, const VisualPath& path, const FollowConfig&
   choose_view(state, path, config, result);
   place_view(state, path);
   if (state.index + 1 != path.size()) return;
-  result.at_end =
-      is_reached(state, path, config, result) && arrival_probability(state, path, config) >= config.arrived_probability;
+  result.at_end = is_reached(state, path, config, result) && is_certain_of_arrival(state, path, config);
 }
 
 FollowResult follow_path(FollowState& state, const VisualPath& path, const features::Appearance& seen,
@@ -230,6 +230,14 @@ double arrival_probability(const FollowState& state, const VisualPath& path, con
   const auto off_m = off_belief_m(state, path, config);
   const double agreeing = off_m && *off_m > kAgrees_m ? kDisagreeing : 1.0;
   return agreeing * state.hypotheses.probability_within(position(path.pose(path.size() - 1)), config.arrived_within_m);
+}
+
+bool is_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
+  // Where views lie by edges alone, they are too far off for more; and there is no other place to be taken for this
+  // one.
+  constexpr double kByEdges = 0.9;
+  const double least = path.index ? config.arrived_probability : std::min(kByEdges, config.arrived_probability);
+  return arrival_probability(state, path, config) >= least;
 }
 
 std::optional<PlaceId> estimated_place(const FollowState& state, const VisualPath& path, const FollowConfig& config) {

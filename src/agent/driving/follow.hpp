@@ -40,8 +40,8 @@ struct FollowConfig {
   double alike_share = 0.35;  // of the features that agree where two views coincide
   double drive_above = 0.7;   // probability of where the robot is below which it looks around
   double leap_above = 0.9;    // and from which on it goes on from quite another piece of its path
-  double arrived_within_m = 0.5;     // of the destination the robot is when it says that it has arrived,
-  double arrived_probability = 0.9;  // with at least this probability
+  double arrived_within_m = 0.5;      // of the destination the robot is when it says that it has arrived,
+  double arrived_probability = 0.97;  // with at least this probability
 };
 
 /// What the server's belief names, which is of all pictures since long before the mission.
@@ -108,6 +108,10 @@ double position_probability(const FollowState& state, const VisualPath& path);
 
 /// Probability that the robot is within `arrived_within_m` of the destination's view; 1 of one view alone.
 double arrival_probability(const FollowState& state, const VisualPath& path, const FollowConfig& config);
+
+/// Whether that is enough to say that it has arrived: `arrived_probability`, and less where no map says where the views
+/// lie.
+bool is_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config);
 
 /// The place of the map that the robot is at by the estimate; nothing where that is not sure enough to drive by.
 std::optional<PlaceId> estimated_place(const FollowState& state, const VisualPath& path, const FollowConfig& config);

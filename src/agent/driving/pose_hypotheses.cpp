@@ -287,10 +287,13 @@ void PoseHypotheses::weigh(std::span<const ViewSighting> sightings) {
     most = std::max(most, likelihoods.back().value_or(0.0));
   }
   // Of two places that look alike one explains a picture somewhat better, and the next ones too: that is no evidence.
-  // Where even the best explains it badly, as by night, how much worse another one does says less.
-  const double clear = std::clamp(most / config_.clear_likelihood, config_.least_clear, 1.0);
+  // In another light than the map's nothing is explained well, which of two explains it better changes from picture to
+  // picture by far more, and what the light has changed stays for some way.
+  light(std::log(most), independent);
+  const double darker = std::max(0.0, std::log(config_.clear_likelihood) - usual_explained_.value());
+  const double worse = config_.clearly_worse * std::exp(-std::min(config_.most_dark, config_.doubt_by_dark * darker));
   const auto evidence = [&](double likelihood) {
-    return std::pow(std::min(1.0, likelihood / (config_.clearly_worse * most)), clear * independent);
+    return std::pow(std::min(1.0, likelihood / (worse * most)), independent / (1.0 + darker));
   };
   double compared = elsewhere_;
   double weighed = elsewhere_ *= evidence(of_elsewhere);
@@ -308,6 +311,13 @@ void PoseHypotheses::weigh(std::span<const ViewSighting> sightings) {
     for (const ViewSighting& sighting : sightings) move(hypotheses_[k], sighting, independent);
   }
   settle();
+}
+
+/// How well pictures are explained at best in the light that there is: the logarithm, by a mean that forgets.
+void PoseHypotheses::light(double explained, double independent) {
+  constexpr double kForgets = 0.15;
+  if (!usual_explained_) usual_explained_ = explained;
+  *usual_explained_ += kForgets * independent * (explained - *usual_explained_);
 }
 
 void PoseHypotheses::hear(const std::optional<Vector2>& point_m, double radius_m, double odds, double most) {

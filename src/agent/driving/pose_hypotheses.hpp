@@ -57,11 +57,12 @@ struct PoseHypothesesConfig {
   double gate = 4.0;                     // standard deviations beyond which a sighting does not move a hypothesis
   double elsewhere_likelihood = 0.0035;  // of a picture that is of no view of the map
   double leave_probability = 0.002;      // for each independent picture
-  double clear_likelihood = 0.1;         // of the best: a picture that is explained as well says all that it says,
-  double least_clear = 0.3;              // and one that hardly is this share of it
-  double clearly_worse = 0.4;            // of the best likelihood: only what explains a picture worse is less probable
-  double cluster_m = 1.0;                // hypotheses so near are one answer to where the robot is
-  double independent_m = 0.3;            // pictures so far from each other say something new each
+  double clear_likelihood = 0.2;         // of the best view of pictures in the light of the map
+  double doubt_by_dark = 1.5;  // less well explained, so many times as much counts as no worse (in logarithms),
+  double most_dark = 4.0;      // but no more than that
+  double clearly_worse = 0.4;  // of the best likelihood: only what explains a picture worse is less probable
+  double cluster_m = 1.0;      // hypotheses so near are one answer to where the robot is
+  double independent_m = 0.3;  // pictures so far from each other say something new each
 };
 
 /// Where the robot may be on a map, as a few Gaussians with weights and the weight of being elsewhere: multi-hypothesis
@@ -73,10 +74,14 @@ class PoseHypotheses {
  public:
   PoseHypotheses() = default;
   explicit PoseHypotheses(const PoseHypothesesConfig& config) : config_(config) {}
-  /// As they were: `all`, `elsewhere` and `unweighed_m` of others.
+  /// As they were: `all`, `elsewhere`, `unweighed_m` and `usual_explained` of others.
   PoseHypotheses(const PoseHypothesesConfig& config, std::vector<PoseHypothesis> all, double elsewhere,
-                 double unweighed_m)
-      : config_(config), hypotheses_(std::move(all)), elsewhere_(elsewhere), driven_m_(unweighed_m) {}
+                 double unweighed_m, std::optional<double> usual_explained)
+      : config_(config),
+        hypotheses_(std::move(all)),
+        elsewhere_(elsewhere),
+        usual_explained_(usual_explained),
+        driven_m_(unweighed_m) {}
 
   /// Nothing is known of where the robot is.
   [[nodiscard]] bool empty() const { return hypotheses_.empty(); }
@@ -111,6 +116,8 @@ class PoseHypotheses {
   [[nodiscard]] double elsewhere() const { return elsewhere_; }
   /// The way since the last picture that was weighed.
   [[nodiscard]] double unweighed_m() const { return driven_m_; }
+  /// How well pictures were explained at best, as the mean of its logarithm. Nothing: there was none.
+  [[nodiscard]] const std::optional<double>& usual_explained() const { return usual_explained_; }
   /// Most probable first.
   [[nodiscard]] const std::vector<PoseHypothesis>& all() const { return hypotheses_; }
 
@@ -119,12 +126,14 @@ class PoseHypotheses {
                                                 std::span<const ViewSighting> sightings) const;
   void move(PoseHypothesis& hypothesis, const ViewSighting& sighting, double independent) const;
   [[nodiscard]] std::vector<PoseHypothesis> begun_by(std::span<const ViewSighting> sightings, double independent) const;
+  void light(double explained, double independent);
   void settle();
 
   PoseHypothesesConfig config_;
   std::vector<PoseHypothesis> hypotheses_;
   double elsewhere_ = 1.0;
-  double driven_m_ = 1e9;  // since the last picture, for how much it says that is new
+  std::optional<double> usual_explained_;  // see light
+  double driven_m_ = 1e9;                  // since the last picture, for how much it says that is new
 };
 
 }  // namespace homeward::agent

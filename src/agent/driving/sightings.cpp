@@ -73,6 +73,15 @@ std::vector<int> worth_comparing(const FollowState& state, const VisualPath& pat
   return views;
 }
 
+/// That the robot is where its path begins is one thing, however many views around show it.
+void share_start(std::vector<ComparedView>& compared) {
+  const auto shows = [](const ComparedView& one) { return one.at_start && one.sighting.direction; };
+  const auto count = std::ranges::count_if(compared, shows);
+  for (ComparedView& one : compared) {
+    if (shows(one)) one.sighting.prior_share /= static_cast<double>(count);
+  }
+}
+
 }  // namespace
 
 std::vector<ComparedView> compare_views(const FollowState& state, const VisualPath& path,
@@ -102,6 +111,7 @@ std::vector<ComparedView> compare_views(const FollowState& state, const VisualPa
     one.sighting.prior_share = best != nullptr
                                    ? (beside ? kBesideShare : kCarriedShare)
                                    : (beside ? std::max(kElsewhereShare, start_probability) : elsewhere_share);
+    one.at_start = best == nullptr && beside;
     if (state.belief && state.belief->view == view) {
       one.sighting.prior_share = std::max(one.sighting.prior_share, kBelievedShare * state.belief->probability);
     }
@@ -113,6 +123,7 @@ std::vector<ComparedView> compare_views(const FollowState& state, const VisualPa
     }
     compared.push_back(std::move(one));
   }
+  if (best == nullptr) share_start(compared);
   return compared;
 }
 

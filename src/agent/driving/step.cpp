@@ -265,8 +265,7 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
     state.near_since_ms.reset();
     stop_asking(state);
   }
-  const bool certain =
-      arrival_probability(state.follow, state.mission->path, config.follow) >= config.follow.arrived_probability;
+  const bool certain = is_certain_of_arrival(state.follow, state.mission->path, config.follow);
   const bool near_enough = certain && state.near_since_ms && now_ms - *state.near_since_ms > config.near_ms;
   const bool confirmed = certain && state.asking.since_ms;  // by an answer, or by what it has seen since it asks
   const bool denied = state.asking.said == false;

@@ -12,7 +12,7 @@ namespace homeward::agent {
 namespace {
 
 constexpr double kNoise_m = 0.05;  // of ranges
-constexpr double kSlip = 0.1;      // of the way between two sweeps, for wheels that slip
+constexpr double kSlip = 0.1;      // of the way between two sweeps
 constexpr double kAside_rad = 0.02;
 constexpr double kTurning = 0.3;  // of the turn, for sweeps that take time
 
@@ -100,6 +100,22 @@ std::optional<double> contradiction(const Scan& before, const Scan& now, const P
   return static_cast<double>(std::min(all(came.contradict), all(went.contradict)) - passing) / looked;
 }
 
+namespace {
+
+/// The same where some of the way may not have been made, because the wheels slipped.
+std::optional<double> least_contradiction(const Scan& before, const Scan& now, const Pose2& before_from_now) {
+  std::optional<double> least;
+  for (const double made : {1.0, 0.7, 0.4}) {
+    const auto one =
+        contradiction(before, now, {made * before_from_now.x_m, made * before_from_now.y_m, before_from_now.theta_rad});
+    if (!one || *one == 0.0) return one;
+    least = std::min(least.value_or(1.0), *one);
+  }
+  return least;
+}
+
+}  // namespace
+
 bool breaks_off(SweepContinuity& continuity, const Scan& now, const Pose2& odometry, std::int64_t taken_ms) {
   // Lifted to where all looks alike, 0.03 to 0.38 contradicted the sweep before in 91 lifts of 100.
   constexpr double kMost = 0.03;
@@ -114,7 +130,7 @@ bool breaks_off(SweepContinuity& continuity, const Scan& now, const Pose2& odome
                         std::hypot(moved.x_m, moved.y_m) <= kFarthest_m;
   continuity.latest_ms = taken_ms;
   continuity.contradiction.reset();
-  if (in_a_row) continuity.contradiction = contradiction(*continuity.before, now, moved);
+  if (in_a_row) continuity.contradiction = least_contradiction(*continuity.before, now, moved);
   const auto begin_anew = [&] {
     continuity.before = now;
     continuity.odometry = odometry;

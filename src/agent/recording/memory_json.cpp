@@ -116,6 +116,7 @@ static json numbers_of(const std::optional<KeptEstimate>& kept) {
           {"hypotheses", all},
           {"elsewhere", kept->hypotheses.elsewhere()},
           {"unweighed_m", kept->hypotheses.unweighed_m()},
+          {"usual_explained", kept->hypotheses.usual_explained() ? json(*kept->hypotheses.usual_explained()) : json()},
           {"odometry", numbers_of(kept->odometry)},
           {"at_ms", kept->at_ms}};
 }
@@ -131,11 +132,13 @@ static void take(const json& value, std::optional<KeptEstimate>& kept) {
     all.push_back(hypothesis);
   }
   if (all.empty()) return;
+  std::optional<double> usual_explained;
+  if (const json& usual = value.at("usual_explained"); !usual.is_null()) usual_explained = usual.get<double>();
   // The configuration is the mission's own, which is not known yet.
-  kept = KeptEstimate{
-      MapId(value.at("map").get<std::string>()), value.at("revision").get<std::int64_t>(),
-      PoseHypotheses({}, std::move(all), value.at("elsewhere").get<double>(), value.at("unweighed_m").get<double>()),
-      pose_of(value.at("odometry")), value.at("at_ms").get<std::int64_t>()};
+  kept = KeptEstimate{MapId(value.at("map").get<std::string>()), value.at("revision").get<std::int64_t>(),
+                      PoseHypotheses({}, std::move(all), value.at("elsewhere").get<double>(),
+                                     value.at("unweighed_m").get<double>(), usual_explained),
+                      pose_of(value.at("odometry")), value.at("at_ms").get<std::int64_t>()};
 }
 
 namespace {

@@ -96,7 +96,7 @@ template <class Fields, class Config>
 void pose_fields(Fields& fields, Config& pose) {
   auto& [odometry_m_per_sqrt_m, odometry_rad_per_sqrt_m, odometry_rad_per_sqrt_rad, least_position_m, least_heading_rad,
          bearing_rad, turn_rad, most_confidence, chance_agreement, near_view_m, far_view_m, gate, elsewhere_likelihood,
-         leave_probability, clear_likelihood, least_clear, clearly_worse, cluster_m, independent_m] = pose;
+         leave_probability, clear_likelihood, doubt_by_dark, most_dark, clearly_worse, cluster_m, independent_m] = pose;
   fields("pose_odometry_m_per_sqrt_m", odometry_m_per_sqrt_m);
   fields("pose_odometry_rad_per_sqrt_m", odometry_rad_per_sqrt_m);
   fields("pose_odometry_rad_per_sqrt_rad", odometry_rad_per_sqrt_rad);
@@ -112,7 +112,8 @@ void pose_fields(Fields& fields, Config& pose) {
   fields("pose_elsewhere_likelihood", elsewhere_likelihood);
   fields("pose_leave_probability", leave_probability);
   fields("pose_clear_likelihood", clear_likelihood);
-  fields("pose_least_clear", least_clear);
+  fields("pose_doubt_by_dark", doubt_by_dark);
+  fields("pose_most_dark", most_dark);
   fields("pose_clearly_worse", clearly_worse);
   fields("pose_cluster_m", cluster_m);
   fields("pose_independent_m", independent_m);

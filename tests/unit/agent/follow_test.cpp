@@ -114,13 +114,16 @@ TEST(Follow, WhoKnowsToBeOnALaterPieceOfThePathGoesOnFromThere) {
   for (std::size_t k = 0; k < along.size(); ++k) path.views.push_back(seen_from(landmarks, along[k], 100 + k));
   path.edges.resize(along.size());
   path.map_from_view = along;
+  std::vector<const features::Appearance*> views;
+  for (const features::Appearance& view : path.views) views.push_back(&view);
+  path.index = std::make_shared<const ViewIndex>(views);
   const FollowConfig config;
   for (const double weight : {0.95, 0.8}) {
     FollowState state;
     state.begun = true;
     const Pose2 here{6.9, 0.05, 0.1};
     state.hypotheses =
-        PoseHypotheses(config.pose, {{here, 0.01 * Eigen::Matrix3d::Identity(), weight}}, 1.0 - weight, 0.0);
+        PoseHypotheses(config.pose, {{here, 0.01 * Eigen::Matrix3d::Identity(), weight}}, 1.0 - weight, 0.0, {});
     track(state, path, {}, {}, config, 1);
     EXPECT_EQ(state.index > 8, weight > config.leap_above) << weight;
   }
