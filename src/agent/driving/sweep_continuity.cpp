@@ -11,8 +11,9 @@
 namespace homeward::agent {
 namespace {
 
-constexpr double kNoise_m = 0.05;  // of ranges
-constexpr double kSlip = 0.1;      // of the way between two sweeps
+constexpr double kNoise_m = 0.05;      // of ranges
+constexpr double kSlip = 0.1;          // of the way between two sweeps
+constexpr double kFarthest_m = 200.0;  // a scanner may say that it has no limit
 constexpr double kAside_rad = 0.02;
 constexpr double kTurning = 0.3;  // of the turn, for sweeps that take time
 
@@ -58,7 +59,7 @@ LookedThrough looked_through(const Scan& before, const Scan& now, const Pose2& t
   for (std::size_t i = 0; i < now.ranges_m.size(); ++i) {
     if (is_failed(static_cast<double>(now.ranges_m[i]))) continue;
     const bool met = static_cast<double>(now.ranges_m[i]) < now.range_max_m;
-    const double range_m = met ? static_cast<double>(now.ranges_m[i]) : now.range_max_m;
+    const double range_m = std::min(met ? static_cast<double>(now.ranges_m[i]) : now.range_max_m, kFarthest_m);
     const double angle_rad = now.angle_min_rad + static_cast<double>(i) * now.angle_step_rad;
     const Pose2 ray{range_m * std::cos(angle_rad), range_m * std::sin(angle_rad), 0.0};
     const Pose2 point = scanner * ray;

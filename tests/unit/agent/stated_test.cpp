@@ -31,7 +31,7 @@ TEST_F(StepTest, StatesHowProbableItIsThatItHasArrivedFromSettingOffToTheEnd) {
   for (int k = 0; k < 400 && state_.drive == DriveState::kDriving; ++k) tick({permit("m1", 1, ++seq_)});
   ASSERT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
   const double there = stated_arrival(state_, config_).value();
-  EXPECT_GE(there, config_.follow.arrived_probability);
+  EXPECT_GE(there, 0.9);
   EXPECT_GT(there, setting_off);
   EXPECT_LE(there, 1.0);
   EXPECT_EQ(stated_estimate(state_, config_).value().place, PlaceId("p1"));

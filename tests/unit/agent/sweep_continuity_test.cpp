@@ -161,6 +161,8 @@ TEST(Contradiction, OfSweepsThatMetNothingThereIsNone) {
   open.angle_step_rad = radians(1.0);
   EXPECT_EQ(contradiction(open, open, {0.1, 0.0, 0.0}), 0.0);
   EXPECT_FALSE(contradiction({}, open, {}));
+  open.range_max_m = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(contradiction(open, open, {0.1, 0.0, 0.0}), 0.0);
 }
 
 }  // namespace
