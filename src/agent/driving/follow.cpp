@@ -75,12 +75,13 @@ void place_view(FollowState& state, const VisualPath& path) {
   state.view.settle(position(view), covariance, view.theta_rad);
 }
 
-/// The end of that piece of the path, of those that end at the views `from` to `to`, that the robot is nearest to. At
-/// the path's first view begins no piece.
+/// A piece of the path, by the view that it ends at, and how far from it the robot is.
 struct NearestPiece {
   int end = 0;
   double away_m = 1e9;
 };
+
+/// Of the pieces that end at the views `from` to `to`. At the path's first view begins no piece.
 NearestPiece nearest_piece(const FollowState& state, const VisualPath& path, const Vector2& here_m, int from, int to) {
   const auto at_m = [&](int view) { return position(path.pose(view)); };
   constexpr double kKeeps_m = 0.3;  // another piece must be nearer by so much

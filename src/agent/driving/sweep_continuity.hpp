@@ -11,9 +11,9 @@ namespace homeward::agent {
 
 /// How much two sweeps contradict each other: the share of directions in which one meets something where the other
 /// looked through, the lesser of either way round. Who comes or goes contradicts one way alone, and what was hidden
-/// before contradicts nothing; who walks by comes and goes within a quarter of
-/// the view, so that the quarter in which most does so is left out. `before_from_now`: the robot's pose now in its
-/// frame then, by odometry. Nothing where fewer than half of the directions are in both sweeps. The method is ours.
+/// before contradicts nothing; who walks by comes and goes within a quarter of the view, so that what does both in the
+/// quarter in which most does is left out. `before_from_now`: the robot's pose now in its frame then, by odometry.
+/// Nothing where fewer than half of the directions are in both sweeps. The method is ours.
 std::optional<double> contradiction(const Scan& before, const Scan& now, const Pose2& before_from_now);
 
 /// Whether sweeps go on from each other as the wheels say that the robot moved.

@@ -69,6 +69,16 @@ TEST_F(StepTest, LiftedToWhereAllLooksTheSameItsSweepsTellIt) {
   EXPECT_LT(now_ms_ - from_ms, 1000);
   EXPECT_EQ(state_.displaced, 1);
   EXPECT_FALSE(state_.kept);
+  const auto stand_for = [&](int ticks, double further_m) {
+    for (int k = 0; k < ticks; ++k) {
+      see_posts(further_m);
+      tick();
+    }
+  };
+  stand_for(20, 0.5);
+  EXPECT_EQ(state_.displaced, 1);
+  stand_for(20, 1.0);
+  EXPECT_EQ(state_.displaced, 2) << "and between missions as well";
 }
 
 TEST_F(StepTest, WhoeverStandsBeforeTheCameraHasNotLiftedIt) {
