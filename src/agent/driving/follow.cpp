@@ -193,7 +193,13 @@ FollowResult follow_path(FollowState& state, const VisualPath& path, const featu
   }
   std::vector<ViewSighting> sightings;
   for (ComparedView& one : compared) {
-    if (taken && one.view == state.index) one.sighting.pose = pose_of(answer);
+    if (taken && one.view == state.index) {
+      one.sighting.pose = pose_of(answer);
+      if (!one.sighting.direction) {
+        one.sighting.share = share;
+        one.sighting.agreeing = answer->vector.inliers;
+      }
+    }
     sightings.push_back(one.sighting);
   }
   state.hypotheses.weigh(sightings);

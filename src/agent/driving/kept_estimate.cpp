@@ -17,8 +17,7 @@ FollowState begun_from(const std::optional<KeptEstimate>& kept, const VisualPath
   if (kept->map != map || kept->revision != revision || now_ms - kept->at_ms > lives_ms) return {};
   FollowState follow;
   const PoseHypotheses& known = kept->hypotheses;
-  follow.hypotheses =
-      PoseHypotheses(config.pose, known.all(), known.elsewhere(), known.unweighed_m(), known.usual_explained());
+  follow.hypotheses = PoseHypotheses(config.pose, known.all(), known.elsewhere(), known.unweighed_m());
   const Pose2& begins = path.pose(0);
   follow.hypotheses.hear(Eigen::Vector2d(begins.x_m, begins.y_m), kWithin_m, kOdds,
                          std::min(kMostOfOthersWord, path.start_probability));

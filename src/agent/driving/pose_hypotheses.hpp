@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "agent/driving/twin_evidence.hpp"
 #include "core/pose2.hpp"
 
 namespace homeward::agent {
@@ -16,6 +17,7 @@ struct PoseHypothesis {
   Pose2 map_from_robot;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  // of x, y (map frame, m) and heading (rad)
   double weight = 0.0;                                       // probability
+  RecognitionRecord record = {};                             // of the pictures since it was begun
 };
 
 /// Where a view lies by the matches of one picture.
@@ -36,7 +38,8 @@ struct SightedPose {
 struct ViewSighting {
   Pose2 map_from_view;
   double spread_m = 0.15;     // standard deviation of where the view lies among those around it
-  double likelihood = 0.0;    // of the picture where the robot is at the view, over that of a perfect match
+  double share = 0.0;         // of the features of picture and view, those that one motion explains,
+  int agreeing = 0;           // and how many those are
   double prior_share = 1e-3;  // of the probability: that the robot is at this view although no hypothesis said so
   std::optional<SightedDirection> direction;
   std::optional<SightedPose> pose;
@@ -50,19 +53,17 @@ struct PoseHypothesesConfig {
   double least_heading_rad = 0.02;
   double bearing_rad = 0.06;  // standard deviations of a right direction
   double turn_rad = 0.05;
-  double most_confidence = 0.9;          // of a direction: another place may look alike, however clear it is
-  double chance_agreement = 0.02;        // of a wrong direction with a pose
-  double near_view_m = 2.0;              // a view so near should have been recognised,
-  double far_view_m = 8.0;               // and one so near may have been
-  double gate = 4.0;                     // standard deviations beyond which a sighting does not move a hypothesis
-  double elsewhere_likelihood = 0.0035;  // of a picture that is of no view of the map
-  double leave_probability = 0.002;      // for each independent picture
-  double clear_likelihood = 0.2;         // of the best view of pictures in the light of the map
-  double doubt_by_dark = 1.5;  // less well explained, so many times as much counts as no worse (in logarithms),
-  double most_dark = 4.0;      // but no more than that
-  double clearly_worse = 0.4;  // of the best likelihood: only what explains a picture worse is less probable
-  double cluster_m = 1.0;      // hypotheses so near are one answer to where the robot is
-  double independent_m = 0.3;  // pictures so far from each other say something new each
+  double most_confidence = 0.9;     // of a direction: another place may look alike, however clear it is
+  double near_view_m = 2.0;         // a view so near should have been recognised,
+  double far_view_m = 8.0;          // and one so near may have been
+  double gate = 4.0;                // standard deviations beyond which a sighting does not move a hypothesis
+  double elsewhere_share = 0.03;    // of features recognised at views of other places than the robot's
+  double shrinks_over_m = 2.0;      // from a view d away the share recognised is (1 + d / this)^-2 of that at it
+  double elsewhere_evidence = 1.5;  // a picture speaks against being elsewhere by this power of the share
+  TwinEvidenceConfig twins;
+  double leave_probability = 0.002;  // for each independent picture
+  double cluster_m = 1.0;            // hypotheses so near are one answer to where the robot is
+  double independent_m = 0.4;        // pictures so far from each other say something new each
 };
 
 /// Where the robot may be on a map, as a few Gaussians with weights and the weight of being elsewhere: multi-hypothesis
@@ -74,14 +75,10 @@ class PoseHypotheses {
  public:
   PoseHypotheses() = default;
   explicit PoseHypotheses(const PoseHypothesesConfig& config) : config_(config) {}
-  /// As they were: `all`, `elsewhere`, `unweighed_m` and `usual_explained` of others.
+  /// As they were: `all`, `elsewhere` and `unweighed_m` of others.
   PoseHypotheses(const PoseHypothesesConfig& config, std::vector<PoseHypothesis> all, double elsewhere,
-                 double unweighed_m, std::optional<double> usual_explained)
-      : config_(config),
-        hypotheses_(std::move(all)),
-        elsewhere_(elsewhere),
-        usual_explained_(usual_explained),
-        driven_m_(unweighed_m) {}
+                 double unweighed_m)
+      : config_(config), hypotheses_(std::move(all)), elsewhere_(elsewhere), driven_m_(unweighed_m) {}
 
   /// Nothing is known of where the robot is.
   [[nodiscard]] bool empty() const { return hypotheses_.empty(); }
@@ -116,24 +113,22 @@ class PoseHypotheses {
   [[nodiscard]] double elsewhere() const { return elsewhere_; }
   /// The way since the last picture that was weighed.
   [[nodiscard]] double unweighed_m() const { return driven_m_; }
-  /// How well pictures were explained at best, as the mean of its logarithm. Nothing: there was none.
-  [[nodiscard]] const std::optional<double>& usual_explained() const { return usual_explained_; }
   /// Most probable first.
   [[nodiscard]] const std::vector<PoseHypothesis>& all() const { return hypotheses_; }
 
  private:
-  [[nodiscard]] std::optional<double> explained(const PoseHypothesis& hypothesis,
-                                                std::span<const ViewSighting> sightings) const;
+  [[nodiscard]] std::optional<Recognition> recognised(const PoseHypothesis& hypothesis,
+                                                      std::span<const ViewSighting> sightings) const;
   void move(PoseHypothesis& hypothesis, const ViewSighting& sighting, double independent) const;
   [[nodiscard]] std::vector<PoseHypothesis> begun_by(std::span<const ViewSighting> sightings, double independent) const;
-  void light(double explained, double independent);
+  double weigh_by_recognition(std::span<const ViewSighting> sightings, double news);
+  void weigh_by_agreement(std::span<const std::optional<Recognition>> seen, double news);
   void settle();
 
   PoseHypothesesConfig config_;
   std::vector<PoseHypothesis> hypotheses_;
   double elsewhere_ = 1.0;
-  std::optional<double> usual_explained_;  // see light
-  double driven_m_ = 1e9;                  // since the last picture, for how much it says that is new
+  double driven_m_ = 1e9;  // since the last picture, for how much it says that is new
 };
 
 }  // namespace homeward::agent

@@ -10,17 +10,7 @@
 namespace homeward::agent {
 namespace {
 
-constexpr double kLikelihoodFloor = 1e-3;
-
 double apart_m(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
-
-/// The papers' Gaussian of the visual distance (2007 eq. 14) with the tails of a Student distribution, as in
-/// localisation: by night all distances grow together.
-double likelihood_of(double visual_distance, double scale) {
-  if (!std::isfinite(visual_distance)) return kLikelihoodFloor;
-  const double z = visual_distance / std::max(scale, 1e-3);
-  return std::max(kLikelihoodFloor, 1.0 / ((1.0 + z * z) * (1.0 + z * z)));
-}
 
 double with_odds(double probability, double odds) {
   return probability * odds / (probability * odds + 1.0 - probability);
@@ -47,6 +37,7 @@ std::vector<int> worth_comparing(const FollowState& state, const VisualPath& pat
                                  const FollowConfig& config) {
   constexpr std::size_t kOfBest = 3;
   constexpr double kWorth = 1e-8;  // weight of a hypothesis: what was begun must be looked at to become probable
+  constexpr double kRival = 1e-3;
   constexpr double kReach_m = 3.0;
   const auto most = static_cast<std::size_t>(config.most_compared);
   std::vector<int> views = {state.index};
@@ -57,7 +48,7 @@ std::vector<int> worth_comparing(const FollowState& state, const VisualPath& pat
   for (const PoseHypothesis& hypothesis : state.hypotheses.all()) {
     if (hypothesis.weight < kWorth || views.size() >= most) break;
     for (const int view : nearest(path, hypothesis.map_from_robot, count, kReach_m)) add(views, view);
-    count = 1;
+    count = hypothesis.weight > kRival ? 2 : 1;
   }
   if (!knows) {
     for (const int view : nearest(path, path.pose(0), kOfBest, kReach_m)) add(views, view);
@@ -73,12 +64,18 @@ std::vector<int> worth_comparing(const FollowState& state, const VisualPath& pat
   return views;
 }
 
-/// That the robot is where its path begins is one thing, however many views around show it.
-void share_start(std::vector<ComparedView>& compared) {
+/// That the robot is where its path begins is one thing, however many views around show it, and it is nearest to the
+/// first of them.
+void share_start(std::vector<ComparedView>& compared, const Pose2& begins) {
+  constexpr double kBeside_m = 1.0;
   const auto shows = [](const ComparedView& one) { return one.at_start && one.sighting.direction; };
-  const auto count = std::ranges::count_if(compared, shows);
+  const auto nearness = [&](const ComparedView& one) {
+    return std::exp(-0.5 * std::pow(apart_m(one.sighting.map_from_view, begins) / kBeside_m, 2.0));
+  };
+  double sum = 0.0;
+  for (const ComparedView& one : compared) sum += shows(one) ? nearness(one) : 0.0;
   for (ComparedView& one : compared) {
-    if (shows(one)) one.sighting.prior_share /= static_cast<double>(count);
+    if (shows(one)) one.sighting.prior_share *= nearness(one) / sum;
   }
 }
 
@@ -105,7 +102,6 @@ std::vector<ComparedView> compare_views(const FollowState& state, const VisualPa
     one.view = view;
     one.sighting.map_from_view = path.pose(view);
     one.sighting.spread_m = path.spread_m;
-    one.sighting.likelihood = likelihood_of(pair.distance, path.distance_scale);
     const bool beside = best != nullptr ? apart_m(best->map_from_robot, path.pose(view)) < kBeside_m
                                         : apart_m(path.pose(0), path.pose(view)) < kBeside_m;
     one.sighting.prior_share = best != nullptr
@@ -116,14 +112,15 @@ std::vector<ComparedView> compare_views(const FollowState& state, const VisualPa
       one.sighting.prior_share = std::max(one.sighting.prior_share, kBelievedShare * state.belief->probability);
     }
     if (pair.pose) {
-      one.share = homing::shared_share(seen, target, pair.verified);
-      one.sighting.direction =
-          SightedDirection{pair.pose->motion.direction_rad, pair.pose->motion.turn_rad,
-                           with_odds(pair.pose->confidence, config.path_odds), homing::usual_distance_m(one.share)};
+      one.sighting.share = homing::shared_share(seen, target, pair.verified);
+      one.sighting.agreeing = pair.verified;
+      one.sighting.direction = SightedDirection{pair.pose->motion.direction_rad, pair.pose->motion.turn_rad,
+                                                with_odds(pair.pose->confidence, config.path_odds),
+                                                homing::usual_distance_m(one.sighting.share)};
     }
     compared.push_back(std::move(one));
   }
-  if (best == nullptr) share_start(compared);
+  if (best == nullptr) share_start(compared, path.pose(0));
   return compared;
 }
 

@@ -11,7 +11,6 @@ namespace homeward::agent {
 struct ComparedView {
   int view = 0;  // of the path, then of those nearby
   ViewSighting sighting;
-  double share = 0.0;     // of the features that agree
   bool at_start = false;  // of the path, of a robot that knows nothing yet
 };
 

@@ -109,14 +109,16 @@ static json numbers_of(const std::optional<KeptEstimate>& kept) {
   for (const PoseHypothesis& one : kept->hypotheses.all()) {
     json covariance = json::array();
     for (const double number : one.covariance.reshaped()) covariance.push_back(number);
-    all.push_back({{"pose", numbers_of(one.map_from_robot)}, {"covariance", covariance}, {"weight", one.weight}});
+    all.push_back({{"pose", numbers_of(one.map_from_robot)},
+                   {"covariance", covariance},
+                   {"weight", one.weight},
+                   {"record", {one.record.log_share, one.record.variance, one.record.pictures, one.record.pending}}});
   }
   return {{"map", kept->map.str()},
           {"revision", kept->revision},
           {"hypotheses", all},
           {"elsewhere", kept->hypotheses.elsewhere()},
           {"unweighed_m", kept->hypotheses.unweighed_m()},
-          {"usual_explained", kept->hypotheses.usual_explained() ? json(*kept->hypotheses.usual_explained()) : json()},
           {"odometry", numbers_of(kept->odometry)},
           {"at_ms", kept->at_ms}};
 }
@@ -129,16 +131,17 @@ static void take(const json& value, std::optional<KeptEstimate>& kept) {
     hypothesis.map_from_robot = pose_of(one.at("pose"));
     for (int i = 0; i < 9; ++i) hypothesis.covariance(i) = one.at("covariance").at(static_cast<std::size_t>(i));
     hypothesis.weight = one.at("weight").get<double>();
+    const json& record = one.at("record");
+    hypothesis.record = {record.at(0).get<double>(), record.at(1).get<double>(), record.at(2).get<double>(),
+                         record.at(3).get<double>()};
     all.push_back(hypothesis);
   }
   if (all.empty()) return;
-  std::optional<double> usual_explained;
-  if (const json& usual = value.at("usual_explained"); !usual.is_null()) usual_explained = usual.get<double>();
   // The configuration is the mission's own, which is not known yet.
-  kept = KeptEstimate{MapId(value.at("map").get<std::string>()), value.at("revision").get<std::int64_t>(),
-                      PoseHypotheses({}, std::move(all), value.at("elsewhere").get<double>(),
-                                     value.at("unweighed_m").get<double>(), usual_explained),
-                      pose_of(value.at("odometry")), value.at("at_ms").get<std::int64_t>()};
+  kept = KeptEstimate{
+      MapId(value.at("map").get<std::string>()), value.at("revision").get<std::int64_t>(),
+      PoseHypotheses({}, std::move(all), value.at("elsewhere").get<double>(), value.at("unweighed_m").get<double>()),
+      pose_of(value.at("odometry")), value.at("at_ms").get<std::int64_t>()};
 }
 
 namespace {

@@ -95,8 +95,8 @@ void visual_fields(Fields& fields, Config& visual) {
 template <class Fields, class Config>
 void pose_fields(Fields& fields, Config& pose) {
   auto& [odometry_m_per_sqrt_m, odometry_rad_per_sqrt_m, odometry_rad_per_sqrt_rad, least_position_m, least_heading_rad,
-         bearing_rad, turn_rad, most_confidence, chance_agreement, near_view_m, far_view_m, gate, elsewhere_likelihood,
-         leave_probability, clear_likelihood, doubt_by_dark, most_dark, clearly_worse, cluster_m, independent_m] = pose;
+         bearing_rad, turn_rad, most_confidence, near_view_m, far_view_m, gate, elsewhere_share, shrinks_over_m,
+         elsewhere_evidence, twins, leave_probability, cluster_m, independent_m] = pose;
   fields("pose_odometry_m_per_sqrt_m", odometry_m_per_sqrt_m);
   fields("pose_odometry_rad_per_sqrt_m", odometry_rad_per_sqrt_m);
   fields("pose_odometry_rad_per_sqrt_rad", odometry_rad_per_sqrt_rad);
@@ -105,16 +105,15 @@ void pose_fields(Fields& fields, Config& pose) {
   fields("pose_bearing_rad", bearing_rad);
   fields("pose_turn_rad", turn_rad);
   fields("pose_most_confidence", most_confidence);
-  fields("pose_chance_agreement", chance_agreement);
   fields("pose_near_view_m", near_view_m);
   fields("pose_far_view_m", far_view_m);
   fields("pose_gate", gate);
-  fields("pose_elsewhere_likelihood", elsewhere_likelihood);
+  fields("pose_elsewhere_share", elsewhere_share);
+  fields("pose_shrinks_over_m", shrinks_over_m);
+  fields("pose_elsewhere_evidence", elsewhere_evidence);
+  fields("pose_twins_lasting_variance", twins.lasting_variance);
+  fields("pose_twins_lasting_pictures", twins.lasting_pictures);
   fields("pose_leave_probability", leave_probability);
-  fields("pose_clear_likelihood", clear_likelihood);
-  fields("pose_doubt_by_dark", doubt_by_dark);
-  fields("pose_most_dark", most_dark);
-  fields("pose_clearly_worse", clearly_worse);
   fields("pose_cluster_m", cluster_m);
   fields("pose_independent_m", independent_m);
 }

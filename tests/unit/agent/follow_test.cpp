@@ -123,7 +123,7 @@ TEST(Follow, WhoKnowsToBeOnALaterPieceOfThePathGoesOnFromThere) {
     state.begun = true;
     const Pose2 here{6.9, 0.05, 0.1};
     state.hypotheses =
-        PoseHypotheses(config.pose, {{here, 0.01 * Eigen::Matrix3d::Identity(), weight}}, 1.0 - weight, 0.0, {});
+        PoseHypotheses(config.pose, {{here, 0.01 * Eigen::Matrix3d::Identity(), weight}}, 1.0 - weight, 0.0);
     track(state, path, {}, {}, config, 1);
     EXPECT_EQ(state.index > 8, weight > config.leap_above) << weight;
   }

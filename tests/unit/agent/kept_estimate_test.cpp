@@ -31,7 +31,7 @@ class KeptEstimateTest : public ::testing::Test {
   }
   void stand(const Pose2& here, double weight) {
     drive_.hypotheses =
-        PoseHypotheses(config_.pose, {{here, Eigen::Matrix3d::Identity() * 0.01, weight}}, 1.0 - weight, 0.1, -1.5);
+        PoseHypotheses(config_.pose, {{here, Eigen::Matrix3d::Identity() * 0.01, weight}}, 1.0 - weight, 0.1);
   }
   [[nodiscard]] auto keep() const { return keep_estimate(drive_, path_, MapId("m"), 3, 1000); }
   [[nodiscard]] FollowState next(std::int64_t revision = 3, std::int64_t now_ms = 2000) const {
@@ -50,7 +50,6 @@ TEST_F(KeptEstimateTest, TheNextMissionBeginsWhereTheRobotKnowsToBe) {
   EXPECT_EQ(begun.hypotheses.best()->map_from_robot.x_m, 1.2);
   EXPECT_NEAR(begun.hypotheses.best_probability(), 0.97, 1e-9);
   EXPECT_EQ(begun.hypotheses.unweighed_m(), 0.1);
-  EXPECT_EQ(begun.hypotheses.usual_explained(), -1.5);
   EXPECT_EQ(begun.index, 0);
   EXPECT_FALSE(begun.belief);
 }
@@ -77,7 +76,7 @@ TEST_F(KeptEstimateTest, WhereItIsSentFromIsAWordOfSomebody) {
   const Pose2 far{8.0, 0.0, 0.0};
   drive_.hypotheses = PoseHypotheses(
       config_.pose, {{far, Eigen::Matrix3d::Identity() * 0.01, 0.6}, {{}, Eigen::Matrix3d::Identity() * 0.01, 0.4}},
-      0.0, 0.1, -1.5);
+      0.0, 0.1);
   path_.start_probability = 0.95;
   EXPECT_NEAR(next().hypotheses.probability_within({0.0, 0.0}, 2.0), 3.0 * 0.4 / (3.0 * 0.4 + 0.6), 1e-6);
   path_.start_probability = 0.3;

@@ -77,8 +77,7 @@ TEST(MemoryJson, KeepsTheSweepThatTheNextOneGoesOnFromAndTheEstimateToTheLastBit
   one.weight = 0.95;
   PoseHypothesis other = one;
   other.weight = 0.04;
-  before.kept =
-      KeptEstimate{MapId("m"), 4, PoseHypotheses({}, {one, other}, 0.01, 0.2, -1.0 / 3.0), {9.0, 8.0, 0.7}, 5000};
+  before.kept = KeptEstimate{MapId("m"), 4, PoseHypotheses({}, {one, other}, 0.01, 0.2), {9.0, 8.0, 0.7}, 5000};
   const auto read = memory_from_json(memory_to_json(before));
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->going_on.before.value().ranges_m, before.going_on.before->ranges_m);
@@ -94,7 +93,6 @@ TEST(MemoryJson, KeepsTheSweepThatTheNextOneGoesOnFromAndTheEstimateToTheLastBit
   EXPECT_EQ(read->kept->odometry.theta_rad, 0.7);
   EXPECT_EQ(read->kept->hypotheses.elsewhere(), 0.01);
   EXPECT_EQ(read->kept->hypotheses.unweighed_m(), 0.2);
-  EXPECT_EQ(read->kept->hypotheses.usual_explained(), -1.0 / 3.0);
   ASSERT_EQ(read->kept->hypotheses.all().size(), 2U);
   EXPECT_EQ(read->kept->hypotheses.all()[0].map_from_robot.x_m, 1.0 / 7.0);
   EXPECT_EQ(read->kept->hypotheses.all()[0].covariance, one.covariance);

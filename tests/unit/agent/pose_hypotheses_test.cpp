@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "core/angles.hpp"
 
@@ -15,7 +16,8 @@ ViewSighting seen_from(const Pose2& map_from_robot, const Pose2& map_from_view) 
   const Pose2 robot_from_view = inverse(map_from_robot) * map_from_view;
   ViewSighting sighting;
   sighting.map_from_view = map_from_view;
-  sighting.likelihood = 0.6;
+  sighting.share = 0.4;
+  sighting.agreeing = 240;
   sighting.direction = SightedDirection{std::atan2(robot_from_view.y_m, robot_from_view.x_m), robot_from_view.theta_rad,
                                         0.95, std::max(0.5, std::hypot(robot_from_view.x_m, robot_from_view.y_m))};
   return sighting;
@@ -25,7 +27,7 @@ ViewSighting seen_from(const Pose2& map_from_robot, const Pose2& map_from_view) 
 ViewSighting not_seen(const Pose2& map_from_view) {
   ViewSighting sighting;
   sighting.map_from_view = map_from_view;
-  sighting.likelihood = 1e-3;
+  sighting.share = 0.0;
   return sighting;
 }
 
@@ -96,7 +98,7 @@ TEST(PoseHypotheses, AClearViewOfAnotherCorridorMovesItNotAtAllAsLongAsItsOwnVie
     std::vector<ViewSighting> sightings;
     sightings.push_back(seen_from(along(corridor.at_m_), view_of(std::floor(corridor.at_m_))));
     sightings.push_back(seen_from({corridor.at_m_, 20.0, 0.0}, view_of(std::floor(corridor.at_m_) + 4.0, 20.0)));
-    sightings.back().likelihood = 0.8;
+    sightings.back().share = 0.45;
     corridor.hypotheses_.weigh(sightings);
     EXPECT_LT(corridor.error_m(), 0.3) << k;
     EXPECT_GT(corridor.hypotheses_.best_probability(), 0.9) << k;
@@ -121,32 +123,102 @@ TEST(PoseHypotheses, CarriedOffItBelievesSoOnceTheViewsThereAreSeenAndItsOwnAreN
   EXPECT_GT(way_m, 0.05);  // but not by one picture
 }
 
-TEST(PoseHypotheses, TwoPlacesThatLookAlikeStayTwoUntilOneExplainsMuchMore) {
-  // Both corridors are equally likely at first, and one explains each picture a little better.
-  PoseHypotheses hypotheses;
-  const auto look = [&](double x_m, double of_other) {
-    std::vector<ViewSighting> sightings;
-    for (const double number : {std::floor(x_m), std::floor(x_m) + 1.0}) {
-      sightings.push_back(seen_from(along(x_m), view_of(number)));
-      sightings.push_back(seen_from({x_m, 20.0, 0.0}, view_of(number, 20.0)));
-      sightings.back().likelihood *= of_other;
+/// Two corridors, equally likely at first, and how well the second one is recognised beside the first.
+class Twins {
+ public:
+  explicit Twins(int agreeing) : agreeing_(agreeing) { look(1.0); }
+
+  void drive(double way_m, const std::function<double(double)>& of_other) {
+    constexpr double kStep_m = 0.1;
+    for (const double until_m = x_m_ + way_m; x_m_ < until_m - 1e-9;) {
+      x_m_ += kStep_m;
+      hypotheses_.predict({kStep_m, 0.0, 0.0});
+      look(of_other(x_m_));
     }
-    for (ViewSighting& sighting : sightings) sighting.prior_share = 0.5;
-    hypotheses.weigh(sightings);
+  }
+  [[nodiscard]] double first() const {
+    double sum = 0.0;
+    for (const PoseHypothesis& one : hypotheses_.all()) sum += one.map_from_robot.y_m < 10.0 ? one.weight : 0.0;
+    return sum;
+  }
+
+  PoseHypotheses hypotheses_;
+
+ private:
+  void look(double of_other) {
+    std::vector<ViewSighting> sightings;
+    for (const double number : {std::floor(x_m_), std::floor(x_m_) + 1.0}) {
+      sightings.push_back(seen_from(along(x_m_), view_of(number)));
+      sightings.back().agreeing = agreeing_;
+      sightings.back().share = kShare;
+      sightings.push_back(seen_from({x_m_, 20.0, 0.0}, view_of(number, 20.0)));
+      sightings.back().share = kShare * of_other;
+      sightings.back().agreeing = static_cast<int>(agreeing_ * of_other);
+    }
+    for (ViewSighting& sighting : sightings) sighting.prior_share = hypotheses_.empty() ? 0.5 : 1e-5;
+    hypotheses_.weigh(sightings);
+  }
+
+  static constexpr double kShare = 0.2;
+  double x_m_ = 0.0;
+  int agreeing_;
+};
+
+TEST(PoseHypotheses, OfTwoPlacesThatLookAlikeNowOneNowTheOtherIsRecognisedBetterAndTheyStayTwo) {
+  Twins twins(60);
+  twins.drive(40.0, [](double x_m) { return std::fmod(x_m, 6.0) < 3.0 ? 0.8 : 1.25; });
+  EXPECT_GT(twins.first(), 0.2);
+  EXPECT_LT(twins.first(), 0.8);
+}
+
+TEST(PoseHypotheses, OfTwoPlacesThatLookAlikeTheOneThatIsLastinglyRecognisedBetterIsTheRightOne) {
+  Twins dark(60);
+  dark.drive(12.0, [](double) { return 0.7; });
+  Twins bright(300);
+  bright.drive(1.0, [](double) { return 0.7; });
+  EXPECT_GT(dark.first(), 0.95);
+  EXPECT_GT(bright.first(), 0.95) << "the more features, the sooner";
+  Twins soon(60);
+  soon.drive(1.0, [](double) { return 0.7; });
+  EXPECT_LT(soon.first(), 0.95);
+}
+
+TEST(PoseHypotheses, AViewIsRecognisedTheLessTheFartherItIsAndThatIsNoEvidence) {
+  // Both places are recognised as well as the distance to their views lets them be.
+  PoseHypotheses hypotheses;
+  const auto seen = [](double y_m, double distance_m, double share) {
+    ViewSighting sighting = seen_from({0.0, y_m, 0.0}, {distance_m, y_m, 0.0});
+    sighting.share = share;
+    sighting.agreeing = 100;
+    sighting.direction->distance_m = distance_m;
+    sighting.prior_share = 0.5;
+    return sighting;
   };
-  double x_m = 0.0;
-  look(x_m, 1.0);
-  for (; x_m < 8.0; x_m += 0.1) {
-    hypotheses.predict({0.1, 0.0, 0.0});
-    look(x_m + 0.1, 0.7);
+  const double there = 0.2 / (1.4 * 1.4);
+  hypotheses.weigh(std::vector<ViewSighting>{seen(0.0, 0.2, 0.2 / (1.1 * 1.1)), seen(20.0, 0.8, there)});
+  double near = 0.0;
+  for (const PoseHypothesis& one : hypotheses.all()) near += one.map_from_robot.y_m < 10.0 ? one.weight : 0.0;
+  EXPECT_GT(near, 0.3);
+  EXPECT_LT(near, 0.8);
+}
+
+TEST(PoseHypotheses, AViewBehindAWallMakesItHardlyLessProbable) {
+  for (const double of_second : {1.0, 0.0}) {
+    PoseHypotheses hypotheses = Corridor().hypotheses_;
+    for (int k = 0; k < 30; ++k) {
+      hypotheses.predict({0.1, 0.0, 0.0});
+      const double x_m = 0.1 * (k + 1);
+      std::vector<ViewSighting> sightings = {seen_from(along(x_m), {x_m + 0.3, 0.0, 0.0}),
+                                             seen_from(along(x_m), {x_m, 0.6, 0.0}),
+                                             seen_from({x_m, 20.0, 0.0}, {x_m + 0.3, 20.0, 0.0})};
+      if (of_second == 0.0) sightings[1] = not_seen({x_m, 0.6, 0.0});
+      sightings[2].share *= 0.5;
+      sightings[2].agreeing /= 2;
+      hypotheses.weigh(sightings);
+    }
+    EXPECT_GT(hypotheses.best_probability(), 0.95) << of_second;
+    EXPECT_NEAR(hypotheses.best()->map_from_robot.y_m, 0.0, 0.3) << of_second;
   }
-  EXPECT_LT(hypotheses.best_probability(), 0.7);
-  for (; x_m < 12.0; x_m += 0.1) {
-    hypotheses.predict({0.1, 0.0, 0.0});
-    look(x_m + 0.1, 0.1);
-  }
-  EXPECT_GT(hypotheses.best_probability(), 0.95);
-  EXPECT_NEAR(hypotheses.best()->map_from_robot.y_m, 0.0, 0.3);
 }
 
 TEST(PoseHypotheses, StandingStillManyPicturesSayLittleMoreThanOne) {
