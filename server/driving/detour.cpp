@@ -23,19 +23,20 @@ bool Driving::begin_detour(const Unit& found, const std::string& reason) {
   RobotUnit& unit = *found;
   const auto now = std::chrono::steady_clock::now();
   if (!may_go_on(unit, now)) return false;
-  const auto ways = planning::detour_after(
-      {unit.mission->path, unit.mission->path_index, unit.known_start(now)->place, unit.mission->place, unit.detours});
+  const bool astray = unit.status && unit.status->astray;
+  const auto ways = planning::detour_after({unit.mission->path, unit.mission->path_index, unit.known_start(now)->place,
+                                            unit.mission->place, unit.detours, unit.restarts, astray});
   if (!ways) return false;
   unit.fails_again = planning::fails_again(unit.closed, *ways);
   unit.closed.insert(unit.closed.end(), ways->begin(), ways->end());
-  ++unit.detours;
+  ++(astray ? unit.restarts : unit.detours);
   unit.looking_for_detour = true;
   // Reading the map and planning are no work for the thread of the sockets.
   if (!heavy_.try_run([this, found, mission = unit.mission->id, reason] { send_detour(found, mission, reason); })) {
     unit.looking_for_detour = false;
     return false;
   }
-  unit.mission->reason = reason + " Another way is looked for.";
+  unit.mission->reason = reason + (astray ? " The way from there is looked for." : " Another way is looked for.");
   spdlog::info("robot {} mission {} failed at place {} of its way: {}", unit.id.str(), unit.mission->id.str(),
                unit.mission->path_index, reason);
   keep(*unit.mission);
@@ -106,8 +107,10 @@ void Driving::send_detour(const Unit& found, const MissionId& mission, const std
     return tell(unit);
   }
   planned->mission.state = wire::MissionState::kAccepted;
-  planned->mission.reason = reason + (planned->again ? " There is no other way; the robot tries it once more."
-                                                     : " The robot takes another way.");
+  const bool astray = unit.status && unit.status->astray;
+  planned->mission.reason = reason + (astray           ? " The robot goes on from there."
+                                      : planned->again ? " There is no other way; the robot tries it once more."
+                                                       : " The robot takes another way.");
   planned->mission.epoch = unit.epoch;
   planned->mission.seq = ++unit.seq;
   planned->order.order = {unit.epoch, unit.seq};

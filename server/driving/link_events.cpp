@@ -92,9 +92,9 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
   }
   unit.displaced = now.displaced;
   // Until the robot takes up another way it goes on telling of the one that failed.
-  const bool of_failed_way =
-      unit.looking_for_detour || (unit.detours > 0 && unit.mission->state == wire::MissionState::kAccepted &&
-                                  now.state == wire::DriveState::kFailed);
+  const bool of_failed_way = unit.looking_for_detour || (unit.detours + unit.restarts > 0 &&
+                                                         unit.mission->state == wire::MissionState::kAccepted &&
+                                                         now.state == wire::DriveState::kFailed);
   if (unit.under_way && now.mission == unit.mission->id && !of_failed_way) {
     wire::MissionView& mission = *unit.mission;
     const std::int64_t last = static_cast<std::int64_t>(mission.path.size()) - 1;

@@ -131,6 +131,7 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
   unit.under_way = true;
   unit.closed.clear();
   unit.detours = 0;
+  unit.restarts = 0;
   unit.fails_again = false;
   unit.looking_for_detour = false;
   unit.sights.clear();

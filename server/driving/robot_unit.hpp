@@ -85,6 +85,7 @@ struct RobotUnit {
   // Another way after a part of the present one failed; of this mission alone.
   std::vector<planning::Way> closed;
   int detours = 0;
+  int restarts = 0;                      // orders given anew after the robot was elsewhere than on its way
   bool fails_again = false;              // where it failed before
   bool looking_for_detour = false;       // no permit goes out until the new way is sent
   DriveSights sights;                    // of this mission

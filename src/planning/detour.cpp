@@ -7,6 +7,7 @@ namespace homeward::planning {
 namespace {
 
 constexpr int kMostDetours = 3;  // of one mission
+constexpr int kMostRestarts = 8;
 
 }  // namespace
 
@@ -26,7 +27,9 @@ std::vector<Way> failed_ways(const FailedDrive& failed) {
 }
 
 std::optional<std::vector<Way>> detour_after(const FailedDrive& failed) {
-  if (failed.detours >= kMostDetours || failed.here == failed.destination) return std::nullopt;
+  if (failed.here == failed.destination) return std::nullopt;
+  if (failed.astray) return failed.restarts < kMostRestarts ? std::optional(std::vector<Way>()) : std::nullopt;
+  if (failed.detours >= kMostDetours) return std::nullopt;
   auto ways = failed_ways(failed);
   // At no place of its path before it drove any of it: it was sent from elsewhere than it stood, and no edge is to
   // blame.
@@ -36,7 +39,8 @@ std::optional<std::vector<Way>> detour_after(const FailedDrive& failed) {
 }
 
 bool fails_again(std::span<const Way> closed, std::span<const Way> failed) {
-  return std::ranges::all_of(failed, [&](const Way& way) { return std::ranges::find(closed, way) != closed.end(); });
+  return !failed.empty() &&
+         std::ranges::all_of(failed, [&](const Way& way) { return std::ranges::find(closed, way) != closed.end(); });
 }
 
 Result<Detour> plan_detour(const map::TopologicalMap& map, const RouteRequest& request, bool may_try_again) {

@@ -16,7 +16,9 @@ struct FailedDrive {
   std::int64_t index = 0;
   PlaceId here;
   PlaceId destination;
-  int detours = 0;  // that the mission has made already
+  int detours = 0;      // that the mission has made already,
+  int restarts = 0;     // and how often the robot was sent anew because it was elsewhere than on its way
+  bool astray = false;  // it failed because the robot was elsewhere, not because of what stands in the way
 };
 
 /// What not to drive again after a failed drive: the edge that was being driven, and where the robot is known to be
@@ -24,11 +26,11 @@ struct FailedDrive {
 std::vector<Way> failed_ways(const FailedDrive& failed);
 
 /// Whether another way is worth looking for, and what to close for it beside what is closed already: no edge where the
-/// robot was sent from another place than it stood at. Nothing: a person decides, because the destination's own place
-/// is reached, no edge can be blamed, or the mission has had its detours.
+/// robot was sent from another place than it stood at, or went astray. Nothing: a person decides, because the
+/// destination's own place is reached, no edge can be blamed, or the mission has had its detours, or its restarts.
 std::optional<std::vector<Way>> detour_after(const FailedDrive& failed);
 
-/// Whether it failed where the mission failed before: all of `failed` were in `closed` already.
+/// Whether it failed where the mission failed before: all of `failed`, one at least, were in `closed` already.
 bool fails_again(std::span<const Way> closed, std::span<const Way> failed);
 
 /// The way after a failed drive.

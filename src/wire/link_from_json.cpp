@@ -110,6 +110,7 @@ AgentStatus read_status(ObjectReader& reader) {
   m.estimate = read_estimate(reader);
   m.question = read_question(reader);
   if (reader.has("displaced")) m.displaced = reader.integer("displaced", 0, kMost);
+  if (reader.has("astray")) m.astray = reader.boolean("astray");
   return m;
 }
 
@@ -139,7 +140,6 @@ std::optional<Surroundings> read_surroundings(ObjectReader& outer, std::size_t p
     reader.problem("path", "'path' must have a pose for each place of the mission's path.");
   around.final_pose = read_pose(reader, reader.value("final"), reader.path_of("final"));
   around.spread_m = reader.number("spread_m", 0.01, 100.0);
-  around.distance_scale = reader.number("distance_scale", 0.0, 1e6);
   around.start_probability = reader.number("start_probability", 0.0, 1.0);
   const std::vector<json> nearby = reader.array("nearby", kMaxPathPlaces);
   for (std::size_t i = 0; i < nearby.size(); ++i) {

@@ -92,6 +92,8 @@ struct AgentStatus {
   std::optional<QuestionReport> question = std::nullopt;
   /// How often it noticed that it was moved without its wheels, since its program began.
   std::int64_t displaced = 0;
+  /// The mission has failed because the robot was elsewhere than on its way; no part of the way is to blame.
+  bool astray = false;
 };
 
 /// The driver was commanded to zero because of `stop_id`.
@@ -144,7 +146,6 @@ struct Surroundings {
   std::vector<Pose2> path;         // of the prototypes of the path, as many
   Pose2 final_pose;                // of the destination's own picture
   double spread_m = 0.15;          // standard deviation of where a view lies among those around it
-  double distance_scale = 1.0;     // usual visual distance between pictures of one place
   double start_probability = 1.0;  // that the robot is where the path begins
   std::vector<PlacedView> nearby;  // not on the path: beside it, or looking like a place of it
 };

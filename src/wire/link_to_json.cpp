@@ -58,6 +58,7 @@ json write(const AgentStatus& m) {
   value["question"] = nullptr;
   if (m.question) value["question"] = question_to_json(*m.question);
   value["displaced"] = m.displaced;
+  value["astray"] = m.astray;
   return value;
 }
 
@@ -106,7 +107,6 @@ json surroundings_to_json(const Surroundings& around) {
   json value = {{"path", json::array()},
                 {"final", pose_to_json(around.final_pose)},
                 {"spread_m", around.spread_m},
-                {"distance_scale", around.distance_scale},
                 {"start_probability", around.start_probability},
                 {"nearby", json::array()}};
   for (const Pose2& pose : around.path) value["path"].push_back(pose_to_json(pose));

@@ -56,7 +56,6 @@ void add_surroundings(const map::TopologicalMap& map, const map::MetricLayout& l
   if (final_at == layout.end()) return;
   Surroundings around;
   around.final_pose = final_at->second.map_from_robot;
-  around.distance_scale = map.motion.distance_scale;
   around.spread_m = final_at->second.metric ? kMeasured_m : kGuessed_m;
   const auto pose_of = [&](const ImageId& image) -> const map::LaidOutImage* {
     const auto at = layout.find(image);

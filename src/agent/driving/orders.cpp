@@ -50,6 +50,7 @@ struct Clerk {
     state.drive = wire::DriveState::kDriving;
     state.reason.clear();
     state.at_odds = false;
+    state.astray = false;
     state.looking = {};
     state.continuity = {};
     withdraw(state.asking);
@@ -127,7 +128,6 @@ Status place_views(const wire::MissionOrder& order, VisualPath& path) {
   path.map_from_view.resize(path.views.size() - 1);
   path.map_from_view.push_back(around.final_pose);
   path.spread_m = around.spread_m;
-  path.distance_scale = around.distance_scale;
   path.start_probability = around.start_probability;
   for (const wire::PlacedView& view : around.nearby) {
     auto appearance = wire::decode_appearance(view.appearance, "place " + view.place.str());

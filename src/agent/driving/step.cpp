@@ -20,7 +20,9 @@ void give_up_displaced(DrivingState& state) {
   state.follow = {};
   state.kept.reset();
   state.seen = {};
-  if (state.drive == wire::DriveState::kDriving) end_mission(state, wire::DriveState::kFailed, kDisplaced);
+  if (state.drive != wire::DriveState::kDriving) return;
+  state.astray = true;
+  end_mission(state, wire::DriveState::kFailed, kDisplaced);
 }
 
 void take_picture(DrivingState& state, const SeenPicture& picture, const DrivingConfig& config, Milliseconds now_ms) {
@@ -297,11 +299,13 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   }
   if (lasts(state.off_path_since_ms, off_path_m(state.follow, state.mission->path, config.follow), config.off_path_m,
             now_ms, config.off_path_ms)) {
+    state.astray = true;
     return end_mission(state, wire::DriveState::kFailed, "I am not on my way, but elsewhere.");
   }
   if (lasts(state.off_belief_since_ms, off_belief_m(state.follow, state.mission->path, config.follow),
             config.off_belief_m, now_ms, config.off_belief_ms)) {
     state.at_odds = true;
+    state.astray = true;
     state.kept.reset();
     return end_mission(state, wire::DriveState::kFailed, "I am not sure where I am: the map says another place.");
   }

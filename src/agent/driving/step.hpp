@@ -120,6 +120,7 @@ struct DrivingState {
   Asking asking;       // people, whether this is the destination
   std::optional<Milliseconds> off_path_since_ms;
   std::optional<Milliseconds> off_belief_since_ms;
+  bool astray = false;               // it has ended because the robot was elsewhere than on its way
   bool at_odds = false;              // the mission has ended because belief and estimate named two places
   std::optional<KeptEstimate> kept;  // of where it is, for the next mission
   GiveWay give_way;                  // to whoever stands in the way

@@ -41,9 +41,8 @@ struct VisualPath {
   std::vector<PlaceId> places = {};                  // of the views; as many, or none where nobody asks
   std::vector<Pose2> map_from_view = {};             // by the map, or by edges (place_by_edges); as many as views
   std::vector<NearbyView> nearby = {};
-  double spread_m = 0.15;          // standard deviation of where a view lies among those around it
-  double distance_scale = 1.0;     // usual visual distance between pictures of one place (map::MotionStatistics)
-  double start_probability = 1.0;  // that the robot is where the path begins
+  double spread_m = 0.15;                            // standard deviation of where a view lies among those around it
+  double start_probability = 1.0;                    // that the robot is where the path begins
   std::shared_ptr<const ViewIndex> index = nullptr;  // of views, then nearby; null where there are no others
 
   [[nodiscard]] int size() const { return static_cast<int>(views.size()); }

@@ -67,6 +67,7 @@ wire::AgentStatus status_of(const DrivingState& state, const DrivingConfig& conf
   status.estimate = stated_estimate(state, config);
   status.question = open_question(state, config, reading.t_ms);
   status.displaced = state.displaced;
+  status.astray = state.drive == wire::DriveState::kFailed && state.astray;
   return status;
 }
 

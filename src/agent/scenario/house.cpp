@@ -143,7 +143,8 @@ Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, s
     why = "I do not know where I am.";
     return std::nullopt;
   }
-  const auto ways = planning::detour_after({path_, index, **here, destination_->place, detours_});
+  const auto ways =
+      planning::detour_after({path_, index, **here, destination_->place, detours_, restarts_, robot.astray});
   if (!ways) return std::nullopt;
   fails_again_ = planning::fails_again(closed_, *ways);
   closed_.insert(closed_.end(), ways->begin(), ways->end());
@@ -152,7 +153,7 @@ Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, s
     why = order.error().message;
     return std::nullopt;
   }
-  ++detours_;
+  ++(robot.astray ? restarts_ : detours_);
   return std::optional(std::move(*order));
 }
 

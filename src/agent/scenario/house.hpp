@@ -30,7 +30,8 @@ class House {
   [[nodiscard]] std::vector<Pose2> way_of(const wire::MissionOrder& order) const;
   /// The belief by one more picture of the drive.
   wire::BeliefReport believe(const features::Appearance& seen, const Pose2& odometry);
-  [[nodiscard]] int detours() const { return detours_; }
+  /// Orders that were given anew.
+  [[nodiscard]] int detours() const { return detours_ + restarts_; }
 
  private:
   Result<std::optional<PlaceId>> find_again(DriveLoop& drive);
@@ -49,6 +50,7 @@ class House {
   int displaced_ = 0;               // how often the robot had noticed a lift when its belief was begun anew
   localisation::Belief belief_;     // the latest
   int detours_ = 0;
+  int restarts_ = 0;          // after the robot was elsewhere than on its way
   bool fails_again_ = false;  // where it failed before
   std::int64_t orders_ = 0;
 };

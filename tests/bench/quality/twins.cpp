@@ -1,81 +1,131 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well one picture tells a place from the place that looks most like it. Pictures near views of a taught world,
-// each compared with the view that was taken there and with that view's twin. A line for each: what was recognised.
+// What pictures tell of which of two places that look alike it is. Walks beside random stretches of a taught tour, each
+// with its twin: the same steps from the place that shares most features with where the walk begins. Both are kept by
+// the robot's own filter. A line a picture: of either side, where it is believed to be and what is recognised in the
+// views nearest to that (metres to the view, features that one motion explains, visual distance, confidence of the
+// pair, whether it agrees with where it is believed to be, features of the view).
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <random>
 
 #include "agent/drivers/simulated_robot.hpp"
 #include "agent/driving/pose_hypotheses.hpp"
-#include "homing/visual_homing.hpp"
 #include "agent/files/world_folder.hpp"
 #include "agent/scenario/look_alike_spot.hpp"
-#include "core/angles.hpp"
+#include "homing/visual_homing.hpp"
 #include "localisation/candidates.hpp"
 #include "matching/visual_distance.hpp"
-#include "matching/verify.hpp"
 #include "sim/tour_path.hpp"
 #include "truth.hpp"
 
 namespace homeward {
 namespace {
 
+constexpr std::size_t kViews = 3;  // compared on either side
+constexpr double kReach_m = 3.0;
+constexpr std::size_t kSteps = 12;
+constexpr std::uint64_t kSeed = 1;
+
 struct Options {
   std::string world = "wards:5";
   std::vector<std::string> lights = {"day", "night"};
-  int places = 100;
+  int walks = 60;
   std::uint64_t seed = 1;
 };
 
-/// Views of the map with their true poses.
+double apart_m(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
+
+/// A prototype of the map, and where it was truly taken.
 struct View {
   const features::Appearance* appearance = nullptr;
   Pose2 pose;
 };
 
-/// What the robot believes that is at one of the two places, and how it is explained.
-struct Side {
-  agent::PoseHypotheses hypotheses;
+std::vector<View> nearest(const std::vector<View>& views, const Pose2& at) {
+  std::vector<View> near;
+  std::ranges::copy_if(views, std::back_inserter(near),
+                       [&](const View& view) { return apart_m(view.pose, at) < kReach_m; });
+  std::ranges::sort(near, {}, [&](const View& view) { return apart_m(view.pose, at); });
+  near.resize(std::min(kViews, near.size()));
+  return near;
+}
 
-  std::vector<std::size_t> near(const std::vector<View>& views, const Pose2& at) const {
-    std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      const double d = std::hypot(views[i].pose.x_m - at.x_m, views[i].pose.y_m - at.y_m);
-      if (d < 3.0) order.emplace_back(d, i);
+/// Looks as a robot does that knows that it is at one of the two places, and prints what is recognised there.
+void look(agent::PoseHypotheses& side, const features::Appearance& seen, const std::vector<View>& views,
+          const Pose2& start) {
+  const Pose2 at = side.best() != nullptr ? side.best()->map_from_robot : start;
+  std::printf(",%.3f,%.3f", at.x_m, at.y_m);
+  std::vector<agent::ViewSighting> sightings;
+  for (const View& view : nearest(views, at)) {
+    const auto pair = matching::compare(seen, *view.appearance, {}, kSeed);
+    agent::ViewSighting one;
+    one.map_from_view = view.pose;
+    one.prior_share = 0.1;
+    if (pair.pose) {
+      one.share = homing::shared_share(seen, *view.appearance, pair.verified);
+      one.agreeing = pair.verified;
+      one.direction = agent::SightedDirection{pair.pose->motion.direction_rad, pair.pose->motion.turn_rad,
+                                              pair.pose->confidence, homing::usual_distance_m(one.share)};
     }
-    std::ranges::sort(order);
-    std::vector<std::size_t> result;
-    for (std::size_t k = 0; k < std::min<std::size_t>(3, order.size()); ++k) result.push_back(order[k].second);
-    return result;
+    sightings.push_back(one);
+    std::printf(",%.3f,%d,%.4f,%.4f,%d,%d", apart_m(view.pose, at), pair.verified, pair.distance,
+                pair.pose ? pair.pose->confidence : 0.0, side.agrees(one) ? 1 : 0, view.appearance->size());
   }
+  for (std::size_t missing = sightings.size(); missing < kViews; ++missing) std::printf(",,,,,,");
+  side.weigh(sightings);
+}
 
-  void look(const features::Appearance& seen, const std::vector<View>& views, const Pose2& start, double scale) {
-    const Pose2 at = hypotheses.best() != nullptr ? hypotheses.best()->map_from_robot : start;
-    std::vector<agent::ViewSighting> sightings;
-    std::printf(",%.3f,%.3f", at.x_m, at.y_m);
-    std::size_t printed = 0;
-    for (const std::size_t i : near(views, at)) {
-      const auto pair = matching::compare(seen, *views[i].appearance, {}, 1);
-      agent::ViewSighting one;
-      one.map_from_view = views[i].pose;
-      const double z = pair.distance / scale;
-      one.likelihood = std::isfinite(pair.distance) ? std::max(1e-3, 1.0 / ((1.0 + z * z) * (1.0 + z * z))) : 1e-3;
-      one.prior_share = 0.1;
-      if (pair.pose) {
-        const double share = homing::shared_share(seen, *views[i].appearance, pair.verified);
-        one.direction = agent::SightedDirection{pair.pose->motion.direction_rad, pair.pose->motion.turn_rad,
-                                                pair.pose->confidence, homing::usual_distance_m(share)};
-      }
-      sightings.push_back(one);
-      const double d = std::hypot(views[i].pose.x_m - at.x_m, views[i].pose.y_m - at.y_m);
-      std::printf(",%.3f,%d,%d,%.4f,%.4f,%d,%d", d, pair.verified, pair.matches, one.likelihood,
-                  pair.pose ? pair.pose->confidence : 0.0, hypotheses.agrees(one) ? 1 : 0, views[i].appearance->size());
-      ++printed;
-    }
-    for (; printed < 3; ++printed) std::printf(",9,0,0,0.001,0,0,600");
-    hypotheses.weigh(sightings);
+/// The view that shares most features with `own`, farther away than the walk looks.
+std::optional<std::size_t> twin_of(std::size_t own, const std::vector<View>& views,
+                                   const localisation::CandidateFinder& finder) {
+  constexpr std::size_t kCompared = 12;
+  std::vector<int> without;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (apart_m(views[i].pose, views[own].pose) < kReach_m) without.push_back(static_cast<int>(i));
   }
+  std::optional<std::size_t> twin;
+  int most = 0;
+  for (const int other : finder.find(*views[own].appearance, kCompared, without)) {
+    const auto i = static_cast<std::size_t>(other);
+    const int verified = matching::compare(*views[own].appearance, *views[i].appearance, {}, kSeed).verified;
+    if (verified <= most) continue;
+    most = verified;
+    twin = i;
+  }
+  return twin;
+}
+
+struct Walk {
+  const char* light = "";
+  int number = 0;
+  std::vector<Pose2> way;
+  Pose2 own;
+  Pose2 twin;
 };
+
+void drive(const Walk& walk, agent::SimulatedRobot& robot, const pipeline::Eye& eye, const std::vector<View>& views) {
+  constexpr double kFarthestStep_m = 1.0;  // beyond it the tour was interrupted
+  agent::PoseHypotheses truth;
+  agent::PoseHypotheses twin;
+  for (std::size_t step = 0; step < walk.way.size(); ++step) {
+    const Pose2& here = walk.way[step];
+    if (robot.clearance_m(here) < 0.0) return;
+    if (step > 0) {
+      const Pose2 moved = inverse(walk.way[step - 1]) * here;
+      if (std::hypot(moved.x_m, moved.y_m) > kFarthestStep_m) return;
+      truth.predict(moved);
+      twin.predict(moved);
+    }
+    robot.carry_to(here);
+    const auto seen = or_die(eye.look(robot.picture()));
+    std::printf("%s,%d,%zu,%.3f,%.3f", walk.light, walk.number, step, here.x_m, here.y_m);
+    look(truth, seen, views, walk.own);
+    look(twin, seen, views, walk.twin);
+    std::printf("\n");
+  }
+}
 
 int run(const Options& options) {
   wire::ScenarioFile scenario;
@@ -87,72 +137,33 @@ int run(const Options& options) {
   agent::TaughtWorld taught = or_die(agent::teach(scenario, ".", std::move(world)));
   const auto eye = or_die(pipeline::Eye::create(taught.camera, taught.map->feature_config));
   const localisation::CandidateFinder finder(*taught.map);
-  const auto& places = taught.map->places;
   std::vector<View> views;
-  for (const map::Place& place : places) {
+  for (const map::Place& place : taught.map->places) {
     views.push_back({&place.appearances.front(), taught.picture_poses.at(place.prototype)});
   }
   std::vector<Pose2> tour;
-  for (const auto& [id, pose] : taught.picture_poses) tour.push_back(pose);
-  const double scale = taught.map->motion.distance_scale;
+  for (const auto& [image, pose] : taught.picture_poses) tour.push_back(pose);
   for (const std::string& name : options.lights) {
-    const auto light = or_die(agent::light_named(name));
-    agent::prepare_light(*taught.world, light);
     agent::SimulatedRobotConfig config;
     config.camera = taught.camera;
-    config.light = light;
+    config.light = or_die(agent::light_named(name));
     config.profile = sim::disc_profile();
+    agent::prepare_light(*taught.world, config.light);
     std::mt19937_64 random(options.seed);
-    std::uniform_real_distribution<double> unit(-1.0, 1.0);
-    constexpr std::size_t kSteps = 12;
-    for (int number = 0; number < options.places;) {
-      const std::size_t begin = random() % (tour.size() - kSteps);
-      const Pose2 at = tour[begin];
-      const double off_m = 0.3 * unit(random);
-      const auto beside = [&](const Pose2& pose) { return pose * Pose2{0.0, off_m, 0.0}; };
-      std::size_t own = 0;
-      std::vector<int> without;
-      double least = 1e9;
-      for (std::size_t i = 0; i < views.size(); ++i) {
-        const double d = std::hypot(views[i].pose.x_m - at.x_m, views[i].pose.y_m - at.y_m);
-        if (d < 3.0) without.push_back(static_cast<int>(i));
-        if (d < least) {
-          least = d;
-          own = i;
-        }
-      }
-      std::optional<std::size_t> twin;
-      int most = 0;
-      for (const int other : finder.find(*views[own].appearance, 12, without)) {
-        const auto i = static_cast<std::size_t>(other);
-        const int verified = matching::compare(*views[own].appearance, *views[i].appearance, {}, 1).verified;
-        if (verified > most) {
-          most = verified;
-          twin = i;
-        }
-      }
+    std::uniform_real_distribution<double> aside_m(-0.3, 0.3);
+    for (int number = 0; number < options.walks;) {
+      const auto begin = tour.begin() + static_cast<std::ptrdiff_t>(random() % (tour.size() - kSteps));
+      const Pose2 aside{0.0, aside_m(random), 0.0};
+      const auto own =
+          std::ranges::min_element(views, {}, [&](const View& view) { return apart_m(view.pose, *begin); });
+      const auto twin = twin_of(static_cast<std::size_t>(own - views.begin()), views, finder);
       if (!twin) continue;
+      Walk walk{name.c_str(), ++number, {}, own->pose, views[*twin].pose};
+      std::transform(begin, begin + kSteps, std::back_inserter(walk.way),
+                     [&](const Pose2& pose) { return pose * aside; });
       config.seed = random();
-      auto robot = or_die(agent::SimulatedRobot::create(*taught.world, config, beside(at)));
-      Side truth;
-      Side other;
-      ++number;
-      for (std::size_t step = 0; step < kSteps; ++step) {
-        const Pose2 here = beside(tour[begin + step]);
-        if (robot.clearance_m(here) < 0.0) break;
-        if (step > 0) {
-          const Pose2 moved = inverse(beside(tour[begin + step - 1])) * here;
-          if (std::hypot(moved.x_m, moved.y_m) > 1.0) break;
-          truth.hypotheses.predict(moved);
-          other.hypotheses.predict(moved);
-        }
-        robot.carry_to(here);
-        const auto seen = or_die(eye.look(robot.picture()));
-        std::printf("%s,%d,%zu,%d,%d,%.3f,%.3f", name.c_str(), number, step, seen.size(), most, here.x_m, here.y_m);
-        truth.look(seen, views, views[own].pose, scale);
-        other.look(seen, views, views[*twin].pose, scale);
-        std::printf("\n");
-      }
+      auto robot = or_die(agent::SimulatedRobot::create(*taught.world, config, walk.way.front()));
+      drive(walk, robot, eye, views);
     }
   }
   return 0;
@@ -163,10 +174,10 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   homeward::Options options;
-  CLI::App app("How well one picture tells a place from its twin");
+  CLI::App app("What pictures tell of which of two places that look alike it is");
   app.add_option("--world", options.world)->capture_default_str();
   app.add_option("--lights", options.lights)->delimiter(',')->capture_default_str();
-  app.add_option("--places", options.places)->capture_default_str();
+  app.add_option("--walks", options.walks)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   return homeward::run(options);

@@ -23,6 +23,7 @@ TEST_F(StepTest, ASureBeliefOfAPlaceThatTheMissionDoesNotTellOfEndsIt) {
   const Milliseconds gone_ms = until_stopped(true);
   EXPECT_EQ(state_.drive, DriveState::kFailed);
   EXPECT_NE(state_.reason.find("another place"), std::string::npos) << state_.reason;
+  EXPECT_TRUE(state_.astray) << "no part of the way is to blame";
   EXPECT_GT(gone_ms, config_.off_belief_ms);
   EXPECT_LE(gone_ms, config_.off_belief_ms + 2 * kTick_ms);
 }

@@ -50,6 +50,19 @@ TEST(Detour, ClosesNothingWhereTheRobotWasSentFromElsewhereThanItStood) {
   EXPECT_FALSE(detour_after(often));
 }
 
+TEST(Detour, OfARobotThatWentAstrayClosesNothingAndIsNoDetour) {
+  FailedDrive astray = failed(2, "p9");
+  astray.astray = true;
+  astray.detours = 3;
+  for (astray.restarts = 0; astray.restarts < 8; ++astray.restarts) {
+    EXPECT_EQ(detour_after(astray), Ways()) << astray.restarts;
+  }
+  EXPECT_FALSE(detour_after(astray)) << "but not without end";
+  FailedDrive there = failed(2, "p4");
+  there.astray = true;
+  EXPECT_FALSE(detour_after(there)) << "at the destination a person decides";
+}
+
 TEST(Detour, GoesRoundWhatIsClosed) {
   const auto map = homeward::testing::ascii_map(R"(
 A-B
@@ -69,6 +82,7 @@ TEST(Detour, FailsAgainWhereAllThatFailedIsClosedAlready) {
   EXPECT_TRUE(fails_again(closed, Ways{way("C", "D"), way("D", "C")}));
   EXPECT_FALSE(fails_again(closed, Ways{way("B", "C"), way("C", "B")}));
   EXPECT_FALSE(fails_again(closed, Ways{way("A", "B"), way("B", "A"), way("B", "C"), way("C", "B")}));
+  EXPECT_FALSE(fails_again(closed, {})) << "nothing is to blame";
 }
 
 TEST(Detour, TriesTheOnlyWayOnceMore) {

@@ -19,7 +19,6 @@ A-B-C-D
 )");
   unsigned seed = 0;
   for (map::Place& place : map.places) place.appearances = {testing::random_appearance(5, ++seed)};
-  map.motion.distance_scale = 0.75;
   map.destinations.push_back(
       {DestinationId("d1"), PlaceId("D"), ImageId("t/bed"), "bed", testing::random_appearance(5, ++seed)});
   return map;
@@ -55,7 +54,6 @@ TEST(AddSurroundings, TellsWhereThePathLiesInItsOrder) {
   EXPECT_EQ(order.surroundings->path[0].theta_rad, 0.25);
   EXPECT_EQ(order.surroundings->final_pose.x_m, 6.5) << "of the destination's own picture";
   EXPECT_EQ(order.surroundings->final_pose.theta_rad, 1.5);
-  EXPECT_EQ(order.surroundings->distance_scale, 0.75);
   ASSERT_EQ(order.surroundings->nearby.size(), 1U);
   const PlacedView& beside = order.surroundings->nearby[0];
   EXPECT_EQ(beside.place, PlaceId("E"));
