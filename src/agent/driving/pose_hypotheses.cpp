@@ -44,12 +44,8 @@ Expected expected(const PoseHypothesis& hypothesis, const ViewSighting& sighting
   return result;
 }
 
-/// A measurement against what is expected.
-struct Agreement {
-  double squared = 0.0;  // of the differences, in standard deviations
-};
-
-Agreement agreement(const PoseHypothesis& hypothesis, const Expected& view, const SightedDirection& seen,
+/// A measurement against what is expected: its squared difference, in standard deviations.
+double disagreement(const PoseHypothesis& hypothesis, const Expected& view, const SightedDirection& seen,
                     const PoseHypothesesConfig& config) {
   constexpr double kMost = 50.0;
   constexpr double kNearest_m = 0.5;
@@ -60,20 +56,18 @@ Agreement agreement(const PoseHypothesis& hypothesis, const Expected& view, cons
   const double measured = std::pow(config.bearing_rad * std::max(0.2, view.distance_m), 2) + 0.05 * 0.05;
   const double variance = across.dot(view.covariance_m2 * across) + measured;
   const double off_m = across.dot(at_m);
-  Agreement result;
-  result.squared = off_m * off_m / variance;
+  double squared = off_m * off_m / variance;
   // Behind the robot in place of ahead.
   const double behind_m = -along.dot(at_m);
-  if (behind_m > 0.0) result.squared += behind_m * behind_m / (along.dot(view.covariance_m2 * along) + measured);
+  if (behind_m > 0.0) squared += behind_m * behind_m / (along.dot(view.covariance_m2 * along) + measured);
   const double turned = config.turn_rad * config.turn_rad;
   const double turn_variance = hypothesis.covariance(2, 2) + turned;
   const double off_rad = wrap_angle(seen.turn_rad - view.robot_from_view.theta_rad);
   // The share of features recognised tells the distance to a factor; by night less is recognised of what is near.
   const double farther =
       std::log(std::max(kNearest_m, view.distance_m) / std::max(kNearest_m, seen.distance_m)) / kDistanceSpread;
-  result.squared += off_rad * off_rad / turn_variance + farther * farther;
-  result.squared = std::min(kMost, result.squared);
-  return result;
+  squared += off_rad * off_rad / turn_variance + farther * farther;
+  return std::min(kMost, squared);
 }
 
 /// What a local map says as a measurement of the robot's own pose.
@@ -97,17 +91,17 @@ Eigen::Vector3d difference(const Pose2& to, const Pose2& from) {
   return {to.x_m - from.x_m, to.y_m - from.y_m, wrap_angle(to.theta_rad - from.theta_rad)};
 }
 
-Agreement agreement(const PoseHypothesis& hypothesis, const MeasuredPose& seen) {
+double disagreement(const PoseHypothesis& hypothesis, const MeasuredPose& seen) {
   constexpr double kMost = 50.0;
   const Eigen::Matrix3d sum = hypothesis.covariance + seen.covariance;
   const Eigen::Vector3d off = difference(seen.map_from_robot, hypothesis.map_from_robot);
-  return {std::min(kMost, off.dot(sum.llt().solve(off)))};
+  return std::min(kMost, off.dot(sum.llt().solve(off)));
 }
 
-Agreement agreement(const PoseHypothesis& hypothesis, const ViewSighting& sighting,
+double disagreement(const PoseHypothesis& hypothesis, const ViewSighting& sighting,
                     const PoseHypothesesConfig& config) {
-  if (sighting.pose) return agreement(hypothesis, measured(sighting, config));
-  return agreement(hypothesis, expected(hypothesis, sighting), *sighting.direction, config);
+  if (sighting.pose) return disagreement(hypothesis, measured(sighting, config));
+  return disagreement(hypothesis, expected(hypothesis, sighting), *sighting.direction, config);
 }
 
 /// Kalman's update with rows of measurements of the pose.
@@ -191,9 +185,9 @@ void PoseHypotheses::predict(const Pose2& before_from_now) {
 std::optional<Recognition> PoseHypotheses::recognised(const PoseHypothesis& hypothesis,
                                                       std::span<const ViewSighting> sightings) const {
   constexpr double kNothing = 0.007;   // share: a few features agree by chance,
+  constexpr double kByChance = 5.0;    // and how many those are
   constexpr double kMost = 0.6;        // no view is recognised better from where it was taken
   constexpr double kMisplaced = 0.02;  // probability that a view is seen elsewhere although the hypothesis is right
-  constexpr double kByChance = 5.0;    // and how many those are
   constexpr double kWalled = 0.5;      // of the logarithm
   constexpr double kPerSquare = 0.05;  // what agrees worse is somewhat worse
   struct Near {
@@ -211,7 +205,7 @@ std::optional<Recognition> PoseHypotheses::recognised(const PoseHypothesis& hypo
     double agrees = 0.0;
     double placed = kMisplaced;
     if (sighting.direction || sighting.pose) {
-      const double squared = agreement(hypothesis, sighting, config_).squared;
+      const double squared = disagreement(hypothesis, sighting, config_);
       placed += (1.0 - kMisplaced) * std::exp(-0.5 * squared);
       agrees = std::exp(-kPerSquare * squared) / (1.0 + std::exp(0.5 * (squared - config_.gate * config_.gate)));
     }
@@ -236,7 +230,7 @@ std::optional<Recognition> PoseHypotheses::recognised(const PoseHypothesis& hypo
 
 void PoseHypotheses::move(PoseHypothesis& hypothesis, const ViewSighting& sighting, double independent) const {
   if (!sighting.direction && !sighting.pose) return;
-  if (agreement(hypothesis, sighting, config_).squared > config_.gate * config_.gate) return;
+  if (disagreement(hypothesis, sighting, config_) > config_.gate * config_.gate) return;
   if (sighting.pose) {
     const MeasuredPose seen = measured(sighting, config_);
     update<3>(hypothesis, Eigen::Matrix3d::Identity(), difference(seen.map_from_robot, hypothesis.map_from_robot),
@@ -280,7 +274,7 @@ std::vector<PoseHypothesis> PoseHypotheses::begun_by(std::span<const ViewSightin
     const bool known = std::ranges::any_of(hypotheses_, [&](const PoseHypothesis& hypothesis) {
       const Expected view = expected(hypothesis, sighting);
       return view.distance_m < kDistances.back() * seen.distance_m + config_.near_view_m &&
-             agreement(hypothesis, view, seen, config_).squared < config_.gate * config_.gate;
+             disagreement(hypothesis, view, seen, config_) < config_.gate * config_.gate;
     });
     if (known) continue;
     // Nobody knows yet how far it is: the view that shows most may be the nearest, or the right one.
@@ -323,7 +317,7 @@ void PoseHypotheses::weigh(std::span<const ViewSighting> sightings) {
   settle();
 }
 
-/// Each hypothesis against the best one, by all pictures since it was begun. Gives the best one's record.
+/// Each hypothesis against the best one, by all pictures since it was begun. Gives the best one's summed log share.
 double PoseHypotheses::weigh_by_recognition(std::span<const ViewSighting> sightings, double news) {
   constexpr double kMostApart = 1.0;  // of the logarithm of the share: one picture may be blurred, or half covered,
   constexpr double kMostOfOne = 6.0;  // and of that of the odds: it never decides alone
@@ -456,7 +450,7 @@ double PoseHypotheses::probability_within(const Vector2& point_m, double radius_
 
 bool PoseHypotheses::agrees(const ViewSighting& sighting) const {
   if (hypotheses_.empty() || (!sighting.direction && !sighting.pose)) return false;
-  return agreement(hypotheses_.front(), sighting, config_).squared < config_.gate * config_.gate;
+  return disagreement(hypotheses_.front(), sighting, config_) < config_.gate * config_.gate;
 }
 
 /// One of several that say the same; none that says next to nothing; and the weights are probabilities.

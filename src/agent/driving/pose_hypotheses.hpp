@@ -67,10 +67,11 @@ struct PoseHypothesesConfig {
 };
 
 /// Where the robot may be on a map, as a few Gaussians with weights and the weight of being elsewhere: multi-hypothesis
-/// localisation (Jensfelt & Kristensen 2001) on the views of a topological map. A picture multiplies weights by how
-/// well the view nearest to each hypothesis explains it, and moves each by what it says of the views near it. What no
-/// hypothesis explains begins another one with little weight, so that one picture never moves the estimate past what
-/// the way driven allows. Deterministic; copies are independent.
+/// localisation (Jensfelt & Kristensen 2001) on the views of a topological map. A picture weighs each
+/// hypothesis against the best by how much is recognised of the views near them, summed over the way
+/// (twin_evidence.hpp), and moves each by what it says of those views. What no hypothesis explains begins another one
+/// with little weight, so that one picture never moves the estimate past what the way driven allows. Deterministic;
+/// copies are independent.
 class PoseHypotheses {
  public:
   PoseHypotheses() = default;

@@ -18,8 +18,7 @@
 #include "agent/scenario/house.hpp"
 #include "core/angles.hpp"
 #include "sim/floor.hpp"
-#include "sim/tour_path.hpp"
-#include "truth.hpp"
+#include "taught.hpp"
 
 namespace homeward {
 namespace {
@@ -198,13 +197,7 @@ double calibration_error(const std::vector<Ending>& endings) {
 
 int run(const Options& options) {
   constexpr int kTries = 200;
-  wire::ScenarioFile scenario;
-  scenario.world = options.world;
-  scenario.seed = static_cast<std::int64_t>(options.seed);
-  scenario.camera_model = "hyperbolic_mirror";
-  auto world = or_die(agent::world_of(scenario, "."));
-  scenario.tour_rooms = sim::all_rooms(world);
-  agent::TaughtWorld taught = or_die(agent::teach(scenario, ".", std::move(world)));
+  agent::TaughtWorld taught = teach_all_rooms(options.world, options.seed);
   const auto light = or_die(agent::light_named(options.light));
   agent::prepare_light(*taught.world, light);
   const auto eye = or_die(pipeline::Eye::create(taught.camera, taught.map->feature_config));

@@ -12,8 +12,7 @@
 #include "agent/files/world_folder.hpp"
 #include "agent/scenario/look_alike_spot.hpp"
 #include "core/angles.hpp"
-#include "sim/tour_path.hpp"
-#include "truth.hpp"
+#include "taught.hpp"
 
 namespace homeward {
 namespace {
@@ -44,13 +43,7 @@ void compare(const char* what, const Seen& before, const Seen& now, const Pose2&
 }
 
 int run(const Options& options) {
-  wire::ScenarioFile scenario;
-  scenario.world = options.world;
-  scenario.seed = static_cast<std::int64_t>(options.seed);
-  scenario.camera_model = "hyperbolic_mirror";
-  auto world = or_die(agent::world_of(scenario, "."));
-  scenario.tour_rooms = sim::all_rooms(world);
-  agent::TaughtWorld taught = or_die(agent::teach(scenario, ".", std::move(world)));
+  agent::TaughtWorld taught = teach_all_rooms(options.world, options.seed);
   const auto light = or_die(agent::light_named(options.light));
   agent::prepare_light(*taught.world, light);
   const auto eye = or_die(pipeline::Eye::create(taught.camera, taught.map->feature_config));

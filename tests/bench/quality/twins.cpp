@@ -17,8 +17,7 @@
 #include "homing/visual_homing.hpp"
 #include "localisation/candidates.hpp"
 #include "matching/visual_distance.hpp"
-#include "sim/tour_path.hpp"
-#include "truth.hpp"
+#include "taught.hpp"
 
 namespace homeward {
 namespace {
@@ -128,13 +127,7 @@ void drive(const Walk& walk, agent::SimulatedRobot& robot, const pipeline::Eye& 
 }
 
 int run(const Options& options) {
-  wire::ScenarioFile scenario;
-  scenario.world = options.world;
-  scenario.seed = static_cast<std::int64_t>(options.seed);
-  scenario.camera_model = "hyperbolic_mirror";
-  auto world = or_die(agent::world_of(scenario, "."));
-  scenario.tour_rooms = sim::all_rooms(world);
-  agent::TaughtWorld taught = or_die(agent::teach(scenario, ".", std::move(world)));
+  agent::TaughtWorld taught = teach_all_rooms(options.world, options.seed);
   const auto eye = or_die(pipeline::Eye::create(taught.camera, taught.map->feature_config));
   const localisation::CandidateFinder finder(*taught.map);
   std::vector<View> views;
