@@ -41,6 +41,7 @@ class FakeAgent {
     status.arrival_probability = arrival_probability;
     status.estimate = estimate;
     status.question = question;
+    status.astray = astray;
     if (order) {
       status.mission = order->mission;
       status.epoch = order->order.epoch;
@@ -97,6 +98,7 @@ class FakeAgent {
   std::optional<double> arrival_probability;
   std::optional<wire::EstimateReport> estimate;
   std::optional<wire::QuestionReport> question;
+  bool astray = false;
   std::function<void()> while_waiting;
   std::int64_t status_seq = 0;
   std::int64_t frame_seq = 0;

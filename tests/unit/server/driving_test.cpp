@@ -235,6 +235,35 @@ TEST_F(DrivingTest, AFailedWayIsDrivenRoundWithoutAnotherTriedOnceMoreAndThenThe
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(400)));
 }
 
+TEST_F(DrivingTest, ARobotThatWentAstrayIsSentOnOverTheWayThatNothingIsWrongWith) {
+  add_robot();
+  put_on_map();
+  add_second_way();
+  FakeAgent agent;
+  ASSERT_EQ(agent.connect(app->port(), robot, token), 101);
+  const std::string lease = take_lease(*admin);
+  find_itself(agent);
+  const Answer sent = send_home(lease);
+  ASSERT_EQ(sent.status, 201) << sent.body;
+  auto order = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(order);
+  const PlaceId over = order->path[1].place;
+  for (int restart = 0; restart < 4; ++restart) {  // a blocked way is gone round three times
+    agent.astray = false;
+    agent.status(wire::DriveState::kDriving, order, 1);
+    wait_for_state(sent.json(), "driving");
+    agent.look(1);
+    ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
+    agent.astray = true;
+    agent.status(wire::DriveState::kFailed, order, 1, "I am not on my way, but elsewhere.");
+    order = agent.await<wire::MissionOrder>();
+    ASSERT_TRUE(order) << restart << mission_now(sent.json()).dump();
+    EXPECT_EQ(order->path[1].place, over) << "no part of the way is to blame";
+    const auto reason = mission_now(sent.json()).at("reason").get<std::string>();
+    EXPECT_NE(reason.find("goes on from there"), std::string::npos) << reason;
+  }
+}
+
 TEST_F(DrivingTest, WithoutALeaseNoOtherWayIsDriven) {
   add_robot();
   put_on_map();
