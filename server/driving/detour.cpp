@@ -5,6 +5,7 @@
 
 #include "map/lookup.hpp"
 #include "planning/detour.hpp"
+#include "planning/second_look.hpp"
 #include "planning/surroundings.hpp"
 #include "server/driving/driving.hpp"
 #include "wire/mission_order.hpp"
@@ -17,6 +18,12 @@ bool may_go_on(const RobotUnit& unit, SteadyTime now) {
   return unit.under_way && unit.online() && unit.lease && now < unit.lease->expires && unit.known_start(now);
 }
 
+Result<planning::Detour> second_look_at(const map::TopologicalMap& map, const planning::RouteRequest& request) {
+  auto route = planning::plan_second_look(map, request);
+  if (!route) return pass_on(route);
+  return planning::Detour{std::move(*route), false};
+}
+
 }  // namespace
 
 bool Driving::begin_detour(const Unit& found, const std::string& reason) {
@@ -24,19 +31,27 @@ bool Driving::begin_detour(const Unit& found, const std::string& reason) {
   const auto now = std::chrono::steady_clock::now();
   if (!may_go_on(unit, now)) return false;
   const bool astray = unit.status && unit.status->astray;
-  const auto ways = planning::detour_after({unit.mission->path, unit.mission->path_index, unit.known_start(now)->place,
-                                            unit.mission->place, unit.detours, unit.restarts, astray});
+  const Start start = *unit.known_start(now);
+  const bool homed_to_it = unit.mission->path_index + 1 == static_cast<std::int64_t>(unit.mission->path.size());
+  const bool second_look = astray && start.place == unit.mission->place && homed_to_it;
+  const bool unsure = start.guessed || second_look;
+  const auto ways =
+      planning::detour_after({unit.mission->path, unit.mission->path_index, start.place, unit.mission->place,
+                              unit.detours, unit.restarts, astray, unsure, unit.unsure_restarts});
   if (!ways) return false;
   unit.fails_again = planning::fails_again(unit.closed, *ways);
   unit.closed.insert(unit.closed.end(), ways->begin(), ways->end());
-  ++(astray ? unit.restarts : unit.detours);
+  ++(astray || unsure ? unit.restarts : unit.detours);
+  if (unsure) ++unit.unsure_restarts;
+  unit.second_look = second_look;
   unit.looking_for_detour = true;
   // Reading the map and planning are no work for the thread of the sockets.
   if (!heavy_.try_run([this, found, mission = unit.mission->id, reason] { send_detour(found, mission, reason); })) {
     unit.looking_for_detour = false;
     return false;
   }
-  unit.mission->reason = reason + (astray ? " The way from there is looked for." : " Another way is looked for.");
+  unit.mission->reason =
+      reason + (astray || unsure ? " The way from there is looked for." : " Another way is looked for.");
   spdlog::info("robot {} mission {} failed at place {} of its way: {}", unit.id.str(), unit.mission->id.str(),
                unit.mission->path_index, reason);
   keep(*unit.mission);
@@ -49,6 +64,7 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   Start start;
   std::vector<PlaceId> likely;
   bool fails_again = false;
+  bool second_look = false;
   {
     const std::scoped_lock lock(unit->mutex);
     const auto known = unit->known_start(std::chrono::steady_clock::now());
@@ -61,6 +77,7 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
     asked.from = start.place;
     asked.closed = unit->closed;
     fails_again = unit->fails_again;
+    second_look = unit->second_look;
   }
   const auto loaded = maps_.load(plan.mission.map);
   if (!loaded) return pass_on(loaded);
@@ -70,7 +87,7 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   std::erase_if(asked.closed, [&](const planning::Way& way) {
     return map::find_place(map, way.from) == nullptr || map::find_place(map, way.to) == nullptr;
   });
-  const auto detour = planning::plan_detour(map, asked, !fails_again);
+  const auto detour = second_look ? second_look_at(map, asked) : planning::plan_detour(map, asked, !fails_again);
   if (!detour) return pass_on(detour);
   const std::vector<PlaceId>& places = detour->route.places;
   const auto destination = std::ranges::find_if(map.destinations, [&](const map::Destination& candidate) {
@@ -108,7 +125,8 @@ void Driving::send_detour(const Unit& found, const MissionId& mission, const std
   }
   planned->mission.state = wire::MissionState::kAccepted;
   const bool astray = unit.status && unit.status->astray;
-  planned->mission.reason = reason + (astray           ? " The robot goes on from there."
+  planned->mission.reason = reason + (unit.second_look ? " The robot looks around and comes back."
+                                      : astray         ? " The robot goes on from there."
                                       : planned->again ? " There is no other way; the robot tries it once more."
                                                        : " The robot takes another way.");
   planned->mission.epoch = unit.epoch;

@@ -132,6 +132,7 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
   unit.closed.clear();
   unit.detours = 0;
   unit.restarts = 0;
+  unit.unsure_restarts = 0;
   unit.fails_again = false;
   unit.looking_for_detour = false;
   unit.sights.clear();

@@ -31,7 +31,8 @@ constexpr const char* kLooksAroundFirst = "The robot is not sure where it is; it
 struct Start {
   PlaceId place;
   double probability = 1.0;
-  bool unsure = false;  // the robot has to find out by itself before it goes anywhere
+  bool unsure = false;   // the robot has to find out by itself before it goes anywhere
+  bool guessed = false;  // neither the robot nor the belief is sure of it
 };
 
 /// The right to drive.
@@ -86,7 +87,9 @@ struct RobotUnit {
   std::vector<planning::Way> closed;
   int detours = 0;
   int restarts = 0;                      // orders given anew after the robot was elsewhere than on its way
+  int unsure_restarts = 0;               // of them, those of a robot that did not know where it was
   bool fails_again = false;              // where it failed before
+  bool second_look = false;              // the way to be looked for leads away from the destination and back
   bool looking_for_detour = false;       // no permit goes out until the new way is sent
   DriveSights sights;                    // of this mission
   std::optional<std::int64_t> answered;  // number of the question of this mission that somebody has answered last
@@ -120,20 +123,27 @@ struct RobotUnit {
     if (belief) {
       for (const wire::PlaceShare& share : belief->top) places.push_back(share.place);
     }
-    if (status && status->estimate && mission && status->mission == mission->id)
-      places.push_back(status->estimate->place);
+    if (status && mission && status->mission == mission->id) {
+      if (status->estimate) places.push_back(status->estimate->place);
+      for (const wire::EstimateReport& possible : status->possible_places) places.push_back(possible.place);
+    }
     return places;
   }
   /// Where a robot may be sent on from by itself after a drive that failed: its own estimate as it stopped, which it
   /// keeps; where it says nothing, the belief, which is of the whole map and of all pictures. Of two that are at odds
-  /// the belief begins, and is worth no more than an even chance.
+  /// the belief begins, and is worth no more than an even chance. Where neither is sure, the robot's likeliest place.
   [[nodiscard]] std::optional<Start> known_start(SteadyTime now) const {
     constexpr double kEven = 0.5;  // a robot at odds with the belief says no more of its estimate
-    const bool tells = status && status_at && status->estimate && now - *status_at <= kBeliefFresh && mission &&
-                       status->mission == mission->id;
+    const bool fresh =
+        status && status_at && now - *status_at <= kBeliefFresh && mission && status->mission == mission->id;
+    const bool tells = fresh && status->estimate;
     const bool at_odds = tells && status->estimate->probability <= kEven;
     const bool believes = believes_now(now) && !belief->lost;
     if (tells && !(at_odds && believes)) return Start{status->estimate->place, status->estimate->probability, at_odds};
+    if (!believes && fresh && !status->possible_places.empty()) {
+      const wire::EstimateReport& possible = status->possible_places.front();
+      return Start{possible.place, possible.probability, true, true};
+    }
     if (!believes) return std::nullopt;
     const Start start = likeliest();
     return at_odds ? Start{start.place, std::min(kEven, start.probability), true} : start;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kMostDetours = 3;  // of one mission
 constexpr int kMostRestarts = 8;
+constexpr int kMostUnsureRestarts = 3;
 
 }  // namespace
 
@@ -27,8 +28,11 @@ std::vector<Way> failed_ways(const FailedDrive& failed) {
 }
 
 std::optional<std::vector<Way>> detour_after(const FailedDrive& failed) {
+  if (failed.unsure && failed.unsure_restarts >= kMostUnsureRestarts) return std::nullopt;
+  if (failed.astray || failed.unsure) {
+    return failed.restarts < kMostRestarts ? std::optional(std::vector<Way>()) : std::nullopt;
+  }
   if (failed.here == failed.destination) return std::nullopt;
-  if (failed.astray) return failed.restarts < kMostRestarts ? std::optional(std::vector<Way>()) : std::nullopt;
   if (failed.detours >= kMostDetours) return std::nullopt;
   auto ways = failed_ways(failed);
   // At no place of its path before it drove any of it: it was sent from elsewhere than it stood, and no edge is to

@@ -18,7 +18,9 @@ struct FailedDrive {
   PlaceId destination;
   int detours = 0;      // that the mission has made already,
   int restarts = 0;     // and how often the robot was sent anew because it was elsewhere than on its way
-  bool astray = false;  // it failed because the robot was elsewhere, not because of what stands in the way
+  bool astray = false;  // it failed because the robot was elsewhere or unsure, not because of what stands in the way
+  bool unsure = false;  // `here` is the likeliest place only, or the destination, of which the robot is not certain
+  int unsure_restarts = 0;  // how often it was sent anew although it was unsure
 };
 
 /// What not to drive again after a failed drive: the edge that was being driven, and where the robot is known to be
@@ -26,8 +28,9 @@ struct FailedDrive {
 std::vector<Way> failed_ways(const FailedDrive& failed);
 
 /// Whether another way is worth looking for, and what to close for it beside what is closed already: no edge where the
-/// robot was sent from another place than it stood at, or went astray. Nothing: a person decides, because the
-/// destination's own place is reached, no edge can be blamed, or the mission has had its detours, or its restarts.
+/// robot was sent from another place than it stood at, went astray, or is unsure: then it finds out by driving on, at
+/// the destination by a second look at it (plan_second_look). Nothing: a person decides, because the destination's own
+/// place is reached, no edge can be blamed, or the mission has had its detours or restarts.
 std::optional<std::vector<Way>> detour_after(const FailedDrive& failed);
 
 /// Whether it failed where the mission failed before: all of `failed`, one at least, were in `closed` already.

@@ -17,8 +17,7 @@ struct SurroundingsConfig {
 };
 
 /// The places that a robot is to know beside those of its route, so that it can tell when it is off it: those that lie
-////// near to it by `layout` (map::metric_layout of this map), and those that look like a place of it, wherever they
-/// lie;
+/// near to it by `layout` (map::metric_layout of this map), and those that look like a place of it, wherever they lie;
 /// the same of the places that are `likely` to be where the robot begins when that is not sure.
 /// None of the route's own. Same map and route, same places.
 std::vector<PlaceId> surroundings(const map::TopologicalMap& map, std::span<const PlaceId> route,

@@ -13,6 +13,7 @@ using nlohmann::json;
 
 constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t kMaxPathPlaces = 2000;
+constexpr std::size_t kMostPossiblePlaces = 4;
 constexpr double kFarthest_m = 1e6;  // of odometry from where it began
 constexpr double kMostHeading_rad = 3.2;
 
@@ -72,12 +73,21 @@ std::optional<HomeReport> read_home(ObjectReader& reader) {
   return home;
 }
 
-std::optional<EstimateReport> read_estimate(ObjectReader& reader) {
-  if (!reader.has("estimate")) return std::nullopt;
-  ObjectReader inner(reader.value("estimate"), reader.path_of("estimate"));
+EstimateReport read_estimate(ObjectReader& reader, const json& value, const std::string& path) {
+  ObjectReader inner(value, path);
   EstimateReport estimate{PlaceId(inner.text("place", 100)), inner.number("probability", 0.0, 1.0)};
   reader.close(inner);
   return estimate;
+}
+
+std::vector<EstimateReport> read_possible_places(ObjectReader& reader) {
+  if (!reader.has("possible_places")) return {};
+  const std::vector<json> items = reader.array("possible_places", kMostPossiblePlaces);
+  std::vector<EstimateReport> places;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    places.push_back(read_estimate(reader, items[i], reader.path_of("possible_places") + "/" + std::to_string(i)));
+  }
+  return places;
 }
 
 std::optional<QuestionReport> read_question(ObjectReader& reader) {
@@ -107,7 +117,8 @@ AgentStatus read_status(ObjectReader& reader) {
   m.min_range_m = number_or_null(reader, "min_range_m");
   m.vectors_per_s = reader.number("vectors_per_s", 0.0, 1000.0);
   if (reader.has("arrival_probability")) m.arrival_probability = reader.number("arrival_probability", 0.0, 1.0);
-  m.estimate = read_estimate(reader);
+  if (reader.has("estimate")) m.estimate = read_estimate(reader, reader.value("estimate"), reader.path_of("estimate"));
+  m.possible_places = read_possible_places(reader);
   m.question = read_question(reader);
   if (reader.has("displaced")) m.displaced = reader.integer("displaced", 0, kMost);
   if (reader.has("astray")) m.astray = reader.boolean("astray");

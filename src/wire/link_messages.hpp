@@ -59,7 +59,7 @@ struct HomeReport {
   std::int64_t inliers = 0;
 };
 
-/// The place of the map that the robot is at by its own estimate.
+/// A place of the map and how probable it is by the robot's own estimate that it is there.
 struct EstimateReport {
   PlaceId place;
   double probability = 0.0;
@@ -89,10 +89,12 @@ struct AgentStatus {
   /// known.
   std::optional<double> arrival_probability = std::nullopt;
   std::optional<EstimateReport> estimate = std::nullopt;  // nothing: it is not sure enough to drive by it
+  std::vector<EstimateReport> possible_places = {};       // where it may be, most probable first, at most 4
   std::optional<QuestionReport> question = std::nullopt;
   /// How often it noticed that it was moved without its wheels, since its program began.
   std::int64_t displaced = 0;
-  /// The mission has failed because the robot was elsewhere than on its way; no part of the way is to blame.
+  /// The mission has failed because the robot was elsewhere than on its way, or not sure where it is; no part of the
+  /// way is to blame.
   bool astray = false;
 };
 

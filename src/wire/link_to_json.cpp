@@ -35,6 +35,10 @@ json write(const Frame& m) {
   return value;
 }
 
+json estimate_to_json(const EstimateReport& estimate) {
+  return {{"place", estimate.place.str()}, {"probability", estimate.probability}};
+}
+
 json write(const AgentStatus& m) {
   json value = start("status");
   value["seq"] = m.seq;
@@ -54,7 +58,9 @@ json write(const AgentStatus& m) {
   value["vectors_per_s"] = m.vectors_per_s;
   value["arrival_probability"] = or_null(m.arrival_probability);
   value["estimate"] = nullptr;
-  if (m.estimate) value["estimate"] = {{"place", m.estimate->place.str()}, {"probability", m.estimate->probability}};
+  if (m.estimate) value["estimate"] = estimate_to_json(*m.estimate);
+  value["possible_places"] = json::array();
+  for (const EstimateReport& place : m.possible_places) value["possible_places"].push_back(estimate_to_json(place));
   value["question"] = nullptr;
   if (m.question) value["question"] = question_to_json(*m.question);
   value["displaced"] = m.displaced;

@@ -40,6 +40,7 @@ class FakeAgent {
     status.reason = reason;
     status.arrival_probability = arrival_probability;
     status.estimate = estimate;
+    status.possible_places = possible_places;
     status.question = question;
     status.astray = astray;
     if (order) {
@@ -97,6 +98,7 @@ class FakeAgent {
   // What it states in each status from now on.
   std::optional<double> arrival_probability;
   std::optional<wire::EstimateReport> estimate;
+  std::vector<wire::EstimateReport> possible_places;
   std::optional<wire::QuestionReport> question;
   bool astray = false;
   std::function<void()> while_waiting;

@@ -103,26 +103,6 @@ bool wants_features(const FollowState& state);
 /// Whether nothing but bearings, by what little is recognised of it, says where the view homed to lies.
 bool is_unsure(const FollowState& state);
 
-/// Probability that the robot is where the estimate says; 1 of one view alone, which has no map to be on.
-double position_probability(const FollowState& state, const VisualPath& path);
-
-/// Probability that the robot is within `arrived_within_m` of the destination's view; 1 of one view alone.
-double arrival_probability(const FollowState& state, const VisualPath& path, const FollowConfig& config);
-
-/// Whether that is enough to say that it has arrived: `arrived_probability`, and less where no map says where the views
-/// lie.
-bool is_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config);
-
-/// The place of the map that the robot is at by the estimate; nothing where that is not sure enough to drive by.
-std::optional<PlaceId> estimated_place(const FollowState& state, const VisualPath& path, const FollowConfig& config);
-
-/// How far from its path the robot is by the estimate; nothing where that is not sure enough to drive by.
-std::optional<double> off_path_m(const FollowState& state, const VisualPath& path, const FollowConfig& config);
-
-/// How far the estimate is from the place that the server's belief names; infinity where the mission tells of no such
-/// place, nothing where either is not sure.
-std::optional<double> off_belief_m(const FollowState& state, const VisualPath& path, const FollowConfig& config);
-
 /// Where to drive now, robot frame: the view homed to, or nothing when too little is known of it.
 std::optional<Eigen::Vector2d> goal(const FollowState& state, const Pose2& odometry, const FollowConfig& config);
 

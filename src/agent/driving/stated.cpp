@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "agent/driving/estimated_position.hpp"
+
 namespace homeward::agent {
 namespace {
 
@@ -23,6 +25,15 @@ std::optional<wire::EstimateReport> stated_estimate(const DrivingState& state, c
   constexpr double kAtOdds = 0.5;  // with a belief as sure as it
   const double probability = as_probability(position_probability(state.follow, state.mission->path));
   return wire::EstimateReport{*place, state.at_odds ? std::min(kAtOdds, probability) : probability};
+}
+
+std::vector<wire::EstimateReport> stated_places(const DrivingState& state) {
+  std::vector<wire::EstimateReport> stated;
+  if (!state.mission || state.covered) return stated;
+  for (const PossiblePlace& one : possible_places(state.follow, state.mission->path)) {
+    stated.push_back({one.place, as_probability(one.probability)});
+  }
+  return stated;
 }
 
 std::optional<wire::QuestionReport> open_question(const DrivingState& state, const DrivingConfig& config,

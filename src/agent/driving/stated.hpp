@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "agent/driving/step.hpp"
 #include "wire/link_messages.hpp"
@@ -16,6 +17,10 @@ std::optional<double> stated_arrival(const DrivingState& state, const DrivingCon
 /// The place of the map that it is at by its own estimate, as of the latest picture of the drive. Nothing: it is not
 /// sure enough to drive by it, or its camera is covered.
 std::optional<wire::EstimateReport> stated_estimate(const DrivingState& state, const DrivingConfig& config);
+
+/// The places that it may be at by its own estimate, most probable first, however unsure that is. None where its camera
+/// is covered.
+std::vector<wire::EstimateReport> stated_places(const DrivingState& state);
 
 /// The question that waits for an answer. Nothing: it asks nothing, or somebody has answered. `now_ms`: by the sensors'
 /// clock, as of `step`.

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "agent/driving/estimated_position.hpp"
 #include "agent/driving/orders.hpp"
+#include "agent/driving/progress.hpp"
 #include "agent/driving/pursuit.hpp"
 #include "agent/driving/rider.hpp"
 #include "agent/driving/steering.hpp"
@@ -202,121 +204,6 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   speed_mps *= std::clamp(1.2 - 0.4 * doubt_m, 0.4, 1.0);
   if (const auto straight = pursue(config.body, points_m, aim_m, speed_mps)) return *straight;
   return steer_round(state.plan, config.body, points_m, aim_m, inputs.odometry, speed_mps, config.turn_gain);
-}
-
-/// Whether the destination is right here; nothing where that is not known well enough.
-std::optional<bool> is_near(const DrivingState& state, const DrivingConfig& config) {
-  if (!state.follow.view.known() || state.follow.index + 1 != state.mission->path.size()) return false;
-  constexpr double kKnownTo_m = 0.1;  // from pictures before, where somebody stands before the camera
-  if (!state.follow.measured && state.follow.view.doubt_m() > kKnownTo_m) return std::nullopt;
-  if (state.follow.most_alike < share_when_here(state.mission->path)) return false;
-  const auto goal_m = goal(state.follow, state.follow.odometry, config.follow);
-  constexpr double kStaysNear_m = 0.05;  // measured a little farther off, it is still near
-  const double near_m = config.near_m + (state.near_since_ms ? kStaysNear_m : 0.0);
-  return goal_m && goal_m->norm() < near_m;
-}
-
-/// Whether a distance has been more than so much for so long.
-bool lasts(std::optional<Milliseconds>& since_ms, const std::optional<double>& distance_m, double most_m,
-           Milliseconds now_ms, Milliseconds most_ms) {
-  if (!distance_m || *distance_m <= most_m) {
-    since_ms.reset();
-    return false;
-  }
-  since_ms = since_ms.value_or(now_ms);
-  return now_ms - *since_ms > most_ms;
-}
-
-std::string destination_of(const Mission& mission) {
-  return mission.label.empty() ? std::string("the destination") : mission.label;
-}
-
-/// It asks people no longer; what it said of that is over as well.
-void stop_asking(DrivingState& state) {
-  if (!state.asking.since_ms) return;
-  withdraw(state.asking);
-  state.reason.clear();
-}
-
-/// Beside its destination and not certain of it, the robot asks people; whether it does, and so stands and waits. Their
-/// answer has moved the estimate already (orders.cpp): what is left to say here is that it was not enough.
-bool ask_people(DrivingState& state, bool certain, const DrivingConfig& config, Milliseconds now_ms) {
-  const std::string where = destination_of(*state.mission);
-  if (!state.asking.since_ms) {
-    if (certain || !state.near_since_ms || now_ms - *state.near_since_ms <= config.doubtful_ms) return false;
-    ask(state.asking, now_ms);
-    state.reason = "I am not sure that this is " + where + "; I ask whether it is.";
-  }
-  // Whoever comes to answer may stand before the camera; and it makes no way because it does not want to.
-  state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = now_ms;
-  if (state.asking.said) {
-    end_mission(state, wire::DriveState::kFailed,
-                *state.asking.said ? "I am not sure that this is " + where + ", though somebody says so."
-                                   : "Somebody says that this is not " + where + ".");
-  } else if (now_ms - *state.asking.since_ms > config.asks_ms) {
-    end_mission(state, wire::DriveState::kFailed, "I am not sure that this is " + where + ".");
-  }
-  return true;
-}
-
-void judge_progress(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
-  // Somebody who stands before the camera for a moment does not move the robot away.
-  const auto near = is_near(state, config);
-  if (near && *near) state.near_since_ms = state.near_since_ms.value_or(now_ms);
-  if (near && !*near) {
-    state.near_since_ms.reset();
-    stop_asking(state);
-  }
-  const bool certain = is_certain_of_arrival(state.follow, state.mission->path, config.follow);
-  const bool near_enough = certain && state.near_since_ms && now_ms - *state.near_since_ms > config.near_ms;
-  const bool confirmed = certain && state.asking.since_ms;  // by an answer, or by what it has seen since it asks
-  const bool denied = state.asking.said == false;
-  if ((state.seen.at_end || near_enough || confirmed) && !denied && !state.docking) {
-    stop_asking(state);
-    if (!state.mission->dock) return end_mission(state, wire::DriveState::kArrived, "");
-    state.docking = true;
-    state.last_gain_ms = now_ms;
-  }
-  if (state.docking) {
-    // The place is reached; a heading that cannot be taken does not make it a failure.
-    constexpr Milliseconds kDockingLimit_ms = 15'000;
-    if (now_ms - state.last_gain_ms > kDockingLimit_ms) {
-      end_mission(state, wire::DriveState::kArrived, "I am there, but cannot turn to the right heading.");
-    }
-    return;
-  }
-  if (ask_people(state, certain, config, now_ms)) return;
-  if (now_ms - state.last_answer_ms > config.blind_ms) {
-    return end_mission(state, wire::DriveState::kFailed, "I do not recognise the way any more.");
-  }
-  if (position_probability(state.follow, state.mission->path) >= config.follow.drive_above) {
-    state.last_sure_ms = now_ms;
-  } else {
-    state.last_gain_ms = now_ms;  // looking around is no way gained, and not blocked either
-  }
-  if (now_ms - state.last_sure_ms > config.unsure_ms || state.looking.driven_m > kLooksAround_m) {
-    return end_mission(state, wire::DriveState::kFailed, "I am not sure where I am.");
-  }
-  if (lasts(state.off_path_since_ms, off_path_m(state.follow, state.mission->path, config.follow), config.off_path_m,
-            now_ms, config.off_path_ms)) {
-    state.astray = true;
-    return end_mission(state, wire::DriveState::kFailed, "I am not on my way, but elsewhere.");
-  }
-  if (lasts(state.off_belief_since_ms, off_belief_m(state.follow, state.mission->path, config.follow),
-            config.off_belief_m, now_ms, config.off_belief_ms)) {
-    state.at_odds = true;
-    state.astray = true;
-    state.kept.reset();
-    return end_mission(state, wire::DriveState::kFailed, "I am not sure where I am: the map says another place.");
-  }
-  // Beside its destination it waits for `near_ms` and has then arrived.
-  const bool stirs = state.stirring.seen_ms && now_ms - *state.stirring.seen_ms < config.stuck_ms;
-  const Milliseconds patience_ms = stirs ? config.patience_ms : config.stuck_ms;
-  if (!state.near_since_ms && now_ms - state.last_gain_ms > patience_ms) {
-    const bool unsure = is_unsure(state.follow);
-    return end_mission(state, wire::DriveState::kFailed,
-                       unsure ? "I do not see clearly enough where it is." : "The way is blocked.");
-  }
 }
 
 /// A loop that was held up stops, and what was ordered meanwhile is refused: who ordered it no longer expects it.

@@ -65,6 +65,7 @@ wire::AgentStatus status_of(const DrivingState& state, const DrivingConfig& conf
   status.vectors_per_s = static_cast<double>(state.answers_ms.size());
   status.arrival_probability = stated_arrival(state, config);
   status.estimate = stated_estimate(state, config);
+  status.possible_places = stated_places(state);
   status.question = open_question(state, config, reading.t_ms);
   status.displaced = state.displaced;
   status.astray = state.drive == wire::DriveState::kFailed && state.astray;

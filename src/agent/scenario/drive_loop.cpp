@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "agent/driving/estimated_position.hpp"
 #include "agent/recording/recorder.hpp"
 
 namespace homeward::agent {

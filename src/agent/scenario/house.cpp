@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/scenario/house.hpp"
 
+#include "agent/driving/estimated_position.hpp"
 #include "planning/detour.hpp"
+#include "planning/second_look.hpp"
 #include "planning/surroundings.hpp"
 
 namespace homeward::agent {
@@ -43,14 +45,20 @@ void House::begin_by_belief() {
   start_probability_ = belief_.lost ? belief_.near_share : belief_.near_probability;
 }
 
-Result<wire::MissionOrder> House::order_from(const PlaceId& place) {
+Result<wire::MissionOrder> House::order_from(const PlaceId& place, bool second_look) {
   planning::RouteRequest request;
   request.from = place;
   request.to = destination_->place;
   request.closed = closed_;
-  const auto detour = planning::plan_detour(*taught_->map, request, !fails_again_);
-  if (!detour) return pass_on(detour);
-  path_ = detour->route.places;
+  if (second_look) {
+    auto route = planning::plan_second_look(*taught_->map, request);
+    if (!route) return pass_on(route);
+    path_ = std::move(route->places);
+  } else {
+    auto detour = planning::plan_detour(*taught_->map, request, !fails_again_);
+    if (!detour) return pass_on(detour);
+    path_ = std::move(detour->route.places);
+  }
   wire::MissionOrder order = wire::order_for_route(*taught_->map, path_, *destination_);
   wire::add_surroundings(*taught_->map, taught_->layout,
                          planning::surroundings(*taught_->map, path_, likely_, taught_->layout), order);
@@ -92,6 +100,7 @@ Result<std::optional<PlaceId>> House::find_again(DriveLoop& drive) {
     if (const auto belief = tracker_.update(driven.picture, driven.odometry); !belief) return pass_on(belief);
   }
   std::optional<PlaceId> here;
+  belief_ = {};
   for (int look = 0; look < kMostLooks && !(here && look >= kLeastLooks); ++look) {
     const auto seen = drive.look_again();
     if (!seen) return pass_on(seen);
@@ -99,9 +108,38 @@ Result<std::optional<PlaceId>> House::find_again(DriveLoop& drive) {
     if (!*seen) continue;
     const auto belief = tracker_.update((*seen)->picture, (*seen)->odometry);
     if (!belief) return pass_on(belief);
-    here = place_of(*belief);
+    belief_ = *belief;
+    here = place_of(belief_);
   }
+  begin_by_belief();
+  if (here) start_probability_ = 1.0;
   return here;
+}
+
+/// Where the robot is to begin, and how probable that is; `unsure` where nobody is sure of it. The belief is of the
+/// whole map and of all pictures of the drive; where it is lost, the robot's own estimate. Of a covered camera neither
+/// says anything, nor of a robot that was lifted.
+std::optional<PlaceId> House::believed_start(const DrivingState& robot, bool sees, bool& unsure) {
+  constexpr double kBothMayBeRight = 0.5;
+  constexpr double kApart_m = 2.0;
+  begin_by_belief();
+  if (!sees) return std::nullopt;
+  const auto believed = place_of(belief_);
+  const auto estimated = estimated_place(robot.follow, robot.mission->path, FollowConfig{});
+  const auto possible = possible_places(robot.follow, robot.mission->path);
+  for (const PossiblePlace& one : possible) likely_.push_back(one.place);
+  if (estimated && !robot.at_odds) {
+    start_probability_ = position_probability(robot.follow, robot.mission->path);
+    return estimated;
+  }
+  if (!believed && !estimated && !possible.empty()) {
+    start_probability_ = possible.front().probability;
+    unsure = true;
+    return possible.front().place;
+  }
+  const auto off_m = off_belief_m(robot.follow, robot.mission->path, FollowConfig{});
+  if (!believed || (off_m && *off_m > kApart_m)) start_probability_ = std::min(start_probability_, kBothMayBeRight);
+  return believed ? believed : estimated;
 }
 
 Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, std::string& why) {
@@ -109,33 +147,17 @@ Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, s
   const std::int64_t index = robot.follow.index;
   const bool displaced = robot.displaced > displaced_;
   displaced_ = robot.displaced;
-  const bool sees = robot.mission && !robot.covered && !displaced;
-  // The belief is of the whole map and of all pictures of the drive; where it is lost, the robot's own estimate.
-  // Of a covered camera neither says anything, nor of a robot that was lifted.
-  Result<std::optional<PlaceId>> here = sees ? place_of(belief_) : std::nullopt;
-  begin_by_belief();
-  if (sees) {
-    constexpr double kBothMayBeRight = 0.5;
-    constexpr double kApart_m = 2.0;
-    const auto estimated = estimated_place(robot.follow, robot.mission->path, FollowConfig{});
-    const auto off_m = off_belief_m(robot.follow, robot.mission->path, FollowConfig{});
-    const double sure = position_probability(robot.follow, robot.mission->path);
-    if (estimated) likely_.push_back(*estimated);
-    if (estimated && !robot.at_odds) {
-      here = estimated;
-      start_probability_ = sure;
-    } else {
-      if (!*here || (off_m && *off_m > kApart_m)) start_probability_ = std::min(start_probability_, kBothMayBeRight);
-      if (!*here) here = estimated;
-    }
-  }
+  bool unsure = false;
+  Result<std::optional<PlaceId>> here = believed_start(robot, robot.mission && !robot.covered && !displaced, unsure);
   if (displaced) {
-    const auto found = look_anew(drive);
-    if (!found) return pass_on(found);
-    here = *found;
+    here = look_anew(drive);
   } else if (!*here) {
     here = find_again(drive);
-    start_probability_ = 1.0;
+    // Where that says nothing either, it begins at the likeliest place, finds out for itself, and is sent anew.
+    if (here && !*here && !robot.covered && !belief_.top.empty()) {
+      here = belief_.top.front().place;
+      unsure = true;
+    }
   }
   if (!here) return pass_on(here);
   if (drive.stopped_by_hand()) return std::nullopt;
@@ -143,17 +165,21 @@ Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, s
     why = "I do not know where I am.";
     return std::nullopt;
   }
-  const auto ways =
-      planning::detour_after({path_, index, **here, destination_->place, detours_, restarts_, robot.astray});
+  const bool homed_to_it = index + 1 == static_cast<std::int64_t>(path_.size());
+  const bool second_look = robot.astray && !displaced && **here == destination_->place && homed_to_it;
+  unsure = unsure || second_look;
+  const auto ways = planning::detour_after(
+      {path_, index, **here, destination_->place, detours_, restarts_, robot.astray, unsure, unsure_restarts_});
   if (!ways) return std::nullopt;
   fails_again_ = planning::fails_again(closed_, *ways);
   closed_.insert(closed_.end(), ways->begin(), ways->end());
-  auto order = order_from(**here);
+  auto order = order_from(**here, second_look);
   if (!order) {
     why = order.error().message;
     return std::nullopt;
   }
-  ++(robot.astray ? restarts_ : detours_);
+  ++(robot.astray || unsure ? restarts_ : detours_);
+  if (unsure) ++unsure_restarts_;
   return std::optional(std::move(*order));
 }
 

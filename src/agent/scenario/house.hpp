@@ -22,8 +22,9 @@ class House {
 
   /// Looks at where the robot stands: the likeliest place, however unlikely. Nothing: there is nothing to be seen.
   Result<std::optional<PlaceId>> find_place(SimulatedRobot& robot);
-  /// The way to the destination, round what has failed. Errors: those of plan_detour.
-  Result<wire::MissionOrder> order_from(const PlaceId& place);
+  /// The way to the destination, round what has failed; or a second look at it, from its own place. Errors: those of
+  /// plan_detour and plan_second_look.
+  Result<wire::MissionOrder> order_from(const PlaceId& place, bool second_look = false);
   /// The next order after a drive that failed. Nothing: a person decides, and `why` may say what for.
   Result<std::optional<wire::MissionOrder>> order_after(DriveLoop& drive, std::string& why);
   /// Where an order's pictures were truly taken, one for each of its views.
@@ -36,6 +37,7 @@ class House {
  private:
   Result<std::optional<PlaceId>> find_again(DriveLoop& drive);
   void begin_by_belief();
+  std::optional<PlaceId> believed_start(const DrivingState& robot, bool sees, bool& unsure);
   Result<std::optional<PlaceId>> look_anew(DriveLoop& drive);
   House(const TaughtWorld& taught, const map::Destination& destination, pipeline::BeliefTracker tracker)
       : taught_(&taught), destination_(&destination), tracker_(std::move(tracker)) {}
@@ -50,7 +52,8 @@ class House {
   int displaced_ = 0;               // how often the robot had noticed a lift when its belief was begun anew
   localisation::Belief belief_;     // the latest
   int detours_ = 0;
-  int restarts_ = 0;          // after the robot was elsewhere than on its way
+  int restarts_ = 0;          // after the robot was elsewhere than on its way, or unsure
+  int unsure_restarts_ = 0;   // of them, those of a robot that was unsure
   bool fails_again_ = false;  // where it failed before
   std::int64_t orders_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "agent/driving/estimated_position.hpp"
 #include "agent/files/world_folder.hpp"
 #include "agent/recording/recorder.hpp"
 #include "agent/scenario/drive_loop.hpp"

@@ -13,6 +13,7 @@
 #include <random>
 
 #include "agent/drivers/simulated_robot.hpp"
+#include "agent/driving/estimated_position.hpp"
 #include "agent/files/world_folder.hpp"
 #include "agent/scenario/drive_loop.hpp"
 #include "agent/scenario/house.hpp"

@@ -125,6 +125,7 @@ TEST_F(AskingTest, ANoEndsItAndCountsAgainstItsBeingThere) {
   EXPECT_EQ(state_.drive, DriveState::kFailed);
   EXPECT_EQ(state_.reason, "Somebody says that this is not kitchen.");
   EXPECT_LT(arrival(), 0.5 * before);
+  EXPECT_TRUE(state_.astray) << "it is likelier elsewhere now";
   EXPECT_FALSE(question());
   expect_stays();
 }
@@ -137,6 +138,17 @@ TEST_F(AskingTest, ANoEndsItHoweverCertainItIsByThen) {
   EXPECT_EQ(state_.reason, "Somebody says that this is not kitchen.");
 }
 
+TEST_F(AskingTest, AfterANoToWhatIsStillProbableAPersonDecides) {
+  ASSERT_NO_FATAL_FAILURE(drive_until_it_asks());
+  const Pose2& there = state_.mission->path.pose(state_.mission->path.size() - 1);
+  for (int k = 0; k < 4; ++k) state_.follow.hypotheses.told({there.x_m, there.y_m}, 0.5, 10.0);
+  config_.follow.arrived_probability = 1.01;
+  say(false);
+  ASSERT_EQ(state_.drive, DriveState::kFailed);
+  ASSERT_GT(arrival(), 0.5);
+  EXPECT_FALSE(state_.astray);
+}
+
 TEST_F(AskingTest, WithoutAnAnswerItGivesUpAfterAWhile) {
   ASSERT_NO_FATAL_FAILURE(drive_until_it_asks());
   const Milliseconds waited_ms = until_stopped(true, config_.asks_ms + 5000);
@@ -144,6 +156,7 @@ TEST_F(AskingTest, WithoutAnAnswerItGivesUpAfterAWhile) {
   EXPECT_LE(waited_ms, config_.asks_ms + 2 * kTick_ms);
   EXPECT_EQ(state_.drive, DriveState::kFailed);
   EXPECT_EQ(state_.reason, "I am not sure that this is kitchen.");
+  EXPECT_TRUE(state_.astray) << "no part of the way is to blame";
   EXPECT_FALSE(question());
   expect_stays();
 }

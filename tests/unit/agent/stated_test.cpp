@@ -41,9 +41,12 @@ TEST_F(StepTest, StatesHowProbableItIsThatItHasArrivedFromSettingOffToTheEnd) {
 
 TEST_F(StepTest, OfACoveredCameraItStatesNoPlace) {
   set_off();
+  ASSERT_FALSE(stated_places(state_).empty());
+  EXPECT_EQ(stated_places(state_).front().place, stated_estimate(state_, config_)->place);
   covered_ = true;
   tick({permit("m1", 1, ++seq_)});
   EXPECT_FALSE(stated_estimate(state_, config_));
+  EXPECT_TRUE(stated_places(state_).empty());
 }
 
 TEST_F(StepTest, OfOneViewWithoutAMapItStatesNoProbability) {

@@ -60,7 +60,16 @@ TEST(Detour, OfARobotThatWentAstrayClosesNothingAndIsNoDetour) {
   EXPECT_FALSE(detour_after(astray)) << "but not without end";
   FailedDrive there = failed(2, "p4");
   there.astray = true;
-  EXPECT_FALSE(detour_after(there)) << "at the destination a person decides";
+  EXPECT_EQ(detour_after(there), Ways()) << "somebody has lifted it there";
+}
+
+TEST(Detour, OfARobotThatIsUnsureIsLookedForThreeTimesAtMost) {
+  FailedDrive unsure = failed(3, "p4");
+  unsure.unsure = true;
+  for (unsure.unsure_restarts = 0; unsure.unsure_restarts < 3; ++unsure.unsure_restarts) {
+    EXPECT_EQ(detour_after(unsure), Ways()) << unsure.unsure_restarts;
+  }
+  EXPECT_FALSE(detour_after(unsure));
 }
 
 TEST(Detour, GoesRoundWhatIsClosed) {

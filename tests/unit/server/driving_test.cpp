@@ -264,6 +264,74 @@ TEST_F(DrivingTest, ARobotThatWentAstrayIsSentOnOverTheWayThatNothingIsWrongWith
   }
 }
 
+TEST_F(DrivingTest, ARobotThatIsNotSureOfItsDestinationLooksAroundAndComesBack) {
+  add_robot();
+  put_on_map();
+  FakeAgent agent;
+  ASSERT_EQ(agent.connect(app->port(), robot, token), 101);
+  const std::string lease = take_lease(*admin);
+  find_itself(agent);
+  const Answer sent = send_home(lease);
+  auto order = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(order);
+  const PlaceId there = order->path.back().place;
+  agent.estimate = wire::EstimateReport{there, 0.9};
+  agent.possible_places = {*agent.estimate, {order->path.front().place, 0.1}};
+  const auto give_up = [&] {
+    const auto last = static_cast<std::int64_t>(order->path.size()) - 1;
+    agent.astray = false;
+    agent.status(wire::DriveState::kDriving, order, last);
+    wait_for_state(sent.json(), "driving");
+    agent.astray = true;
+    agent.status(wire::DriveState::kFailed, order, last, "I am not sure that this is the room.");
+  };
+  for (int look = 0; look < 3; ++look) {
+    give_up();
+    order = agent.await<wire::MissionOrder>();
+    ASSERT_TRUE(order) << look << mission_now(sent.json()).dump();
+    ASSERT_GE(order->path.size(), 3U);
+    EXPECT_EQ(order->path.front().place, there);
+    EXPECT_EQ(order->path.back().place, there);
+    EXPECT_TRUE(order->dock) << "it is the destination's own picture that it comes back to";
+    const auto reason = mission_now(sent.json()).at("reason").get<std::string>();
+    EXPECT_NE(reason.find("looks around and comes back"), std::string::npos) << reason;
+  }
+  give_up();
+  const json now = wait_for_state(sent.json(), "failed");
+  EXPECT_EQ(now.at("reason"), "I am not sure that this is the room.");
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(400)));
+}
+
+TEST_F(DrivingTest, ARobotThatIsLostGoesOnFromWhereItIsLikeliest) {
+  add_robot();
+  put_on_map();
+  FakeAgent agent;
+  ASSERT_EQ(agent.connect(app->port(), robot, token), 101);
+  const std::string lease = take_lease(*admin);
+  find_itself(agent);
+  const Answer sent = send_home(lease);
+  auto order = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(order);
+  ASSERT_GE(order->path.size(), 2U);
+  const PlaceId second = order->path[1].place;
+  for (unsigned look = 0; look < 12; ++look) {  // until the belief is lost as well
+    agent.look(60 + look);
+    const auto belief = agent.await<wire::BeliefReport>(milliseconds(60'000));
+    ASSERT_TRUE(belief);
+    if (belief->lost) break;
+  }
+  agent.status(wire::DriveState::kDriving, order, 0);
+  wait_for_state(sent.json(), "driving");
+  agent.possible_places = {{second, 0.4}, {order->path.front().place, 0.3}};
+  agent.astray = true;
+  agent.status(wire::DriveState::kFailed, order, 0, "I am not sure where I am.");
+  order = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(order) << mission_now(sent.json()).dump();
+  EXPECT_EQ(order->path.front().place, second);
+  ASSERT_TRUE(order->surroundings);
+  EXPECT_DOUBLE_EQ(order->surroundings->start_probability, 0.4);
+}
+
 TEST_F(DrivingTest, WithoutALeaseNoOtherWayIsDriven) {
   add_robot();
   put_on_map();
