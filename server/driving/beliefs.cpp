@@ -68,6 +68,7 @@ void Driving::look(const Unit& unit) {
   camera::CameraConfig camera;
   std::shared_ptr<AgentLink> link;
   bool new_odometry = false;
+  std::optional<wire::EstimateReport> estimate;
   {
     const std::scoped_lock lock(unit->mutex);
     frame = std::move(unit->waiting_frame);
@@ -79,6 +80,7 @@ void Driving::look(const Unit& unit) {
     map = unit->map;
     camera = unit->hello.camera;
     link = unit->link;
+    estimate = unit->driving_estimate(began);
   }
   PlaceId sure;
   double near_share = 0.0;
@@ -91,8 +93,9 @@ void Driving::look(const Unit& unit) {
       if (new_odometry) tracking->tracker.restart_odometry();
       const auto picture = imageio::decode(frame->jpeg, "frame " + std::to_string(frame->seq));
       if (!picture) return pass_on(picture);
-      const auto belief = tracking->tracker.update(*picture, frame->odometry);
+      auto belief = tracking->tracker.update(*picture, frame->odometry);
       if (!belief) return pass_on(belief);
+      if (estimate) belief = tracking->tracker.hear(estimate->place, estimate->probability);
       sure = pipeline::sure_place(*belief, {});
       near_share = belief->near_share;
       wire::BeliefView view = view_of(*belief);

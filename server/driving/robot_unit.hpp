@@ -129,6 +129,12 @@ struct RobotUnit {
     }
     return places;
   }
+  /// Where a robot takes itself to be that is under way.
+  [[nodiscard]] std::optional<wire::EstimateReport> driving_estimate(SteadyTime now) const {
+    const bool drives = under_way && status && status_at && now - *status_at <= kBeliefFresh &&
+                        status->mission == mission->id && status->state == wire::DriveState::kDriving;
+    return drives ? status->estimate : std::nullopt;
+  }
   /// Where a robot may be sent on from by itself after a drive that failed: its own estimate as it stopped, which it
   /// keeps; where it says nothing, the belief, which is of the whole map and of all pictures. Of two that are at odds
   /// the belief begins, and is worth no more than an even chance. Where neither is sure, the robot's likeliest place.

@@ -12,6 +12,7 @@
 #include "localisation/motion_model.hpp"
 #include "localisation/place_belief.hpp"
 #include "map/graph.hpp"
+#include "map/lookup.hpp"
 #include "matching/visual_distance.hpp"
 
 namespace homeward::localisation {
@@ -153,6 +154,8 @@ struct Localiser::State {
     const auto driven_m = metres_to(odometry);
     if (driven_m && nothing_seen) return true;  // the way counts as a whole once something is seen again
     // A robot that does not know where it is goes on looking, up to where it does.
+    constexpr double kNewsOfSpot = 0.1;  // whoever stands goes on saying where
+    news = kNewsOfSpot;
     const bool stands = driven_m && *driven_m < known->config.spot_radius_m;
     if (stands && spot_seen && !report(false).lost && known->same_view(*spot_seen, seen)) return true;
     if (updates > 0) {
@@ -180,6 +183,7 @@ struct Localiser::State {
   std::shared_ptr<const Known> known;
   PlaceBelief belief;
   int updates = 0;
+  bool showed_nothing = false;                    // the latest picture
   double news = 1.0;                              // of the latest picture, of 0 to 1
   std::optional<Pose2> spot;                      // where the belief was last moved to
   std::optional<features::Appearance> spot_seen;  // the picture that counted there
@@ -221,7 +225,22 @@ Belief Localiser::update(const features::Appearance& seen, const std::optional<P
                        state.news);
     if (odometry) state.spot_seen = seen;
   }
+  state.showed_nothing = nothing_seen;
   return state.report(nothing_seen);
+}
+
+Belief Localiser::hear(const PlaceId& place, double probability) {
+  State& state = *state_;
+  const Known& known = *state.known;
+  const map::Place* named = map::find_place(*known.map, place);
+  if (named != nullptr && probability >= known.config.heard_above && !state.showed_nothing) {
+    const int index = static_cast<int>(named - known.map->places.data());
+    std::vector<int> places = known.neighbours[at(index)];
+    places.push_back(index);
+    state.belief.hear(places, std::pow(known.config.heard_odds, state.news),
+                      std::min(known.config.heard_most, probability));
+  }
+  return state.report(state.showed_nothing);
 }
 
 }  // namespace homeward::localisation

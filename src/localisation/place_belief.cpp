@@ -85,11 +85,34 @@ void PlaceBelief::weigh(std::span<const PlaceShare> seen, double floor, double e
   excess_ = std::move(weighed);
   common_ *= floor;
   elsewhere_ *= elsewhere;
+  normalise();
+  forget_small();
+}
+
+void PlaceBelief::hear(std::span<const int> places, double odds, double most) {
+  double there = 0.0;
+  for (const int place : places) there += of(place);
+  if (there <= 0.0 || there >= most || most >= 1.0) return;
+  const double times = std::min(odds, most / (1.0 - most) * (1.0 - there) / there);
+  if (times <= 1.0) return;
+  for (const int place : places) {
+    const double more = of(place) * (times - 1.0);
+    const auto found = std::ranges::lower_bound(excess_, place, {}, &PlaceShare::place);
+    if (found != excess_.end() && found->place == place) {
+      found->probability += more;
+    } else {
+      excess_.insert(found, {place, more});
+    }
+  }
+  normalise();
+  forget_small();
+}
+
+void PlaceBelief::normalise() {
   const double sum = total();
   for (PlaceShare& share : excess_) share.probability /= sum;
   common_ /= sum;
   elsewhere_ /= sum;
-  forget_small();
 }
 
 void PlaceBelief::forget_small() {

@@ -40,6 +40,10 @@ class PlaceBelief {
   /// power that all of them are raised to, of 0 to 1, for a picture that says only in part what others did not.
   void weigh(std::span<const PlaceShare> seen, double floor, double elsewhere, double news = 1.0);
 
+  /// Somebody says that the robot is at one of these places, each named once: `odds` multiplies the odds of that, but
+  /// makes it no more probable than `most`.
+  void hear(std::span<const int> places, double odds, double most);
+
   [[nodiscard]] double of(int place) const;
   [[nodiscard]] double elsewhere() const { return elsewhere_; }
   /// The most probable places, at most `count`, equals by index. With `distinct`, only places that are more probable
@@ -51,6 +55,7 @@ class PlaceBelief {
  private:
   [[nodiscard]] double total() const;
   void move(std::vector<PlaceShare> driven, double unexplained, double jump_probability);
+  void normalise();
   void forget_small();
 
   const MotionModel* motion_;

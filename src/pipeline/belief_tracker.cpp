@@ -51,6 +51,10 @@ localisation::Belief BeliefTracker::update(features::Appearance seen, const std:
   return state_->localiser.update(state_->seen, odometry);
 }
 
+localisation::Belief BeliefTracker::hear(const PlaceId& place, double probability) {
+  return state_->localiser.hear(place, probability);
+}
+
 void BeliefTracker::restart() { state_->localiser.restart(); }
 
 void BeliefTracker::restart_odometry() { state_->localiser.restart_odometry(); }

@@ -16,6 +16,24 @@ void end_astray(DrivingState& state, std::string reason) {
   end_mission(state, wire::DriveState::kFailed, std::move(reason));
 }
 
+/// The way is blocked. A tour drove it: who is elsewhere meets walls where the map has a way, and who is there seldom
+/// does. Where that leaves it unsure where it is, or surer of another place, no part of the way is to blame.
+void end_blocked(DrivingState& state, const DrivingConfig& config) {
+  constexpr double kOdds = 1.0 / 50.0;  // of being where it is taken to be
+  constexpr double kWithin_m = 2.0;
+  const VisualPath& path = state.mission->path;
+  const auto before = estimated_place(state.follow, path, config.follow);
+  if (before && path.index) {
+    const Pose2& here = state.follow.hypotheses.best()->map_from_robot;
+    state.follow.hypotheses.told({here.x_m, here.y_m}, kWithin_m, kOdds);
+  }
+  if (!before || estimated_place(state.follow, path, config.follow) == before) {
+    return end_mission(state, wire::DriveState::kFailed, "The way is blocked.");
+  }
+  if (state.kept) state.kept->hypotheses = state.follow.hypotheses;
+  end_astray(state, "The way is blocked; I may be elsewhere.");
+}
+
 /// Whether the destination is right here; nothing where that is not known well enough.
 std::optional<bool> is_near(const DrivingState& state, const DrivingConfig& config) {
   if (!state.follow.view.known() || state.follow.index + 1 != state.mission->path.size()) return false;
@@ -127,9 +145,10 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   const bool stirs = state.stirring.seen_ms && now_ms - *state.stirring.seen_ms < config.stuck_ms;
   const Milliseconds patience_ms = stirs ? config.patience_ms : config.stuck_ms;
   if (!state.near_since_ms && now_ms - state.last_gain_ms > patience_ms) {
-    const bool unsure = is_unsure(state.follow);
-    return end_mission(state, wire::DriveState::kFailed,
-                       unsure ? "I do not see clearly enough where it is." : "The way is blocked.");
+    if (is_unsure(state.follow)) {
+      return end_mission(state, wire::DriveState::kFailed, "I do not see clearly enough where it is.");
+    }
+    return end_blocked(state, config);
   }
 }
 

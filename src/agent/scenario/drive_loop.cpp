@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "agent/driving/estimated_position.hpp"
+#include "agent/driving/stated.hpp"
 #include "agent/recording/recorder.hpp"
 
 namespace homeward::agent {
@@ -146,7 +147,9 @@ Result<Outputs> DriveLoop::step_once(bool link_up) {
   constexpr Milliseconds kAskEvery_ms = 500;
   if (believes_ && link_up && inputs.picture && inputs.picture->appearance && now_ms_ - believed_ms_ >= kAskEvery_ms) {
     believed_ms_ = now_ms_;
-    messages_.emplace_back(believes_(*inputs.picture->appearance, inputs.odometry));
+    const bool drives = state_.drive == wire::DriveState::kDriving;
+    messages_.emplace_back(believes_(*inputs.picture->appearance, inputs.odometry,
+                                     drives ? stated_estimate(state_, config_) : std::nullopt));
   }
   if (!on("scan_lost")) inputs.scan = {now_ms_, robot_.sweep()};
   const bool looks = inputs.picture.has_value() && state_.drive == wire::DriveState::kDriving;

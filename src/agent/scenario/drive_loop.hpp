@@ -28,8 +28,10 @@ struct DrivenPicture {
 /// Where a robot is put that is lifted in mid-mission. Nothing: there is no such spot.
 using Elsewhere = std::function<Result<std::optional<Pose2>>()>;
 
-/// What the house believes of a picture that the robot has recognised, and where it was taken.
-using Believes = std::function<wire::BeliefReport(const features::Appearance&, const Pose2&)>;
+/// What the house believes of a picture that the robot has recognised, where it was taken, and where the robot takes
+/// itself to be.
+using Believes = std::function<wire::BeliefReport(const features::Appearance&, const Pose2&,
+                                                  const std::optional<wire::EstimateReport>&)>;
 
 /// The loop of one mission: world, sensors and heart, cycle by cycle, and the house that permits it, with all that goes
 /// wrong. The robot's base brakes by itself 0.1 s after the last command.

@@ -183,8 +183,10 @@ Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, s
   return std::optional(std::move(*order));
 }
 
-wire::BeliefReport House::believe(const features::Appearance& seen, const Pose2& odometry) {
+wire::BeliefReport House::believe(const features::Appearance& seen, const Pose2& odometry,
+                                  const std::optional<wire::EstimateReport>& estimate) {
   belief_ = tracker_.update(seen, odometry);
+  if (estimate) belief_ = tracker_.hear(estimate->place, estimate->probability);
   wire::BeliefReport report;
   report.lost = belief_.lost;
   report.place = place_of(belief_);

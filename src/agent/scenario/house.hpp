@@ -29,8 +29,9 @@ class House {
   Result<std::optional<wire::MissionOrder>> order_after(DriveLoop& drive, std::string& why);
   /// Where an order's pictures were truly taken, one for each of its views.
   [[nodiscard]] std::vector<Pose2> way_of(const wire::MissionOrder& order) const;
-  /// The belief by one more picture of the drive.
-  wire::BeliefReport believe(const features::Appearance& seen, const Pose2& odometry);
+  /// The belief by one more picture of the drive, and by where the robot takes itself to be.
+  wire::BeliefReport believe(const features::Appearance& seen, const Pose2& odometry,
+                             const std::optional<wire::EstimateReport>& estimate);
   /// Orders that were given anew.
   [[nodiscard]] int detours() const { return detours_ + restarts_; }
 

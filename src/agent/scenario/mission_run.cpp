@@ -152,8 +152,9 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
     DriveLoop drive(*robot, *eye, FaultSchedule(plan.faults), config, listener, recorder.get());
     drive.kidnap_to([&] { return look_alike_spot(taught, *robot, *eye); });
     if (auto answers = answers_named(plan.answers, target->second)) drive.answer_by(std::move(*answers));
-    drive.ask_belief(
-        [&](const features::Appearance& seen, const Pose2& odometry) { return house->believe(seen, odometry); });
+    drive.ask_belief([&](const features::Appearance& seen, const Pose2& odometry, const auto& estimate) {
+      return house->believe(seen, odometry, estimate);
+    });
     auto driven = drive_mission(drive, *house, *order);
     if (!driven) return pass_on(driven);
     result = std::move(*driven);

@@ -141,8 +141,9 @@ Ending drive(const agent::TaughtWorld& taught, agent::SimulatedRobot& robot, con
   config.feature_config_id = taught.map->feature_config_id;
   const agent::ScenarioListener listener;
   agent::DriveLoop drive(robot, eye, agent::FaultSchedule({}), config, listener, nullptr);
-  drive.ask_belief(
-      [&](const features::Appearance& seen, const Pose2& odometry) { return house.believe(seen, odometry); });
+  drive.ask_belief([&](const features::Appearance& seen, const Pose2& odometry, const auto& estimate) {
+    return house.believe(seen, odometry, estimate);
+  });
   Ending ending;
   ending.kind = kind;
   ending.to = destination.label;

@@ -140,6 +140,44 @@ TEST_F(StepTest, AWayThatStaysBlockedFailsTheMission) {
   expect_stays();
 }
 
+TEST_F(StepTest, WhereTheWayIsBlockedAndItMayBeElsewhereNoPartOfTheWayIsToBlame) {
+  const auto blocked_with = [&](double rival) {
+    state_ = {};
+    pose_ = {};
+    config_.stuck_ms = 2000;
+    wire::MissionOrder order = mission("m1", 1, 1);
+    wire::Surroundings around;
+    around.path = {views()[0], views()[1]};
+    around.final_pose = views()[2];
+    around.nearby.push_back({PlaceId("p9"), ImageId("tour/20.jpg"), {20.0, 20.0, 0.0}, order.final_appearance});
+    order.surroundings = std::move(around);
+    ranges_m_.assign(90, kOpen_m);
+    hidden_ = false;
+    tick({std::move(order)});
+    seq_ = 1;
+    for (int k = 0; k < 4; ++k) tick({permit("m1", 1, ++seq_)});
+    hidden_ = true;
+    const PoseHypothesis here = *state_.follow.hypotheses.best();
+    PoseHypothesis there = here;
+    there.map_from_robot = {20.0, 20.0, 0.0};
+    PoseHypothesis at = here;
+    at.weight = 1.0 - rival;
+    there.weight = rival;
+    state_.follow.hypotheses = PoseHypotheses(config_.follow.pose, {at, there}, 0.0, 0.0);
+    ranges_m_.assign(90, 0.4F);
+    until_stopped(true, 10'000);
+    EXPECT_EQ(state_.drive, DriveState::kFailed) << state_.reason;
+  };
+  blocked_with(0.2);
+  EXPECT_EQ(state_.reason, "The way is blocked; I may be elsewhere.");
+  EXPECT_TRUE(state_.astray);
+  ASSERT_TRUE(state_.kept);
+  EXPECT_NEAR(state_.kept->hypotheses.best()->map_from_robot.x_m, 20.0, 0.1) << "the next order begins with that";
+  blocked_with(0.001);
+  EXPECT_EQ(state_.reason, "The way is blocked.");
+  EXPECT_FALSE(state_.astray);
+}
+
 TEST_F(StepTest, WhoGetsNowhereBecauseItDoesNotKnowWhereDoesNotCallTheWayBlocked) {
   config_.stuck_ms = 2000;
   set_off();

@@ -248,6 +248,57 @@ TEST(LocaliserWithOdometry, ThreeMetresOnIsThePlaceThreeMetresOn) {
   EXPECT_EQ(best(without.update(seen_at(3, 0.05, 0.0))), "D");
 }
 
+TEST(LocaliserWithOdometry, HearsWhichOfTwoLookAlikesItIsFromTheRobotThatDroveThere) {
+  const map::TopologicalMap map = measured_corridor({2, 7});  // C and H look the same
+  Localiser localiser(map, {});
+  localiser.update(seen_at(2, 0.05, 0.0), Pose2{});
+  const Belief belief = localiser.hear(PlaceId("H"), 0.95);
+  EXPECT_EQ(best(belief), "H");
+  EXPECT_GT(probability_of(belief, "H"), 0.8);
+  EXPECT_LE(belief.near_share, 0.95 + 1e-9);
+  Localiser unsure(map, {});
+  const Belief before = unsure.update(seen_at(2, 0.05, 0.0), Pose2{});
+  EXPECT_EQ(probability_of(unsure.hear(PlaceId("H"), 0.89), "H"), probability_of(before, "H"));
+  EXPECT_EQ(probability_of(unsure.hear(PlaceId("nowhere"), 1.0), "H"), probability_of(before, "H"));
+}
+
+TEST(LocaliserWithOdometry, WhatItHearsDoesNotOutweighPicturesThatAreClear) {
+  Localiser localiser(measured_corridor(), {});
+  Belief belief;
+  for (int k = 0; k < 6; ++k) {
+    localiser.update(seen_at(3, 0.1 * k, 0.0), Pose2{0.5 * k, 0.0, 0.0});
+    belief = localiser.hear(PlaceId("I"), 0.97);
+  }
+  EXPECT_EQ(best(belief), "D");
+}
+
+TEST(LocaliserWithOdometry, StandingStillItHearsLess) {
+  const map::TopologicalMap map = measured_corridor({2, 7});
+  const auto after_standing = [&](int looks) {
+    Localiser localiser(map, {});
+    Belief belief = localiser.update(seen_at(1, 0.05, 0.0), Pose2{});
+    belief = localiser.update(seen_at(2, 0.05, 0.0), Pose2{1.0, 0.0, 0.0});
+    for (int k = 0; k < looks; ++k) {
+      localiser.update(seen_at(2, 0.05, 0.0), Pose2{1.0, 0.0, 0.0});
+      belief = localiser.hear(PlaceId("H"), 0.95);
+    }
+    return probability_of(belief, "C");
+  };
+  const double before = after_standing(0);
+  ASSERT_GT(before, 0.9);
+  EXPECT_GT(after_standing(1), 0.9);
+  EXPECT_LT(after_standing(1), before);
+}
+
+TEST(LocaliserWithOdometry, UnderACoveredLensItHearsNothing) {
+  Localiser localiser(measured_corridor(), {});
+  localiser.update(seen_at(3, 0.05, 0.0), Pose2{});
+  localiser.update(features::Appearance{}, Pose2{0.5, 0.0, 0.0});
+  const Belief belief = localiser.hear(PlaceId("I"), 0.97);
+  EXPECT_EQ(best(belief), "D");
+  EXPECT_TRUE(belief.lost);
+}
+
 TEST(LocaliserWithOdometry, StandingStillNeitherMovesTheBeliefNorMakesItSurer) {
   const map::TopologicalMap map = measured_corridor({4, 5});  // E and F look the same
   Localiser standing(map, {});

@@ -167,6 +167,28 @@ TEST(PlaceBelief, HalfThePowerIsHalfTheNews) {
   EXPECT_NEAR(twice.elsewhere(), once.elsewhere(), 1e-9);
 }
 
+TEST(PlaceBelief, WhatIsHeardMultipliesTheOddsOfPlacesUpToWhatItMayMakeThem) {
+  const map::TopologicalMap map = ring(8);
+  const map::PlaceGraph graph(map);
+  const MotionModel motion(graph, 1.0, 3);
+  PlaceBelief belief(motion, {});
+  belief.weigh(std::vector<PlaceShare>{{2, 0.9}, {5, 0.1}}, kFloor, kElsewhere);
+  const auto odds = [&] { return (belief.of(5) + belief.of(6)) / (1.0 - belief.of(5) - belief.of(6)); };
+  const double before = odds();
+  const double of_others = belief.of(2) / belief.elsewhere();
+  const std::vector<int> there = {6, 5};  // 6 is as improbable as all that were not seen
+  belief.hear(there, 4.0, 0.97);
+  EXPECT_NEAR(odds(), 4.0 * before, 1e-9);
+  EXPECT_NEAR(sum_of(belief, 8), 1.0, 1e-12);
+  EXPECT_NEAR(belief.of(2) / belief.elsewhere(), of_others, 1e-9) << "of the others it says nothing";
+  belief.hear(there, 1e9, 0.8);
+  EXPECT_NEAR(belief.of(5) + belief.of(6), 0.8, 1e-9);
+  belief.hear(there, 4.0, 0.5);
+  EXPECT_NEAR(belief.of(5) + belief.of(6), 0.8, 1e-9) << "it makes nothing less probable";
+  belief.hear({}, 4.0, 0.9);
+  EXPECT_NEAR(sum_of(belief, 8), 1.0, 1e-12);
+}
+
 TEST(PlaceBelief, ARobotThatDroveHasHardlyJumped) {
   map::TopologicalMap map = ring(40);
   for (map::Edge& edge : map.edges) {
