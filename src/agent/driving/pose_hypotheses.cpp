@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/driving/pose_hypotheses.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "agent/driving/expected_view.hpp"
 #include "core/angles.hpp"
 
 namespace homeward::agent {
@@ -24,86 +24,6 @@ Eigen::Matrix2d rotation(double angle_rad) {
   return (Eigen::Matrix2d() << c, -s, s, c).finished();
 }
 
-/// Where a view lies by a hypothesis: in the robot's frame, with the covariance of its position there.
-struct Expected {
-  Pose2 robot_from_view;
-  double distance_m = 0.0;
-  Eigen::Matrix2d covariance_m2;
-};
-
-Expected expected(const PoseHypothesis& hypothesis, const ViewSighting& sighting) {
-  Expected result;
-  result.robot_from_view = inverse(hypothesis.map_from_robot) * sighting.map_from_view;
-  result.distance_m = position(result.robot_from_view).norm();
-  // r = R(-theta) (v - x): moves against x, and across with the heading.
-  Eigen::Matrix<double, 2, 3> moved;
-  moved.leftCols<2>() = -rotation(-hypothesis.map_from_robot.theta_rad);
-  moved.col(2) = Vector2(result.robot_from_view.y_m, -result.robot_from_view.x_m);
-  result.covariance_m2 = moved * hypothesis.covariance * moved.transpose() +
-                         sighting.spread_m * sighting.spread_m * Eigen::Matrix2d::Identity();
-  return result;
-}
-
-/// A measurement against what is expected: its squared difference, in standard deviations.
-double disagreement(const PoseHypothesis& hypothesis, const Expected& view, const SightedDirection& seen,
-                    const PoseHypothesesConfig& config) {
-  constexpr double kMost = 50.0;
-  constexpr double kNearest_m = 0.5;
-  constexpr double kDistanceSpread = 0.9;  // of the logarithm
-  const Vector2 along(std::cos(seen.bearing_rad), std::sin(seen.bearing_rad));
-  const Vector2 across(-along.y(), along.x());
-  const Vector2 at_m = position(view.robot_from_view);
-  const double measured = std::pow(config.bearing_rad * std::max(0.2, view.distance_m), 2) + 0.05 * 0.05;
-  const double variance = across.dot(view.covariance_m2 * across) + measured;
-  const double off_m = across.dot(at_m);
-  double squared = off_m * off_m / variance;
-  // Behind the robot in place of ahead.
-  const double behind_m = -along.dot(at_m);
-  if (behind_m > 0.0) squared += behind_m * behind_m / (along.dot(view.covariance_m2 * along) + measured);
-  const double turned = config.turn_rad * config.turn_rad;
-  const double turn_variance = hypothesis.covariance(2, 2) + turned;
-  const double off_rad = wrap_angle(seen.turn_rad - view.robot_from_view.theta_rad);
-  // The share of features recognised tells the distance to a factor; by night less is recognised of what is near.
-  const double farther =
-      std::log(std::max(kNearest_m, view.distance_m) / std::max(kNearest_m, seen.distance_m)) / kDistanceSpread;
-  squared += off_rad * off_rad / turn_variance + farther * farther;
-  return std::min(kMost, squared);
-}
-
-/// What a local map says as a measurement of the robot's own pose.
-struct MeasuredPose {
-  Pose2 map_from_robot;
-  Eigen::Matrix3d covariance;
-};
-
-MeasuredPose measured(const ViewSighting& sighting, const PoseHypothesesConfig& config) {
-  MeasuredPose result;
-  result.map_from_robot = sighting.map_from_view * inverse(sighting.pose->robot_from_view);
-  const Eigen::Matrix2d turned = rotation(result.map_from_robot.theta_rad);
-  result.covariance.setZero();
-  result.covariance.topLeftCorner<2, 2>() = turned * sighting.pose->covariance_m2 * turned.transpose() +
-                                            sighting.spread_m * sighting.spread_m * Eigen::Matrix2d::Identity();
-  result.covariance(2, 2) = config.turn_rad * config.turn_rad;
-  return result;
-}
-
-Eigen::Vector3d difference(const Pose2& to, const Pose2& from) {
-  return {to.x_m - from.x_m, to.y_m - from.y_m, wrap_angle(to.theta_rad - from.theta_rad)};
-}
-
-double disagreement(const PoseHypothesis& hypothesis, const MeasuredPose& seen) {
-  constexpr double kMost = 50.0;
-  const Eigen::Matrix3d sum = hypothesis.covariance + seen.covariance;
-  const Eigen::Vector3d off = difference(seen.map_from_robot, hypothesis.map_from_robot);
-  return std::min(kMost, off.dot(sum.llt().solve(off)));
-}
-
-double disagreement(const PoseHypothesis& hypothesis, const ViewSighting& sighting,
-                    const PoseHypothesesConfig& config) {
-  if (sighting.pose) return disagreement(hypothesis, measured(sighting, config));
-  return disagreement(hypothesis, expected(hypothesis, sighting), *sighting.direction, config);
-}
-
 /// Kalman's update with rows of measurements of the pose.
 template <int Rows>
 void update(PoseHypothesis& hypothesis, const Eigen::Matrix<double, Rows, 3>& rows,
@@ -116,25 +36,6 @@ void update(PoseHypothesis& hypothesis, const Eigen::Matrix<double, Rows, 3>& ro
   hypothesis.map_from_robot.theta_rad = wrap_angle(hypothesis.map_from_robot.theta_rad + moved.z());
   hypothesis.covariance -= gain * rows * hypothesis.covariance;
   hypothesis.covariance = 0.5 * (hypothesis.covariance + hypothesis.covariance.transpose()).eval();
-}
-
-/// A robot that sees a view so far away in this direction.
-PoseHypothesis begun_at(const ViewSighting& sighting, double distance_m, const PoseHypothesesConfig& config) {
-  const SightedDirection& seen = *sighting.direction;
-  PoseHypothesis one;
-  const Pose2 robot_from_view{distance_m * std::cos(seen.bearing_rad), distance_m * std::sin(seen.bearing_rad),
-                              seen.turn_rad};
-  one.map_from_robot = sighting.map_from_view * inverse(robot_from_view);
-  const double angle_rad = one.map_from_robot.theta_rad + seen.bearing_rad;
-  const Vector2 along(std::cos(angle_rad), std::sin(angle_rad));
-  const Vector2 across(-along.y(), along.x());
-  const double along_m = 0.35 * distance_m + sighting.spread_m;
-  const double across_m = 1.5 * config.bearing_rad * distance_m + sighting.spread_m;
-  one.covariance.setZero();
-  one.covariance.topLeftCorner<2, 2>() =
-      along_m * along_m * along * along.transpose() + across_m * across_m * across * across.transpose();
-  one.covariance(2, 2) = 4.0 * config.turn_rad * config.turn_rad;
-  return one;
 }
 
 /// The share of a hypothesis that lies within `radius_m` of a point.
@@ -197,7 +98,7 @@ std::optional<Recognition> PoseHypotheses::recognised(const PoseHypothesis& hypo
   Near nearest;
   Near second;
   for (const ViewSighting& sighting : sightings) {
-    const Expected view = expected(hypothesis, sighting);
+    const ExpectedView view = expected_view(hypothesis, sighting);
     const double doubt_m = std::sqrt(0.5 * view.covariance_m2.trace());
     const double reach_m = sighting.direction ? config_.far_view_m : config_.near_view_m;
     if (view.distance_m > reach_m + std::min(doubt_m, config_.near_view_m)) continue;
@@ -232,11 +133,11 @@ void PoseHypotheses::move(PoseHypothesis& hypothesis, const ViewSighting& sighti
   if (!sighting.direction && !sighting.pose) return;
   if (disagreement(hypothesis, sighting, config_) > config_.gate * config_.gate) return;
   if (sighting.pose) {
-    const MeasuredPose seen = measured(sighting, config_);
+    const MeasuredPose seen = measured_pose(sighting, config_);
     update<3>(hypothesis, Eigen::Matrix3d::Identity(), difference(seen.map_from_robot, hypothesis.map_from_robot),
               seen.covariance / independent);
   } else {
-    const Expected view = expected(hypothesis, sighting);
+    const ExpectedView view = expected_view(hypothesis, sighting);
     const SightedDirection& seen = *sighting.direction;
     const Vector2 across(-std::sin(seen.bearing_rad), std::cos(seen.bearing_rad));
     Eigen::Matrix<double, 2, 3> rows = Eigen::Matrix<double, 2, 3>::Zero();
@@ -272,7 +173,7 @@ std::vector<PoseHypothesis> PoseHypotheses::begun_by(std::span<const ViewSightin
     if (!sighting.direction || sighting.direction->confidence < kLeastConfidence) continue;
     const SightedDirection& seen = *sighting.direction;
     const bool known = std::ranges::any_of(hypotheses_, [&](const PoseHypothesis& hypothesis) {
-      const Expected view = expected(hypothesis, sighting);
+      const ExpectedView view = expected_view(hypothesis, sighting);
       return view.distance_m < kDistances.back() * seen.distance_m + config_.near_view_m &&
              disagreement(hypothesis, view, seen, config_) < config_.gate * config_.gate;
     });

@@ -20,9 +20,7 @@ void take(RecognitionRecord& record, const Recognition& seen, double news) {
 }
 
 double odds_to_best(const RecognitionRecord& record, const RecognitionRecord& best, const TwinEvidenceConfig& config) {
-  // Light and what was moved may favour the wrong one for a whole wing: however far they are apart, so much remains.
-  constexpr double kLeast = 1e-4;
-  constexpr double kLeastOfBest = 1e-9;
+  constexpr double kLeast = 1e-9;
   const double pictures = std::min(record.pictures, best.pictures);
   if (pictures <= 0.0) return 1.0;
   // If the one that is recognised less were right, it should show as many features as the other.
@@ -30,7 +28,7 @@ double odds_to_best(const RecognitionRecord& record, const RecognitionRecord& be
   const double counting = 2.0 * pictures * of_picture;
   const double variance = counting * (1.0 + config.lasting_variance * std::min(pictures, config.lasting_pictures));
   const double z = (record.log_share - best.log_share) / std::sqrt(variance);
-  return std::max(kLeast, share_below(z)) / std::max(kLeastOfBest, share_below(-z));
+  return std::max(kLeast, share_below(z)) / std::max(kLeast, share_below(-z));
 }
 
 }  // namespace homeward::agent

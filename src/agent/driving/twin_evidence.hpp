@@ -33,8 +33,7 @@ void take(RecognitionRecord& record, const Recognition& seen, double news);
 /// (Ours: the probability that a drift is positive whose sum with noise is seen, Phi(z) to Phi(-z). The noise of a
 /// picture is that of counting the features of the better one, that of a stretch is fitted to walks beside twins in
 /// generated hospitals, by day and night: docs/experiments/telling_twins_apart.md.) A record that is younger than the
-/// other counts from where it began, when it was as good as the best. Never below 1e-4: light may favour the wrong one
-/// for a whole wing, and what is given up altogether cannot be found again when the way turns out to be another.
+/// other counts from where it began, when it was as good as the best.
 double odds_to_best(const RecognitionRecord& record, const RecognitionRecord& best, const TwinEvidenceConfig& config);
 
 }  // namespace homeward::agent

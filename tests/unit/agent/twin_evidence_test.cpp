@@ -73,11 +73,10 @@ TEST(TwinEvidence, AYoungerRecordCountsFromWhereItBegan) {
   EXPECT_LT(odds_to_best(later, young, {}), 0.01);
 }
 
-TEST(TwinEvidence, NothingIsImpossibleHoweverFarApartTheyAre) {
-  const RecognitionRecord worse = of_pictures(50, -5.0, 0.01);
-  const RecognitionRecord better = of_pictures(50, -1.0, 0.01);
-  EXPECT_NEAR(odds_to_best(worse, better, {}), 1e-4, 1e-9);
-  EXPECT_GT(odds_to_best(better, worse, {}), 1e8) << "what was begun with next to no weight can become the best";
+TEST(TwinEvidence, NothingIsImpossible) {
+  const double odds = odds_to_best(of_pictures(50, -5.0, 0.01), of_pictures(50, -1.0, 0.01), {});
+  EXPECT_GT(odds, 0.0);
+  EXPECT_LT(odds, 1e-8);
 }
 
 }  // namespace
