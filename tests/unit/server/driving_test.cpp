@@ -332,6 +332,38 @@ TEST_F(DrivingTest, ARobotThatIsLostGoesOnFromWhereItIsLikeliest) {
   EXPECT_DOUBLE_EQ(order->surroundings->start_probability, 0.4);
 }
 
+TEST_F(DrivingTest, TheBeliefHearsWhereTheRobotThatDrivesTakesItselfToBe) {
+  add_robot();
+  put_on_map();
+  FakeAgent agent;
+  ASSERT_EQ(agent.connect(app->port(), robot, token), 101);
+  const std::string lease = take_lease(*admin);
+  find_itself(agent);
+  const Answer sent = send_home(lease);
+  const auto order = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(order);
+  const PlaceId there = order->path.back().place;
+  // Of a room that the map does not know the belief says lost, unless the robot knows better.
+  const auto believed_after = [&](bool drives) {
+    agent.estimate = wire::EstimateReport{there, 0.95};
+    agent.status(drives ? wire::DriveState::kDriving : wire::DriveState::kIdle, order, 1);
+    std::optional<wire::BeliefReport> belief;
+    for (unsigned look = 0; look < 14; ++look) {
+      agent.look(60 + look);
+      belief = agent.await<wire::BeliefReport>(milliseconds(60'000));
+      if (!belief) break;
+    }
+    return belief;
+  };
+  const auto idle = believed_after(false);
+  ASSERT_TRUE(idle);
+  EXPECT_TRUE(idle->lost);
+  const auto driving = believed_after(true);
+  ASSERT_TRUE(driving);
+  EXPECT_FALSE(driving->lost);
+  EXPECT_EQ(driving->place, there);
+}
+
 TEST_F(DrivingTest, WithoutALeaseNoOtherWayIsDriven) {
   add_robot();
   put_on_map();
