@@ -44,6 +44,15 @@ Result<std::shared_ptr<Tracking>> Driving::tracking_for(std::shared_ptr<Tracking
   return std::make_shared<Tracking>(Tracking{map, std::move(*tracker)});
 }
 
+void Driving::look_after_lift(const Unit& found) {
+  constexpr int kLooks = 4;
+  RobotUnit& unit = *found;
+  if (!unit.under_way || !unit.looks_since || ++unit.looks < kLooks) return;
+  unit.looks_since.reset();
+  const std::string reason = unit.mission->reason.value_or("");
+  if (!begin_detour(found, reason)) end_mission(unit, wire::MissionState::kFailed, reason);
+}
+
 void Driving::hand_over_sights(RobotUnit& unit) {
   auto sights = std::make_shared<const std::vector<pipeline::DriveSight>>(unit.sights.take());
   spdlog::debug("robot {} hands over {} sights", unit.id.str(), sights->size());
@@ -122,6 +131,7 @@ void Driving::look(const Unit& unit) {
       if (unit->under_way && unit->sights.due(frame->t_us))
         unit->sights.add(frame->t_us, sure, tracking->tracker.seen());
       link->send(wire::BeliefReport{frame->seq, seen->place, seen->probability.value_or(0.0), seen->lost});
+      look_after_lift(unit);
     } else {
       unit->belief.reset();
     }

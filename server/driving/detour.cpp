@@ -33,7 +33,7 @@ bool Driving::begin_detour(const Unit& found, const std::string& reason) {
   const bool astray = unit.status && unit.status->astray;
   const Start start = *unit.known_start(now);
   const bool homed_to_it = unit.mission->path_index + 1 == static_cast<std::int64_t>(unit.mission->path.size());
-  const bool second_look = astray && start.place == unit.mission->place && homed_to_it;
+  const bool second_look = astray && !unit.lifted && start.place == unit.mission->place && homed_to_it;
   const bool unsure = start.guessed || second_look;
   const auto ways =
       planning::detour_after({unit.mission->path, unit.mission->path_index, start.place, unit.mission->place,

@@ -94,6 +94,8 @@ class Driving : public LinkListener {
 
   void heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello);
   void heard_status(const Unit& unit, wire::AgentStatus status);
+  // After one more picture of a robot that was lifted, with the unit locked: sends it on from where it stands.
+  void look_after_lift(const Unit& unit);
   // Another way after the present one failed. begin_detour, with the unit locked: false where the mission has to end.
   bool begin_detour(const Unit& unit, const std::string& reason);
   Result<Plan> plan_detour(const Unit& unit, const MissionId& mission);

@@ -85,16 +85,18 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
   unit.status_at = std::chrono::steady_clock::now();
   unit.status = std::move(status);
   const wire::AgentStatus& now = *unit.status;
-  if (now.displaced > unit.displaced) {
+  const bool lifted = now.displaced > unit.displaced;
+  if (lifted) {
     spdlog::info("robot {} was moved without its wheels", unit.id.str());
     unit.restart_tracking = true;
     unit.belief.reset();
   }
   unit.displaced = now.displaced;
   // Until the robot takes up another way it goes on telling of the one that failed.
-  const bool of_failed_way = unit.looking_for_detour || (unit.detours + unit.restarts > 0 &&
-                                                         unit.mission->state == wire::MissionState::kAccepted &&
-                                                         now.state == wire::DriveState::kFailed);
+  const bool of_failed_way =
+      unit.looking_for_detour || unit.looks_since ||
+      (unit.detours + unit.restarts > 0 && unit.mission->state == wire::MissionState::kAccepted &&
+       now.state == wire::DriveState::kFailed);
   if (unit.under_way && now.mission == unit.mission->id && !of_failed_way) {
     wire::MissionView& mission = *unit.mission;
     const std::int64_t last = static_cast<std::int64_t>(mission.path.size()) - 1;
@@ -108,7 +110,13 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
         end_mission(unit, wire::MissionState::kArrived, "");
         break;
       case wire::DriveState::kFailed:
-        if (!begin_detour(found, now.reason.value_or("The robot cannot go on."))) {
+        if (lifted && unit.online() && unit.lease) {
+          unit.lifted = true;
+          unit.looks_since = unit.status_at;
+          unit.looks = 0;
+          mission.reason = now.reason;
+          keep(mission);
+        } else if (!begin_detour(found, now.reason.value_or("The robot cannot go on."))) {
           end_mission(unit, wire::MissionState::kFailed, now.reason.value_or("the robot cannot go on"));
         }
         break;
@@ -117,6 +125,7 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
         break;
       case wire::DriveState::kDriving: {
         // Its own estimate is sure enough to drive by.
+        unit.lifted = false;
         const bool found_itself = now.estimate && mission.reason == kLooksAroundFirst;
         if (found_itself) mission.reason.reset();
         if (mission.state != wire::MissionState::kDriving || moved_on || found_itself) {

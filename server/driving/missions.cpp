@@ -16,6 +16,7 @@ namespace {
 constexpr std::chrono::milliseconds kHeardWithin{1000};
 constexpr std::chrono::seconds kSilentTooLong{4};
 constexpr std::chrono::seconds kTakeUpWithin{10};
+constexpr std::chrono::seconds kLooksWithin{10};  // where a robot stands that was lifted
 
 std::string where_of(const RobotUnit& unit) { return "robots/" + unit.id.str(); }
 
@@ -135,6 +136,8 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
   unit.unsure_restarts = 0;
   unit.fails_again = false;
   unit.looking_for_detour = false;
+  unit.looks_since.reset();
+  unit.lifted = false;
   unit.sights.clear();
   unit.answered.reset();
   unit.mission_at = now;
@@ -163,6 +166,7 @@ Result<wire::MissionView> Driving::mission(const RobotId& id, const MissionId& m
 void Driving::end_mission(RobotUnit& unit, wire::MissionState state, const std::string& reason) {
   unit.under_way = false;
   unit.looking_for_detour = false;
+  unit.looks_since.reset();
   if (!unit.mission) return;
   unit.mission->state = state;
   if (!reason.empty()) unit.mission->reason = reason;
@@ -209,6 +213,12 @@ void Driving::tick(SteadyTime now) {
       continue;
     }
     if (!unit.under_way || !unit.online() || unit.looking_for_detour) continue;
+    if (unit.looks_since) {
+      if (now - *unit.looks_since <= kLooksWithin) continue;
+      end_mission(unit, wire::MissionState::kFailed, "");
+      tell(unit);
+      continue;
+    }
     if (unit.mission->state == wire::MissionState::kAccepted && now - unit.mission_at > kTakeUpWithin) {
       stop_robot(unit, "", "the robot did not take up the mission", "server");
       tell(unit);

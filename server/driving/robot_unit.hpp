@@ -86,11 +86,15 @@ struct RobotUnit {
   // Another way after a part of the present one failed; of this mission alone.
   std::vector<planning::Way> closed;
   int detours = 0;
-  int restarts = 0;                      // orders given anew after the robot was elsewhere than on its way
-  int unsure_restarts = 0;               // of them, those of a robot that did not know where it was
-  bool fails_again = false;              // where it failed before
-  bool second_look = false;              // the way to be looked for leads away from the destination and back
-  bool looking_for_detour = false;       // no permit goes out until the new way is sent
+  int restarts = 0;                 // orders given anew after the robot was elsewhere than on its way
+  int unsure_restarts = 0;          // of them, those of a robot that did not know where it was
+  bool fails_again = false;         // where it failed before
+  bool second_look = false;         // the way to be looked for leads away from the destination and back
+  bool looking_for_detour = false;  // no permit goes out until the new way is sent
+  std::optional<SteadyTime>
+      looks_since;                       // lifted in mid-mission: where it stands is looked for, and no permit goes out
+  int looks = 0;                         // pictures since
+  bool lifted = false;                   // and it has not driven since
   DriveSights sights;                    // of this mission
   std::optional<std::int64_t> answered;  // number of the question of this mission that somebody has answered last
 
@@ -137,7 +141,8 @@ struct RobotUnit {
   }
   /// Where a robot may be sent on from by itself after a drive that failed: its own estimate as it stopped, which it
   /// keeps; where it says nothing, the belief, which is of the whole map and of all pictures. Of two that are at odds
-  /// the belief begins, and is worth no more than an even chance. Where neither is sure, the robot's likeliest place.
+  /// the belief begins, and is worth no more than an even chance. Where neither is sure, the robot's likeliest place;
+  /// of one that was lifted, the belief's.
   [[nodiscard]] std::optional<Start> known_start(SteadyTime now) const {
     constexpr double kEven = 0.5;  // a robot at odds with the belief says no more of its estimate
     const bool fresh =
@@ -150,6 +155,7 @@ struct RobotUnit {
       const wire::EstimateReport& possible = status->possible_places.front();
       return Start{possible.place, possible.probability, true, true};
     }
+    if (!believes && lifted && believes_now(now)) return Start{likeliest().place, near_share, true, true};
     if (!believes) return std::nullopt;
     const Start start = likeliest();
     return at_odds ? Start{start.place, std::min(kEven, start.probability), true} : start;

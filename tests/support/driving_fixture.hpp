@@ -42,6 +42,7 @@ class FakeAgent {
     status.estimate = estimate;
     status.possible_places = possible_places;
     status.question = question;
+    status.displaced = displaced;
     status.astray = astray;
     if (order) {
       status.mission = order->mission;
@@ -100,6 +101,7 @@ class FakeAgent {
   std::optional<wire::EstimateReport> estimate;
   std::vector<wire::EstimateReport> possible_places;
   std::optional<wire::QuestionReport> question;
+  std::int64_t displaced = 0;
   bool astray = false;
   std::function<void()> while_waiting;
   std::int64_t status_seq = 0;
