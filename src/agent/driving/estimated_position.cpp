@@ -89,7 +89,10 @@ std::vector<PossiblePlace> possible_places(const FollowState& state, const Visua
 std::optional<double> off_path_m(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
   if (path.alone() || position_probability(state, path) < config.drive_above) return std::nullopt;
   const Vector2 here_m = position(state.hypotheses.best()->map_from_robot);
+  // Where the path is the destination's view alone, the robot begins anywhere in its place.
+  constexpr double kWithinPlace_m = 3.0;
   double least_m = (position(path.pose(0)) - here_m).norm();
+  if (path.size() == 1) return std::max(0.0, least_m - kWithinPlace_m);
   for (int view = 0; view + 1 < path.size(); ++view) {
     const Vector2 from_m = position(path.pose(view));
     const Vector2 piece_m = position(path.pose(view + 1)) - from_m;

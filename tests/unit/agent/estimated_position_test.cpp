@@ -65,6 +65,24 @@ TEST_F(EstimatedPositionTest, TellsOfFourPlacesAtMost) {
   EXPECT_EQ(possible_places(state_, path_).size(), 4U);
 }
 
+TEST_F(EstimatedPositionTest, IsAsFarOffItsPathAsOffTheNearestPieceOfIt) {
+  stand({{{1.2, 3.5, 0.0}, 0.95}});
+  EXPECT_NEAR(off_path_m(state_, path_, config_).value(), 3.5, 1e-9);
+  stand({{{1.2, 3.5, 0.0}, 0.5}});
+  EXPECT_FALSE(off_path_m(state_, path_, config_));
+}
+
+TEST_F(EstimatedPositionTest, OfAPathOfOneViewItMayBeginAnywhereInThePlace) {
+  path_.views.resize(1);
+  path_.map_from_view.resize(1);
+  path_.places.resize(1);
+  path_.edges.resize(1);
+  stand({{{2.0, 1.5, 0.0}, 0.95}});
+  EXPECT_EQ(off_path_m(state_, path_, config_), 0.0);
+  stand({{{0.0, 7.0, 0.0}, 0.95}});
+  EXPECT_NEAR(off_path_m(state_, path_, config_).value(), 4.0, 1e-9);
+}
+
 TEST_F(EstimatedPositionTest, OfNoPictureYetItTellsOfNoPlace) { EXPECT_TRUE(possible_places(state_, path_).empty()); }
 
 }  // namespace
