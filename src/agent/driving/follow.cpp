@@ -84,7 +84,8 @@ struct NearestPiece {
 /// Of the pieces that end at the views `from` to `to`. At the path's first view begins no piece.
 NearestPiece nearest_piece(const FollowState& state, const VisualPath& path, const Vector2& here_m, int from, int to) {
   const auto at_m = [&](int view) { return position(path.pose(view)); };
-  constexpr double kKeeps_m = 0.3;  // another piece must be nearer by so much
+  constexpr double kKeeps_m = 0.3;  // a later piece must be nearer by so much,
+  constexpr double kBack_m = 1.0;   // and an earlier one by that: where a path doubles back, both lie beside the robot
   NearestPiece nearest;
   for (int end = std::max(0, from); end <= std::min(path.size() - 1, to); ++end) {
     const Vector2 to_m = at_m(end);
@@ -92,7 +93,9 @@ NearestPiece nearest_piece(const FollowState& state, const VisualPath& path, con
     const Vector2 piece_m = to_m - from_m;
     const double along = piece_m.squaredNorm() > 1e-9 ? (here_m - from_m).dot(piece_m) / piece_m.squaredNorm() : 1.0;
     const double away_m =
-        (from_m + std::clamp(along, 0.0, 1.0) * piece_m - here_m).norm() + (end == state.index ? 0.0 : kKeeps_m);
+        (from_m + std::clamp(along, 0.0, 1.0) * piece_m - here_m).norm() + (end == state.index  ? 0.0
+                                                                            : end > state.index ? kKeeps_m
+                                                                                                : kBack_m);
     if (away_m < nearest.away_m) nearest = {end, away_m};
   }
   return nearest;

@@ -129,6 +129,28 @@ TEST(Follow, WhoKnowsToBeOnALaterPieceOfThePathGoesOnFromThere) {
   }
 }
 
+TEST(Follow, WhereItsPathDoublesBackItDoesNotTurnToAndFro) {
+  // West to one view and back east to the next two, as two tours of one corridor meet.
+  const std::vector<Pose2> fold = {
+      {0.0, -1.0, kPi / 2.0}, {0.0, 0.0, kPi / 2.0}, {-1.05, 0.33, 0.0}, {0.3, 1.05, 0.0}, {1.1, 1.15, 0.0}};
+  const Landmarks landmarks = homeward::testing::landmarks_around(fold, 160, 5);
+  VisualPath path;
+  for (std::size_t k = 0; k < fold.size(); ++k) path.views.push_back(seen_from(landmarks, fold[k], 100 + k));
+  path.edges.resize(fold.size());
+  path.map_from_view = fold;
+  const FollowConfig config;
+  FollowState state;
+  state.begun = true;
+  std::vector<int> indices;
+  for (int k = 0; k < 8; ++k) {  // as near to one way as to the other, known to a few centimetres
+    const Pose2 here{0.06 * (k % 2), 0.18, 1.6};
+    state.hypotheses = PoseHypotheses(config.pose, {{here, 0.001 * Eigen::Matrix3d::Identity(), 0.95}}, 0.05, 0.0);
+    track(state, path, {}, {}, config, 1);
+    indices.push_back(state.index);
+  }
+  EXPECT_TRUE(std::is_sorted(indices.begin(), indices.end())) << ::testing::PrintToString(indices);
+}
+
 TEST(Follow, AForeignPictureSaysNothingAndMovesNothing) {
   const Landmarks landmarks = corner();
   const VisualPath path = path_through(landmarks, true);
