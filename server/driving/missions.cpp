@@ -16,7 +16,7 @@ namespace {
 constexpr std::chrono::milliseconds kHeardWithin{1000};
 constexpr std::chrono::seconds kSilentTooLong{4};
 constexpr std::chrono::seconds kTakeUpWithin{10};
-constexpr std::chrono::seconds kLooksWithin{10};  // where a robot stands that was lifted
+constexpr std::chrono::seconds kLooksWithin{15};  // where a robot stands that was lifted
 
 std::string where_of(const RobotUnit& unit) { return "robots/" + unit.id.str(); }
 

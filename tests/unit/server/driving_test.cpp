@@ -416,7 +416,7 @@ TEST_F(DrivingTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
   agent.status(wire::DriveState::kDriving, order, 1);
   wait_for_state(sent.json(), "driving");
   lift();
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(11'000)));
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(16'000)));
   now = wait_for_state(sent.json(), "failed");
   EXPECT_EQ(now.at("reason"), "Was I lifted? I look where I am.");
 }
