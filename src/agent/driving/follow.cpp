@@ -84,18 +84,19 @@ struct NearestPiece {
 /// Of the pieces that end at the views `from` to `to`. At the path's first view begins no piece.
 NearestPiece nearest_piece(const FollowState& state, const VisualPath& path, const Vector2& here_m, int from, int to) {
   const auto at_m = [&](int view) { return position(path.pose(view)); };
-  constexpr double kKeeps_m = 0.3;  // a later piece must be nearer by so much,
-  constexpr double kBack_m = 1.0;   // and an earlier one by that: where a path doubles back, both lie beside the robot
+  constexpr double kKeeps_m = 0.3;  // another piece must be nearer by so much,
+  constexpr double kBack_m = 1.0;   // and an earlier one by that, unless the robot is behind where the present one
+                                   // begins: where a path doubles back, both pieces lie beside it
+  const bool behind =
+      state.index > 0 && (here_m - at_m(state.index - 1)).dot(at_m(state.index) - at_m(state.index - 1)) < 0.0;
   NearestPiece nearest;
   for (int end = std::max(0, from); end <= std::min(path.size() - 1, to); ++end) {
     const Vector2 to_m = at_m(end);
     const Vector2 from_m = end > 0 ? at_m(end - 1) : to_m;
     const Vector2 piece_m = to_m - from_m;
     const double along = piece_m.squaredNorm() > 1e-9 ? (here_m - from_m).dot(piece_m) / piece_m.squaredNorm() : 1.0;
-    const double away_m =
-        (from_m + std::clamp(along, 0.0, 1.0) * piece_m - here_m).norm() + (end == state.index  ? 0.0
-                                                                            : end > state.index ? kKeeps_m
-                                                                                                : kBack_m);
+    double away_m = (from_m + std::clamp(along, 0.0, 1.0) * piece_m - here_m).norm();
+    if (end != state.index) away_m += end < state.index && !behind ? kBack_m : kKeeps_m;
     if (away_m < nearest.away_m) nearest = {end, away_m};
   }
   return nearest;
