@@ -84,9 +84,10 @@ struct NearestPiece {
 /// Of the pieces that end at the views `from` to `to`. At the path's first view begins no piece.
 NearestPiece nearest_piece(const FollowState& state, const VisualPath& path, const Vector2& here_m, int from, int to) {
   const auto at_m = [&](int view) { return position(path.pose(view)); };
-  constexpr double kKeeps_m = 0.3;  // another piece must be nearer by so much,
-  constexpr double kBack_m = 1.0;   // and an earlier one by that, unless the robot is behind where the present one
-                                   // begins: where a path doubles back, both pieces lie beside it
+  // Another piece must be nearer by so much, and an earlier one by more, unless the robot is behind where the present
+  // one begins: where a path doubles back, both pieces lie beside it.
+  constexpr double kKeeps_m = 0.3;
+  constexpr double kBack_m = 1.0;
   const bool behind =
       state.index > 0 && (here_m - at_m(state.index - 1)).dot(at_m(state.index) - at_m(state.index - 1)) < 0.0;
   NearestPiece nearest;
