@@ -2,6 +2,7 @@
 #include "agent/driving/expected_view.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -14,11 +15,7 @@ using Vector2 = Eigen::Vector2d;
 
 Vector2 position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
 
-Eigen::Matrix2d rotation(double angle_rad) {
-  const double c = std::cos(angle_rad);
-  const double s = std::sin(angle_rad);
-  return (Eigen::Matrix2d() << c, -s, s, c).finished();
-}
+Eigen::Matrix2d rotation(double angle_rad) { return Eigen::Rotation2Dd(angle_rad).toRotationMatrix(); }
 
 constexpr double kMost = 50.0;  // squared standard deviations: what is farther off is no more wrong
 

@@ -2,6 +2,7 @@
 #include "agent/driving/pose_hypotheses.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -18,11 +19,7 @@ using Vector2 = Eigen::Vector2d;
 
 Vector2 position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
 
-Eigen::Matrix2d rotation(double angle_rad) {
-  const double c = std::cos(angle_rad);
-  const double s = std::sin(angle_rad);
-  return (Eigen::Matrix2d() << c, -s, s, c).finished();
-}
+Eigen::Matrix2d rotation(double angle_rad) { return Eigen::Rotation2Dd(angle_rad).toRotationMatrix(); }
 
 /// Kalman's update with rows of measurements of the pose.
 template <int Rows>
