@@ -151,6 +151,34 @@ TEST(Follow, WhereItsPathDoublesBackItDoesNotTurnToAndFro) {
   EXPECT_TRUE(std::is_sorted(indices.begin(), indices.end())) << ::testing::PrintToString(indices);
 }
 
+TEST(Follow, APathAwayAndBackIsDrivenToItsEndAndHome) {
+  std::vector<Pose2> along;
+  for (const int k : {0, 1, 2, 3, 2, 1, 0}) along.push_back({0.8 * k, 0.0, 0.0});
+  const Landmarks landmarks = homeward::testing::landmarks_around({along.begin(), along.begin() + 4}, 160, 5);
+  VisualPath path;
+  for (std::size_t k = 0; k < along.size(); ++k) path.views.push_back(seen_from(landmarks, along[k], 100 + k));
+  path.edges.resize(along.size());
+  path.map_from_view = along;
+  const FollowConfig config;
+  FollowState state;
+  Pose2 pose{0.05, 0.05, 0.1};
+  double farthest_m = 0.0;
+  bool at_end = false;
+  for (std::uint64_t k = 1; k <= 600 && !at_end; ++k) {
+    at_end = follow(state, path, seen_from(landmarks, pose, 1000 + k), {}, pose, config, k).at_end;
+    farthest_m = std::max(farthest_m, pose.x_m);
+    const auto to = goal(state, pose, config);
+    if (!to || at_end) continue;
+    const double angle_rad = std::atan2(to->y(), to->x());
+    const double speed_mps = std::abs(angle_rad) > 0.9 ? 0.0 : std::clamp(0.6 * to->norm(), 0.15, 0.5);
+    pose = pose * Pose2{0.1 * speed_mps, 0.0, 0.1 * std::clamp(1.8 * angle_rad, -1.0, 1.0)};
+  }
+  EXPECT_TRUE(at_end);
+  // It may turn as soon as it could be level with the farthest view, which is `abreast_m` before it.
+  EXPECT_GT(farthest_m, along[3].x_m - config.abreast_m - 0.2);
+  EXPECT_LT(std::hypot(pose.x_m, pose.y_m), 0.2);
+}
+
 TEST(Follow, AForeignPictureSaysNothingAndMovesNothing) {
   const Landmarks landmarks = corner();
   const VisualPath path = path_through(landmarks, true);
