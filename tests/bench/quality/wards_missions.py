@@ -32,7 +32,7 @@ def drive(options, seed):
     if out.is_file():
         return
     kidnapped = [{"kind": "kidnapped", "at_s": 10}]
-    wanted = [(options.day, {}), (options.night, {"light": "night"}), (options.kidnapped, {"faults": kidnapped})]
+    wanted = [(options.night, {"light": "night"}), (options.kidnapped, {"faults": kidnapped}), (options.day, {})]
     scenario = {
         "format": "homeward-scenario",
         "version": 1,
