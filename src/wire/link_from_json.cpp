@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -139,6 +140,23 @@ std::optional<PathEdge> read_edge(ObjectReader& outer) {
   return edge;
 }
 
+std::vector<std::array<int, 2>> read_ways(ObjectReader& reader, std::size_t views) {
+  std::vector<std::array<int, 2>> ways;
+  const std::vector<json> items = reader.array("ways", Surroundings::kMostWays);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const json& item = items[i];
+    const auto names_view = [&](const json& number) {
+      return number.is_number_integer() && number >= 0 && number < views;
+    };
+    if (!item.is_array() || item.size() != 2 || !std::ranges::all_of(item, names_view)) {
+      reader.problem("ways/" + std::to_string(i), "A way must be the numbers of two views, of path and nearby ones.");
+      return {};
+    }
+    ways.push_back({item[0].get<int>(), item[1].get<int>()});
+  }
+  return ways;
+}
+
 std::optional<Surroundings> read_surroundings(ObjectReader& outer, std::size_t path_places) {
   if (!outer.has("surroundings")) return std::nullopt;
   ObjectReader reader(outer.value("surroundings"), outer.path_of("surroundings"));
@@ -163,6 +181,7 @@ std::optional<Surroundings> read_surroundings(ObjectReader& outer, std::size_t p
     reader.close(inner);
     around.nearby.push_back(std::move(view));
   }
+  if (reader.has("ways")) around.ways = read_ways(reader, around.path.size() + around.nearby.size());
   outer.close(reader);
   return around;
 }

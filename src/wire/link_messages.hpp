@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -145,11 +146,14 @@ struct PlacedView {
 
 /// The part of the map around a path, for the robot to know by itself where it is: its frame is this message's own.
 struct Surroundings {
+  static constexpr std::size_t kMostWays = 8000;
   std::vector<Pose2> path;         // of the prototypes of the path, as many
   Pose2 final_pose;                // of the destination's own picture
   double spread_m = 0.15;          // standard deviation of where a view lies among those around it
   double start_probability = 1.0;  // that the robot is where the path begins
   std::vector<PlacedView> nearby;  // not on the path: beside it, or looking like a place of it
+  // That a tour drove, straight from one view to another: their numbers, those of the path first, then the nearby ones.
+  std::vector<std::array<int, 2>> ways;
 };
 
 struct MissionOrder {

@@ -122,6 +122,7 @@ json surroundings_to_json(const Surroundings& around) {
                                {"pose", pose_to_json(view.map_from_view)},
                                {"appearance", json::binary(view.appearance)}});
   }
+  if (!around.ways.empty()) value["ways"] = around.ways;
   return value;
 }
 

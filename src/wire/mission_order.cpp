@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/mission_order.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
 
 #include "map/lookup.hpp"
 #include "wire/appearance_blob.hpp"
@@ -18,6 +22,37 @@ std::optional<PathEdge> edge_between(const map::TopologicalMap& map, const Place
   const bool metric = edge->length_from == map::LengthSource::kOdometry;
   return PathEdge{edge->bearing_rad, edge->turn_rad, metric ? std::optional(edge->length_m) : std::nullopt, edge->weak,
                   edge->shortcut};
+}
+
+/// The ways between the views that an order tells of which a tour drove and which are open, each once: what is closed
+/// now may well be barred by a surface. Of a length that nobody measured, nobody knows whether it was driven straight.
+std::vector<std::array<int, 2>> driven_ways(const map::TopologicalMap& map, const MissionOrder& order,
+                                            const Surroundings& around) {
+  constexpr double kLongest_m = 2.5;  // a longer one is no straight piece
+  std::map<PlaceId, int> numbers;
+  std::vector<Eigen::Vector2d> at_m;
+  for (std::size_t i = 0; i < order.path.size(); ++i) numbers.emplace(order.path[i].place, static_cast<int>(i));
+  for (const Pose2& pose : around.path) at_m.emplace_back(pose.x_m, pose.y_m);
+  for (const PlacedView& view : around.nearby) {
+    numbers.emplace(view.place, static_cast<int>(at_m.size()));
+    at_m.emplace_back(view.map_from_view.x_m, view.map_from_view.y_m);
+  }
+  std::set<std::array<int, 2>> ways;
+  std::set<std::array<int, 2>> closed;
+  for (const map::Edge& edge : map.edges) {
+    const auto from = numbers.find(edge.from);
+    const auto to = numbers.find(edge.to);
+    if (from == numbers.end() || to == numbers.end()) continue;
+    const auto [first, second] = std::minmax(from->second, to->second);
+    const bool driven = !edge.shortcut && edge.length_from == map::LengthSource::kOdometry;
+    const double length_m = (at_m[static_cast<std::size_t>(second)] - at_m[static_cast<std::size_t>(first)]).norm();
+    if (edge.blocked) closed.insert({first, second});
+    if (driven && length_m <= kLongest_m) ways.insert({first, second});
+  }
+  std::vector<std::array<int, 2>> open;
+  std::ranges::set_difference(ways, closed, std::back_inserter(open));
+  open.resize(std::min(open.size(), Surroundings::kMostWays));
+  return open;
 }
 
 }  // namespace
@@ -81,6 +116,7 @@ void add_surroundings(const map::TopologicalMap& map, const map::MetricLayout& l
     if (bytes > kMostBytes) break;
     around.nearby.push_back({id, place.prototype, at->map_from_robot, std::move(appearance)});
   }
+  around.ways = driven_ways(map, order, around);
   order.surroundings = std::move(around);
 }
 

@@ -243,6 +243,27 @@ bool wants_features(const FollowState& state) {
   return state.visual_index != state.index || state.visual.wants_features();
 }
 
+void see_ways(FollowState& state, const VisualPath& path, std::span<const Vector2> points_m, const Pose2& odometry) {
+  constexpr double kLeast_m = 0.25;
+  constexpr double kIndependent_m = 2.0;  // what stands on a way is seen for some metres
+  if (path.ways.empty() || state.hypotheses.empty()) return;
+  double news = 1.0;
+  if (state.ways_seen_from) {
+    const Pose2 moved = inverse(*state.ways_seen_from) * odometry;
+    const double driven_m = std::hypot(moved.x_m, moved.y_m);
+    if (driven_m < kLeast_m) return;
+    news = std::min(1.0, driven_m / kIndependent_m);
+  }
+  state.ways_seen_from = odometry;
+  // The hypotheses are of where the latest picture was taken.
+  const Pose2 moved = inverse(state.odometry) * odometry;
+  const Eigen::Rotation2Dd turn(moved.theta_rad);
+  std::vector<Vector2> then_m;
+  then_m.reserve(points_m.size());
+  for (const Vector2& point_m : points_m) then_m.push_back(turn * point_m + position(moved));
+  weigh_by_ways(state.hypotheses, then_m, path.ways, news);
+}
+
 FollowResult track(FollowState& state, const VisualPath& path, const tracking::TrackingFrame& frame,
                    const Pose2& odometry, const FollowConfig& config, std::uint64_t seed) {
   FollowResult result;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "agent/driving/bearing_votes.hpp"
 #include "agent/driving/pose_hypotheses.hpp"
@@ -59,18 +60,19 @@ struct FollowState {
   ViewTrack view;                      // where the view homed to lies
   Pose2 odometry;                      // at the latest picture
   bool begun = false;
-  double blind_m = 0.0;         // driven since the last answer that was believed
-  double unheard_m = 1e9;       // and since the belief was heard
-  homing::VisualHoming visual;  // to the view homed to
-  int visual_index = -1;        // which one that is
-  int contradictions = 0;       // local maps in a row that said something else than the estimate
-  bool measured = false;        // the latest picture says in metres where the view homed to is
-  int behind = 0;               // answers in a row that say that the destination's view lies behind
-  double alike = 0.0;           // share of the features that agree with the view homed to, at the latest picture,
-  double most_alike = 0.0;      // and the most since this view is homed to: people may stand before the camera
-  BearingVotes votes;           // of one view alone: where it is, while nothing but bearings to it says so
-  int undecided = 0;            // pictures in a row that they were too few or too divided to say so
-  int given_up = 0;             // how often what they said was followed as far as odometry alone, in vain
+  double blind_m = 0.0;                 // driven since the last answer that was believed
+  double unheard_m = 1e9;               // and since the belief was heard
+  std::optional<Pose2> ways_seen_from;  // odometry, when a sweep was last compared with the ways of tours
+  homing::VisualHoming visual;          // to the view homed to
+  int visual_index = -1;                // which one that is
+  int contradictions = 0;               // local maps in a row that said something else than the estimate
+  bool measured = false;                // the latest picture says in metres where the view homed to is
+  int behind = 0;                       // answers in a row that say that the destination's view lies behind
+  double alike = 0.0;       // share of the features that agree with the view homed to, at the latest picture,
+  double most_alike = 0.0;  // and the most since this view is homed to: people may stand before the camera
+  BearingVotes votes;       // of one view alone: where it is, while nothing but bearings to it says so
+  int undecided = 0;        // pictures in a row that they were too few or too divided to say so
+  int given_up = 0;         // how often what they said was followed as far as odometry alone, in vain
 };
 
 struct FollowResult {
@@ -92,6 +94,11 @@ FollowResult follow(FollowState& state, const VisualPath& path, const features::
 /// One picture further by the tracked features of the view homed to alone.
 FollowResult track(FollowState& state, const VisualPath& path, const tracking::TrackingFrame& frame,
                    const Pose2& odometry, const FollowConfig& config, std::uint64_t seed);
+
+/// One sweep, of `odometry`: whether it shows something on ways that a tour drove, were the robot where it takes itself
+/// to be. Only the way driven between two sweeps makes the second one say something new.
+void see_ways(FollowState& state, const VisualPath& path, std::span<const Eigen::Vector2d> points_m,
+              const Pose2& odometry);
 
 /// The share of the destination's features that must have been recognised for it to be right here, whatever the
 /// geometry says: more where no map says how far it is.

@@ -134,6 +134,13 @@ Status place_views(const wire::MissionOrder& order, VisualPath& path) {
     if (!appearance) return pass_on(appearance);
     path.nearby.push_back({view.place, std::move(*appearance), view.map_from_view});
   }
+  const auto position_of = [&](int view) -> Eigen::Vector2d {
+    const auto number = static_cast<std::size_t>(view);
+    const bool on_path = number < around.path.size();
+    const Pose2& pose = on_path ? around.path[number] : around.nearby[number - around.path.size()].map_from_view;
+    return {pose.x_m, pose.y_m};
+  };
+  for (const auto& [from, to] : around.ways) path.ways.push_back({position_of(from), position_of(to)});
   if (path.alone()) return {};
   std::vector<const features::Appearance*> views;
   for (int view = 0; view < path.placed(); ++view) views.push_back(&path.appearance(view));

@@ -290,6 +290,11 @@ void PoseHypotheses::weigh_by_agreement(std::span<const std::optional<Recognitio
   }
 }
 
+void PoseHypotheses::weigh(std::span<const double> log_odds) {
+  for (std::size_t k = 0; k < hypotheses_.size(); ++k) hypotheses_[k].weight *= std::exp(log_odds[k]);
+  settle();
+}
+
 void PoseHypotheses::hear(const std::optional<Vector2>& point_m, double radius_m, double odds, double most) {
   const auto is_there = [&](const PoseHypothesis& one) {
     return point_m && (position(one.map_from_robot) - *point_m).norm() <= radius_m;

@@ -90,6 +90,10 @@ class PoseHypotheses {
   /// One picture. `sightings`: the views that it was compared with; those near to the hypotheses must be among them.
   void weigh(std::span<const ViewSighting> sightings);
 
+  /// What is no picture says something of each hypothesis of all(): the logarithm by which its odds against being
+  /// elsewhere change. Precondition: as many as there are.
+  void weigh(std::span<const double> log_odds);
+
   /// Somebody else says that the robot is within `radius_m` of a point of the map, or, without one, at a place that is
   /// none of those that were compared. `odds`: how many times more probable that makes it, but no more probable than
   /// `most`: who says so has seen the same pictures, and is as sure as that.

@@ -233,6 +233,12 @@ void forget_where_odometry_jumped(DrivingState& state, const Pose2& odometry) {
   if (state.follow.begun && std::hypot(moved.x_m, moved.y_m) > kFarthest_m) state.follow = {};
 }
 
+/// Arcs of ultrasound are no surfaces, and what is near to where the robot has stopped says nothing new.
+void see_ways(DrivingState& state, const Inputs& inputs, const DrivingConfig& config) {
+  if (config.body.vague_ranges || state.drive != wire::DriveState::kDriving) return;
+  see_ways(state.follow, state.mission->path, hit_points(state.scan->scan), inputs.odometry);
+}
+
 void steady(DrivingState& state, const Inputs& inputs, const DrivingConfig& config) {
   if (state.scan && steadies(config.body))
     state.sweeps.observe(state.scan->scan, inputs.odometry, state.scan->taken_ms);
@@ -269,6 +275,7 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     if (!config.body.vague_ranges) watch(state.stirring, state.scan->scan, inputs.odometry, sensors_ms);
     steady(state, inputs, config);
     notice_lift(state, inputs, config);
+    see_ways(state, inputs, config);
   }
   std::vector<Eigen::Vector2d> points_m;
   if (state.scan) points_m = steadies(config.body) ? state.sweeps.points_m() : hit_points(state.scan->scan);

@@ -296,5 +296,67 @@ TEST(Follow, IsTheSameForTheSameSeed) {
   EXPECT_EQ(*goal_one, *goal_two);
 }
 
+/// A robot that has just seen a picture at `odometry`, and may be at one of two places of which only one has a wall
+/// across its way, 1.5 m ahead of where it is.
+FollowState between_twins(const Pose2& odometry) {
+  FollowState state;
+  state.begun = true;
+  state.odometry = odometry;
+  std::vector<PoseHypothesis> both(2);
+  for (PoseHypothesis& one : both) {
+    one.covariance = 0.001 * Eigen::Matrix3d::Identity();
+    one.weight = 0.5;
+  }
+  both[1].map_from_robot.x_m = 50.0;
+  state.hypotheses = PoseHypotheses({}, both, 0.0, 0.0);
+  return state;
+}
+
+double twin_probability(const FollowState& state) {
+  double sum = 0.0;
+  for (const PoseHypothesis& one : state.hypotheses.all()) sum += one.map_from_robot.x_m > 25.0 ? one.weight : 0.0;
+  return sum;
+}
+
+std::vector<Eigen::Vector2d> wall_ahead(double away_m) {
+  std::vector<Eigen::Vector2d> points_m;
+  for (int k = -10; k <= 10; ++k) points_m.emplace_back(away_m, 0.1 * k);
+  return points_m;
+}
+
+VisualPath driven_past_the_wall_by_one_twin() {
+  VisualPath path;
+  path.ways = {{{0.0, 0.0}, {0.9, 0.0}}, {{50.0, 0.0}, {53.0, 0.0}}};
+  return path;
+}
+
+TEST(SeeWays, AWallOnAWayThatATourDroveSpeaksOnceForEachStretchOfWay) {
+  const VisualPath path = driven_past_the_wall_by_one_twin();
+  FollowState state = between_twins({});
+  see_ways(state, path, wall_ahead(1.5), {});
+  const double at_first = twin_probability(state);
+  EXPECT_LT(at_first, 0.15);
+  for (int k = 0; k < 50; ++k) see_ways(state, path, wall_ahead(1.5), {});
+  EXPECT_EQ(twin_probability(state), at_first) << "standing there it sees the same again";
+  see_ways(state, path, wall_ahead(1.2), {0.3, 0.0, 0.0});
+  const double a_little_on = twin_probability(state);
+  EXPECT_LT(a_little_on, at_first);
+  EXPECT_GT(a_little_on, 0.5 * at_first);
+}
+
+TEST(SeeWays, ASweepIsOfWhereOdometrySaysThatTheRobotIsByThen) {
+  const VisualPath path = driven_past_the_wall_by_one_twin();
+  // Turned to the left since its latest picture, it sees the wall at its right.
+  const Pose2 before{3.0, -1.0, 0.7};
+  std::vector<Eigen::Vector2d> at_its_right_m;
+  for (const Eigen::Vector2d& point_m : wall_ahead(1.5)) at_its_right_m.emplace_back(point_m.y(), -point_m.x());
+  FollowState turned = between_twins(before);
+  see_ways(turned, path, at_its_right_m, before * Pose2{0.0, 0.0, kPi / 2.0});
+  EXPECT_LT(twin_probability(turned), 0.15);
+  FollowState straight = between_twins(before);
+  see_ways(straight, path, at_its_right_m, before);
+  EXPECT_GT(twin_probability(straight), 0.4) << "a wall beside the way is none across it";
+}
+
 }  // namespace
 }  // namespace homeward::agent

@@ -123,6 +123,33 @@ TEST(AddSurroundings, LeavesOutWhatLiesNowhere) {
   EXPECT_EQ(order.surroundings->nearby[0].place, PlaceId("E"));
 }
 
+TEST(AddSurroundings, TellWhichWaysATourDrove) {
+  map::TopologicalMap map = corridor();
+  for (map::Edge& edge : map.edges) edge.length_from = map::LengthSource::kOdometry;
+  const auto ways = [&](const map::MetricLayout& layout) {
+    MissionOrder order = order_for_route(map, places("ABC"));
+    add_surroundings(map, layout, places("E"), order);
+    return order.surroundings->ways;
+  };
+  const map::MetricLayout near = in_a_row("ABECD", true);
+  using Ways = std::vector<std::array<int, 2>>;
+  EXPECT_EQ(ways(in_a_row("ABCDE", true)), (Ways{{0, 1}, {1, 2}}))
+      << "from B to E it is too far for one straight piece";
+  EXPECT_EQ(ways(near), (Ways{{0, 1}, {1, 3}})) << "each once, and from B to C it is too far now";
+  const auto change = [&](const char* from, const char* to, auto&& how) {
+    for (map::Edge& edge : map.edges) {
+      if (edge.from == PlaceId(from) && edge.to == PlaceId(to)) how(edge);
+    }
+  };
+  change("B", "A", [](map::Edge& edge) { edge.blocked = true; });
+  EXPECT_EQ(ways(near), (Ways{{1, 3}})) << "what is closed one way may have something on it";
+  for (const char* both : {"BE", "EB"}) {
+    change(std::string(1, both[0]).c_str(), std::string(1, both[1]).c_str(),
+           [](map::Edge& edge) { edge.length_from = map::LengthSource::kUnknown; });
+  }
+  EXPECT_TRUE(ways(near).empty()) << "nobody measured it";
+}
+
 TEST(AddSurroundings, NeverMakeAMissionTooLongToBeRead) {
   // 34,000 features take 4.7 MB: path and last picture 14 MB, and with all three others more than three quarters of the
   // 32 MiB of a message.
