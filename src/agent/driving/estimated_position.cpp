@@ -87,7 +87,7 @@ std::vector<PossiblePlace> possible_places(const FollowState& state, const Visua
 }
 
 std::optional<double> off_path_m(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
-  if (path.alone() || position_probability(state, path) < config.drive_above) return std::nullopt;
+  if (path.alone() || position_probability(state, path) < drives_above(state, config)) return std::nullopt;
   const Vector2 here_m = position(state.hypotheses.best()->map_from_robot);
   // Where the path is the destination's view alone, the robot begins anywhere in its place.
   constexpr double kWithinPlace_m = 3.0;

@@ -126,7 +126,7 @@ bool is_passed(const VisualPath& path, int view, const Vector2& here_m, const Fo
 /// Goes on to the view that comes next by the estimate, which may be one before when the robot was driven back.
 void choose_view(FollowState& state, const VisualPath& path, const FollowConfig& config, FollowResult& result) {
   const PoseHypothesis* best = state.hypotheses.best();
-  if (best == nullptr || state.hypotheses.best_probability() < config.drive_above) return;
+  if (best == nullptr || state.hypotheses.best_probability() < drives_above(state, config)) return;
   const int last = path.size() - 1;
   const int before = state.index;
   const Vector2 here_m = position(best->map_from_robot);
@@ -226,6 +226,10 @@ FollowResult follow_path(FollowState& state, const VisualPath& path, const featu
 
 double share_when_here(const VisualPath& path) {
   return path.alone() ? kAloneShare : homing::VisualHoming::kLeastShare;
+}
+
+double drives_above(const FollowState& state, const FollowConfig& config) {
+  return state.looked_around ? config.likelier : config.drive_above;
 }
 
 bool is_unsure(const FollowState& state) { return !state.measured && !state.votes.empty(); }

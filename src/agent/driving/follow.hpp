@@ -39,7 +39,8 @@ struct FollowConfig {
   double reached_m = 0.03;    // the destination's view is reached within this distance, where it is measured
   double nearby_m = 1.0;      // the destination's view counts as reached or left behind only when it must be so near
   double alike_share = 0.35;  // of the features that agree where two views coincide
-  double drive_above = 0.7;   // probability of where the robot is below which it looks around
+  double drive_above = 0.7;   // probability of where the robot is below which it looks around,
+  double likelier = 0.5;      // and, where it has looked around in vain, below which it goes on looking
   double leap_above = 0.9;    // and from which on it goes on from quite another piece of its path
   double arrived_within_m = 0.5;      // of the destination the robot is when it says that it has arrived,
   double arrived_probability = 0.97;  // with at least this probability
@@ -68,11 +69,12 @@ struct FollowState {
   int contradictions = 0;               // local maps in a row that said something else than the estimate
   bool measured = false;                // the latest picture says in metres where the view homed to is
   int behind = 0;                       // answers in a row that say that the destination's view lies behind
-  double alike = 0.0;       // share of the features that agree with the view homed to, at the latest picture,
-  double most_alike = 0.0;  // and the most since this view is homed to: people may stand before the camera
-  BearingVotes votes;       // of one view alone: where it is, while nothing but bearings to it says so
-  int undecided = 0;        // pictures in a row that they were too few or too divided to say so
-  int given_up = 0;         // how often what they said was followed as far as odometry alone, in vain
+  double alike = 0.0;          // share of the features that agree with the view homed to, at the latest picture,
+  double most_alike = 0.0;     // and the most since this view is homed to: people may stand before the camera
+  BearingVotes votes;          // of one view alone: where it is, while nothing but bearings to it says so
+  bool looked_around = false;  // in vain: it goes on from where it is more probably than anywhere else
+  int undecided = 0;           // pictures in a row that they were too few or too divided to say so
+  int given_up = 0;            // how often what they said was followed as far as odometry alone, in vain
 };
 
 struct FollowResult {
@@ -99,6 +101,9 @@ FollowResult track(FollowState& state, const VisualPath& path, const tracking::T
 /// to be. Only the way driven between two sweeps makes the second one say something new.
 void see_ways(FollowState& state, const VisualPath& path, std::span<const Eigen::Vector2d> points_m,
               const Pose2& odometry);
+
+/// The probability of where the robot is from which on it drives along its path.
+double drives_above(const FollowState& state, const FollowConfig& config);
 
 /// The share of the destination's features that must have been recognised for it to be right here, whatever the
 /// geometry says: more where no map says how far it is.

@@ -23,11 +23,11 @@ void end_blocked(DrivingState& state, const DrivingConfig& config) {
   constexpr double kWithin_m = 2.0;
   const VisualPath& path = state.mission->path;
   const auto before = estimated_place(state.follow, path, config.follow);
-  if (before && path.index) {
+  if ((before || state.follow.looked_around) && path.index) {
     const Pose2& here = state.follow.hypotheses.best()->map_from_robot;
     state.follow.hypotheses.told({here.x_m, here.y_m}, kWithin_m, kOdds);
   }
-  if (!before || estimated_place(state.follow, path, config.follow) == before) {
+  if (!state.follow.looked_around && (!before || estimated_place(state.follow, path, config.follow) == before)) {
     return end_mission(state, wire::DriveState::kFailed, "The way is blocked.");
   }
   if (state.kept) state.kept->hypotheses = state.follow.hypotheses;
@@ -123,11 +123,15 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   if (now_ms - state.last_answer_ms > config.blind_ms) {
     return end_mission(state, wire::DriveState::kFailed, "I do not recognise the way any more.");
   }
-  if (position_probability(state.follow, state.mission->path) >= config.follow.drive_above) {
+  const double probability = position_probability(state.follow, state.mission->path);
+  if (probability >= config.follow.drive_above) {
     state.last_sure_ms = now_ms;
-  } else {
-    state.last_gain_ms = now_ms;  // looking around is no way gained, and not blocked either
+    state.follow.looked_around = false;
+  } else if (now_ms - state.last_sure_ms > config.looks_ms) {
+    state.follow.looked_around = true;
   }
+  // Looking around is no way gained, and not blocked either.
+  if (probability < drives_above(state.follow, config.follow)) state.last_gain_ms = now_ms;
   if (now_ms - state.last_sure_ms > config.unsure_ms || state.looking.driven_m > kLooksAround_m) {
     return end_astray(state, "I am not sure where I am.");
   }

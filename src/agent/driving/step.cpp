@@ -126,18 +126,19 @@ Motion approach(const Eigen::Vector2d& goal_m, const Body& body, const std::vect
 }
 
 constexpr const char* kLooksAround = "I am not sure where I am; I drive on a little and look.";
+constexpr const char* kGoesOn = "I am not sure where I am; I go on as if I were where I most probably am, and look.";
+constexpr double kUnsure_mps = 0.25;  // where it does not know where it is
 
 /// Where the robot does not know where it is, it drives on a little and looks; but not before it has seen something.
 Motion look(DrivingState& state, const Inputs& inputs, const DrivingConfig& config,
             const std::vector<Eigen::Vector2d>& points_m) {
-  constexpr double kLook_mps = 0.25;
   forget_standing(state.give_way);
   if (state.follow.hypotheses.empty()) return {};
   state.reason = kLooksAround;
   const auto aim_m = look_around(state.looking, config.body, points_m, inputs.odometry);
   if (!aim_m) return {};
-  if (const auto straight = pursue(config.body, points_m, *aim_m, kLook_mps)) return *straight;
-  return steer_round(state.plan, config.body, points_m, *aim_m, inputs.odometry, kLook_mps, config.turn_gain);
+  if (const auto straight = pursue(config.body, points_m, *aim_m, kUnsure_mps)) return *straight;
+  return steer_round(state.plan, config.body, points_m, *aim_m, inputs.odometry, kUnsure_mps, config.turn_gain);
 }
 
 /// How fast it may drive at most here: a way that no tour drove, slowly.
@@ -164,10 +165,13 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     return {};
   }
   const auto goal_m = goal(state.follow, inputs.odometry, config.follow);
-  const bool sure = position_probability(state.follow, state.mission->path) >= config.follow.drive_above;
-  if (!sure && !state.covered) return look(state, inputs, config, points_m);
+  const double probability = position_probability(state.follow, state.mission->path);
+  if (probability < drives_above(state.follow, config.follow) && !state.covered) {
+    return look(state, inputs, config, points_m);
+  }
   state.looking = {};
-  if (state.reason == kLooksAround) state.reason.clear();
+  if (state.reason == kLooksAround || state.reason == kGoesOn) state.reason.clear();
+  if (state.follow.looked_around) state.reason = kGoesOn;
   if (!goal_m || state.covered) {
     forget_standing(state.give_way);
     return {};
@@ -199,7 +203,7 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     }
   }
   // The less is recognised, the slower.
-  if (!state.seen.answered) speed_mps = std::min(speed_mps, 0.25);
+  if (!state.seen.answered || state.follow.looked_around) speed_mps = std::min(speed_mps, kUnsure_mps);
   const double doubt_m = state.follow.view.doubt_m();
   speed_mps *= std::clamp(1.2 - 0.4 * doubt_m, 0.4, 1.0);
   if (const auto straight = pursue(config.body, points_m, aim_m, speed_mps)) return *straight;

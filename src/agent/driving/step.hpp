@@ -45,7 +45,8 @@ struct DrivingConfig {
   Milliseconds stands_within_ms = 500;      // after the last message, picture or sweep it is at rest by itself
   Milliseconds reaction_ms = 120;           // of it, from an arrival to the wheels
   Milliseconds blind_ms = 8000;             // nothing recognised for so long: the mission fails
-  Milliseconds unsure_ms = 60'000;          // so long it looks around where it does not know where it is
+  Milliseconds looks_ms = 15'000;           // so long it looks around where it does not know where it is,
+  Milliseconds unsure_ms = 60'000;          // and after so long it gives up, whatever it has tried
   Milliseconds off_path_ms = 1000;          // so long beside its path, by the estimate, and it needs another
   double off_path_m = 3.0;                  // by more than that
   Milliseconds off_belief_ms = 3000;        // so long the server's belief may name another place

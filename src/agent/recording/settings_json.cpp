@@ -121,7 +121,7 @@ void pose_fields(Fields& fields, Config& pose) {
 template <class Fields, class Config>
 void follow_fields(Fields& fields, Config& follow) {
   auto& [homing, visual, track, pose, pass_m, abreast_m, path_odds, believe, sure, sure_inliers, look_along,
-         most_compared, blind_m, reached_m, nearby_m, alike_share, drive_above, leap_above, arrived_within_m,
+         most_compared, blind_m, reached_m, nearby_m, alike_share, drive_above, likelier, leap_above, arrived_within_m,
          arrived_probability] = follow;
   homing_fields(fields, homing);
   visual_fields(fields, visual);
@@ -140,6 +140,7 @@ void follow_fields(Fields& fields, Config& follow) {
   fields("follow_nearby_m", nearby_m);
   fields("follow_alike_share", alike_share);
   fields("follow_drive_above", drive_above);
+  fields("follow_likelier", likelier);
   fields("follow_leap_above", leap_above);
   fields("follow_arrived_within_m", arrived_within_m);
   fields("follow_arrived_probability", arrived_probability);
@@ -148,9 +149,9 @@ void follow_fields(Fields& fields, Config& follow) {
 template <class Fields, class Config>
 void driving_fields(Fields& fields, Config& driving) {
   auto& [body, follow, feature_config_id, link_silence_ms, frame_silence_ms, first_frame_ms, scan_silence_ms,
-         rider_silence_ms, loop_silence_ms, held_up_ms, stands_within_ms, reaction_ms, blind_ms, unsure_ms, off_path_ms,
-         off_path_m, off_belief_ms, off_belief_m, estimate_lives_ms, belief_silence_ms, doubtful_ms, asks_ms, stuck_ms,
-         patience_ms, near_m, near_ms, turn_gain, dock_within_rad] = driving;
+         rider_silence_ms, loop_silence_ms, held_up_ms, stands_within_ms, reaction_ms, blind_ms, looks_ms, unsure_ms,
+         off_path_ms, off_path_m, off_belief_ms, off_belief_m, estimate_lives_ms, belief_silence_ms, doubtful_ms,
+         asks_ms, stuck_ms, patience_ms, near_m, near_ms, turn_gain, dock_within_rad] = driving;
   body_fields(fields, body);
   follow_fields(fields, follow);
   fields("feature_config_id", feature_config_id);
@@ -164,6 +165,7 @@ void driving_fields(Fields& fields, Config& driving) {
   fields("stands_within_ms", stands_within_ms);
   fields("reaction_ms", reaction_ms);
   fields("blind_ms", blind_ms);
+  fields("looks_ms", looks_ms);
   fields("unsure_ms", unsure_ms);
   fields("off_path_ms", off_path_ms);
   fields("off_path_m", off_path_m);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "agent/driving/step.hpp"
 #include "unit/agent/step_fixture.hpp"
 
@@ -53,6 +56,52 @@ TEST_F(StepTest, ABeliefThatIsNotToldAnyMoreSaysNothing) {
   until_stopped(true, 30'000);
   EXPECT_FALSE(state_.follow.belief);
   EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+}
+
+/// A mission whose views are seen just as well 30 m to the side, where the map has others that look like them.
+wire::MissionOrder between_two_halls(wire::MissionOrder order, const std::vector<Pose2>& views) {
+  wire::Surroundings around;
+  around.path.assign(views.begin(), views.end() - 1);
+  around.final_pose = views.back();
+  around.spread_m = 0.05;
+  around.start_probability = 0.6;
+  const auto add = [&](const Pose2& pose, const std::vector<std::uint8_t>& appearance) {
+    const std::string name = "twin" + std::to_string(around.nearby.size());
+    around.nearby.push_back({PlaceId(name), ImageId("tour/" + name + ".jpg"), {pose.x_m, 30.0, 0.0}, appearance});
+  };
+  for (std::size_t i = 0; i + 1 < views.size(); ++i) add(views[i], order.path[i].appearance);
+  add(views.back(), order.final_appearance);
+  order.surroundings = around;
+  return order;
+}
+
+TEST_F(StepTest, BetweenTwoPlacesThatLookTheSameItLooksAroundForAWhileAndThenGoesOnByTheLikelierOne) {
+  tick({between_two_halls(mission("m1", 1, 1), views())});
+  const Milliseconds from_ms = now_ms_;
+  while (!state_.follow.looked_around && now_ms_ - from_ms < 30'000) tick({permit("m1", 1, ++seq_)});
+  EXPECT_GT(now_ms_ - from_ms, config_.looks_ms);
+  EXPECT_LE(now_ms_ - from_ms, config_.looks_ms + 1000);
+  ASSERT_EQ(state_.drive, DriveState::kDriving) << state_.reason;
+  EXPECT_LT(state_.follow.hypotheses.best_probability(), config_.follow.drive_above);
+  double fastest_mps = 0.0;
+  const Pose2 there = views().back();
+  const auto left_m = [&] { return std::hypot(there.x_m - pose_.x_m, there.y_m - pose_.y_m); };
+  double nearest_m = left_m();
+  while (state_.drive == DriveState::kDriving && now_ms_ - from_ms < 59'000) {
+    fastest_mps = std::max(fastest_mps, tick({permit("m1", 1, ++seq_)}).motion.speed_mps);
+    nearest_m = std::min(nearest_m, left_m());
+  }
+  EXPECT_LT(nearest_m, 0.3) << "it goes where it was sent";
+  EXPECT_LE(fastest_mps, 0.25) << "slowly";
+  EXPECT_NE(state_.drive, DriveState::kArrived) << "and says nothing that it does not know";
+  EXPECT_NE(state_.reason.find("not sure"), std::string::npos) << state_.reason;
+}
+
+TEST_F(StepTest, OnceItKnowsWhereItIsItLooksAroundAgainBeforeItGoesOnByTheLikelierPlace) {
+  set_off();
+  state_.follow.looked_around = true;
+  tick({permit("m1", 1, ++seq_)});
+  EXPECT_FALSE(state_.follow.looked_around);
 }
 
 }  // namespace
