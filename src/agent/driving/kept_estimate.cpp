@@ -22,6 +22,7 @@ FollowState begun_from(const std::optional<KeptEstimate>& kept, const VisualPath
   follow.hypotheses.hear(Eigen::Vector2d(begins.x_m, begins.y_m), kWithin_m, kOdds,
                          std::min(kMostOfOthersWord, path.start_probability));
   follow.odometry = kept->odometry;
+  follow.ways_seen_from = kept->odometry;  // what stands on them has been weighed
   follow.begun = true;
   return follow;
 }

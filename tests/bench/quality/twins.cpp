@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pictures tell of which of two places that look alike it is. Walks beside random stretches of a taught tour, each
-// with its twin: the same steps from the place that shares most features with where the walk begins. Both are kept by
-// the robot's own filter. A line a picture: of either side, where it is believed to be and what is recognised in the
-// views nearest to that (metres to the view, features that one motion explains, visual distance, confidence of the
-// pair, whether it agrees with where it is believed to be, features of the view).
+// What pictures and sweeps tell of which of two places that look alike it is. Walks beside random stretches of a taught
+// tour, each with its twin: the same steps from the place that shares most features with where the walk begins. Both
+// are kept by the robot's own filter. A line a picture: of either side, where it is believed to be, how near to the
+// middle of a way that the tour drove the range sensor sees something were it there (m; -1: nothing is believed yet),
+// and what is recognised in the views nearest to that (metres to the view, features that one motion explains, visual
+// distance, confidence of the pair, whether it agrees with where it is believed to be, features of the view).
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -12,10 +13,12 @@
 
 #include "agent/drivers/simulated_robot.hpp"
 #include "agent/driving/pose_hypotheses.hpp"
+#include "agent/driving/tour_ways.hpp"
 #include "agent/files/world_folder.hpp"
 #include "agent/scenario/look_alike_spot.hpp"
 #include "homing/visual_homing.hpp"
 #include "localisation/candidates.hpp"
+#include "map/lookup.hpp"
 #include "matching/visual_distance.hpp"
 #include "taught.hpp"
 
@@ -26,6 +29,7 @@ constexpr std::size_t kViews = 3;  // compared on either side
 constexpr double kReach_m = 3.0;
 constexpr std::size_t kSteps = 12;
 constexpr std::uint64_t kSeed = 1;
+constexpr double kUnknown_m = -1.0;
 
 struct Options {
   std::string world = "wards:5";
@@ -42,6 +46,12 @@ struct View {
   Pose2 pose;
 };
 
+/// What is known of the map: its prototypes, and the ways between them that the tour drove.
+struct Known {
+  std::vector<View> views;
+  std::vector<agent::TourWay> ways;
+};
+
 std::vector<View> nearest(const std::vector<View>& views, const Pose2& at) {
   std::vector<View> near;
   std::ranges::copy_if(views, std::back_inserter(near),
@@ -52,12 +62,13 @@ std::vector<View> nearest(const std::vector<View>& views, const Pose2& at) {
 }
 
 /// Looks as a robot does that knows that it is at one of the two places, and prints what is recognised there.
-void look(agent::PoseHypotheses& side, const features::Appearance& seen, const std::vector<View>& views,
-          const Pose2& start) {
+void look(agent::PoseHypotheses& side, const features::Appearance& seen, const std::vector<Eigen::Vector2d>& points_m,
+          const Known& known, const Pose2& start) {
   const Pose2 at = side.best() != nullptr ? side.best()->map_from_robot : start;
-  std::printf(",%.3f,%.3f", at.x_m, at.y_m);
+  const double room_m = side.best() != nullptr ? agent::room_on_ways_m(points_m, known.ways, *side.best()) : kUnknown_m;
+  std::printf(",%.3f,%.3f,%.3f", at.x_m, at.y_m, room_m);
   std::vector<agent::ViewSighting> sightings;
-  for (const View& view : nearest(views, at)) {
+  for (const View& view : nearest(known.views, at)) {
     const auto pair = matching::compare(seen, *view.appearance, {}, kSeed);
     agent::ViewSighting one;
     one.map_from_view = view.pose;
@@ -104,7 +115,7 @@ struct Walk {
   Pose2 twin;
 };
 
-void drive(const Walk& walk, agent::SimulatedRobot& robot, const pipeline::Eye& eye, const std::vector<View>& views) {
+void drive(const Walk& walk, agent::SimulatedRobot& robot, const pipeline::Eye& eye, const Known& known) {
   constexpr double kFarthestStep_m = 1.0;  // beyond it the tour was interrupted
   agent::PoseHypotheses truth;
   agent::PoseHypotheses twin;
@@ -120,8 +131,9 @@ void drive(const Walk& walk, agent::SimulatedRobot& robot, const pipeline::Eye& 
     robot.carry_to(here);
     const auto seen = or_die(eye.look(robot.picture()));
     std::printf("%s,%d,%zu,%.3f,%.3f", walk.light, walk.number, step, here.x_m, here.y_m);
-    look(truth, seen, views, walk.own);
-    look(twin, seen, views, walk.twin);
+    const std::vector<Eigen::Vector2d> points_m = agent::hit_points(robot.sweep());
+    look(truth, seen, points_m, known, walk.own);
+    look(twin, seen, points_m, known, walk.twin);
     std::printf("\n");
   }
 }
@@ -130,10 +142,17 @@ int run(const Options& options) {
   agent::TaughtWorld taught = teach_all_rooms(options.world, options.seed);
   const auto eye = or_die(pipeline::Eye::create(taught.camera, taught.map->feature_config));
   const localisation::CandidateFinder finder(*taught.map);
-  std::vector<View> views;
+  Known known;
   for (const map::Place& place : taught.map->places) {
-    views.push_back({&place.appearances.front(), taught.picture_poses.at(place.prototype)});
+    known.views.push_back({&place.appearances.front(), taught.picture_poses.at(place.prototype)});
   }
+  for (const map::Edge& edge : taught.map->edges) {
+    if (edge.shortcut || edge.length_from != map::LengthSource::kOdometry) continue;
+    const Pose2& from = taught.picture_poses.at(map::find_place(*taught.map, edge.from)->prototype);
+    const Pose2& to = taught.picture_poses.at(map::find_place(*taught.map, edge.to)->prototype);
+    known.ways.push_back({{from.x_m, from.y_m}, {to.x_m, to.y_m}});
+  }
+  const std::vector<View>& views = known.views;
   std::vector<Pose2> tour;
   for (const auto& [image, pose] : taught.picture_poses) tour.push_back(pose);
   for (const std::string& name : options.lights) {
@@ -156,7 +175,7 @@ int run(const Options& options) {
                      [&](const Pose2& pose) { return pose * aside; });
       config.seed = random();
       auto robot = or_die(agent::SimulatedRobot::create(*taught.world, config, walk.way.front()));
-      drive(walk, robot, eye, views);
+      drive(walk, robot, eye, known);
     }
   }
   return 0;

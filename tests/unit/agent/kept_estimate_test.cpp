@@ -51,6 +51,8 @@ TEST_F(KeptEstimateTest, TheNextMissionBeginsWhereTheRobotKnowsToBe) {
   EXPECT_NEAR(begun.hypotheses.best_probability(), 0.97, 1e-9);
   EXPECT_EQ(begun.hypotheses.unweighed_m(), 0.1);
   EXPECT_EQ(begun.index, 0);
+  ASSERT_TRUE(begun.ways_seen_from);
+  EXPECT_EQ(begun.ways_seen_from->x_m, 5.0) << "a wall that was seen there says nothing new";
   EXPECT_FALSE(begun.belief);
 }
 
