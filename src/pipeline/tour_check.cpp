@@ -51,12 +51,33 @@ Relative elsewhere(const mapping::PairTable& pairs, std::span<const int> tour_of
   return best;
 }
 
+/// Whether the way between a picture and the next is driven again where `here` and `there`, which show the same two
+/// spots, are: side by side, or where the camera goes back from a spot at which it has stood or turned. Of the pictures
+/// from there, chance says which is nearest to the first.
+bool driven_again(const mapping::PairTable& pairs, std::span<const int> tour_of, int image, int here, int there) {
+  if (std::abs(here - there) <= kSideBySide) return true;
+  const float still = pairs.distance(image, image + 1) / kFarther;
+  if (!std::isfinite(still)) return false;  // they have nothing in common
+  const auto stands = [&](int from) {
+    return from >= 0 && from + 1 < pairs.images() &&
+           tour_of[static_cast<std::size_t>(from)] == tour_of[static_cast<std::size_t>(from + 1)] &&
+           pairs.distance(from, from + 1) < still;
+  };
+  int last = image + 1;
+  while (stands(last)) ++last;
+  int first = image;
+  while (stands(first - 1)) --first;
+  const bool back = last > image + 1 && here > last && here <= last + kSideBySide;
+  const bool came = first < image && there < first && there >= first - kSideBySide;
+  return back || came;
+}
+
 /// Is the step from `image` to the next one a jump?
 bool jumps(const mapping::PairTable& pairs, std::span<const int> tour_of, int image) {
   const int next = image + 1;
   const Relative here = elsewhere(pairs, tour_of, image);
   const Relative there = elsewhere(pairs, tour_of, next);
-  if (here.image < 0 || there.image < 0 || std::abs(here.image - there.image) <= kSideBySide) return false;
+  if (here.image < 0 || there.image < 0 || driven_again(pairs, tour_of, image, here.image, there.image)) return false;
   if (pairs.distance(image, next) <= kFarther * std::max(here.distance, there.distance)) return false;
   const auto beside = [&](int of, int other) {
     const bool there_is = other >= 0 && other < pairs.images() &&

@@ -60,6 +60,24 @@ TEST(TourOrder, NothingIsSaidOfToursThatAreInOrder) {
   EXPECT_TRUE(Line(at).check()->empty()) << "a cut in the middle";
 }
 
+TEST(TourOrder, NothingIsSaidOfADriveIntoARoomAndBackAfterTurningThere) {
+  // Along a way in steps as wide as pictures know each other, five times at its end, and back.
+  const std::vector<int> at = {0, 3, 6, 9, 12, 15, 18, 18, 18, 18, 18, 15, 12, 9, 6, 3, 0};
+  for (const int nearest : {8, 9, 10}) {  // chance says which picture of the turn is nearest to the first
+    Line line(at);
+    mapping::PairRelation relation;
+    relation.inliers = 100;
+    relation.distance = 0.009F;
+    line.pairs.set(6, nearest, relation);
+    const auto checked = line.check();
+    ASSERT_TRUE(checked);
+    EXPECT_TRUE(checked->empty()) << nearest << ": " << checked->front().message;
+  }
+  std::vector<int> stranger = at;
+  stranger.insert(stranger.begin() + 3, 15);
+  EXPECT_FALSE(Line(stranger).check()->empty()) << "a picture of the way there in its middle";
+}
+
 TEST(TourOrder, AShuffledTourIsRefused) {
   for (const unsigned seed : {1U, 2U, 3U}) {
     std::vector<int> at = ordered(80);
