@@ -97,6 +97,7 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
                                                      : wire::order_for_route(map, places);
   const auto layout = maps_.layout(*loaded);
   wire::add_surroundings(map, *layout, planning::surroundings(map, places, likely, *layout), plan.order);
+  for (const planning::Way& way : asked.closed) wire::leave_out_way(way.from, way.to, plan.order);
   if (const Status begins = set_start(start, plan.order); !begins) return pass_on(begins);
   plan.mission.revision = map.revision;
   plan.mission.path = places;

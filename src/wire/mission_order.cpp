@@ -120,4 +120,18 @@ void add_surroundings(const map::TopologicalMap& map, const map::MetricLayout& l
   order.surroundings = std::move(around);
 }
 
+void leave_out_way(const PlaceId& from, const PlaceId& to, MissionOrder& order) {
+  if (!order.surroundings) return;
+  const auto place = [&](int view) -> const PlaceId& {
+    const auto number = static_cast<std::size_t>(view);
+    return number < order.path.size() ? order.path[number].place
+                                      : order.surroundings->nearby[number - order.path.size()].place;
+  };
+  std::erase_if(order.surroundings->ways, [&](const std::array<int, 2>& way) {
+    const PlaceId& first = place(way[0]);
+    const PlaceId& second = place(way[1]);
+    return (first == from && second == to) || (first == to && second == from);
+  });
+}
+
 }  // namespace homeward::wire

@@ -16,6 +16,10 @@ namespace homeward::wire {
 void add_surroundings(const map::TopologicalMap& map, const map::MetricLayout& layout, std::span<const PlaceId> nearby,
                       MissionOrder& order);
 
+/// Takes a way out of those that an order says that a tour drove, both directions of it: it is closed for now, so that
+/// something on it says nothing of where the robot is. Nothing where the order does not tell of it.
+void leave_out_way(const PlaceId& from, const PlaceId& to, MissionOrder& order);
+
 /// The path part of a mission: the places of a route with their prototypes' appearances and what the map knows of the
 /// ways between them, and the destination's own picture, to whose heading the robot turns. Ids, order, permit and speed
 /// are the caller's. Precondition: the places are in the map.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 
 #include "agent/driving/pose_hypotheses.hpp"
@@ -15,10 +16,11 @@ struct TourWay {
 };
 
 /// How near what a range sensor sees comes to the middle of a way, were a hypothesis right: the fourth nearest point of
-/// the way that is nearest, farther by what the pose is doubted; infinity without ways or points. `points_m`: of one
-/// sweep, robot frame. What is hidden is not seen, and what is wide enough for a robot is no wall.
-double room_on_ways_m(std::span<const Eigen::Vector2d> points_m, std::span<const TourWay> ways,
-                      const PoseHypothesis& hypothesis);
+/// the way that is nearest, farther by what the pose is doubted, a metre at most; nothing where no way or no point is
+/// near the robot. `points_m`: of one sweep, robot frame. What is hidden is not seen, and what is wide enough for a
+/// robot is no wall.
+std::optional<double> room_on_ways_m(std::span<const Eigen::Vector2d> points_m, std::span<const TourWay> ways,
+                                     const PoseHypothesis& hypothesis);
 
 /// What a sweep says of each hypothesis: one that puts a surface on a way that a tour drove is wrong, or something has
 /// been put there; one that lets the ways go through what is seen to be free is right, or of a place that looks alike

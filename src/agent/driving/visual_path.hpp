@@ -42,7 +42,7 @@ struct VisualPath {
   std::vector<PlaceId> places = {};                  // of the views; as many, or none where nobody asks
   std::vector<Pose2> map_from_view = {};             // by the map, or by edges (place_by_edges); as many as views
   std::vector<NearbyView> nearby = {};
-  std::vector<TourWay> ways = {};
+  std::vector<TourWay> ways = {};                    // that tours drove, around the path
   double spread_m = 0.15;                            // standard deviation of where a view lies among those around it
   double start_probability = 1.0;                    // that the robot is where the path begins
   std::shared_ptr<const ViewIndex> index = nullptr;  // of views, then nearby; null where there are no others

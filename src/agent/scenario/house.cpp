@@ -62,6 +62,7 @@ Result<wire::MissionOrder> House::order_from(const PlaceId& place, bool second_l
   wire::MissionOrder order = wire::order_for_route(*taught_->map, path_, *destination_);
   wire::add_surroundings(*taught_->map, taught_->layout,
                          planning::surroundings(*taught_->map, path_, likely_, taught_->layout), order);
+  for (const planning::Way& way : closed_) wire::leave_out_way(way.from, way.to, order);
   if (order.surroundings) order.surroundings->start_probability = start_probability_;
   order.mission = MissionId("simulated");
   order.order = {1, ++orders_ * kOrderStep};

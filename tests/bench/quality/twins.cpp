@@ -2,9 +2,10 @@
 // What pictures and sweeps tell of which of two places that look alike it is. Walks beside random stretches of a taught
 // tour, each with its twin: the same steps from the place that shares most features with where the walk begins. Both
 // are kept by the robot's own filter. A line a picture: of either side, where it is believed to be, how near to the
-// middle of a way that the tour drove the range sensor sees something were it there (m; -1: nothing is believed yet),
-// and what is recognised in the views nearest to that (metres to the view, features that one motion explains, visual
-// distance, confidence of the pair, whether it agrees with where it is believed to be, features of the view).
+// middle of a way that the tour drove the range sensor sees something were it there (m; -1: nothing is believed yet, or
+// nothing is near), and what is recognised in the views nearest to that (metres to the view, features that one motion
+// explains, visual distance, confidence of the pair, whether it agrees with where it is believed to be, features of the
+// view).
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -65,8 +66,9 @@ std::vector<View> nearest(const std::vector<View>& views, const Pose2& at) {
 void look(agent::PoseHypotheses& side, const features::Appearance& seen, const std::vector<Eigen::Vector2d>& points_m,
           const Known& known, const Pose2& start) {
   const Pose2 at = side.best() != nullptr ? side.best()->map_from_robot : start;
-  const double room_m = side.best() != nullptr ? agent::room_on_ways_m(points_m, known.ways, *side.best()) : kUnknown_m;
-  std::printf(",%.3f,%.3f,%.3f", at.x_m, at.y_m, room_m);
+  std::optional<double> room_m;
+  if (side.best() != nullptr) room_m = agent::room_on_ways_m(points_m, known.ways, *side.best());
+  std::printf(",%.3f,%.3f,%.3f", at.x_m, at.y_m, room_m.value_or(kUnknown_m));
   std::vector<agent::ViewSighting> sightings;
   for (const View& view : nearest(known.views, at)) {
     const auto pair = matching::compare(seen, *view.appearance, {}, kSeed);

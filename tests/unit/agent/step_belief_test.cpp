@@ -97,6 +97,32 @@ TEST_F(StepTest, BetweenTwoPlacesThatLookTheSameItLooksAroundForAWhileAndThenGoe
   EXPECT_NE(state_.reason.find("not sure"), std::string::npos) << state_.reason;
 }
 
+TEST_F(StepTest, AWallThatOneOfTwoPlacesHasNoRoomForTellsItWhereItIs) {
+  // A tour of the other hall drove on where this one ends.
+  wire::MissionOrder order = between_two_halls(mission("m1", 1, 1), views());
+  wire::Surroundings& around = *order.surroundings;
+  const int end = static_cast<int>(around.path.size() + around.nearby.size()) - 1;
+  around.nearby.push_back({PlaceId("beyond"), ImageId("tour/beyond.jpg"), {5.5, 30.0, 0.0}, order.path[0].appearance});
+  around.ways = {{0, 1}, {end, end + 1}};
+  ranges_m_.resize(720);
+  const auto drive = [&] {
+    state_ = {};
+    pose_ = {};
+    tick({order});
+    const Milliseconds from_ms = now_ms_;
+    while (state_.drive == DriveState::kDriving && now_ms_ - from_ms < 55'000) {
+      see_wall_across(4.0);
+      tick({permit("m1", state_.newest.epoch, ++seq_)});
+    }
+  };
+  drive();
+  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+  config_.body.vague_ranges = true;  // arcs of ultrasound are no walls
+  order.order.seq = ++seq_;
+  drive();
+  EXPECT_NE(state_.drive, DriveState::kArrived);
+}
+
 TEST_F(StepTest, OnceItKnowsWhereItIsItLooksAroundAgainBeforeItGoesOnByTheLikelierPlace) {
   set_off();
   state_.follow.looked_around = true;

@@ -39,7 +39,7 @@ PoseHypothesis at(const Pose2& pose, double spread_m = 0.04, double spread_rad =
   return one;
 }
 
-double room_m(double door_seen_m, double door_driven_m, const PoseHypothesis& hypothesis) {
+std::optional<double> room_m(double door_seen_m, double door_driven_m, const PoseHypothesis& hypothesis) {
   const auto points_m = hit_points(sweep_at({0.0, 0.2, 0.3}, corridor(door_seen_m)));
   return room_on_ways_m(points_m, ways(door_driven_m), hypothesis);
 }
@@ -63,14 +63,19 @@ TEST(TourWays, ThePostOfASignIsNoWall) {
 }
 
 TEST(TourWays, ThePoseThatIsDoubtedLeavesMoreRoom) {
-  const double known_m = room_m(-2.0, 2.0, at({0.0, 0.2, 0.3}));
-  const double doubted_m = room_m(-2.0, 2.0, at({0.0, 0.2, 0.3}, 1.0, 0.1));
-  EXPECT_GT(doubted_m, known_m + 0.29);
+  const auto known_m = room_m(-2.0, 2.0, at({0.0, 0.2, 0.3}));
+  const auto doubted_m = room_m(-2.0, 2.0, at({0.0, 0.2, 0.3}, 1.0, 0.1));
+  ASSERT_TRUE(known_m);
+  EXPECT_GT(doubted_m, *known_m + 0.29);
 }
 
-TEST(TourWays, WithoutWaysOrPointsThereIsRoomWithoutEnd) {
-  EXPECT_TRUE(std::isinf(room_on_ways_m({}, ways(2.0), at({}))));
-  EXPECT_TRUE(std::isinf(room_on_ways_m(hit_points(sweep_at({}, corridor(2.0))), {}, at({}))));
+TEST(TourWays, WithoutWaysOrPointsNothingIsKnownAndFarFromAllThereIsRoom) {
+  const auto points_m = hit_points(sweep_at({}, corridor(2.0)));
+  EXPECT_FALSE(room_on_ways_m({}, ways(2.0), at({})));
+  EXPECT_FALSE(room_on_ways_m(points_m, {}, at({})));
+  EXPECT_FALSE(room_on_ways_m(points_m, ways(2.0), at({40.0, 0.0, 0.0}))) << "no way is near";
+  const std::vector<TourWay> aside = {{{-3.0, -3.5}, {-3.0, -5.0}}};
+  EXPECT_EQ(room_on_ways_m(points_m, aside, at({})), 1.0) << "nothing that is seen is near it";
 }
 
 /// Two places that pictures do not tell apart: here, with the door at x = 2 m, and 30 m on, where it is at x = 28 m.

@@ -150,6 +150,22 @@ TEST(AddSurroundings, TellWhichWaysATourDrove) {
   EXPECT_TRUE(ways(near).empty()) << "nobody measured it";
 }
 
+TEST(LeaveOutWay, TakesOutBothDirectionsOfItAndNoOther) {
+  map::TopologicalMap map = corridor();
+  for (map::Edge& edge : map.edges) edge.length_from = map::LengthSource::kOdometry;
+  MissionOrder order = order_for_route(map, places("ABC"));
+  leave_out_way(PlaceId("A"), PlaceId("B"), order);
+  EXPECT_FALSE(order.surroundings);
+  add_surroundings(map, in_a_row("ABECD", true), places("E"), order);
+  using Ways = std::vector<std::array<int, 2>>;
+  ASSERT_EQ(order.surroundings->ways, (Ways{{0, 1}, {1, 3}}));
+  leave_out_way(PlaceId("A"), PlaceId("E"), order);
+  leave_out_way(PlaceId("A"), PlaceId("nowhere"), order);
+  EXPECT_EQ(order.surroundings->ways.size(), 2U);
+  leave_out_way(PlaceId("E"), PlaceId("B"), order);
+  EXPECT_EQ(order.surroundings->ways, (Ways{{0, 1}}));
+}
+
 TEST(AddSurroundings, NeverMakeAMissionTooLongToBeRead) {
   // 34,000 features take 4.7 MB: path and last picture 14 MB, and with all three others more than three quarters of the
   // 32 MiB of a message.
