@@ -6,8 +6,8 @@
 namespace homeward::planning {
 namespace {
 
-constexpr int kMostDetours = 3;  // of one mission
-constexpr int kMostRestarts = 8;
+constexpr int kMostDetours = 3;    // of one mission
+constexpr int kMostRestarts = 20;  // each looks anew at where the robot is; in the end it has driven on and knows
 constexpr int kMostUnsureRestarts = 3;
 
 }  // namespace

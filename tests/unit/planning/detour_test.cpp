@@ -54,7 +54,7 @@ TEST(Detour, OfARobotThatWentAstrayClosesNothingAndIsNoDetour) {
   FailedDrive astray = failed(2, "p9");
   astray.astray = true;
   astray.detours = 3;
-  for (astray.restarts = 0; astray.restarts < 8; ++astray.restarts) {
+  for (astray.restarts = 0; astray.restarts < 20; ++astray.restarts) {
     EXPECT_EQ(detour_after(astray), Ways()) << astray.restarts;
   }
   EXPECT_FALSE(detour_after(astray)) << "but not without end";
