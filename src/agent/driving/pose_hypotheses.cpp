@@ -253,10 +253,11 @@ double PoseHypotheses::weigh_by_recognition(std::span<const ViewSighting> sighti
       record.log_share += news * sum / compared;  // of what was not compared the picture says nothing
     }
   }
+  const int rivals = std::max(1, static_cast<int>(hypotheses_.size()) - 1);
   for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
-    const double now = odds_to_best(hypotheses_[k].record, hypotheses_[best].record, config_.twins);
+    const double now = odds_to_best(hypotheses_[k].record, hypotheses_[best].record, config_.twins, rivals);
     double& pending = hypotheses_[k].record.pending;
-    pending += std::log(now / odds_to_best(before[k], before[best], config_.twins));
+    pending += std::log(now / odds_to_best(before[k], before[best], config_.twins, rivals));
     const double taken = std::clamp(pending, -kMostOfOne * news, kMostOfOne * news);
     pending -= taken;
     hypotheses_[k].weight *= std::exp(taken);

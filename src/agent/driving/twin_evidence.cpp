@@ -19,7 +19,8 @@ void take(RecognitionRecord& record, const Recognition& seen, double news) {
   record.pictures += news;
 }
 
-double odds_to_best(const RecognitionRecord& record, const RecognitionRecord& best, const TwinEvidenceConfig& config) {
+double odds_to_best(const RecognitionRecord& record, const RecognitionRecord& best, const TwinEvidenceConfig& config,
+                    int rivals) {
   constexpr double kLeast = 1e-9;
   const double pictures = std::min(record.pictures, best.pictures);
   if (pictures <= 0.0) return 1.0;
@@ -28,7 +29,9 @@ double odds_to_best(const RecognitionRecord& record, const RecognitionRecord& be
   const double counting = 2.0 * pictures * of_picture;
   const double variance = counting * (1.0 + config.lasting_variance * std::min(pictures, config.lasting_pictures));
   const double z = (record.log_share - best.log_share) / std::sqrt(variance);
-  return std::max(kLeast, share_below(z)) / std::max(kLeast, share_below(-z));
+  const double misled = config.outlier / rivals * std::exp(-pictures / config.outlier_pictures);
+  const auto probability = [&](double below) { return std::max(kLeast, misled + (1.0 - 2.0 * misled) * below); };
+  return probability(share_below(z)) / probability(share_below(-z));
 }
 
 }  // namespace homeward::agent

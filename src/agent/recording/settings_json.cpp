@@ -113,6 +113,8 @@ void pose_fields(Fields& fields, Config& pose) {
   fields("pose_elsewhere_evidence", elsewhere_evidence);
   fields("pose_twins_lasting_variance", twins.lasting_variance);
   fields("pose_twins_lasting_pictures", twins.lasting_pictures);
+  fields("pose_twins_outlier", twins.outlier);
+  fields("pose_twins_outlier_pictures", twins.outlier_pictures);
   fields("pose_leave_probability", leave_probability);
   fields("pose_cluster_m", cluster_m);
   fields("pose_independent_m", independent_m);

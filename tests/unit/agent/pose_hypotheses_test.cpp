@@ -119,8 +119,8 @@ TEST(PoseHypotheses, CarriedOffItBelievesSoOnceTheViewsThereAreSeenAndItsOwnAreN
     corridor.hypotheses_.weigh(sightings);
     if (corridor.hypotheses_.best()->map_from_robot.y_m > 15.0 && corridor.hypotheses_.best_probability() > 0.7) break;
   }
-  EXPECT_LT(way_m, 2.0);
-  EXPECT_GT(way_m, 0.05);  // but not by one picture
+  EXPECT_LT(way_m, 4.0);
+  EXPECT_GT(way_m, 1.0);  // a few pictures may mislead
 }
 
 /// Two corridors, equally likely at first, and how well the second one is recognised beside the first.
