@@ -126,10 +126,10 @@ void Driving::send_detour(const Unit& found, const MissionId& mission, const std
   }
   planned->mission.state = wire::MissionState::kAccepted;
   const bool astray = unit.status && unit.status->astray;
-  planned->mission.reason = reason + (unit.second_look ? " The robot looks around and comes back."
-                                      : astray         ? " The robot goes on from there."
-                                      : planned->again ? " There is no other way; the robot tries it once more."
-                                                       : " The robot takes another way.");
+  planned->mission.reason = reason + (unit.second_look ? " I look around and come back."
+                                      : astray         ? " I go on from there."
+                                      : planned->again ? " There is no other way; I try it once more."
+                                                       : " I take another way.");
   planned->mission.epoch = unit.epoch;
   planned->mission.seq = ++unit.seq;
   planned->order.order = {unit.epoch, unit.seq};

@@ -260,7 +260,7 @@ TEST_F(DrivingTest, ARobotThatWentAstrayIsSentOnOverTheWayThatNothingIsWrongWith
     ASSERT_TRUE(order) << restart << mission_now(sent.json()).dump();
     EXPECT_EQ(order->path[1].place, over) << "no part of the way is to blame";
     const auto reason = mission_now(sent.json()).at("reason").get<std::string>();
-    EXPECT_NE(reason.find("goes on from there"), std::string::npos) << reason;
+    EXPECT_NE(reason.find("I go on from there"), std::string::npos) << reason;
   }
 }
 
@@ -294,7 +294,7 @@ TEST_F(DrivingTest, ARobotThatIsNotSureOfItsDestinationLooksAroundAndComesBack) 
     EXPECT_EQ(order->path.back().place, there);
     EXPECT_TRUE(order->dock) << "it is the destination's own picture that it comes back to";
     const auto reason = mission_now(sent.json()).at("reason").get<std::string>();
-    EXPECT_NE(reason.find("looks around and comes back"), std::string::npos) << reason;
+    EXPECT_NE(reason.find("I look around and come back"), std::string::npos) << reason;
   }
   give_up();
   const json now = wait_for_state(sent.json(), "failed");
@@ -401,7 +401,7 @@ TEST_F(DrivingTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
   ASSERT_TRUE(order->surroundings);
   EXPECT_GT(order->surroundings->start_probability, 0.5);
   now = mission_now(sent.json());
-  EXPECT_NE(now.at("reason").get<std::string>().find("goes on from there"), std::string::npos) << now.dump();
+  EXPECT_NE(now.at("reason").get<std::string>().find("I go on from there"), std::string::npos) << now.dump();
   // Put down where the map knows nothing, it is sent on from the likeliest place, and finds out for itself.
   agent.astray = false;
   agent.status(wire::DriveState::kDriving, order, 1);
