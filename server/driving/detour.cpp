@@ -18,8 +18,9 @@ bool may_go_on(const RobotUnit& unit, SteadyTime now) {
   return unit.under_way && unit.online() && unit.lease && now < unit.lease->expires && unit.known_start(now);
 }
 
-Result<planning::Detour> second_look_at(const map::TopologicalMap& map, const planning::RouteRequest& request) {
-  auto route = planning::plan_second_look(map, request);
+Result<planning::Detour> second_look_at(const map::TopologicalMap& map, const planning::RouteRequest& request,
+                                        double away_m) {
+  auto route = planning::plan_second_look(map, request, away_m);
   if (!route) return pass_on(route);
   return planning::Detour{std::move(*route), false};
 }
@@ -42,8 +43,9 @@ bool Driving::begin_detour(const Unit& found, const std::string& reason) {
   unit.fails_again = planning::fails_again(unit.closed, *ways);
   unit.closed.insert(unit.closed.end(), ways->begin(), ways->end());
   ++(astray || unsure ? unit.restarts : unit.detours);
+  unit.second_look_m.reset();
+  if (second_look) unit.second_look_m = planning::second_look_m(unit.unsure_restarts);
   if (unsure) ++unit.unsure_restarts;
-  unit.second_look = second_look;
   unit.looking_for_detour = true;
   // Reading the map and planning are no work for the thread of the sockets.
   if (!heavy_.try_run([this, found, mission = unit.mission->id, reason] { send_detour(found, mission, reason); })) {
@@ -64,7 +66,7 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   Start start;
   std::vector<PlaceId> likely;
   bool fails_again = false;
-  bool second_look = false;
+  std::optional<double> second_look_m;
   {
     const std::scoped_lock lock(unit->mutex);
     const auto known = unit->known_start(std::chrono::steady_clock::now());
@@ -77,7 +79,7 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
     asked.from = start.place;
     asked.closed = unit->closed;
     fails_again = unit->fails_again;
-    second_look = unit->second_look;
+    second_look_m = unit->second_look_m;
   }
   const auto loaded = maps_.load(plan.mission.map);
   if (!loaded) return pass_on(loaded);
@@ -87,7 +89,8 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   std::erase_if(asked.closed, [&](const planning::Way& way) {
     return map::find_place(map, way.from) == nullptr || map::find_place(map, way.to) == nullptr;
   });
-  const auto detour = second_look ? second_look_at(map, asked) : planning::plan_detour(map, asked, !fails_again);
+  const auto detour =
+      second_look_m ? second_look_at(map, asked, *second_look_m) : planning::plan_detour(map, asked, !fails_again);
   if (!detour) return pass_on(detour);
   const std::vector<PlaceId>& places = detour->route.places;
   const auto destination = std::ranges::find_if(map.destinations, [&](const map::Destination& candidate) {
@@ -126,10 +129,10 @@ void Driving::send_detour(const Unit& found, const MissionId& mission, const std
   }
   planned->mission.state = wire::MissionState::kAccepted;
   const bool astray = unit.status && unit.status->astray;
-  planned->mission.reason = reason + (unit.second_look ? " I look around and come back."
-                                      : astray         ? " I go on from there."
-                                      : planned->again ? " There is no other way; I try it once more."
-                                                       : " I take another way.");
+  planned->mission.reason = reason + (unit.second_look_m ? " I look around and come back."
+                                      : astray           ? " I go on from there."
+                                      : planned->again   ? " There is no other way; I try it once more."
+                                                         : " I take another way.");
   planned->mission.epoch = unit.epoch;
   planned->mission.seq = ++unit.seq;
   planned->order.order = {unit.epoch, unit.seq};

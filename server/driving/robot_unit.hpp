@@ -86,11 +86,11 @@ struct RobotUnit {
   // Another way after a part of the present one failed; of this mission alone.
   std::vector<planning::Way> closed;
   int detours = 0;
-  int restarts = 0;                 // orders given anew after the robot was elsewhere than on its way
-  int unsure_restarts = 0;          // of them, those of a robot that did not know where it was
-  bool fails_again = false;         // where it failed before
-  bool second_look = false;         // the way to be looked for leads away from the destination and back
-  bool looking_for_detour = false;  // no permit goes out until the new way is sent
+  int restarts = 0;                     // orders given anew after the robot was elsewhere than on its way
+  int unsure_restarts = 0;              // of them, those of a robot that did not know where it was
+  bool fails_again = false;             // where it failed before
+  std::optional<double> second_look_m;  // so far the way to be looked for leads from the destination, and back
+  bool looking_for_detour = false;      // no permit goes out until the new way is sent
   std::optional<SteadyTime>
       looks_since;                       // lifted in mid-mission: where it stands is looked for, and no permit goes out
   int looks = 0;                         // pictures since

@@ -2,6 +2,7 @@
 #include "planning/second_look.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <queue>
 
@@ -52,6 +53,11 @@ void append(Route& route, const Route& next) {
 }
 
 }  // namespace
+
+double second_look_m(int look) {
+  constexpr double kFirst_m = 5.0;
+  return std::ldexp(kFirst_m, look);
+}
 
 Result<Route> plan_second_look(const map::TopologicalMap& map, const RouteRequest& request, double away_m) {
   const map::Place* from = map::find_place(map, request.from);

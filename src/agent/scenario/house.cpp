@@ -51,7 +51,7 @@ Result<wire::MissionOrder> House::order_from(const PlaceId& place, bool second_l
   request.to = destination_->place;
   request.closed = closed_;
   if (second_look) {
-    auto route = planning::plan_second_look(*taught_->map, request);
+    auto route = planning::plan_second_look(*taught_->map, request, planning::second_look_m(unsure_restarts_));
     if (!route) return pass_on(route);
     path_ = std::move(route->places);
   } else {

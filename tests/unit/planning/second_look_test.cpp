@@ -28,6 +28,12 @@ A--B--C-----D
   EXPECT_EQ(spelled(farther->places), "A B C D C B A");
 }
 
+TEST(SecondLook, LeadsEachTimeTwiceAsFarAway) {
+  EXPECT_DOUBLE_EQ(second_look_m(0), 5.0);
+  EXPECT_DOUBLE_EQ(second_look_m(1), 10.0);
+  EXPECT_DOUBLE_EQ(second_look_m(2), 20.0);
+}
+
 TEST(SecondLook, MayComeBackAnotherWayAndPassesOverPlacesWithoutAWayBack) {
   const auto round = ascii_map(R"(
 A>>B
@@ -38,7 +44,7 @@ C--D
   ASSERT_TRUE(look);
   const std::string way = spelled(look->places);
   EXPECT_EQ(way.substr(way.size() - 5), "D C A") << way;
-  EXPECT_FALSE(plan_second_look(ascii_map("A>>>>>>B"), from("A"))) << "nothing leads back";
+  EXPECT_FALSE(plan_second_look(ascii_map("A>>>>>>B"), from("A"), 5.0)) << "nothing leads back";
 }
 
 TEST(SecondLook, DrivesNeitherWhatIsClosedNorWhatIsBlockedOrAvoided) {
@@ -65,14 +71,14 @@ TEST(SecondLook, SaysWhereNoWayLeadsAwayAndBack) {
   ASSERT_FALSE(look);
   EXPECT_EQ(look.error().code, ErrorCode::kNoRoute);
   EXPECT_NE(look.error().message.find("place A"), std::string::npos) << look.error().message;
-  const auto unknown = plan_second_look(map, from("Z"));
+  const auto unknown = plan_second_look(map, from("Z"), 5.0);
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().code, ErrorCode::kUnknownPlace);
 }
 
 TEST(SecondLook, SumsWhatBothHalvesCost) {
   const auto map = ascii_map("A~~~~~B");
-  const auto look = plan_second_look(map, from("A"));
+  const auto look = plan_second_look(map, from("A"), 5.0);
   ASSERT_TRUE(look);
   EXPECT_DOUBLE_EQ(look->length_m, 10.0);
   EXPECT_DOUBLE_EQ(look->cost_m, 30.0);
