@@ -69,8 +69,8 @@ TEST(TwinEvidence, AYoungerRecordCountsFromWhereItBegan) {
     take(young, {-1.0, 0.01}, 1.0);
     take(later, {-3.0, 0.1}, 1.0);
   }
-  EXPECT_GT(odds_to_best(young, later, {}), 50.0);
-  EXPECT_LT(odds_to_best(later, young, {}), 0.02);
+  EXPECT_GT(odds_to_best(young, later, {}), 85.0);
+  EXPECT_LT(odds_to_best(later, young, {}), 0.012);
 }
 
 TEST(TwinEvidence, AFewPicturesMayMisleadHoweverMuchTheySay) {
