@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "core/range_sweep.hpp"
 #include "core/result.hpp"
 #include "db/map_file.hpp"
 #include "db/store_records.hpp"
@@ -72,6 +74,10 @@ class Store {
   virtual Result<std::vector<TourImage>> tour_images(const TourId& tour) = 0;  // by number
   /// Errors: kNotFound.
   virtual Result<std::vector<std::uint8_t>> image_bytes(const TourId& tour, std::int64_t number) = 0;
+  /// What a range sensor saw with this image, kept in whole millimetres. The same sweep again is kSame, another one
+  /// kConflict. Errors: kNotFound (tour, image), kConflict (the tour is complete).
+  virtual Result<PutImage> put_sweep(const TourId& tour, std::int64_t number, const RangeSweep& sweep) = 0;
+  virtual Result<std::map<std::int64_t, RangeSweep>> sweeps(const TourId& tour) = 0;  // by number
   /// Replaces all marks. Errors: kNotFound.
   virtual Status set_marks(const TourId& tour, const std::vector<wire::TourMark>& marks) = 0;
   virtual Result<std::vector<wire::TourMark>> marks(const TourId& tour) = 0;

@@ -6,6 +6,7 @@
 
 #include "server/http/json_body.hpp"
 #include "wire/camera_json.hpp"
+#include "wire/scans_json.hpp"
 #include "wire/tour_json.hpp"
 
 namespace homeward::server {
@@ -102,6 +103,17 @@ Response get_image(db::Store& store, const Request& request) {
   return response;
 }
 
+Response put_sweep(TourService& tours, const Request& request) {
+  const auto number = image_number(request);
+  if (!number) return problem_of(number);
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  const auto sweep = wire::sweep_from_json(*body, "body");
+  if (!sweep) return problem_of(sweep);
+  const Status status = tours.put_sweep(TourId(request.parameter("tour")), *number, *sweep);
+  return status ? empty_response(204) : problem_of(status);
+}
+
 Response put_marks(TourService& tours, const Request& request) {
   const auto body = json_body(request);
   if (!body) return not_json(body.error());
@@ -138,6 +150,8 @@ void add_tour_routes(Router& router, TourService& tours, db::Store& store) {
               [service](Request& request) { return put_image(*service, request); }});
   router.add({"GET", "/api/v1/tours/{tour}/images/{n}", "viewer, robot", Lane::kWork, 0,
               [db](Request& request) { return get_image(*db, request); }});
+  router.add({"PUT", "/api/v1/tours/{tour}/images/{n}/sweep", teacher, Lane::kWork, kMaxJsonBody,
+              [service](Request& request) { return put_sweep(*service, request); }});
   router.add({"PUT", "/api/v1/tours/{tour}/marks", teacher, Lane::kWork, kMaxJsonBody,
               [service](Request& request) { return put_marks(*service, request); }});
   router.add({"POST", "/api/v1/tours/{tour}/complete", teacher, Lane::kWork, kMaxJsonBody, [service](Request& request) {

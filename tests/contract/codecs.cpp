@@ -74,6 +74,7 @@ std::map<std::string, Recode> all_codecs() {
   codecs["world"] = recode([](const json& v) { return wire::world_from_json(v); }, wire::world_to_json);
   codecs["tour"] = recode([](const json& v) { return wire::marks_from_json(v); }, wire::marks_to_json);
   codecs["scans"] = recode([](const json& v) { return wire::scans_from_json(v); }, wire::scans_to_json);
+  codecs["sweep"] = recode([](const json& v) { return wire::sweep_from_json(v); }, wire::sweep_to_json);
   codecs["edits"] = recode([](const json& v) { return wire::edits_from_json(v); }, wire::edits_to_json);
   codecs["mission"] = recode([](const json& v) { return wire::mission_from_json(v); }, wire::mission_to_json);
   codecs["problem"] = recode(wire::problem_from_json, wire::problem_to_json);

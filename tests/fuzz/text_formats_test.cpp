@@ -69,6 +69,10 @@ TEST(FuzzTexts, Camera) {
 
 TEST(FuzzTexts, Scans) {
   fuzz("scans", 1000, [](const std::string& text) { return wire::parse_scans(text, "scans.json"); });
+  fuzz("sweep", 1000, [](const std::string& text) -> Result<RangeSweep> {
+    const auto value = wire::parse_json(text, "body");
+    return value ? wire::sweep_from_json(*value, "body") : pass_on(value);
+  });
   const std::string about = examples("scans").front();
   Mutator mutator(7);
   for (int i = 0; i < 300; ++i) {

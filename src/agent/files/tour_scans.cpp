@@ -43,8 +43,8 @@ Result<std::size_t> rays_of(std::string_view line, const std::string& where) {
   bool right = cells.size() > 1 && cells[0] == "filename";
   for (std::size_t i = 1; right && i < cells.size(); ++i) right = cells[i] == "r" + std::to_string(i - 1);
   if (!right) return fail(ErrorCode::kInvalidInput, "The first line has to be \"filename,r0,r1,...\".", where);
-  if (cells.size() - 1 > kMostRays) {
-    return fail(ErrorCode::kTooLarge, "A sweep may have " + std::to_string(kMostRays) + " rays at most.", where);
+  if (cells.size() - 1 > wire::kMostRays) {
+    return fail(ErrorCode::kTooLarge, "A sweep may have " + std::to_string(wire::kMostRays) + " rays at most.", where);
   }
   return cells.size() - 1;
 }

@@ -10,6 +10,7 @@
 #include "agent/files/tour_folder.hpp"
 #include "wire/camera_json.hpp"
 #include "wire/error_table.hpp"
+#include "wire/scans_json.hpp"
 
 namespace homeward::agent {
 namespace {
@@ -85,6 +86,18 @@ Status put_picture(RestClient& server, const std::string& tour, std::size_t numb
   return {};
 }
 
+Status put_sweep(RestClient& server, const std::string& tour, std::size_t number, const pipeline::TourImage& image) {
+  if (!image.sweep) return {};
+  const std::string path = "/api/v1/tours/" + tour + "/images/" + std::to_string(number) + "/sweep";
+  const auto answer =
+      server.call("PUT", path, wire::sweep_to_json(*image.sweep).dump(), {{"Content-Type", "application/json"}});
+  if (!answer) return pass_on(answer);
+  if (answer->status != 204) {
+    return tl::unexpected<Error>(refusal(*answer, "The sweep of " + file_name(image)));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& options,
@@ -104,6 +117,7 @@ Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& option
   for (std::size_t i = 0; i < files->size(); ++i) {
     const Status put = put_picture(server, *id, kept, (*files)[i], tour->images()[i]);
     if (put) {
+      if (const Status sent = put_sweep(server, *id, kept, tour->images()[i]); !sent) return pass_on(sent);
       ++kept;
     } else if (unreadable(put.error())) {
       uploaded.skipped.push_back(put.error());

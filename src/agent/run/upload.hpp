@@ -20,9 +20,9 @@ struct UploadedTour {
   std::vector<Error> skipped;  // pictures that the server cannot read; the tour is made of the others
 };
 
-/// Brings a folder's tour to a server: pictures, times, odometry and marks. A tour of the same name that is still open
-/// is carried on with. Errors: those of TourFolder and read_camera, kIo, and what the server refuses but for single
-/// pictures that it cannot read.
+/// Brings a folder's tour to a server: pictures, times, odometry, sweeps and marks. A tour of the same name that is
+/// still open is carried on with. Errors: those of TourFolder and read_camera, kIo, and what the server refuses but for
+/// single pictures that it cannot read.
 Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& options,
                                  const std::function<void(double)>& progress);
 

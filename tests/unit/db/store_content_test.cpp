@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
+#include <limits>
 
 #include "support/sample_map.hpp"
 #include "unit/db/store_fixture.hpp"
@@ -55,6 +57,29 @@ TEST_F(StoreContent, PuttingAnImageAgainChangesNothing) {
   EXPECT_EQ(images.at(1).t_us, 77);
   EXPECT_DOUBLE_EQ(images.at(1).odometry->theta_rad, 0.5);
   EXPECT_EQ(images.at(0).size, 3);
+}
+
+TEST_F(StoreContent, ASweepBelongsToItsImageAndGoesWithTheTour) {
+  const TourId tour = new_tour();
+  RangeSweep sweep;
+  sweep.ranges_m = {1.2345F, std::numeric_limits<float>::infinity()};
+  sweep.angle_step_rad = 0.01;
+  EXPECT_EQ(store().put_sweep(tour, 3, sweep).error().code, ErrorCode::kNotFound);
+  ASSERT_TRUE(put(tour, 3, {1}));
+  EXPECT_EQ(store().put_sweep(tour, 3, sweep).value(), PutImage::kNew);
+  EXPECT_EQ(store().put_sweep(tour, 3, sweep).value(), PutImage::kSame);
+  open();
+  RangeSweep other = sweep;
+  other.robot_from_scan.x_m = 0.1;
+  EXPECT_EQ(store().put_sweep(tour, 3, other).value(), PutImage::kConflict);
+  const auto kept = store().sweeps(tour).value();
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_FLOAT_EQ(kept.at(3).ranges_m.at(0), 1.235F) << "whole millimetres";
+  EXPECT_TRUE(std::isinf(kept.at(3).ranges_m.at(1)));
+  ASSERT_TRUE(store().complete_tour(tour));
+  EXPECT_EQ(store().put_sweep(tour, 3, sweep).value(), PutImage::kSame);
+  ASSERT_TRUE(store().remove_tour(tour));
+  EXPECT_THAT(store().sweeps(tour).value(), ::testing::IsEmpty());
 }
 
 TEST_F(StoreContent, ATourThatIsCompleteTakesNoMore) {

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "server/services/tours.hpp"
 #include "support/server_fixture.hpp"
 
 namespace homeward::server {
@@ -61,6 +64,55 @@ TEST_F(TourTest, UploadsAreIdempotentAndResumable) {
   EXPECT_EQ(put(tour, "4", a).status, 409) << "a complete tour takes no more";
   EXPECT_EQ(admin->get("/api/v1/tours/" + tour + "/images/0").body, a);
   EXPECT_EQ(admin->get("/api/v1/tours/" + tour + "/images/9").status, 404);
+}
+
+TEST_F(TourTest, SweepsComeWithTheirPicturesAndReachTheBuild) {
+  const std::string tour = add_tour();
+  const auto put_sweep = [&](const std::string& of, const std::string& number, const json& sweep) {
+    return admin->put("/api/v1/tours/" + of + "/images/" + number + "/sweep", sweep);
+  };
+  json sweep = {{"ranges_m", {1.25, nullptr, 0.5}},
+                {"angle_min_rad", -0.5},
+                {"angle_step_rad", 0.5},
+                {"range_max_m", 12.0},
+                {"robot_from_scan", {{"x_m", 0.3}, {"y_m", 0.0}, {"theta_rad", 0.0}}}};
+  EXPECT_EQ(put_sweep(tour, "0", sweep).status, 404) << "its picture is not there";
+  for (const int number : {0, 1, 2}) {
+    ASSERT_EQ(put(tour, std::to_string(number), room_picture(1, static_cast<unsigned>(number))).status, 201);
+  }
+  EXPECT_EQ(put_sweep(tour, "1", sweep).status, 204);
+  EXPECT_EQ(put_sweep(tour, "1", sweep).status, 204) << "again";
+  restart();
+  json other = sweep;
+  other["ranges_m"][0] = 1.26;
+  const Answer changed = put_sweep(tour, "1", other);
+  EXPECT_EQ(changed.status, 409);
+  EXPECT_EQ(changed.json().at("where"), "tours/" + tour + "/images/1/sweep");
+  other["ranges_m"][0] = -1.0;
+  const Answer wrong = put_sweep(tour, "0", other);
+  EXPECT_EQ(wrong.status, 422);
+  EXPECT_EQ(wrong.json().at("where"), "body/ranges_m/0");
+  EXPECT_EQ(put_sweep("none", "1", sweep).status, 404);
+  EXPECT_EQ(put_sweep(tour, "x", sweep).status, 422);
+  EXPECT_EQ(admin->send("PUT", "/api/v1/tours/" + tour + "/images/0/sweep", "[1,").status, 400);
+  other = sweep;
+  other["ranges_m"] = std::vector<double>(10'001, 1.0);
+  EXPECT_EQ(put_sweep(tour, "0", other).json().at("where"), "body/ranges_m") << "too many rays";
+  EXPECT_EQ(admin->post("/api/v1/tours/" + tour + "/complete").json().at("state"), "complete");
+  EXPECT_EQ(put_sweep(tour, "1", sweep).status, 204) << "was there before";
+  EXPECT_EQ(put_sweep(tour, "2", sweep).status, 409) << "a complete tour takes no more";
+
+  app.reset();
+  const auto store = db::open_sqlite_store(config.data);
+  ASSERT_TRUE(store) << store.error().message;
+  const auto source = stored_tour(**store, TourId(tour));
+  ASSERT_TRUE(source) << source.error().message;
+  const auto& images = (*source)->images();
+  EXPECT_FALSE(images[0].sweep);
+  ASSERT_TRUE(images[1].sweep);
+  EXPECT_FLOAT_EQ(images[1].sweep->ranges_m[0], 1.25F);
+  EXPECT_TRUE(std::isinf(images[1].sweep->ranges_m[1]));
+  EXPECT_EQ(images[1].sweep->robot_from_scan.x_m, 0.3);
 }
 
 TEST_F(TourTest, AMapIsBuiltAskedAndEdited) {

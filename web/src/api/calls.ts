@@ -11,6 +11,7 @@ import type {
   RefineMode,
   Robot,
   Role,
+  Sweep,
   TokenInfo,
   Tour,
   User,
@@ -173,6 +174,8 @@ export const putImage = (
     headers: { 'Content-Type': raw.type === 'image/png' ? 'image/png' : 'image/jpeg', ...headers },
     signal,
   });
+export const putSweep = (tourId: string, n: number, sweep: Sweep, signal: AbortSignal) =>
+  call<unknown>(`/tours/${id(tourId)}/images/${n}/sweep`, { method: 'PUT', body: sweep, signal });
 export const putMarks = (tourId: string, marks: { image: string; label: string }[]) =>
   call<unknown>(`/tours/${id(tourId)}/marks`, { method: 'PUT', body: { marks } });
 export const completeTour = (tourId: string) =>

@@ -25,6 +25,7 @@ export type Destination = Schemas['Destination'];
 export type Hypothesis = Schemas['Hypothesis'];
 export type Shortcut = Schemas['Shortcut'];
 export type Tour = Schemas['Tour'];
+export type Sweep = Schemas['Sweep'];
 export type Edit = Schemas['Edit'];
 export type LoggedEdit = Schemas['LoggedEdit'];
 export type HouseEvent = Schemas['HouseEvent'];

@@ -59,7 +59,7 @@ export function NewTour({ tours, onEnd }: { tours: readonly Tour[]; onEnd: () =>
           hint={
             files
               ? folderWords(files)
-              : 'JPEG or PNG. The folder may also hold camera.json, tour.json, times.csv, odometry.csv.'
+              : 'JPEG or PNG. The folder may also hold camera.json, tour.json, times.csv, odometry.csv, scans.csv with scans.json.'
           }
           onFiles={(list) => setFiles(tourFiles(list))}
         />
@@ -97,6 +97,7 @@ function folderWords(files: TourFiles<File>): string {
     files.marks && 'named places',
     files.times && 'times',
     files.odometry && 'odometry',
+    files.scans && files.scansAbout && 'range sweeps',
   ];
   const known = also.filter((one) => one !== null);
   return `${count(files.images.length, 'picture')} found${known.length > 0 ? `, with ${known.join(', ')}` : ''}.`;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
-import { headersOf, odometryAt, odometryOf, timesOf, tourFiles } from './tour_folder';
+import { headersOf, odometryAt, odometryOf, sweepsOf, timesOf, tourFiles } from './tour_folder';
 
 const file = (path: string) => ({ name: path.split('/').at(-1) ?? '', webkitRelativePath: path });
 
@@ -55,5 +55,34 @@ describe('tables', () => {
       'X-Homeward-Odometry': '0,0,0',
     });
     expect(headersOf('b.jpg', 0, new Map(), rows)).toEqual({ 'X-Homeward-Filename': 'b.jpg' });
+  });
+});
+
+describe('sweeps', () => {
+  const geometry = {
+    angle_min_rad: -1.57,
+    angle_step_rad: 0.0087,
+    range_max_m: 12,
+    robot_from_scan: { x_m: 0.3, y_m: 0, theta_rad: 0 },
+  };
+  const about = JSON.stringify({ format: 'homeward-scans', version: 1, ...geometry });
+
+  it('are those of the table with the geometry beside it; an empty cell saw nothing', () => {
+    const sweeps = sweepsOf('filename,r0,r1\r\na.jpg,1.25,\r\nb.jpg,0,12.0\n', about);
+    expect(sweeps.get('a.jpg')).toEqual({ ...geometry, ranges_m: [1.25, null] });
+    expect(sweeps.get('b.jpg')?.ranges_m).toEqual([0, 12]);
+    expect(sweeps.size).toBe(2);
+  });
+
+  it('are refused with the line that is wrong', () => {
+    expect(() => sweepsOf('filename,r1\n', about)).toThrow('scans.csv must begin');
+    expect(() => sweepsOf('filename,r0,r1\na.jpg,1\n', about)).toThrow('line 2: 3 values');
+    expect(() => sweepsOf('filename,r0\na.jpg,far\n', about)).toThrow('"far"');
+    expect(() => sweepsOf('filename,r0\na.jpg,1\na.jpg,-1\n', about)).toThrow('line 3');
+    expect(() => sweepsOf('filename,r0\nb.jpg,-1\n', about)).toThrow('"-1" is no distance');
+    expect(() => sweepsOf('filename,r0\n', '[]')).toThrow('scans.json must be a JSON object');
+    expect(() => sweepsOf('filename,r0\n', '{"format":"homeward-tour","version":1}')).toThrow(
+      'homeward-scans',
+    );
   });
 });

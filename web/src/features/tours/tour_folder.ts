@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Sweep } from '../../api/types';
 
 /** The files of a chosen folder that make a tour. */
 export interface TourFiles<F> {
@@ -7,6 +8,8 @@ export interface TourFiles<F> {
   marks: F | null;
   times: F | null;
   odometry: F | null;
+  scans: F | null; // what a range sensor saw, with
+  scansAbout: F | null; // where its rays point: neither is of use alone
 }
 
 interface FileLike {
@@ -30,6 +33,8 @@ export function tourFiles<F extends FileLike>(files: readonly F[]): TourFiles<F>
     marks: named('tour.json'),
     times: named('times.csv'),
     odometry: named('odometry.csv'),
+    scans: named('scans.csv'),
+    scansAbout: named('scans.json'),
   };
 }
 
@@ -108,4 +113,56 @@ export function headersOf(
     odometry && (t_us === undefined ? (times ? null : (odometry[n] ?? null)) : odometryAt(odometry, t_us));
   if (row) headers['X-Homeward-Odometry'] = [row.x_m, row.y_m, row.theta_rad].join(',');
   return headers;
+}
+
+/** The sweeps of a tour by the name of their picture: scans.csv, with the geometry of scans.json. */
+export function sweepsOf(table: string, about: string): Map<string, Sweep> {
+  const geometry = geometryOf(about);
+  const [heading = '', ...lines] = table.split(/\r?\n/).filter((line) => line.trim() !== '');
+  const columns = heading.split(',');
+  if (
+    columns.length < 2 ||
+    columns[0] !== 'filename' ||
+    columns.some((name, i) => i > 0 && name !== `r${i - 1}`)
+  )
+    throw new Error('scans.csv must begin with the line "filename,r0,r1,..."');
+  const sweeps = new Map<string, Sweep>();
+  lines.forEach((line, i) => {
+    const [name = '', ...cells] = line.split(',');
+    const where = `scans.csv, line ${i + 2}`;
+    if (cells.length !== columns.length - 1)
+      throw new Error(`${where}: ${columns.length} values are expected`);
+    if (name === '' || sweeps.has(name)) throw new Error(`${where}: each line names a picture of its own`);
+    sweeps.set(name, { ...geometry, ranges_m: cells.map((cell) => rangeIn(cell.trim(), where)) });
+  });
+  return sweeps;
+}
+
+/** Of an empty cell, which saw nothing, null. */
+function rangeIn(cell: string, where: string): number | null {
+  if (cell === '') return null;
+  const range = numberIn(cell, where);
+  if (range < 0) throw new Error(`${where}: "${cell}" is no distance`);
+  return range;
+}
+
+function geometryOf(about: string): Omit<Sweep, 'ranges_m'> {
+  const value = asObject(about);
+  if (value.format !== 'homeward-scans' || value.version !== 1)
+    throw new Error('scans.json must say "format": "homeward-scans", "version": 1');
+  // What is missing or wrong in the rest the server names.
+  const { angle_min_rad, angle_step_rad, range_max_m, robot_from_scan } = value as unknown as Sweep;
+  return { angle_min_rad, angle_step_rad, range_max_m, robot_from_scan };
+}
+
+function asObject(text: string): Record<string, unknown> {
+  let value: unknown = null;
+  try {
+    value = JSON.parse(text);
+  } catch {
+    // No JSON is no object either.
+  }
+  if (typeof value !== 'object' || value === null || Array.isArray(value))
+    throw new Error('scans.json must be a JSON object');
+  return value as Record<string, unknown>;
 }

@@ -3,7 +3,7 @@ import { signal } from '@preact/signals';
 import * as calls from '../../api/calls';
 import { asProblem } from '../../api/problem';
 import type { Tour } from '../../api/types';
-import { headersOf, odometryOf, timesOf, type TourFiles } from './tour_folder';
+import { headersOf, odometryOf, sweepsOf, timesOf, type TourFiles } from './tour_folder';
 
 /** The upload under way, or how the last one ended; it goes on while other pages are shown. */
 export type UploadState =
@@ -41,18 +41,25 @@ export async function uploadTour(
     const tour = open ?? (await begin(name, camera));
     const times = files.times ? timesOf(await files.times.text()) : null;
     const odometry = files.odometry ? odometryOf(await files.odometry.text()) : null;
-    const left = files.images.map((file, n) => ({ file, n })).filter(({ n }) => !arrived(tour, n));
+    const sweeps =
+      files.scans && files.scansAbout
+        ? sweepsOf(await files.scans.text(), await files.scansAbout.text())
+        : null;
+    // A sweep is sent again where its picture has arrived: whether it has as well is not known.
+    const left = files.images
+      .map((file, n) => ({ file, n, known: arrived(tour, n), sweep: sweeps?.get(file.name) }))
+      .filter(({ known, sweep }) => !known || sweep);
     let sent = total - left.length;
     const tell = (waiting: boolean) => (upload.value = { kind: 'running', name, sent, total, waiting });
     const worker = async () => {
       for (let next = left.shift(); next && !stop.aborted; next = left.shift()) {
-        const { file, n } = next;
-        await persistently(
-          () =>
-            calls.putImage(tour.id, n, file, headersOf(file.name, n, times, odometry), pictureLimit(stop)),
-          stop,
-          () => tell(true),
-        );
+        const { file, n, known, sweep } = next;
+        const send = (ask: () => Promise<unknown>) => persistently(ask, stop, () => tell(true));
+        if (!known) {
+          const headers = headersOf(file.name, n, times, odometry);
+          await send(() => calls.putImage(tour.id, n, file, headers, pictureLimit(stop)));
+        }
+        if (sweep) await send(() => calls.putSweep(tour.id, n, sweep, pictureLimit(stop)));
         sent += 1;
         tell(false);
       }
