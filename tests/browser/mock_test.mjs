@@ -396,13 +396,26 @@ const checks = [
       const folder = mkdtempSync(join(tmpdir(), 'homeward-tour-'));
       for (let n = 0; n < 5; ++n) writeFileSync(join(folder, `000${n}.jpg`), `picture ${n}`);
       writeFileSync(join(folder, 'camera.json'), JSON.stringify(kCamera));
+      const scanner = {
+        angle_min_rad: -1.57,
+        angle_step_rad: 1.57,
+        range_max_m: 12,
+        robot_from_scan: { x_m: 0.3, y_m: 0, theta_rad: 0 },
+      };
+      const about = { format: 'homeward-scans', version: 1, ...scanner };
+      writeFileSync(join(folder, 'scans.json'), JSON.stringify(about));
+      writeFileSync(join(folder, 'scans.csv'), 'filename,r0,r1,r2\n0001.jpg,1.25,,12.000\n');
       await tab(page, 'Tours');
       await page.getByLabel('Name of the tour').fill('Upstairs');
+      await shoot(page, out, 'tours-new');
       await page.getByLabel('Folder of pictures').setInputFiles(folder);
-      await page.getByText('5 pictures found, with the camera.').waitFor();
+      await page.getByText('5 pictures found, with the camera, range sweeps.').waitFor();
       await page.getByRole('button', { name: 'Send 5 pictures' }).click();
       await page.getByText('Upstairs is complete, with 5 pictures.').waitFor();
       assert.equal(house.tours.at(-1).images, 5);
+      assert.deepEqual(house.sweeps, [
+        { tour: house.tours.at(-1).id, n: 1, ...scanner, ranges_m: [1.25, null, 12] },
+      ]);
       await page.getByLabel('Name of the map').fill('Upstairs map');
       await page.getByRole('button', { name: 'Build the map' }).click();
       await page.getByRole('progressbar', { name: 'Building Upstairs map' }).waitFor();

@@ -172,6 +172,13 @@ function putImage(house, { body, args }) {
   return { status: 201, body: {} };
 }
 
+function putSweep(house, { body, args }) {
+  const tour = house.find(house.tours, args[0]);
+  if (Number(args[1]) >= tour.images) throw new Refusal(404, 'not_found', 'there is no such picture');
+  house.sweeps.push({ tour: tour.id, n: Number(args[1]), ...body });
+  return { status: 204 };
+}
+
 function complete(house, { args }) {
   const tour = house.find(house.tours, args[0]);
   if (tour.images < 3) throw new Refusal(409, 'too_few_images', 'a tour needs at least 3 pictures');
@@ -304,6 +311,7 @@ export const kRoutes = [
   [/^GET tours\/([^/]+)$/, 'viewer', (house, { args }) => ({ body: house.find(house.tours, args[0]) })],
   [/^POST tours$/, 'installer', addTour],
   [/^PUT tours\/([^/]+)\/images\/(\d+)$/, 'installer', putImage],
+  [/^PUT tours\/([^/]+)\/images\/(\d+)\/sweep$/, 'installer', putSweep],
   [/^PUT tours\/([^/]+)\/marks$/, 'installer', (_, { body }) => ({ body })],
   [/^POST tours\/([^/]+)\/complete$/, 'installer', complete],
   [/^POST jobs\/([^/]+)\/take$/, 'installer', takeJob],

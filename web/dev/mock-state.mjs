@@ -32,6 +32,7 @@ export class House {
       created_us: 1.7e15,
       missing: [],
     };
+    this.sweeps = []; // as they came: of which tour and picture, and what was sent
     this.tours = fresh ? [] : [{ ...tour, camera: kCamera }];
     this.maps = fresh ? [] : [this.mapInfo('m1', 'Ground floor', 'ready', 1, ['t1'])];
     this.jobs = [];
