@@ -74,10 +74,11 @@ class Store {
   virtual Result<std::vector<TourImage>> tour_images(const TourId& tour) = 0;  // by number
   /// Errors: kNotFound.
   virtual Result<std::vector<std::uint8_t>> image_bytes(const TourId& tour, std::int64_t number) = 0;
-  /// What a range sensor saw with this image, kept in whole millimetres. The same sweep again is kSame, another one
-  /// kConflict. Errors: kNotFound (tour, image), kConflict (the tour is complete).
-  virtual Result<PutImage> put_sweep(const TourId& tour, std::int64_t number, const RangeSweep& sweep) = 0;
-  virtual Result<std::map<std::int64_t, RangeSweep>> sweeps(const TourId& tour) = 0;  // by number
+  /// What a range sensor saw with an image, kept in whole millimetres. The same sweep again is kSame, another one
+  /// kConflict. Errors: kNotFound (tour, image), kConflict (the tour is complete, or the image has another file name).
+  virtual Result<PutImage> put_sweep(const TourId& tour, const TourSweep& sweep) = 0;
+  /// By number. Errors: kNotFound, kCorruptFile (a kept sweep that cannot be read).
+  virtual Result<std::map<std::int64_t, RangeSweep>> sweeps(const TourId& tour) = 0;
   /// Replaces all marks. Errors: kNotFound.
   virtual Status set_marks(const TourId& tour, const std::vector<wire::TourMark>& marks) = 0;
   virtual Result<std::vector<wire::TourMark>> marks(const TourId& tour) = 0;

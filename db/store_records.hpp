@@ -9,6 +9,7 @@
 
 #include "core/ids.hpp"
 #include "core/pose2.hpp"
+#include "core/range_sweep.hpp"
 #include "core/time.hpp"
 #include "wire/job_json.hpp"
 #include "wire/map_info_json.hpp"
@@ -71,6 +72,13 @@ struct TourImage {
   std::optional<Pose2> odometry;
   std::string sha256;  // hexadecimal
   std::int64_t size = 0;
+};
+
+/// What a range sensor saw with an image of a tour.
+struct TourSweep {
+  std::int64_t number = 0;  // of the image
+  std::string file;         // its name within the tour; empty: not checked
+  RangeSweep sweep;
 };
 
 enum class PutImage { kNew, kSame, kConflict };

@@ -43,7 +43,7 @@ class SqliteStore final : public Store {
   Result<PutImage> put_image(const TourId& tour, TourImage image, std::span<const std::uint8_t> bytes) override;
   Result<std::vector<TourImage>> tour_images(const TourId& tour) override;
   Result<std::vector<std::uint8_t>> image_bytes(const TourId& tour, std::int64_t number) override;
-  Result<PutImage> put_sweep(const TourId& tour, std::int64_t number, const RangeSweep& sweep) override;
+  Result<PutImage> put_sweep(const TourId& tour, const TourSweep& sweep) override;
   Result<std::map<std::int64_t, RangeSweep>> sweeps(const TourId& tour) override;
   Status set_marks(const TourId& tour, const std::vector<wire::TourMark>& marks) override;
   Result<std::vector<wire::TourMark>> marks(const TourId& tour) override;

@@ -9,17 +9,11 @@ namespace {
 
 using nlohmann::json;
 
-std::vector<std::uint8_t> blob_in(SQLite::Statement& row, int column) {
+json blob_in(SQLite::Statement& row, int column) {
   const SQLite::Column blob = row.getColumn(column);
   const auto* bytes = static_cast<const std::uint8_t*>(blob.getBlob());
-  return {bytes, bytes + blob.getBytes()};
-}
-
-RangeSweep sweep_in(const std::vector<std::uint8_t>& bytes, const std::string& where) {
-  const json value = json::from_cbor(bytes, true, false);
-  auto sweep = wire::sweep_from_json(value.is_discarded() ? json() : value, where);
-  if (!sweep) refuse(ErrorCode::kCorruptFile, "The kept sweep cannot be read: " + sweep.error().message, where);
-  return std::move(*sweep);
+  json value = json::from_cbor(bytes, bytes + blob.getBytes(), true, false);
+  return value.is_discarded() ? json() : value;
 }
 
 std::string name_of(const TourId& tour, std::int64_t number) {
@@ -28,25 +22,29 @@ std::string name_of(const TourId& tour, std::int64_t number) {
 
 }  // namespace
 
-Result<PutImage> SqliteStore::put_sweep(const TourId& tour, std::int64_t number, const RangeSweep& sweep) {
-  const std::vector<std::uint8_t> bytes = json::to_cbor(wire::sweep_to_json(sweep));
+Result<PutImage> SqliteStore::put_sweep(const TourId& tour, const TourSweep& sweep) {
+  const json value = wire::sweep_to_json(sweep.sweep);
+  const std::vector<std::uint8_t> bytes = json::to_cbor(value);
   return database_.work([&](SQLite::Database& database) {
-    const std::string where = name_of(tour, number);
+    const std::string where = name_of(tour, sweep.number);
     SQLite::Statement found =
         prepared(database,
-                 "SELECT t.complete, i.number, s.sweep FROM tours t LEFT JOIN tour_images i ON i.tour = t.id AND "
+                 "SELECT t.complete, i.file, s.sweep FROM tours t LEFT JOIN tour_images i ON i.tour = t.id AND "
                  "i.number = ? LEFT JOIN tour_sweeps s ON s.tour = i.tour AND s.number = i.number WHERE t.id = ?",
-                 number, tour);
+                 sweep.number, tour);
     if (!found.executeStep()) {
       refuse(ErrorCode::kNotFound, "There is no tour with this id.", "tours/" + tour.str());
     }
     if (found.isColumnNull(1)) refuse(ErrorCode::kNotFound, "There is no such image.", where);
-    if (!found.isColumnNull(2)) return blob_in(found, 2) == bytes ? PutImage::kSame : PutImage::kConflict;
+    if (!sweep.file.empty() && sweep.file != text(found, 1)) {
+      refuse(ErrorCode::kConflict, "This image of the tour is called '" + text(found, 1) + "'.", where);
+    }
+    if (!found.isColumnNull(2)) return blob_in(found, 2) == value ? PutImage::kSame : PutImage::kConflict;
     if (integer(found, 0) != 0) {
       refuse(ErrorCode::kConflict, "The tour is complete; it takes no more sweeps.", where);
     }
     SQLite::Statement insert =
-        prepared(database, "INSERT INTO tour_sweeps (tour, number, sweep) VALUES (?, ?, ?)", tour, number);
+        prepared(database, "INSERT INTO tour_sweeps (tour, number, sweep) VALUES (?, ?, ?)", tour, sweep.number);
     insert.bind(3, bytes.data(), static_cast<int>(bytes.size()));
     insert.exec();
     return PutImage::kNew;
@@ -54,14 +52,34 @@ Result<PutImage> SqliteStore::put_sweep(const TourId& tour, std::int64_t number,
 }
 
 Result<std::map<std::int64_t, RangeSweep>> SqliteStore::sweeps(const TourId& tour) {
-  return database_.work([&](SQLite::Database& database) {
-    std::map<std::int64_t, RangeSweep> found;
+  using Blob = std::vector<std::uint8_t>;
+  const auto kept = database_.work([&](SQLite::Database& database) {
+    SQLite::Statement known = prepared(database, "SELECT 1 FROM tours WHERE id = ?", tour);
+    if (!known.executeStep()) {
+      refuse(ErrorCode::kNotFound, "There is no tour with this id.", "tours/" + tour.str());
+    }
+    std::map<std::int64_t, Blob> blobs;
     SQLite::Statement row = prepared(database, "SELECT number, sweep FROM tour_sweeps WHERE tour = ?", tour);
     while (row.executeStep()) {
-      found.emplace(integer(row, 0), sweep_in(blob_in(row, 1), name_of(tour, integer(row, 0)) + "/sweep"));
+      const SQLite::Column blob = row.getColumn(1);
+      const auto* bytes = static_cast<const std::uint8_t*>(blob.getBlob());
+      blobs.emplace(integer(row, 0), Blob(bytes, bytes + blob.getBytes()));
     }
-    return found;
+    return blobs;
   });
+  if (!kept) return pass_on(kept);
+  // Read outside of the store's lock: a long tour has millions of ranges.
+  std::map<std::int64_t, RangeSweep> sweeps;
+  for (const auto& [number, bytes] : *kept) {
+    const std::string where = name_of(tour, number) + "/sweep";
+    const json value = json::from_cbor(bytes, true, false);
+    auto sweep = wire::sweep_from_json(value.is_discarded() ? json() : value, where);
+    if (!sweep) {
+      return fail(ErrorCode::kCorruptFile, "The kept sweep cannot be read: " + sweep.error().message, where);
+    }
+    sweeps.emplace(number, std::move(*sweep));
+  }
+  return sweeps;
 }
 
 }  // namespace homeward::db

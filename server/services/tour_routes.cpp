@@ -106,11 +106,13 @@ Response get_image(db::Store& store, const Request& request) {
 Response put_sweep(TourService& tours, const Request& request) {
   const auto number = image_number(request);
   if (!number) return problem_of(number);
+  const auto file = percent_decoded(request.header("x-homeward-filename"));
+  if (!file) return problem(400, "Bad request", "X-Homeward-Filename has a broken escape.");
   const auto body = json_body(request);
   if (!body) return not_json(body.error());
-  const auto sweep = wire::sweep_from_json(*body, "body");
+  auto sweep = wire::sweep_from_json(*body, "body");
   if (!sweep) return problem_of(sweep);
-  const Status status = tours.put_sweep(TourId(request.parameter("tour")), *number, *sweep);
+  const Status status = tours.put_sweep(TourId(request.parameter("tour")), {*number, *file, std::move(*sweep)});
   return status ? empty_response(204) : problem_of(status);
 }
 

@@ -39,12 +39,13 @@ Status check_file_name(const std::string& file) {
 
 class StoredTour : public pipeline::TourSource {
  public:
-  StoredTour(db::Store& store, TourId id, std::vector<db::TourImage> stored,
-             const std::map<std::int64_t, RangeSweep>& sweeps, const std::vector<wire::TourMark>& marks)
+  StoredTour(db::Store& store, TourId id, std::vector<db::TourImage> stored, std::map<std::int64_t, RangeSweep> sweeps,
+             const std::vector<wire::TourMark>& marks)
       : store_(store), id_(std::move(id)), stored_(std::move(stored)) {
     for (const db::TourImage& image : stored_) {
       images_.push_back({ImageId(id_.str() + "/" + image.file), image.t_us, image.odometry});
-      if (const auto sweep = sweeps.find(image.number); sweep != sweeps.end()) images_.back().sweep = sweep->second;
+      if (const auto sweep = sweeps.find(image.number); sweep != sweeps.end())
+        images_.back().sweep = std::move(sweep->second);
     }
     for (const wire::TourMark& mark : marks) marks_.push_back({mark.image, mark.label});
   }
@@ -139,12 +140,12 @@ Result<ImageReceipt> TourService::put_image(const ImageUpload& upload) {
                       static_cast<std::int64_t>(upload.bytes.size()), *put == db::PutImage::kNew};
 }
 
-Status TourService::put_sweep(const TourId& id, std::int64_t number, const RangeSweep& sweep) {
-  const auto put = store_.put_sweep(id, number, sweep);
+Status TourService::put_sweep(const TourId& id, const db::TourSweep& sweep) {
+  const auto put = store_.put_sweep(id, sweep);
   if (!put) return pass_on(put);
   if (*put == db::PutImage::kConflict) {
-    return fail(ErrorCode::kConflict, "Picture " + std::to_string(number) + " has another sweep already.",
-                image_name(id, number) + "/sweep");
+    return fail(ErrorCode::kConflict, "Picture " + std::to_string(sweep.number) + " has another sweep already.",
+                image_name(id, sweep.number) + "/sweep");
   }
   return {};
 }
@@ -188,11 +189,11 @@ Result<wire::TourView> TourService::complete(const TourId& id) {
 Result<std::unique_ptr<pipeline::TourSource>> stored_tour(db::Store& store, const TourId& id) {
   auto images = store.tour_images(id);
   if (!images) return pass_on(images);
-  const auto sweeps = store.sweeps(id);
+  auto sweeps = store.sweeps(id);
   if (!sweeps) return pass_on(sweeps);
   const auto marks = store.marks(id);
   if (!marks) return pass_on(marks);
-  return std::make_unique<StoredTour>(store, id, std::move(*images), *sweeps, *marks);
+  return std::make_unique<StoredTour>(store, id, std::move(*images), std::move(*sweeps), *marks);
 }
 
 }  // namespace homeward::server

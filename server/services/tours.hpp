@@ -36,8 +36,9 @@ class TourService {
   /// Decodes the whole picture before it keeps it. Errors: kNotFound, kConflict, kUnsupportedImage, kTruncatedImage,
   /// kImageTooLarge, kWrongImageSize.
   Result<ImageReceipt> put_image(const ImageUpload& upload);
-  /// Errors: kNotFound (tour, picture), kConflict (another sweep is there already, or the tour is complete).
-  Status put_sweep(const TourId& id, std::int64_t number, const RangeSweep& sweep);
+  /// Errors: kNotFound (tour, picture), kConflict (another sweep is there already, the picture has another name, or the
+  /// tour is complete).
+  Status put_sweep(const TourId& id, const db::TourSweep& sweep);
   /// Errors: kNotFound, kConflict (complete already), kInvalidInput (a mark on a picture that is not there).
   Status set_marks(const TourId& id, const std::vector<wire::TourMark>& marks);
   /// Errors: kNotFound, kConflict (pictures are missing, or there are fewer than 3).

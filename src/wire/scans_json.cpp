@@ -14,6 +14,7 @@ using nlohmann::json;
 namespace {
 
 constexpr double kTurn_rad = 6.3;
+constexpr double kFarthest_m = 100'000.0;
 
 json geometry_to_json(const RangeSweep& geometry) {
   const Pose2& scanner = geometry.robot_from_scan;
@@ -66,14 +67,14 @@ json sweep_to_json(const RangeSweep& sweep) {
   json value = geometry_to_json(sweep);
   json& ranges = value["ranges_m"] = json::array();
   for (const float range_m : sweep.ranges_m) {
-    const bool seen = std::isfinite(range_m);
-    ranges.push_back(seen ? json(std::round(static_cast<double>(range_m) * 1000.0) / 1000.0) : json());
+    const bool seen = range_m <= kFarthest_m;  // not a number is not
+    // What rounds to -0 becomes 0.
+    ranges.push_back(seen ? json(std::round(static_cast<double>(range_m) * 1000.0) / 1000.0 + 0.0) : json());
   }
   return value;
 }
 
 Result<RangeSweep> sweep_from_json(const json& value, const std::string& path) {
-  constexpr double kFarthest_m = 100'000.0;
   ObjectReader reader(value, path);
   const std::vector<json> ranges = reader.array("ranges_m", kMostRays);
   RangeSweep sweep = geometry_in(reader);
@@ -83,7 +84,8 @@ Result<RangeSweep> sweep_from_json(const json& value, const std::string& path) {
     const json& range = ranges[i];
     const double range_m = range.is_number() ? range.get<double>() : std::numeric_limits<double>::infinity();
     if (!range.is_null() && !(range_m >= 0.0 && range_m <= kFarthest_m)) {
-      reader.problem("ranges_m/" + std::to_string(i), "A range is metres from 0 on, or null.");
+      reader.problem("ranges_m/" + std::to_string(i), "A range is 0 to 100000 metres, or null.");
+      continue;
     }
     sweep.ranges_m.push_back(static_cast<float>(range_m));
   }

@@ -22,7 +22,8 @@ Result<RangeSweep> scans_from_json(const nlohmann::json& value, const std::strin
 /// The same from text.
 Result<RangeSweep> parse_scans(const std::string& text, const std::string& where);
 
-/// One sweep with its ranges (proto/schemas/sweep.schema.json), in whole millimetres; null where nothing was seen.
+/// One sweep with its ranges (proto/schemas/sweep.schema.json), in whole millimetres; null where nothing was
+/// seen, or further than 100 km.
 nlohmann::json sweep_to_json(const RangeSweep& sweep);
 
 /// Strict. What is null becomes infinite. Errors: kInvalidInput (also more than kMostRays); each names the field.

@@ -78,17 +78,26 @@ class Kill(unittest.TestCase):
         return self.server.send("PUT", f"/api/v1/tours/{tour}/images/{number}", picture.read_bytes(), "image/jpeg",
                                 {"X-Homeward-Filename": picture.name})[0]
 
-    def test_1_upload_keeps_every_acknowledged_picture(self):
+    def put_sweep(self, tour, number, range_m):
+        sweep = {"ranges_m": [range_m, None], "angle_min_rad": 0, "angle_step_rad": 0.5, "range_max_m": 12,
+                 "robot_from_scan": {"x_m": 0, "y_m": 0, "theta_rad": 0}}
+        return self.server.send("PUT", f"/api/v1/tours/{tour}/images/{number}/sweep", json.dumps(sweep).encode(),
+                                "application/json")[0]
+
+    def test_1_upload_keeps_every_acknowledged_picture_and_sweep(self):
         camera = json.loads((self.tour / "camera.json").read_text())
         tour = self.server.call("POST", "/api/v1/tours", {"name": "house", "camera": camera})["id"]
         half = len(self.pictures) // 2
         for number in range(half):
             self.assertIn(self.put(tour, number), (200, 201))
+            self.assertEqual(self.put_sweep(tour, number, number), 204)
         self.kill_server()
         self.start_server()
         self.assertGreaterEqual(self.server.call("GET", f"/api/v1/tours/{tour}")["images"], half)
         for number in range(half):
             self.assertEqual(self.put(tour, number), 200, "an acknowledged picture was lost")
+            self.assertEqual(self.put_sweep(tour, number, number + 0.5), 409, "an acknowledged sweep was lost")
+            self.assertEqual(self.put_sweep(tour, number, number), 204)
         for number in range(half, len(self.pictures)):
             self.assertIn(self.put(tour, number), (200, 201))
         marks = json.loads((self.tour / "tour.json").read_text())["marks"]

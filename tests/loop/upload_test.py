@@ -5,6 +5,7 @@ usage: upload_test.py BIN_FOLDER WEB_FOLDER
 """
 import json
 import pathlib
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -73,6 +74,9 @@ class Upload(unittest.TestCase):
         tour = done.stdout.strip()
         left = len(pictures) - len(set(broken))
         self.assertEqual(self.server.call("GET", f"/api/v1/tours/{tour}")["images"], left)
+        with sqlite3.connect(f"file:{self.data / 'server' / 'homeward.db'}?mode=ro", uri=True) as database:
+            swept = database.execute("SELECT count(*) FROM tour_sweeps WHERE tour = ?", (tour,)).fetchone()[0]
+        self.assertEqual(swept, left, "each picture that is left has its own sweep")
         # A picture that the server's own disk damages afterwards.
         stored = sorted((self.data / "server" / "tours" / tour).iterdir())[1]
         stored.write_bytes(stored.read_bytes()[:1000])

@@ -160,7 +160,8 @@ void register_run(CLI::App& program) {
 }
 
 void register_upload(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("upload", "Bring a tour's pictures to a server");
+  CLI::App* command =
+      program.add_subcommand("upload", "Bring a tour to a server: pictures, times, odometry, sweeps and marks");
   const auto options = std::make_shared<UploadCommand>();
   add_server_options(*command, options->server);
   command->add_option("--tour", options->upload.folder, "Folder of the tour")->required();

@@ -86,16 +86,20 @@ Status put_picture(RestClient& server, const std::string& tour, std::size_t numb
   return {};
 }
 
-Status put_sweep(RestClient& server, const std::string& tour, std::size_t number, const pipeline::TourImage& image) {
+Status put_sweep(RestClient& server, const std::string& tour, std::size_t number, const std::filesystem::path& folder,
+                 const pipeline::TourImage& image) {
   if (!image.sweep) return {};
   const std::string path = "/api/v1/tours/" + tour + "/images/" + std::to_string(number) + "/sweep";
-  const auto answer =
-      server.call("PUT", path, wire::sweep_to_json(*image.sweep).dump(), {{"Content-Type", "application/json"}});
+  const auto answer = server.call("PUT", path, wire::sweep_to_json(*image.sweep).dump(),
+                                  {{"Content-Type", "application/json"}, {"X-Homeward-Filename", file_name(image)}});
   if (!answer) return pass_on(answer);
-  if (answer->status != 204) {
-    return tl::unexpected<Error>(refusal(*answer, "The sweep of " + file_name(image)));
-  }
-  return {};
+  if (answer->status == 204) return {};
+  Error error = refusal(*answer, "The sweep of " + file_name(image));
+  error.where = (folder / "scans.csv").string();
+  const json problem = json::parse(answer->body, nullptr, false);
+  const std::string where = problem.is_object() ? problem.value("where", std::string()) : std::string();
+  if (!where.empty()) error.where += " (" + where + ")";
+  return tl::unexpected<Error>(error);
 }
 
 }  // namespace
@@ -117,7 +121,7 @@ Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& option
   for (std::size_t i = 0; i < files->size(); ++i) {
     const Status put = put_picture(server, *id, kept, (*files)[i], tour->images()[i]);
     if (put) {
-      if (const Status sent = put_sweep(server, *id, kept, tour->images()[i]); !sent) return pass_on(sent);
+      if (const Status sent = put_sweep(server, *id, kept, folder, tour->images()[i]); !sent) return pass_on(sent);
       ++kept;
     } else if (unreadable(put.error())) {
       uploaded.skipped.push_back(put.error());

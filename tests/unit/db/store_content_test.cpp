@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -61,25 +62,50 @@ TEST_F(StoreContent, PuttingAnImageAgainChangesNothing) {
 
 TEST_F(StoreContent, ASweepBelongsToItsImageAndGoesWithTheTour) {
   const TourId tour = new_tour();
-  RangeSweep sweep;
-  sweep.ranges_m = {1.2345F, std::numeric_limits<float>::infinity()};
-  sweep.angle_step_rad = 0.01;
-  EXPECT_EQ(store().put_sweep(tour, 3, sweep).error().code, ErrorCode::kNotFound);
+  TourSweep sweep{3, {}, {}};
+  sweep.sweep.ranges_m = {1.2345F, std::numeric_limits<float>::infinity(), 2e5F, std::nanf("")};
+  sweep.sweep.angle_step_rad = 0.01;
+  EXPECT_EQ(store().put_sweep(tour, sweep).error().code, ErrorCode::kNotFound);
   ASSERT_TRUE(put(tour, 3, {1}));
-  EXPECT_EQ(store().put_sweep(tour, 3, sweep).value(), PutImage::kNew);
-  EXPECT_EQ(store().put_sweep(tour, 3, sweep).value(), PutImage::kSame);
+  sweep.file = "000002.jpg";
+  EXPECT_EQ(store().put_sweep(tour, sweep).error().code, ErrorCode::kConflict) << "of another image";
+  sweep.file = "000003.jpg";
+  EXPECT_EQ(store().put_sweep(tour, sweep).value(), PutImage::kNew);
+  EXPECT_EQ(store().put_sweep(tour, sweep).value(), PutImage::kSame);
   open();
-  RangeSweep other = sweep;
-  other.robot_from_scan.x_m = 0.1;
-  EXPECT_EQ(store().put_sweep(tour, 3, other).value(), PutImage::kConflict);
+  TourSweep other = sweep;
+  other.sweep.robot_from_scan.x_m = 0.1;
+  EXPECT_EQ(store().put_sweep(tour, other).value(), PutImage::kConflict);
+  sweep.sweep.angle_min_rad = -0.0;
+  EXPECT_EQ(store().put_sweep(tour, sweep).value(), PutImage::kSame) << "as others write 0";
   const auto kept = store().sweeps(tour).value();
   ASSERT_EQ(kept.size(), 1U);
-  EXPECT_FLOAT_EQ(kept.at(3).ranges_m.at(0), 1.235F) << "whole millimetres";
-  EXPECT_TRUE(std::isinf(kept.at(3).ranges_m.at(1)));
+  const std::vector<float>& ranges_m = kept.at(3).ranges_m;
+  EXPECT_FLOAT_EQ(ranges_m.at(0), 1.235F) << "whole millimetres";
+  EXPECT_TRUE(std::isinf(ranges_m.at(1)));
+  EXPECT_TRUE(std::isinf(ranges_m.at(2))) << "100 km and more saw nothing";
+  EXPECT_TRUE(std::isinf(ranges_m.at(3)));
   ASSERT_TRUE(store().complete_tour(tour));
-  EXPECT_EQ(store().put_sweep(tour, 3, sweep).value(), PutImage::kSame);
+  EXPECT_EQ(store().put_sweep(tour, sweep).value(), PutImage::kSame);
   ASSERT_TRUE(store().remove_tour(tour));
-  EXPECT_THAT(store().sweeps(tour).value(), ::testing::IsEmpty());
+  EXPECT_EQ(store().sweeps(tour).error().code, ErrorCode::kNotFound);
+}
+
+TEST_F(StoreContent, AKeptSweepThatCannotBeReadIsNamed) {
+  const TourId tour = new_tour();
+  TourSweep sweep{0, {}, {}};
+  sweep.sweep.ranges_m = {1.0F};
+  sweep.sweep.angle_step_rad = 0.01;
+  ASSERT_TRUE(put(tour, 0, {1}));
+  ASSERT_TRUE(store().put_sweep(tour, sweep));
+  close();
+  SQLite::Database((folder() / "homeward.db").string(), SQLite::OPEN_READWRITE)
+      .exec("UPDATE tour_sweeps SET sweep = x'a161'");
+  open();
+  const auto kept = store().sweeps(tour);
+  ASSERT_FALSE(kept);
+  EXPECT_EQ(kept.error().code, ErrorCode::kCorruptFile);
+  EXPECT_EQ(kept.error().where, "tours/" + tour.str() + "/images/0/sweep");
 }
 
 TEST_F(StoreContent, ATourThatIsCompleteTakesNoMore) {

@@ -97,7 +97,7 @@ TEST_F(StoreDurability, AnEmptyFileBecomesADatabaseAndANewerOneIsRefused) {
   close();
   {
     SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
-    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 4);
+    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 5);
     EXPECT_EQ(database.execAndGet("PRAGMA journal_mode").getString(), "wal");
     database.exec("PRAGMA user_version = 999");
   }
@@ -139,7 +139,7 @@ TEST_F(StoreDurability, AnOlderDatabaseKeepsItsMapsAndJobs) {
   EXPECT_EQ(store().unfinished_jobs()->at(0).id.str(), "open");
 }
 
-TEST_F(StoreDurability, AnOlderDatabaseKeepsItsMissionsAndKnowsNotHowSureTheirArrivalsWere) {
+TEST_F(StoreDurability, AnOlderDatabaseKeepsItsMissionsAndToursAndKnowsNotHowSureArrivalsWere) {
   close();
   std::filesystem::remove_all(folder());
   std::filesystem::create_directories(folder());
@@ -151,6 +151,8 @@ TEST_F(StoreDurability, AnOlderDatabaseKeepsItsMissionsAndKnowsNotHowSureTheirAr
       database.exec(sql.str());
     }
     database.exec(
+        "INSERT INTO tours VALUES ('t', 'morning', '{}', 0, 1);"
+        "INSERT INTO tour_images VALUES ('t', 4, '000004.jpg', 'jpg', NULL, NULL, NULL, NULL, 'aa', 1);"
         "INSERT INTO robots (id, name, created_us) VALUES ('r', 'chair', 1);"
         "INSERT INTO missions VALUES ('x', 'r', 'm', 3, NULL, 'p2', 'arrived', NULL, 1, 2, '[\"p1\",\"p2\"]', 1, 7, "
         "'anna');");
@@ -165,6 +167,11 @@ TEST_F(StoreDurability, AnOlderDatabaseKeepsItsMissionsAndKnowsNotHowSureTheirAr
   mission.arrival_probability = 0.5;
   ASSERT_TRUE(store().update_mission(mission));
   EXPECT_EQ(store().mission(MissionId("x"))->arrival_probability, 0.5);
+  TourSweep sweep{4, "000004.jpg", {}};
+  sweep.sweep.ranges_m = {1.0F};
+  sweep.sweep.angle_step_rad = 0.01;
+  EXPECT_TRUE(store().sweeps(TourId("t")).value().empty());
+  EXPECT_EQ(store().put_sweep(TourId("t"), sweep).value(), PutImage::kNew) << "a tour that is still open takes them";
 }
 
 TEST_F(StoreDurability, AFileThatIsNoDatabaseIsNamed) {

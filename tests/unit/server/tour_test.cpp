@@ -92,15 +92,27 @@ TEST_F(TourTest, SweepsComeWithTheirPicturesAndReachTheBuild) {
   const Answer wrong = put_sweep(tour, "0", other);
   EXPECT_EQ(wrong.status, 422);
   EXPECT_EQ(wrong.json().at("where"), "body/ranges_m/0");
+  const json text = sweep;
+  EXPECT_EQ(admin
+                ->send("PUT", "/api/v1/tours/" + tour + "/images/0/sweep", text.dump(),
+                       {{"Content-Type", "application/json"}, {"X-Homeward-Filename", "z.jpg"}})
+                .code(),
+            "conflict")
+      << "a sweep of another picture";
   EXPECT_EQ(put_sweep("none", "1", sweep).status, 404);
   EXPECT_EQ(put_sweep(tour, "x", sweep).status, 422);
   EXPECT_EQ(admin->send("PUT", "/api/v1/tours/" + tour + "/images/0/sweep", "[1,").status, 400);
   other = sweep;
   other["ranges_m"] = std::vector<double>(10'001, 1.0);
-  EXPECT_EQ(put_sweep(tour, "0", other).json().at("where"), "body/ranges_m") << "too many rays";
+  const Answer many = put_sweep(tour, "0", other);
+  EXPECT_EQ(many.status, 422) << "too many rays";
+  EXPECT_EQ(many.json().at("where"), "body/ranges_m");
+  EXPECT_EQ(admin->send("PUT", "/api/v1/tours/" + tour + "/images/0/sweep", std::string(1'100'000, ' ')).status, 413);
+  other["ranges_m"] = std::vector<double>(10'000, 1.0);
+  EXPECT_EQ(put_sweep(tour, "2", other).status, 204) << "as many as there may be";
   EXPECT_EQ(admin->post("/api/v1/tours/" + tour + "/complete").json().at("state"), "complete");
   EXPECT_EQ(put_sweep(tour, "1", sweep).status, 204) << "was there before";
-  EXPECT_EQ(put_sweep(tour, "2", sweep).status, 409) << "a complete tour takes no more";
+  EXPECT_EQ(put_sweep(tour, "0", sweep).status, 409) << "a complete tour takes no more";
 
   app.reset();
   const auto store = db::open_sqlite_store(config.data);

@@ -174,8 +174,14 @@ export const putImage = (
     headers: { 'Content-Type': raw.type === 'image/png' ? 'image/png' : 'image/jpeg', ...headers },
     signal,
   });
-export const putSweep = (tourId: string, n: number, sweep: Sweep, signal: AbortSignal) =>
-  call<unknown>(`/tours/${id(tourId)}/images/${n}/sweep`, { method: 'PUT', body: sweep, signal });
+/** `name`: of the picture that was taken with it; another one under this number is refused. */
+export const putSweep = (tourId: string, n: number, name: string, sweep: Sweep, signal: AbortSignal) =>
+  call<unknown>(`/tours/${id(tourId)}/images/${n}/sweep`, {
+    method: 'PUT',
+    body: sweep,
+    headers: { 'X-Homeward-Filename': name },
+    signal,
+  });
 export const putMarks = (tourId: string, marks: { image: string; label: string }[]) =>
   call<unknown>(`/tours/${id(tourId)}/marks`, { method: 'PUT', body: { marks } });
 export const completeTour = (tourId: string) =>

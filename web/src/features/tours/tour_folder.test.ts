@@ -23,6 +23,12 @@ describe('tourFiles', () => {
     expect(found.times).toBeNull();
   });
 
+  it('takes sweeps only from beside the pictures', () => {
+    const paths = ['t/a.jpg', 't/scans.csv', 't/scans.json', 't/old/scans.csv'];
+    expect(tourFiles(paths.map(file)).scans?.webkitRelativePath).toBe('t/scans.csv');
+    expect(tourFiles(['t/scans.csv', 't/images/a.jpg'].map(file)).scans).toBeNull();
+  });
+
   it('finds pictures that lie one folder deeper', () => {
     expect(tourFiles(['t/images/b.png', 't/camera.json'].map(file)).images).toHaveLength(1);
     expect(tourFiles([]).images).toEqual([]);
@@ -67,22 +73,36 @@ describe('sweeps', () => {
   };
   const about = JSON.stringify({ format: 'homeward-scans', version: 1, ...geometry });
 
-  it('are those of the table with the geometry beside it; an empty cell saw nothing', () => {
-    const sweeps = sweepsOf('filename,r0,r1\r\na.jpg,1.25,\r\nb.jpg,0,12.0\n', about);
+  it('are those of the table with the geometry beside it; what saw nothing is null', () => {
+    const sweeps = sweepsOf('filename,r0,r1\r\na.jpg,1.25,\r\n\r\nb.jpg,0,12.0\nc.jpg,1e6,.5', about);
     expect(sweeps.get('a.jpg')).toEqual({ ...geometry, ranges_m: [1.25, null] });
     expect(sweeps.get('b.jpg')?.ranges_m).toEqual([0, 12]);
-    expect(sweeps.size).toBe(2);
+    expect(sweeps.get('c.jpg')?.ranges_m).toEqual([null, 0.5]);
+    expect(sweeps.size).toBe(3);
   });
 
   it('are refused with the line that is wrong', () => {
+    const rays = (count: number) => Array.from({ length: count }, (_, i) => `r${i}`).join(',');
+    expect(sweepsOf(`filename,${rays(10_000)}`, about).size).toBe(0);
+    expect(() => sweepsOf(`filename,${rays(10_001)}`, about)).toThrow('10000 rays at most');
     expect(() => sweepsOf('filename,r1\n', about)).toThrow('scans.csv must begin');
-    expect(() => sweepsOf('filename,r0,r1\na.jpg,1\n', about)).toThrow('line 2: 3 values');
-    expect(() => sweepsOf('filename,r0\na.jpg,far\n', about)).toThrow('"far"');
-    expect(() => sweepsOf('filename,r0\na.jpg,1\na.jpg,-1\n', about)).toThrow('line 3');
-    expect(() => sweepsOf('filename,r0\nb.jpg,-1\n', about)).toThrow('"-1" is no distance');
-    expect(() => sweepsOf('filename,r0\n', '[]')).toThrow('scans.json must be a JSON object');
-    expect(() => sweepsOf('filename,r0\n', '{"format":"homeward-tour","version":1}')).toThrow(
-      'homeward-scans',
-    );
+    expect(() => sweepsOf('\nfilename,r0\n', about)).toThrow('scans.csv must begin');
+    expect(() => sweepsOf('filename,r0,r1\n\na.jpg,1\n', about)).toThrow('line 3: 3 values');
+    for (const cell of ['far', '-1', '0x10', '1 ', 'NaN', 'Infinity'])
+      expect(() => sweepsOf(`filename,r0\na.jpg,${cell}\n`, about)).toThrow(
+        `line 2: "${cell}" is no distance`,
+      );
+    expect(() => sweepsOf('filename,r0\na.jpg,1\na.jpg,1\n', about)).toThrow('line 3');
+  });
+
+  it('are refused with what is wrong about their geometry', () => {
+    const wrong = (value: unknown) => () => sweepsOf('filename,r0\n', JSON.stringify(value));
+    const whole = { format: 'homeward-scans', version: 1, ...geometry };
+    expect(wrong([])).toThrow('scans.json must be a JSON object');
+    expect(wrong({ ...whole, format: 'homeward-tour' })).toThrow('homeward-scans');
+    expect(wrong({ ...whole, angle_min_rad: '0' })).toThrow('"angle_min_rad" must be a number');
+    expect(wrong({ ...whole, robot_from_scan: null })).toThrow('"robot_from_scan" must be an object');
+    expect(wrong({ ...whole, robot_from_scan: { x_m: 0, y_m: 0 } })).toThrow('"theta_rad" must be a number');
+    expect(wrong({ ...whole, colour: 1 })).toThrow('"colour" is not known');
   });
 });

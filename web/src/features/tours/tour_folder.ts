@@ -23,19 +23,28 @@ const kPicture = /\.(jpe?g|png)$/i;
 export function tourFiles<F extends FileLike>(files: readonly F[]): TourFiles<F> {
   const pictures = files.filter((file) => kPicture.test(file.name) && !file.name.startsWith('.'));
   const top = Math.min(...pictures.map(depth));
+  const images = pictures.filter((file) => depth(file) === top).sort((a, b) => (a.name < b.name ? -1 : 1));
   const named = (name: string) => {
     const found = files.filter((file) => file.name.toLowerCase() === name);
     return found.sort((a, b) => depth(a) - depth(b))[0] ?? null;
   };
+  // A table of sweeps and what says how to read it are of one robot: beside the pictures, or they are not this tour's.
+  const [first] = images;
+  const beside = (name: string) =>
+    files.find((file) => first && file.name === name && folderOf(file) === folderOf(first)) ?? null;
   return {
-    images: pictures.filter((file) => depth(file) === top).sort((a, b) => (a.name < b.name ? -1 : 1)),
+    images,
     camera: named('camera.json'),
     marks: named('tour.json'),
     times: named('times.csv'),
     odometry: named('odometry.csv'),
-    scans: named('scans.csv'),
-    scansAbout: named('scans.json'),
+    scans: beside('scans.csv'),
+    scansAbout: beside('scans.json'),
   };
+}
+
+function folderOf(file: FileLike): string {
+  return file.webkitRelativePath.slice(0, -file.name.length);
 }
 
 function depth(file: FileLike): number {
@@ -115,54 +124,79 @@ export function headersOf(
   return headers;
 }
 
-/** The sweeps of a tour by the name of their picture: scans.csv, with the geometry of scans.json. */
+const kMostRays = 10_000;
+const kFarthest_m = 100_000;
+
+/**
+ * The sweeps of a tour by the name of their picture: scans.csv, with the geometry of scans.json; read as strictly as
+ * the robot's own program reads them.
+ */
 export function sweepsOf(table: string, about: string): Map<string, Sweep> {
   const geometry = geometryOf(about);
-  const [heading = '', ...lines] = table.split(/\r?\n/).filter((line) => line.trim() !== '');
-  const columns = heading.split(',');
-  if (
-    columns.length < 2 ||
-    columns[0] !== 'filename' ||
-    columns.some((name, i) => i > 0 && name !== `r${i - 1}`)
-  )
+  const [heading = '', ...lines] = table.split('\n').map((line) => line.replace(/\r$/, ''));
+  const [first, ...rays] = heading.split(',');
+  if (first !== 'filename' || rays.length === 0 || rays.some((name, i) => name !== `r${i}`))
     throw new Error('scans.csv must begin with the line "filename,r0,r1,..."');
+  if (rays.length > kMostRays) throw new Error(`scans.csv: a sweep may have ${kMostRays} rays at most`);
   const sweeps = new Map<string, Sweep>();
   lines.forEach((line, i) => {
+    if (line === '') return;
     const [name = '', ...cells] = line.split(',');
     const where = `scans.csv, line ${i + 2}`;
-    if (cells.length !== columns.length - 1)
-      throw new Error(`${where}: ${columns.length} values are expected`);
+    if (cells.length !== rays.length) throw new Error(`${where}: ${rays.length + 1} values are expected`);
     if (name === '' || sweeps.has(name)) throw new Error(`${where}: each line names a picture of its own`);
-    sweeps.set(name, { ...geometry, ranges_m: cells.map((cell) => rangeIn(cell.trim(), where)) });
+    sweeps.set(name, { ...geometry, ranges_m: cells.map((cell) => rangeIn(cell, where)) });
   });
   return sweeps;
 }
 
-/** Of an empty cell, which saw nothing, null. */
+/** Null for what saw nothing: an empty cell, or a range further than anything sees. */
 function rangeIn(cell: string, where: string): number | null {
   if (cell === '') return null;
-  const range = numberIn(cell, where);
-  if (range < 0) throw new Error(`${where}: "${cell}" is no distance`);
-  return range;
+  if (!/^\d*\.?\d+(e[+-]?\d+)?$|^\d+\.$/i.test(cell))
+    throw new Error(`${where}: "${cell}" is no distance in metres`);
+  const range = Number(cell);
+  return range <= kFarthest_m ? range : null;
 }
 
+const kGeometry = ['angle_min_rad', 'angle_step_rad', 'range_max_m'] as const;
+const kScanner = ['x_m', 'y_m', 'theta_rad'] as const;
+
 function geometryOf(about: string): Omit<Sweep, 'ranges_m'> {
-  const value = asObject(about);
+  const value = objectIn(about);
   if (value.format !== 'homeward-scans' || value.version !== 1)
     throw new Error('scans.json must say "format": "homeward-scans", "version": 1');
-  // What is missing or wrong in the rest the server names.
+  const scanner = value.robot_from_scan;
+  if (!isRecord(scanner)) throw new Error('scans.json: "robot_from_scan" must be an object');
+  needNumbers(value, kGeometry, ['format', 'version', 'robot_from_scan']);
+  needNumbers(scanner, kScanner, []);
+  // How large they may be the server says.
   const { angle_min_rad, angle_step_rad, range_max_m, robot_from_scan } = value as unknown as Sweep;
   return { angle_min_rad, angle_step_rad, range_max_m, robot_from_scan };
 }
 
-function asObject(text: string): Record<string, unknown> {
+function needNumbers(
+  value: Record<string, unknown>,
+  numbers: readonly string[],
+  others: readonly string[],
+): void {
+  for (const key of numbers)
+    if (typeof value[key] !== 'number') throw new Error(`scans.json: "${key}" must be a number`);
+  const unknown = Object.keys(value).find((key) => !numbers.includes(key) && !others.includes(key));
+  if (unknown !== undefined) throw new Error(`scans.json: "${unknown}" is not known`);
+}
+
+function isRecord(value: unknown): value is Record<string, unknown> {
+  return typeof value === 'object' && value !== null && !Array.isArray(value);
+}
+
+function objectIn(text: string): Record<string, unknown> {
   let value: unknown = null;
   try {
     value = JSON.parse(text);
   } catch {
     // No JSON is no object either.
   }
-  if (typeof value !== 'object' || value === null || Array.isArray(value))
-    throw new Error('scans.json must be a JSON object');
-  return value as Record<string, unknown>;
+  if (!isRecord(value)) throw new Error('scans.json must be a JSON object');
+  return value;
 }

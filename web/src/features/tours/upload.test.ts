@@ -1,6 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
-import { expect, it } from 'vitest';
-import { arrived } from './upload';
+import { afterEach, expect, it, vi } from 'vitest';
+import * as calls from '../../api/calls';
+import { ProblemError } from '../../api/problem';
+import type { Tour } from '../../api/types';
+import { tourFiles } from './tour_folder';
+import { arrived, upload, uploadTour } from './upload';
+
+afterEach(() => vi.restoreAllMocks());
+
+const file = (name: string, text = '') => {
+  const made = new File([text], name);
+  Object.defineProperty(made, 'webkitRelativePath', { value: `t/${name}` });
+  return made;
+};
+const kScans = file(
+  'scans.json',
+  '{"format":"homeward-scans","version":1,"angle_min_rad":0,"angle_step_rad":0.1,"range_max_m":12,' +
+    '"robot_from_scan":{"x_m":0,"y_m":0,"theta_rad":0}}',
+);
+const kPictures = ['0.jpg', '1.jpg', '2.jpg'].map((name) => file(name));
+
+function pretendServer() {
+  return {
+    begun: vi
+      .spyOn(calls, 'addTour')
+      .mockResolvedValue({ id: 't1', images: 0, missing: [] as number[] } as Tour),
+    pictures: vi.spyOn(calls, 'putImage').mockResolvedValue(undefined),
+    sweeps: vi.spyOn(calls, 'putSweep').mockResolvedValue(undefined),
+    complete: vi.spyOn(calls, 'completeTour').mockResolvedValue(undefined),
+  };
+}
+
+it('sends the sweeps of pictures that had arrived before as well, by the name of their picture', async () => {
+  const server = pretendServer();
+  const table = file('scans.csv', 'filename,r0\n0.jpg,1\n2.jpg,\n');
+  const open = { id: 't1', images: 2, missing: [] as number[] } as unknown as Tour;
+  await uploadTour('house', tourFiles([...kPictures, table, kScans]), null, open);
+  expect(upload.value).toEqual({ kind: 'done', name: 'house', total: 3 });
+  expect(server.pictures.mock.calls.map(([, n]) => n)).toEqual([2]);
+  expect(server.sweeps.mock.calls.map(([, n, name, sweep]) => [n, name, sweep.ranges_m])).toEqual([
+    [0, '0.jpg', [1]],
+    [2, '2.jpg', [null]],
+  ]);
+});
+
+it('begins no tour where a table is broken, and says where a sweep is refused', async () => {
+  const server = pretendServer();
+  const camera = file('camera.json', '{}');
+  const broken = file('scans.csv', 'filename,r0\n0.jpg,far\n');
+  await uploadTour('house', tourFiles([...kPictures, broken, kScans]), camera, null);
+  expect(upload.value).toMatchObject({ kind: 'failed' });
+  expect(server.begun).not.toHaveBeenCalled();
+
+  server.sweeps.mockRejectedValue(
+    new ProblemError('invalid_input', 422, 'A range is wrong.', 'body/ranges_m/0'),
+  );
+  const table = file('scans.csv', 'filename,r0\n0.jpg,1\n');
+  await uploadTour('house', tourFiles([...kPictures, table, kScans]), camera, null);
+  expect(upload.value).toMatchObject({ reason: 'scans.csv, 0.jpg: A range is wrong. (body/ranges_m/0)' });
+  expect(server.complete).not.toHaveBeenCalled();
+});
 
 it('goes on after what has arrived, and fills the gaps', () => {
   const tour = { images: 3, missing: [1] }; // 0, 2 and 3 are there

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { signal } from '@preact/signals';
 import * as calls from '../../api/calls';
-import { asProblem } from '../../api/problem';
-import type { Tour } from '../../api/types';
+import { asProblem, ProblemError } from '../../api/problem';
+import type { Sweep, Tour } from '../../api/types';
 import { headersOf, odometryOf, sweepsOf, timesOf, type TourFiles } from './tour_folder';
 
 /** The upload under way, or how the last one ended; it goes on while other pages are shown. */
@@ -38,18 +38,20 @@ export async function uploadTour(
   const total = files.images.length;
   upload.value = { kind: 'running', name, sent: 0, total, waiting: false };
   try {
-    const tour = open ?? (await begin(name, camera));
+    // All that is read here first: what is wrong in it makes no tour that stays open.
     const times = files.times ? timesOf(await files.times.text()) : null;
     const odometry = files.odometry ? odometryOf(await files.odometry.text()) : null;
     const sweeps =
       files.scans && files.scansAbout
         ? sweepsOf(await files.scans.text(), await files.scansAbout.text())
         : null;
+    const marks = files.marks ? marksIn(await files.marks.text()) : null;
+    const tour = open ?? (await begin(name, camera));
     // A sweep is sent again where its picture has arrived: whether it has as well is not known.
     const left = files.images
       .map((file, n) => ({ file, n, known: arrived(tour, n), sweep: sweeps?.get(file.name) }))
       .filter(({ known, sweep }) => !known || sweep);
-    let sent = total - left.length;
+    let sent = files.images.filter((_, n) => arrived(tour, n)).length;
     const tell = (waiting: boolean) => (upload.value = { kind: 'running', name, sent, total, waiting });
     const worker = async () => {
       for (let next = left.shift(); next && !stop.aborted; next = left.shift()) {
@@ -59,14 +61,14 @@ export async function uploadTour(
           const headers = headersOf(file.name, n, times, odometry);
           await send(() => calls.putImage(tour.id, n, file, headers, pictureLimit(stop)));
         }
-        if (sweep) await send(() => calls.putSweep(tour.id, n, sweep, pictureLimit(stop)));
-        sent += 1;
+        if (sweep) await send(() => sendSweep(tour.id, n, file.name, sweep, pictureLimit(stop)));
+        if (!known) sent += 1;
         tell(false);
       }
     };
     await Promise.all(Array.from({ length: kAtOnce }, worker));
     if (stop.aborted) throw new Error('it was stopped; choose the same folder to go on');
-    if (files.marks) await calls.putMarks(tour.id, marksIn(await files.marks.text()));
+    if (marks) await calls.putMarks(tour.id, marks);
     await calls.completeTour(tour.id);
     upload.value = { kind: 'done', name, total };
   } catch (thrown) {
@@ -74,6 +76,24 @@ export async function uploadTour(
     stopper.abort(); // the other workers need not go on
     const reason = stopped ? 'It was stopped. Choose the same folder to go on.' : asProblem(thrown).message;
     upload.value = { kind: 'failed', name, reason };
+  }
+}
+
+/** A refusal says in which file, of which picture and what of it. */
+async function sendSweep(
+  tour: string,
+  n: number,
+  name: string,
+  sweep: Sweep,
+  limit: AbortSignal,
+): Promise<void> {
+  try {
+    await calls.putSweep(tour, n, name, sweep, limit);
+  } catch (thrown) {
+    const { code, status, message, where } = asProblem(thrown);
+    if (status < 400 || status >= 500 || status === 429) throw thrown;
+    const said = `scans.csv, ${name}: ${message}${where ? ` (${where})` : ''}`;
+    throw new ProblemError(code, status, said, where);
   }
 }
 
