@@ -57,6 +57,17 @@ bool lasts(std::optional<Milliseconds>& since_ms, const std::optional<double>& d
   return now_ms - *since_ms > most_ms;
 }
 
+/// Whether it has been at one spot for too long. Standing before a wall, doubting where it is, driving on a little to
+/// look, and knowing again: each of these gains way or is no way wanted, and all in turn may go on for ever.
+bool stays_too_long(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
+  const Pose2 moved = inverse(state.stays_at) * state.follow.odometry;
+  if (!state.stays_since_ms || std::hypot(moved.x_m, moved.y_m) > config.stays_within_m) {
+    state.stays_since_ms = now_ms;
+    state.stays_at = state.follow.odometry;
+  }
+  return now_ms - *state.stays_since_ms > config.stays_ms;
+}
+
 std::string destination_of(const Mission& mission) {
   return mission.label.empty() ? std::string("the destination") : mission.label;
 }
@@ -79,6 +90,7 @@ bool ask_people(DrivingState& state, bool certain, const DrivingConfig& config, 
   }
   // Whoever comes to answer may stand before the camera; and it makes no way because it does not want to.
   state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = now_ms;
+  state.stays_since_ms.reset();
   if (state.asking.said) {
     // Where it takes itself to be there all the same, a person decides.
     state.astray = *state.asking.said || arrival_probability(state.follow, state.mission->path, config.follow) < 0.5;
@@ -154,6 +166,8 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
     }
     return end_blocked(state, config);
   }
+  if (stirs) state.stays_since_ms.reset();  // it waits for them as long as its patience lasts
+  if (stays_too_long(state, config, now_ms)) end_blocked(state, config);
 }
 
 }  // namespace homeward::agent

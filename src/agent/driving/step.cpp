@@ -263,6 +263,7 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   if (state.mission != before) {
     state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = state.last_picture_ms = sensors_ms;
     state.gain_from = inputs.odometry;
+    state.stays_since_ms.reset();
     state.plan = {};
     state.turning = {};
     state.sweeps = {};

@@ -57,6 +57,8 @@ struct DrivingConfig {
   Milliseconds asks_ms = 60'000;            // and so long it then stands there and asks people
   Milliseconds stuck_ms = 20'000;           // no way gained for so long: the mission fails,
   Milliseconds patience_ms = 90'000;        // after so long where somebody stirs about the robot
+  Milliseconds stays_ms = 60'000;           // so long at one spot the way is blocked, whatever the robot does there:
+  double stays_within_m = 1.5;              // no farther than that from where it came to it
   double near_m = 0.25;                     // of the destination: what is in the way there may stay in the way
   Milliseconds near_ms = 8000;              // so long it tries to come nearer than that
   double turn_gain = 1.8;                   // turn rate for each radian towards the carrot
@@ -142,6 +144,8 @@ struct DrivingState {
   std::optional<Milliseconds> near_since_ms;  // how long it has been right beside the destination
   Milliseconds last_gain_ms = 0;              // when way was last gained
   Pose2 gain_from;
+  std::optional<Milliseconds> stays_since_ms;  // when it came to the spot where it is,
+  Pose2 stays_at;                              // and that, by odometry
   std::optional<SeenScan> scan;
   std::optional<double> min_range_m;
   std::uint64_t pictures = 0;

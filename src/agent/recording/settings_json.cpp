@@ -153,7 +153,8 @@ void driving_fields(Fields& fields, Config& driving) {
   auto& [body, follow, feature_config_id, link_silence_ms, frame_silence_ms, first_frame_ms, scan_silence_ms,
          rider_silence_ms, loop_silence_ms, held_up_ms, stands_within_ms, reaction_ms, blind_ms, looks_ms, unsure_ms,
          off_path_ms, off_path_m, off_belief_ms, off_belief_m, estimate_lives_ms, belief_silence_ms, doubtful_ms,
-         asks_ms, stuck_ms, patience_ms, near_m, near_ms, turn_gain, dock_within_rad] = driving;
+         asks_ms, stuck_ms, patience_ms, stays_ms, stays_within_m, near_m, near_ms, turn_gain, dock_within_rad] =
+      driving;
   body_fields(fields, body);
   follow_fields(fields, follow);
   fields("feature_config_id", feature_config_id);
@@ -179,6 +180,8 @@ void driving_fields(Fields& fields, Config& driving) {
   fields("asks_ms", asks_ms);
   fields("stuck_ms", stuck_ms);
   fields("patience_ms", patience_ms);
+  fields("stays_ms", stays_ms);
+  fields("stays_within_m", stays_within_m);
   fields("near_m", near_m);
   fields("near_ms", near_ms);
   fields("turn_gain", turn_gain);

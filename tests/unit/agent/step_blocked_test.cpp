@@ -140,6 +140,23 @@ TEST_F(StepTest, AWayThatStaysBlockedFailsTheMission) {
   expect_stays();
 }
 
+TEST_F(StepTest, AWayOnWhichItOnlyGoesToAndFroIsBlockedAsWell) {
+  config_.stays_ms = 6000;
+  set_off();
+  const double there_m = pose_.x_m;
+  const double wall_m = there_m + config_.body.outline.radius_m + 0.1;
+  const Milliseconds from_ms = now_ms_;
+  for (int k = 0; state_.drive == DriveState::kDriving && now_ms_ - from_ms < 15'000; ++k) {
+    if (k % 20 == 0) pose_.x_m = there_m - (k % 40 == 0 ? 0.3 : 0.0);  // counts as way gained each time
+    see_wall_across(wall_m);
+    tick({permit("m1", 1, ++seq_)});
+  }
+  EXPECT_EQ(state_.reason, "The way is blocked.");
+  EXPECT_GT(now_ms_ - from_ms, config_.stays_ms - 1000);
+  EXPECT_LE(now_ms_ - from_ms, config_.stays_ms + 2000);
+  expect_stays();
+}
+
 TEST_F(StepTest, WhereTheWayIsBlockedAndItMayBeElsewhereNoPartOfTheWayIsToBlame) {
   const auto blocked_with = [&](double rival) {
     state_ = {};
@@ -192,6 +209,7 @@ TEST_F(StepTest, WhoGetsNowhereBecauseItDoesNotKnowWhereDoesNotCallTheWayBlocked
 
 TEST_F(StepTest, WhereSomebodyStirsInTheWayThatStaysBlockedItWaitsLonger) {
   config_.stuck_ms = 2000;
+  config_.stays_ms = 2000;
   config_.patience_ms = 9000;
   set_off();
   const Milliseconds from_ms = now_ms_;
