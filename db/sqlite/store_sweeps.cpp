@@ -9,10 +9,17 @@ namespace {
 
 using nlohmann::json;
 
-json blob_in(SQLite::Statement& row, int column) {
+using Blob = std::vector<std::uint8_t>;
+
+Blob blob_in(SQLite::Statement& row, int column) {
   const SQLite::Column blob = row.getColumn(column);
   const auto* bytes = static_cast<const std::uint8_t*>(blob.getBlob());
-  json value = json::from_cbor(bytes, bytes + blob.getBytes(), true, false);
+  return {bytes, bytes + blob.getBytes()};
+}
+
+/// Null for what is no CBOR, which no reader of sweeps takes.
+json json_of(const Blob& bytes) {
+  json value = json::from_cbor(bytes, true, false);
   return value.is_discarded() ? json() : value;
 }
 
@@ -24,7 +31,7 @@ std::string name_of(const TourId& tour, std::int64_t number) {
 
 Result<PutImage> SqliteStore::put_sweep(const TourId& tour, const TourSweep& sweep) {
   const json value = wire::sweep_to_json(sweep.sweep);
-  const std::vector<std::uint8_t> bytes = json::to_cbor(value);
+  const Blob bytes = json::to_cbor(value);
   return database_.work([&](SQLite::Database& database) {
     const std::string where = name_of(tour, sweep.number);
     SQLite::Statement found =
@@ -39,7 +46,7 @@ Result<PutImage> SqliteStore::put_sweep(const TourId& tour, const TourSweep& swe
     if (!sweep.file.empty() && sweep.file != text(found, 1)) {
       refuse(ErrorCode::kConflict, "This image of the tour is called '" + text(found, 1) + "'.", where);
     }
-    if (!found.isColumnNull(2)) return blob_in(found, 2) == value ? PutImage::kSame : PutImage::kConflict;
+    if (!found.isColumnNull(2)) return json_of(blob_in(found, 2)) == value ? PutImage::kSame : PutImage::kConflict;
     if (integer(found, 0) != 0) {
       refuse(ErrorCode::kConflict, "The tour is complete; it takes no more sweeps.", where);
     }
@@ -52,7 +59,6 @@ Result<PutImage> SqliteStore::put_sweep(const TourId& tour, const TourSweep& swe
 }
 
 Result<std::map<std::int64_t, RangeSweep>> SqliteStore::sweeps(const TourId& tour) {
-  using Blob = std::vector<std::uint8_t>;
   const auto kept = database_.work([&](SQLite::Database& database) {
     SQLite::Statement known = prepared(database, "SELECT 1 FROM tours WHERE id = ?", tour);
     if (!known.executeStep()) {
@@ -60,11 +66,7 @@ Result<std::map<std::int64_t, RangeSweep>> SqliteStore::sweeps(const TourId& tou
     }
     std::map<std::int64_t, Blob> blobs;
     SQLite::Statement row = prepared(database, "SELECT number, sweep FROM tour_sweeps WHERE tour = ?", tour);
-    while (row.executeStep()) {
-      const SQLite::Column blob = row.getColumn(1);
-      const auto* bytes = static_cast<const std::uint8_t*>(blob.getBlob());
-      blobs.emplace(integer(row, 0), Blob(bytes, bytes + blob.getBytes()));
-    }
+    while (row.executeStep()) blobs.emplace(integer(row, 0), blob_in(row, 1));
     return blobs;
   });
   if (!kept) return pass_on(kept);
@@ -72,8 +74,7 @@ Result<std::map<std::int64_t, RangeSweep>> SqliteStore::sweeps(const TourId& tou
   std::map<std::int64_t, RangeSweep> sweeps;
   for (const auto& [number, bytes] : *kept) {
     const std::string where = name_of(tour, number) + "/sweep";
-    const json value = json::from_cbor(bytes, true, false);
-    auto sweep = wire::sweep_from_json(value.is_discarded() ? json() : value, where);
+    auto sweep = wire::sweep_from_json(json_of(bytes), where);
     if (!sweep) {
       return fail(ErrorCode::kCorruptFile, "The kept sweep cannot be read: " + sweep.error().message, where);
     }
