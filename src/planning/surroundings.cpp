@@ -59,26 +59,28 @@ std::optional<matching::RetrievalIndex> index_of(const map::TopologicalMap& map)
   return std::move(*index);
 }
 
-/// What looks most like each step of a route, none of `taken`: the best of all steps before the second best of any.
+/// What looks most like each step of a route, none of `taken`: first all that is looked for of the last step, then the
+/// best of all others before the second best of any. What the destination is taken for decides where a person is left.
 std::vector<const map::Place*> alike(const map::TopologicalMap& map, const std::vector<const map::Place*>& route,
                                      std::set<PlaceId> taken, const SurroundingsConfig& config) {
   std::vector<const map::Place*> places;
   const auto index = index_of(map);
-  if (!index) return places;
+  if (!index || route.empty()) return places;
   const std::size_t enough = taken.size() + config.most_alike + 1;  // among so many one is still free
   std::vector<std::vector<matching::Candidate>> like;
   for (const map::Place* step : route) like.push_back(index->query(step->appearances.front().sift, enough));
   std::vector<std::size_t> next(route.size(), 0);
-  for (int turn = 0; turn < config.alike; ++turn) {
-    for (std::size_t step = 0; step < route.size(); ++step) {
-      bool found = false;
-      while (!found && next[step] < like[step].size()) {
-        if (places.size() == config.most_alike) return places;
-        const map::Place& place = map.places[static_cast<std::size_t>(std::stoi(like[step][next[step]++].id))];
-        found = taken.insert(place.id).second;
-        if (found) places.push_back(&place);
-      }
+  const auto add_next = [&](std::size_t step) {
+    bool found = false;
+    while (!found && next[step] < like[step].size() && places.size() < config.most_alike) {
+      const map::Place& place = map.places[static_cast<std::size_t>(std::stoi(like[step][next[step]++].id))];
+      found = taken.insert(place.id).second;
+      if (found) places.push_back(&place);
     }
+  };
+  for (int turn = 0; turn < config.alike_at_end; ++turn) add_next(route.size() - 1);
+  for (int turn = 0; turn < config.alike; ++turn) {
+    for (std::size_t step = 0; step + 1 < route.size(); ++step) add_next(step);
   }
   return places;
 }

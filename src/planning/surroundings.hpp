@@ -12,7 +12,8 @@ namespace homeward::planning {
 struct SurroundingsConfig {
   double beside_m = 8.0;          // places so near to one of the route
   std::size_t most_beside = 120;  // nearest first
-  int alike = 3;                  // places that look most like each of the route
+  int alike = 3;                  // places that look most like each of the route,
+  int alike_at_end = 8;           // and like the last one, before all others
   std::size_t most_alike = 80;
 };
 

@@ -83,7 +83,8 @@ TEST(Surroundings, HoldNoneOfTheRouteAndNoneTwice) {
   map::TopologicalMap map = homeward::testing::ascii_map(kFork);
   furnish(map);
   disguise(map, "AAB", "CFG");  // on the route, beside it, elsewhere
-  const std::vector<PlaceId> chosen = surroundings(map, places("ABCA"), {}, as_drawn(kFork), {.alike = 100});
+  const std::vector<PlaceId> chosen =
+      surroundings(map, places("ABCA"), {}, as_drawn(kFork), {.alike = 100, .alike_at_end = 0});
   for (const PlaceId& id : places("ABC")) EXPECT_THAT(chosen, Not(Contains(id)));
   std::vector<PlaceId> sorted = chosen;
   std::ranges::sort(sorted);
@@ -99,8 +100,9 @@ TEST(Surroundings, AreThePlacesElsewhereThatLookLikeOneOfTheRoute) {
   map::TopologicalMap map = homeward::testing::ascii_map(kTwoWings);
   furnish(map);
   disguise(map, "AC", "NL");
-  EXPECT_EQ(spelled(surroundings(map, places("ABC"), {}, as_drawn(kTwoWings), {.alike = 0})), "D");
-  const std::vector<PlaceId> chosen = surroundings(map, places("ABC"), {}, as_drawn(kTwoWings), {.alike = 1});
+  EXPECT_EQ(spelled(surroundings(map, places("ABC"), {}, as_drawn(kTwoWings), {.alike = 0, .alike_at_end = 0})), "D");
+  const std::vector<PlaceId> chosen =
+      surroundings(map, places("ABC"), {}, as_drawn(kTwoWings), {.alike = 1, .alike_at_end = 1});
   EXPECT_EQ(chosen.front(), PlaceId("D")) << "those beside it come first";
   EXPECT_THAT(chosen, Contains(PlaceId("N"))) << spelled(chosen);
   EXPECT_THAT(chosen, Contains(PlaceId("L"))) << spelled(chosen);
@@ -115,8 +117,8 @@ TEST(Surroundings, LookAlikesNeedNoCommonFrame) {
   layout.at(ImageId("t/M")) = {{2.0, 0.0, 0.0}, 1, true};
   layout.at(ImageId("t/K")) = {{2.0, 0.0, 0.0}, 1, true};
   layout.erase(ImageId("t/O"));
-  EXPECT_EQ(spelled(surroundings(map, places("ABC"), {}, layout, {.alike = 0})), "D");
-  EXPECT_THAT(surroundings(map, places("B"), {}, layout, {.beside_m = 0.5, .alike = 1}),
+  EXPECT_EQ(spelled(surroundings(map, places("ABC"), {}, layout, {.alike = 0, .alike_at_end = 0})), "D");
+  EXPECT_THAT(surroundings(map, places("B"), {}, layout, {.beside_m = 0.5, .alike_at_end = 1}),
               ::testing::ElementsAre(PlaceId("M")));
 }
 
@@ -125,9 +127,19 @@ TEST(Surroundings, ShareTheRoomForLookAlikesAmongAllOfTheRoute) {
   furnish(map);
   disguise(map, "ABCD", "KLMN");
   // The best of each comes before the second best of the first.
-  EXPECT_EQ(spelled(surroundings(map, places("ABCD"), {}, as_drawn(kTwoWings), {.alike = 3, .most_alike = 4})),
-            "K L M N");
-  EXPECT_EQ(surroundings(map, places("ABCD"), {}, as_drawn(kTwoWings), {.alike = 3, .most_alike = 2}).size(), 2U);
+  EXPECT_EQ(spelled(surroundings(map, places("ABCD"), {}, as_drawn(kTwoWings),
+                                 {.alike = 3, .alike_at_end = 1, .most_alike = 4})),
+            "N K L M");
+}
+
+TEST(Surroundings, HoldTheLookAlikesOfTheDestinationBeforeThoseOfTheWay) {
+  map::TopologicalMap map = homeward::testing::ascii_map(kTwoWings);
+  furnish(map);
+  disguise(map, "ABDD", "KLMN");
+  std::vector<PlaceId> chosen =
+      surroundings(map, places("ABCD"), places("C"), as_drawn(kTwoWings), {.alike_at_end = 2, .most_alike = 2});
+  std::ranges::sort(chosen);
+  EXPECT_EQ(spelled(chosen), "M N") << "with less room than there are steps";
 }
 
 TEST(Surroundings, OfPlacesWithoutFeaturesAreThoseBesideTheRoute) {
@@ -137,7 +149,8 @@ TEST(Surroundings, OfPlacesWithoutFeaturesAreThoseBesideTheRoute) {
   place_named(map, 'A').appearances = {features::Appearance{}};
   place_named(map, 'L').appearances = {features::Appearance{}};
   disguise(map, "B", "M");
-  const std::vector<PlaceId> chosen = surroundings(map, places("ABC"), {}, as_drawn(kTwoWings), {.alike = 1});
+  const std::vector<PlaceId> chosen =
+      surroundings(map, places("ABC"), {}, as_drawn(kTwoWings), {.alike = 1, .alike_at_end = 1});
   EXPECT_THAT(chosen, Contains(PlaceId("M"))) << spelled(chosen);
   EXPECT_THAT(chosen, Not(Contains(PlaceId("L")))) << spelled(chosen);
 }
