@@ -67,7 +67,9 @@ Result<Route> plan_second_look(const map::TopologicalMap& map, const RouteReques
   auto places = by_distance(map, request, static_cast<int>(from - map.places.data()));
   const auto nearer = std::ranges::stable_partition(places, [&](const auto& one) { return one.first >= away_m; });
   std::ranges::reverse(nearer);
+  constexpr double kLeast_m = 2.0;  // nearer, it is turned round at before anything else is seen
   for (const auto& [distance_m, place] : places) {
+    if (distance_m < kLeast_m) continue;
     RouteRequest there = request;
     there.to = map.places[at(place)].id;
     auto route = plan_route(map, there);

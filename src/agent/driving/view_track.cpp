@@ -105,24 +105,6 @@ void ViewTrack::measure(const Eigen::Vector2d& axis, double off_m, double doubt_
   covariance_m2_ -= gain * (axis.transpose() * covariance_m2_);
 }
 
-void ViewTrack::expect(const Eigen::Vector2d& position_m, const Eigen::Matrix2d& covariance_m2, double heading_rad) {
-  if (!known_) {
-    known_ = true;
-    position_m_ = position_m;
-    covariance_m2_ = covariance_m2;
-    heading_rad_ = heading_rad;
-    return;
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance_m2);
-  for (Eigen::Index k = 0; k < 2; ++k) {
-    const Eigen::Vector2d axis = axes.eigenvectors().col(k);
-    const double variance = axes.eigenvalues()[k];
-    // What was taken in once leaves less doubt than it brings, so nothing is counted twice.
-    if (axis.dot(covariance_m2_ * axis) <= variance) continue;
-    measure(axis, axis.dot(position_m - position_m_), std::sqrt(variance));
-  }
-}
-
 void ViewTrack::drift(double driven_m, const ViewTrackConfig& config) {
   const double doubt_m = config.drift_per_m * driven_m;
   covariance_m2_ += Eigen::Matrix2d::Identity() * doubt_m * doubt_m;

@@ -38,10 +38,6 @@ class ViewTrack {
   /// Takes over where the view lies from what has weighed all pictures of it already (homing/visual_homing.hpp).
   void settle(const Eigen::Vector2d& position_m, const Eigen::Matrix2d& covariance_m2, double heading_rad);
 
-  /// Takes into account where the view must lie by the map: the whole of it when nothing is known yet, else only what
-  /// is known worse than the map knows it.
-  void expect(const Eigen::Vector2d& position_m, const Eigen::Matrix2d& covariance_m2, double heading_rad);
-
   /// The robot drove on: odometry has drifted.
   void drift(double driven_m, const ViewTrackConfig& config);
 

@@ -65,29 +65,10 @@ TEST(ViewTrack, PassesOverOneWrongAnswerAndYieldsToThree) {
   EXPECT_LT((track.position_m() - Eigen::Vector2d(1.2, 0.0)).dot(kView - Eigen::Vector2d(1.2, 0.0)), 0.0);
 }
 
-TEST(ViewTrack, TakesFromTheMapOnlyWhatItKnowsWorse) {
-  ViewTrack track;
-  const Eigen::Matrix2d loose = Eigen::Matrix2d::Identity() * 0.25;
-  track.expect({1.0, 1.0}, loose, 0.1);
-  ASSERT_TRUE(track.known());
-  EXPECT_EQ(track.position_m(), Eigen::Vector2d(1.0, 1.0));
-  EXPECT_DOUBLE_EQ(track.heading_rad(), 0.1);
-  // The same knowledge again adds nothing.
-  const double doubt_m = track.doubt_m();
-  track.expect({1.4, 1.0}, loose, 0.3);
-  EXPECT_EQ(track.position_m(), Eigen::Vector2d(1.0, 1.0));
-  EXPECT_DOUBLE_EQ(track.doubt_m(), doubt_m);
-  // Better knowledge across x moves it there and not along y.
-  Eigen::Matrix2d sharp_x = Eigen::Vector2d(0.0001, 4.0).asDiagonal();
-  track.expect({1.4, 3.0}, sharp_x, 0.3);
-  EXPECT_NEAR(track.position_m().x(), 1.4, 0.01);
-  EXPECT_DOUBLE_EQ(track.position_m().y(), 1.0);
-}
-
 TEST(ViewTrack, DoubtGrowsWithTheWayDriven) {
   ViewTrack track;
   const ViewTrackConfig config;
-  track.expect({1.0, 0.0}, Eigen::Matrix2d::Identity() * 1e-6, 0.0);
+  track.settle({1.0, 0.0}, Eigen::Matrix2d::Identity() * 1e-6, 0.0);
   track.drift(10.0, config);
   EXPECT_NEAR(track.doubt_m(), 10.0 * config.drift_per_m, 1e-3);
 }

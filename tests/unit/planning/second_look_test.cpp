@@ -65,6 +65,13 @@ TEST(SecondLook, LeadsToTheFarthestPlaceWhereNoneIsFarEnough) {
   EXPECT_EQ(spelled(look->places), "A B A") << "from D no way leads back";
 }
 
+TEST(SecondLook, OfNothingButTheNextMetreIsNone) {
+  EXPECT_TRUE(plan_second_look(ascii_map("A--B"), from("A"), 5.0));
+  const auto look = plan_second_look(ascii_map("A-B"), from("A"), 5.0);
+  ASSERT_FALSE(look);
+  EXPECT_EQ(look.error().code, ErrorCode::kNoRoute);
+}
+
 TEST(SecondLook, SaysWhereNoWayLeadsAwayAndBack) {
   const auto map = ascii_map("A");
   const auto look = plan_second_look(map, from("A"), 3.0);
