@@ -26,6 +26,13 @@ std::optional<PlaceId> place_at(const VisualPath& path, const Vector2& here_m) {
   return place;
 }
 
+/// What is asked for to arrive. Where views lie by edges alone, they are too far off for more; and there is no other
+/// place to be taken for this one.
+double least_of_arrival(const VisualPath& path, const FollowConfig& config) {
+  constexpr double kByEdges = 0.9;
+  return path.index ? config.arrived_probability : std::min(kByEdges, config.arrived_probability);
+}
+
 }  // namespace
 
 double position_probability(const FollowState& state, const VisualPath& path) {
@@ -43,11 +50,12 @@ double arrival_probability(const FollowState& state, const VisualPath& path, con
 }
 
 bool is_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
-  // Where views lie by edges alone, they are too far off for more; and there is no other place to be taken for this
-  // one.
-  constexpr double kByEdges = 0.9;
-  const double least = path.index ? config.arrived_probability : std::min(kByEdges, config.arrived_probability);
-  return arrival_probability(state, path, config) >= least;
+  return arrival_probability(state, path, config) >= least_of_arrival(path, config);
+}
+
+bool stays_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
+  constexpr double kWavers = 0.07;
+  return arrival_probability(state, path, config) >= least_of_arrival(path, config) - kWavers;
 }
 
 std::optional<PlaceId> estimated_place(const FollowState& state, const VisualPath& path, const FollowConfig& config) {

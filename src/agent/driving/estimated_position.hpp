@@ -19,6 +19,9 @@ double arrival_probability(const FollowState& state, const VisualPath& path, con
 /// lie.
 bool is_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config);
 
+/// Whether one that was certain still is; a little less is enough, as the last pictures waver.
+bool stays_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config);
+
 /// The place of the map that the robot is at by the estimate; nothing where that is not sure enough to drive by.
 std::optional<PlaceId> estimated_place(const FollowState& state, const VisualPath& path, const FollowConfig& config);
 

@@ -23,9 +23,9 @@ void end_blocked(DrivingState& state, const DrivingConfig& config) {
   constexpr double kWithin_m = 2.0;
   const VisualPath& path = state.mission->path;
   const auto before = estimated_place(state.follow, path, config.follow);
-  if ((before || state.follow.looked_around) && path.index) {
-    const Pose2& here = state.follow.hypotheses.best()->map_from_robot;
-    state.follow.hypotheses.told({here.x_m, here.y_m}, kWithin_m, kOdds);
+  const PoseHypothesis* best = state.follow.hypotheses.best();
+  if ((before || state.follow.looked_around) && path.index && best != nullptr) {
+    state.follow.hypotheses.told({best->map_from_robot.x_m, best->map_from_robot.y_m}, kWithin_m, kOdds);
   }
   if (!state.follow.looked_around && (!before || estimated_place(state.follow, path, config.follow) == before)) {
     return end_mission(state, wire::DriveState::kFailed, "The way is blocked.");
@@ -91,12 +91,14 @@ bool ask_people(DrivingState& state, bool certain, const DrivingConfig& config, 
   // Whoever comes to answer may stand before the camera; and it makes no way because it does not want to.
   state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = now_ms;
   state.stays_since_ms.reset();
-  if (state.asking.said) {
+  if (state.asking.said && *state.asking.said) {
+    // Whoever says so may be getting out: nothing drives on from here by itself.
+    end_mission(state, wire::DriveState::kStopped,
+                "I am not sure that this is " + where + ", though somebody says so.");
+  } else if (state.asking.said) {
     // Where it takes itself to be there all the same, a person decides.
-    state.astray = *state.asking.said || arrival_probability(state.follow, state.mission->path, config.follow) < 0.5;
-    end_mission(state, wire::DriveState::kFailed,
-                *state.asking.said ? "I am not sure that this is " + where + ", though somebody says so."
-                                   : "Somebody says that this is not " + where + ".");
+    state.astray = arrival_probability(state.follow, state.mission->path, config.follow) < 0.5;
+    end_mission(state, wire::DriveState::kFailed, "Somebody says that this is not " + where + ".");
   } else if (now_ms - *state.asking.since_ms > config.asks_ms) {
     end_astray(state, "I am not sure that this is " + where + ".");
   }
@@ -111,7 +113,11 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   if (near && *near) state.near_since_ms = state.near_since_ms.value_or(now_ms);
   if (near && !*near) {
     state.near_since_ms.reset();
-    stop_asking(state);
+    if (!state.asking.said) stop_asking(state);  // what somebody has said is heard first
+  }
+  if (state.docking && !stays_certain_of_arrival(state.follow, state.mission->path, config.follow)) {
+    state.docking = false;
+    state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = now_ms;
   }
   const bool certain = is_certain_of_arrival(state.follow, state.mission->path, config.follow);
   const bool near_enough = certain && state.near_since_ms && now_ms - *state.near_since_ms > config.near_ms;

@@ -141,16 +141,31 @@ Motion look(DrivingState& state, const Inputs& inputs, const DrivingConfig& conf
   return steer_round(state.plan, config.body, points_m, *aim_m, inputs.odometry, kUnsure_mps, config.turn_gain);
 }
 
+/// Whether it is on a way that no tour drove: also on the last bit of one whose end counts as passed already.
+bool on_shortcut(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
+  if (path.on_shortcut(state.index)) return true;
+  const PoseHypothesis* best = state.hypotheses.best();
+  if (!path.on_shortcut(state.index - 1) || best == nullptr) return false;
+  // Its end, in the frame of the end: it is driven to from behind.
+  const Pose2 end = path.pose(state.index - 1);
+  const Pose2 begin = path.pose(state.index - 2);
+  const Eigen::Vector2d way_m(end.x_m - begin.x_m, end.y_m - begin.y_m);
+  const Eigen::Vector2d left_m(end.x_m - best->map_from_robot.x_m, end.y_m - best->map_from_robot.y_m);
+  return left_m.norm() < config.abreast_m && left_m.dot(way_m) > 0.0;
+}
+
 /// How fast it may drive at most here: a way that no tour drove, slowly.
 double speed_limit_mps(const DrivingState& state, const DrivingConfig& config) {
   const double limit_mps = std::min(state.mission->speed_limit_mps, config.body.max_speed_mps);
-  return state.mission->path.on_shortcut(state.follow.index) ? std::min(limit_mps, kShortcut_mps) : limit_mps;
+  const bool slowly = on_shortcut(state.follow, state.mission->path, config.follow);
+  return slowly ? std::min(limit_mps, kShortcut_mps) : limit_mps;
 }
 
 Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& config,
              const std::vector<Eigen::Vector2d>& points_m, Milliseconds now_ms) {
   const bool last_view = state.follow.index + 1 == static_cast<int>(state.mission->path.views.size());
   if (state.docking) {
+    if (state.covered) return {};
     // Heading at the end, by the latest answer and the turn made since.
     const double left_rad = wrap_angle(state.follow.view.heading_rad() - inputs.odometry.theta_rad);
     if (std::abs(left_rad) < config.dock_within_rad) {

@@ -32,6 +32,12 @@ class EstimatedPositionTest : public ::testing::Test {
     state_.hypotheses = PoseHypotheses(config_.pose, std::move(all), elsewhere, 0.1);
   }
 
+  void know_the_map() {
+    std::vector<const features::Appearance*> views;
+    for (int view = 0; view < path_.placed(); ++view) views.push_back(&path_.appearance(view));
+    path_.index = std::make_shared<const ViewIndex>(views);
+  }
+
   FollowConfig config_;
   VisualPath path_;
   FollowState state_;
@@ -81,6 +87,42 @@ TEST_F(EstimatedPositionTest, OfAPathOfOneViewItMayBeginAnywhereInThePlace) {
   EXPECT_EQ(off_path_m(state_, path_, config_), 0.0);
   stand({{{0.0, 7.0, 0.0}, 0.95}});
   EXPECT_NEAR(off_path_m(state_, path_, config_).value(), 4.0, 1e-9);
+}
+
+TEST_F(EstimatedPositionTest, ItHasArrivedOnlyWhereThatIsProbableEnough) {
+  know_the_map();
+  stand({{{7.5, 0.1, 0.0}, 0.98}});
+  EXPECT_NEAR(arrival_probability(state_, path_, config_), 0.98, 1e-6);
+  EXPECT_TRUE(is_certain_of_arrival(state_, path_, config_));
+  stand({{{7.5, 0.1, 0.0}, 0.96}});
+  EXPECT_FALSE(is_certain_of_arrival(state_, path_, config_));
+  EXPECT_TRUE(stays_certain_of_arrival(state_, path_, config_));
+  stand({{{7.5, 0.1, 0.0}, 0.89}});
+  EXPECT_FALSE(stays_certain_of_arrival(state_, path_, config_));
+  stand({{{6.5, 0.0, 0.0}, 0.99}});
+  EXPECT_LT(arrival_probability(state_, path_, config_), 0.01) << "a metre beside it";
+}
+
+TEST_F(EstimatedPositionTest, WhereTheBeliefIsSureOfAnotherPlaceItHasNotArrived) {
+  know_the_map();
+  stand({{{7.5, 0.0, 0.0}, 0.99}});
+  state_.belief = BelievedView{2, 0.9};
+  EXPECT_TRUE(is_certain_of_arrival(state_, path_, config_))
+      << "2.5 m off: the next place, of whose pictures this may be";
+  state_.belief = BelievedView{1, 0.9};
+  EXPECT_LT(arrival_probability(state_, path_, config_), 0.5);
+  EXPECT_FALSE(stays_certain_of_arrival(state_, path_, config_));
+  state_.belief = BelievedView{1, 0.7};
+  EXPECT_TRUE(is_certain_of_arrival(state_, path_, config_)) << "not sure";
+  state_.belief = BelievedView{std::nullopt, 0.9};
+  EXPECT_LT(arrival_probability(state_, path_, config_), 0.5) << "a place that is not around the path";
+}
+
+TEST_F(EstimatedPositionTest, WithoutAMapNineTenthsAreEnoughToArrive) {
+  stand({{{7.5, 0.0, 0.0}, 0.91}});
+  EXPECT_TRUE(is_certain_of_arrival(state_, path_, config_));
+  stand({{{7.5, 0.0, 0.0}, 0.89}});
+  EXPECT_FALSE(is_certain_of_arrival(state_, path_, config_));
 }
 
 TEST_F(EstimatedPositionTest, OfNoPictureYetItTellsOfNoPlace) { EXPECT_TRUE(possible_places(state_, path_).empty()); }

@@ -289,7 +289,9 @@ TEST_F(StepTest, DrivesSlowlyWhereNoTourDrove) {
       if (k == 0) messages.emplace_back(order);
       messages.emplace_back(permit("m1", epoch, ++seq_));
       const Outputs outputs = tick(std::move(messages));
-      if (state_.follow.index == 1) fastest = std::max(fastest, std::abs(outputs.motion.speed_mps));
+      // The end of the shortcut counts as passed from half a metre off; no tour drove up to it all the same.
+      const bool before_its_end = state_.follow.index >= 1 && pose_.x_m < views()[1].x_m - 0.05;
+      if (before_its_end) fastest = std::max(fastest, std::abs(outputs.motion.speed_mps));
     }
     EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
     return fastest;
