@@ -61,6 +61,7 @@ std::vector<std::string> problems(const AppConfig& config) {
   if (!config.web.empty() && !std::filesystem::is_regular_file(config.web / "index.html")) {
     list.push_back("--web " + config.web.string() + " has no index.html; build the dashboard first.");
   }
+  if (config.longest_mission_s < 0) list.emplace_back("--longest-mission-s must not be negative.");
   if (config.threads < 0 || config.threads > 256) list.emplace_back("--threads must be between 0 and 256.");
   return list;
 }
@@ -77,7 +78,7 @@ struct App::Parts {
         idempotency(*store),
         tours(*store),
         maps(*store, events),
-        driving(*store, maps, events, heavy, journal),
+        driving(*store, maps, events, heavy, journal, config.longest_mission_s),
         jobs(*store, maps, events, threads_of(config)),
         front({router, access, files, authenticator, idempotency, metrics, workers, heavy, driving, events,
                [this] { return snapshot(); }}) {

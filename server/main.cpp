@@ -63,6 +63,8 @@ int main(int argc, char** argv) {
   options.add_option("--print-setup-file", config.setup_file, "also write the one-time set-up link to this file");
   options.add_flag("--allow-plain-http", config.allow_plain_http, "listen without TLS for other machines too");
   options.add_option("--allow-host", hosts, "another name that this server answers to, without port");
+  options.add_option("--longest-mission-s", config.longest_mission_s,
+                     "stop every mission after so long; 0: after ten minutes, and later the longer its way is");
   options.add_option("--threads", config.threads, "for pictures and builds; 0: one for each processor")
       ->capture_default_str();
   options.add_flag("--verbose", verbose, "log every request");

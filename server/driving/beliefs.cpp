@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include "imageio/decode.hpp"
+#include "planning/detour.hpp"
 #include "server/auth/authenticator.hpp"
 #include "server/driving/driving.hpp"
 #include "server/services/belief_view.hpp"
@@ -44,10 +45,13 @@ Result<std::shared_ptr<Tracking>> Driving::tracking_for(std::shared_ptr<Tracking
   return std::make_shared<Tracking>(Tracking{map, std::move(*tracker)});
 }
 
-void Driving::look_after_lift(const Unit& found) {
+void Driving::go_on_after_looking(const Unit& found) {
   constexpr int kLooks = 4;
   RobotUnit& unit = *found;
   if (!unit.under_way || !unit.looks_since || ++unit.looks < kLooks) return;
+  const auto now = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> stands_for = now - *unit.looks_since;
+  if (unit.lifted ? stands_for.count() < planning::kStandsAfterLift_s : !unit.known_start(now)) return;
   unit.looks_since.reset();
   const std::string reason = unit.mission->reason.value_or("");
   if (!begin_detour(found, reason)) end_mission(unit, wire::MissionState::kFailed, reason);
@@ -131,7 +135,7 @@ void Driving::look(const Unit& unit) {
       if (unit->under_way && unit->sights.due(frame->t_us))
         unit->sights.add(frame->t_us, sure, tracking->tracker.seen());
       link->send(wire::BeliefReport{frame->seq, seen->place, seen->probability.value_or(0.0), seen->lost});
-      look_after_lift(unit);
+      go_on_after_looking(unit);
     } else {
       unit->belief.reset();
     }

@@ -20,8 +20,15 @@ namespace homeward::server {
 class Driving : public LinkListener {
  public:
   /// `heavy` looks at pictures, `journal` (one worker) writes to the store what need not be waited for.
-  Driving(db::Store& store, MapService& maps, EventHub& events, WorkPool& heavy, WorkPool& journal)
-      : store_(store), maps_(maps), events_(events), heavy_(heavy), journal_(journal) {}
+  /// `longest_mission_s`: 0 for planning::longest_mission_s of its way.
+  Driving(db::Store& store, MapService& maps, EventHub& events, WorkPool& heavy, WorkPool& journal,
+          int longest_mission_s)
+      : store_(store),
+        maps_(maps),
+        events_(events),
+        heavy_(heavy),
+        journal_(journal),
+        longest_mission_s_(longest_mission_s) {}
 
   /// `keep` is called on the journal with what each mission saw that arrived; set before the first robot connects.
   void when_arrived(std::function<void(const db::Drive&)> keep) { keep_drive_ = std::move(keep); }
@@ -78,7 +85,8 @@ class Driving : public LinkListener {
   struct Plan {
     wire::MissionView mission;
     wire::MissionOrder order;
-    bool again = false;  // a detour that is the way that failed, again
+    double length_m = 0.0;  // of the way
+    bool again = false;     // a detour that is the way that failed, again
   };
 
   Result<Unit> find(const RobotId& id);
@@ -95,7 +103,7 @@ class Driving : public LinkListener {
   void heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello);
   void heard_status(const Unit& unit, wire::AgentStatus status);
   // After one more picture of a robot that was lifted, with the unit locked: sends it on from where it stands.
-  void look_after_lift(const Unit& unit);
+  void go_on_after_looking(const Unit& unit);
   // Another way after the present one failed. begin_detour, with the unit locked: false where the mission has to end.
   bool begin_detour(const Unit& unit, const std::string& reason);
   Result<Plan> plan_detour(const Unit& unit, const MissionId& mission);
@@ -116,6 +124,7 @@ class Driving : public LinkListener {
   EventHub& events_;
   WorkPool& heavy_;
   WorkPool& journal_;
+  const int longest_mission_s_;
   std::function<void(const db::Drive&)> keep_drive_;
   std::mutex mutex_;  // of units_; never taken while a unit is locked
   std::map<RobotId, Unit> units_;

@@ -90,6 +90,9 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
     spdlog::info("robot {} was moved without its wheels", unit.id.str());
     unit.restart_tracking = true;
     unit.belief.reset();
+    // It was not put down yet: what was seen in somebody's hands says nothing of where it will stand.
+    if (unit.looks_since) unit.looks_since = unit.status_at;
+    unit.looks = 0;
   }
   unit.displaced = now.displaced;
   // Until the robot takes up another way it goes on telling of the one that failed.
@@ -113,11 +116,17 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
         if (lifted && unit.online() && unit.lease) {
           unit.lifted = true;
           unit.looks_since = unit.status_at;
-          unit.looks = 0;
           mission.reason = now.reason;
           keep(mission);
         } else if (!begin_detour(found, now.reason.value_or("The robot cannot go on."))) {
-          end_mission(unit, wire::MissionState::kFailed, now.reason.value_or("the robot cannot go on"));
+          if (unit.online() && unit.lease && !unit.known_start(*unit.status_at)) {
+            unit.looks_since = unit.status_at;  // whoever stands before the camera may go on
+            unit.looks = 0;
+            mission.reason = now.reason;
+            keep(mission);
+          } else {
+            end_mission(unit, wire::MissionState::kFailed, now.reason.value_or("the robot cannot go on"));
+          }
         }
         break;
       case wire::DriveState::kStopped:

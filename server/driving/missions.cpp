@@ -3,6 +3,7 @@
 
 #include "db/secrets.hpp"
 #include "map/lookup.hpp"
+#include "planning/detour.hpp"
 #include "planning/route.hpp"
 #include "planning/surroundings.hpp"
 #include "server/auth/authenticator.hpp"
@@ -16,7 +17,7 @@ namespace {
 constexpr std::chrono::milliseconds kHeardWithin{1000};
 constexpr std::chrono::seconds kSilentTooLong{4};
 constexpr std::chrono::seconds kTakeUpWithin{10};
-constexpr std::chrono::seconds kLooksWithin{15};  // where a robot stands that was lifted
+constexpr std::chrono::seconds kLooksWithin{15};  // where a robot stands that was lifted, or lost
 
 std::string where_of(const RobotUnit& unit) { return "robots/" + unit.id.str(); }
 
@@ -97,6 +98,7 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
   plan.order.mission = plan.mission.id;
   plan.order.map = map_id;
   plan.order.valid_for_ms = kPermitMs;
+  plan.length_m = route->length_m;
   return plan;
 }
 
@@ -141,6 +143,9 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
   unit.sights.clear();
   unit.answered.reset();
   unit.mission_at = now;
+  const double longest_s = longest_mission_s_ > 0 ? longest_mission_s_ : planning::longest_mission_s(planned->length_m);
+  unit.mission_ends =
+      now + std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(longest_s));
   unit.link->send(planned->order);
   spdlog::info("robot {} mission {} to {} over {} places, by {}", id.str(), mission.id.str(), mission.place.str(),
                mission.path.size(), mission.by);
@@ -213,6 +218,11 @@ void Driving::tick(SteadyTime now) {
       continue;
     }
     if (!unit.under_way || !unit.online() || unit.looking_for_detour) continue;
+    if (now > unit.mission_ends) {
+      stop_robot(unit, "", "the mission has lasted too long", "server");
+      tell(unit);
+      continue;
+    }
     if (unit.looks_since) {
       if (now - *unit.looks_since <= kLooksWithin) continue;
       end_mission(unit, wire::MissionState::kFailed, "");

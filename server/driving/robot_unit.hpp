@@ -81,8 +81,9 @@ struct RobotUnit {
   std::int64_t epoch = 0;
   std::int64_t seq = 0;  // of the last mission or permit of this epoch
   std::optional<wire::MissionView> mission;
-  bool under_way = false;  // `mission` is accepted or driving: permits go out
-  SteadyTime mission_at;   // when it was sent
+  bool under_way = false;   // `mission` is accepted or driving: permits go out
+  SteadyTime mission_at;    // when its latest way was sent
+  SteadyTime mission_ends;  // when it has lasted too long
   // Another way after a part of the present one failed; of this mission alone.
   std::vector<planning::Way> closed;
   int detours = 0;
@@ -91,8 +92,9 @@ struct RobotUnit {
   bool fails_again = false;             // where it failed before
   std::optional<double> second_look_m;  // so far the way to be looked for leads from the destination, and back
   bool looking_for_detour = false;      // no permit goes out until the new way is sent
-  std::optional<SteadyTime>
-      looks_since;                       // lifted in mid-mission: where it stands is looked for, and no permit goes out
+  // Lifted in mid-mission, the last time then, or a drive failed and nothing says where: where it stands is looked for,
+  // and no permit goes out.
+  std::optional<SteadyTime> looks_since;
   int looks = 0;                         // pictures since
   bool lifted = false;                   // and it has not driven since
   DriveSights sights;                    // of this mission

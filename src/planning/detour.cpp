@@ -12,6 +12,12 @@ constexpr int kMostUnsureRestarts = 3;
 
 }  // namespace
 
+double longest_mission_s(double length_m) {
+  constexpr double kLeast_s = 600.0;
+  constexpr double kSlowest_mps = 0.06;
+  return std::max(kLeast_s, length_m / kSlowest_mps);
+}
+
 std::vector<Way> failed_ways(const FailedDrive& failed) {
   std::vector<Way> ways;
   const auto size = static_cast<std::int64_t>(failed.path.size());

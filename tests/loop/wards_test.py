@@ -58,6 +58,7 @@ class Wards(unittest.TestCase):
         result = self.results[2]
         self.assertIn("kidnapped_at_s", result)
         self.assertIsNotNone(result["told_after_s"], result)
+        self.assertLessEqual(result["told_after_s"], 5.0, result)
 
 
 if __name__ == "__main__":

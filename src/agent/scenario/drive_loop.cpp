@@ -196,6 +196,7 @@ Status DriveLoop::kidnap() {
     if (!*spot) continue;
     robot_.carry_to(**spot);
     kidnapped_at_s_ = elapsed_s();
+    said_when_lifted_ = state_.reason;
     told_after_s_.reset();
   }
   return {};
@@ -204,7 +205,9 @@ Status DriveLoop::kidnap() {
 /// Whoever takes itself to have arrived has no doubt, whatever else it says.
 void DriveLoop::listen_for_doubt() {
   if (!kidnapped_at_s_ || told_after_s_ || state_.drive == wire::DriveState::kArrived) return;
-  if (state_.drive != wire::DriveState::kDriving || !state_.reason.empty())
+  // What it said before says nothing of the lift.
+  if (state_.reason != said_when_lifted_) said_when_lifted_.clear();
+  if (state_.drive != wire::DriveState::kDriving || (!state_.reason.empty() && said_when_lifted_.empty()))
     told_after_s_ = elapsed_s() - *kidnapped_at_s_;
 }
 

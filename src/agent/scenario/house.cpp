@@ -77,7 +77,8 @@ Result<std::optional<PlaceId>> House::look_anew(DriveLoop& drive) {
   constexpr int kLooks = 4;
   tracker_.restart();
   belief_ = {};
-  for (int look = 0; look < kLooks; ++look) {
+  const double lifted_s = drive.elapsed_s();
+  for (int look = 0; look < kLooks || drive.elapsed_s() - lifted_s < planning::kStandsAfterLift_s; ++look) {
     const auto seen = drive.look_again();
     if (!seen) return pass_on(seen);
     if (!*seen) continue;

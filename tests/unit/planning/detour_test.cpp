@@ -115,5 +115,10 @@ TEST(Detour, DoesNotTryAgainWhereThereWasNeverAWay) {
   EXPECT_EQ(none.error().code, ErrorCode::kNoRoute);
 }
 
+TEST(LongestMission, IsTenMinutesAndMoreForLongWays) {
+  EXPECT_DOUBLE_EQ(longest_mission_s(5.0), 600.0);
+  EXPECT_NEAR(longest_mission_s(90.0), 1500.0, 1.0);
+}
+
 }  // namespace
 }  // namespace homeward::planning

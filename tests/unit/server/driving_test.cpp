@@ -388,7 +388,17 @@ TEST_F(DrivingTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
     const auto belief = agent.await<wire::BeliefReport>(milliseconds(60'000));
     ASSERT_TRUE(belief);
   };
+  const milliseconds stands(3100);
   lift();
+  for (int k = 0; k < 5; ++k) look(1);
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(300))) << "it may be in somebody's hands still";
+  std::this_thread::sleep_for(stands);
+  lift();
+  for (int k = 0; k < 5; ++k) look(1);
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(300))) << "and it was";
+  ++agent.displaced;
+  agent.status(wire::DriveState::kFailed, order, 1, "Was I lifted? I look where I am.");
+  std::this_thread::sleep_for(stands);
   for (int k = 0; k < 3; ++k) look(2);
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(300))) << "it has not looked enough yet";
   json now = mission_now(sent.json());
@@ -407,6 +417,7 @@ TEST_F(DrivingTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
   agent.status(wire::DriveState::kDriving, order, 1);
   wait_for_state(sent.json(), "driving");
   lift();
+  std::this_thread::sleep_for(stands);
   for (unsigned k = 0; k < 4; ++k) look(60 + k);
   order = agent.await<wire::MissionOrder>();
   ASSERT_TRUE(order) << mission_now(sent.json()).dump();
@@ -420,6 +431,25 @@ TEST_F(DrivingTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(16'000)));
   now = wait_for_state(sent.json(), "failed");
   EXPECT_EQ(now.at("reason"), "Was I lifted? I look where I am.");
+}
+
+TEST_F(DrivingTest, AMissionThatLastsTooLongIsStopped) {
+  add_robot();
+  put_on_map();
+  app.reset();
+  config.longest_mission_s = 2;
+  start();
+  FakeAgent agent;
+  ASSERT_EQ(agent.connect(app->port(), robot, token), 101);
+  const std::string lease = take_lease(*admin);
+  find_itself(agent);
+  const Answer sent = send_home(lease);
+  const auto order = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(order);
+  agent.status(wire::DriveState::kDriving, order, 1);
+  wait_for_state(sent.json(), "driving");
+  ASSERT_TRUE(agent.await<wire::StopOrder>(milliseconds(4000)));
+  EXPECT_EQ(wait_for_state(sent.json(), "stopped").at("reason"), "the mission has lasted too long");
 }
 
 TEST_F(DrivingTest, WithoutALeaseNoOtherWayIsDriven) {

@@ -129,7 +129,7 @@ TEST_F(LostTest, AfterADriveAtOddsWithTheBeliefBothAreAsProbable) {
   EXPECT_LE(second->surroundings->start_probability, 0.5);
 }
 
-TEST_F(LostTest, AfterAFailedDriveWithNeitherBeliefNorEstimateItEnds) {
+TEST_F(LostTest, AfterAFailedDriveWithNeitherBeliefNorEstimateItLooksForAWhileAndEnds) {
   connect();
   const Answer sent = send_home(lease);
   const auto first = agent.await<wire::MissionOrder>();
@@ -138,8 +138,29 @@ TEST_F(LostTest, AfterAFailedDriveWithNeitherBeliefNorEstimateItEnds) {
   wait_for_state(sent.json(), "driving");
   get_lost();
   agent.status(wire::DriveState::kFailed, first, 1, "I am not sure where I am.");
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(16'000)));
   EXPECT_EQ(wait_for_state(sent.json(), "failed").at("reason"), "I am not sure where I am.");
+}
+
+TEST_F(LostTest, AfterAFailedDriveItIsSentOnOnceTheBeliefSaysWhereItIs) {
+  connect();
+  const Answer sent = send_home(lease);
+  const auto first = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(first);
+  agent.status(wire::DriveState::kDriving, first, 1);
+  wait_for_state(sent.json(), "driving");
+  get_lost();
+  agent.status(wire::DriveState::kFailed, first, 1, "I do not recognise the way any more.");
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(400)));
+  EXPECT_EQ(mission_now(sent.json()).at("state"), "driving");
+  std::optional<wire::MissionOrder> second;
+  for (int looks = 0; looks < 12 && !second; ++looks) {
+    agent.look(1);
+    ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
+    second = agent.await<wire::MissionOrder>(milliseconds(300));
+  }
+  ASSERT_TRUE(second) << mission_now(sent.json()).dump();
+  EXPECT_EQ(second->path.front().place.str(), belief().at("place").get<std::string>());
 }
 
 TEST_F(LostTest, AfterAFailedDriveItIsToldHowProbableItsStartIs) {
