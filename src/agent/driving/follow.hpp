@@ -55,7 +55,8 @@ struct BelievedView {
 /// Where the robot is on its path, and where the view that it homes to lies in the frame of odometry.
 struct FollowState {
   int index = 0;                       // of the view homed to
-  std::optional<BelievedView> belief;  // the server's latest word
+  std::optional<BelievedView> belief;  // the server's latest word,
+  bool belief_lost = false;            // or that it does not know the robot's place in this map
   int furthest = 0;                    // and the last one that it was so far
   PoseHypotheses hypotheses;           // where the robot is on the map
   ViewTrack view;                      // where the view homed to lies

@@ -82,9 +82,10 @@ struct Clerk {
 
   void operator()(const wire::BeliefReport& belief) const {
     state.follow.belief.reset();
+    state.follow.belief_lost = belief.lost;
+    state.belief_ms = now_ms;
     if (!state.mission || belief.lost || !belief.place) return;
     state.follow.belief = BelievedView{state.mission->path.view_of(*belief.place), belief.probability};
-    state.belief_ms = now_ms;
   }
 
   void operator()(const wire::Answer& answer) const {

@@ -274,7 +274,10 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   if (rider && state.drive == wire::DriveState::kDriving)
     end_mission(state, wire::DriveState::kStopped, kRiderTookOver);
   obey(state, inputs.messages, rider, config, now_ms, outputs);
-  if (now_ms - state.belief_ms > config.belief_silence_ms) state.follow.belief.reset();
+  if (now_ms - state.belief_ms > config.belief_silence_ms) {
+    state.follow.belief.reset();
+    state.follow.belief_lost = false;
+  }
   if (state.mission != before) {
     state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = state.last_picture_ms = sensors_ms;
     state.gain_from = inputs.odometry;

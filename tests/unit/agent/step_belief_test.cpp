@@ -47,6 +47,28 @@ TEST_F(StepTest, ABeliefOfTheNextPlaceDoesNotEndIt) {
   EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
 }
 
+TEST_F(StepTest, WhileTheBeliefIsLostItHasNotArrived) {
+  set_off();
+  belief_.lost = true;
+  for (int k = 0; k < 1000 && state_.drive == DriveState::kDriving && !state_.asking.since_ms; ++k)
+    tick({permit("m1", 1, ++seq_)});
+  ASSERT_EQ(state_.drive, DriveState::kDriving) << state_.reason;
+  EXPECT_TRUE(state_.asking.since_ms) << "beside its destination it asks";
+  belief_.lost = false;
+  EXPECT_GE(until_stopped(true), 0);
+  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+}
+
+TEST_F(StepTest, ThatTheBeliefIsLostIsForgottenWhenItIsNotToldAnyMore) {
+  set_off();
+  belief_.lost = true;
+  tick({permit("m1", 1, ++seq_)});
+  ASSERT_TRUE(state_.follow.belief_lost);
+  server_talks_ = false;
+  until_stopped(true, 30'000);
+  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+}
+
 TEST_F(StepTest, ABeliefThatIsNotToldAnyMoreSaysNothing) {
   set_off();
   belief_ = belief_of("p77", 0.97);

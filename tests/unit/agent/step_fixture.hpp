@@ -21,6 +21,7 @@ class StepTest : public ::testing::Test {
 
   StepTest() : landmarks_(homeward::testing::landmarks_around(views(), 120, 3)) {
     config_.feature_config_id = "hw1-test";
+    belief_.lost = false;  // it names no place
   }
 
   static std::vector<Pose2> views() { return {{0.8, 0.0, 0.0}, {1.6, 0.0, 0.0}, {2.4, 0.0, 0.0}}; }
