@@ -47,6 +47,7 @@ bool Driving::begin_detour(const Unit& found, const std::string& reason) {
   if (second_look) unit.second_look_m = planning::second_look_m(unit.unsure_restarts);
   if (unsure) ++unit.unsure_restarts;
   unit.looking_for_detour = true;
+  unit.detour_start = start;
   // Reading the map and planning are no work for the thread of the sockets.
   if (!heavy_.try_run([this, found, mission = unit.mission->id, reason] { send_detour(found, mission, reason); })) {
     unit.looking_for_detour = false;
@@ -69,12 +70,11 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   std::optional<double> second_look_m;
   {
     const std::scoped_lock lock(unit->mutex);
-    const auto known = unit->known_start(std::chrono::steady_clock::now());
-    if (!unit->looking_for_detour || !unit->mission || unit->mission->id != mission || !known) {
+    if (!unit->looking_for_detour || !unit->mission || unit->mission->id != mission) {
       return fail(ErrorCode::kConflict, "The mission has ended in the meantime.", "missions/" + mission.str());
     }
     plan.mission = *unit->mission;
-    start = *known;
+    start = unit->detour_start;  // what is to be closed, and how far to look, was decided from there
     likely = unit->likely_places();
     asked.from = start.place;
     asked.closed = unit->closed;

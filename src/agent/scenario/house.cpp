@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/scenario/house.hpp"
 
+#include <algorithm>
+
 #include "agent/driving/estimated_position.hpp"
 #include "planning/detour.hpp"
 #include "planning/second_look.hpp"
@@ -146,13 +148,15 @@ std::optional<PlaceId> House::believed_start(const DrivingState& robot, bool see
 
 Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, std::string& why) {
   const DrivingState& robot = drive.state();
-  const std::int64_t index = robot.follow.index;
+  // The destination's own view comes after that of its place.
+  const std::int64_t index = std::min<std::int64_t>(robot.follow.index, static_cast<std::int64_t>(path_.size()) - 1);
   const bool displaced = robot.displaced > displaced_;
   displaced_ = robot.displaced;
   bool unsure = false;
   Result<std::optional<PlaceId>> here = believed_start(robot, robot.mission && !robot.covered && !displaced, unsure);
   if (displaced) {
     here = look_anew(drive);
+    unsure = belief_.lost;
   } else if (!*here) {
     here = find_again(drive);
     // Where that says nothing either, it begins at the likeliest place, finds out for itself, and is sent anew.
