@@ -48,10 +48,14 @@ Result<std::shared_ptr<Tracking>> Driving::tracking_for(std::shared_ptr<Tracking
 void Driving::go_on_after_looking(const Unit& found) {
   constexpr int kLooks = 4;
   RobotUnit& unit = *found;
-  if (!unit.under_way || !unit.looks_since || ++unit.looks < kLooks) return;
+  if (!unit.under_way || !unit.looks_since) return;
   const auto now = std::chrono::steady_clock::now();
   const std::chrono::duration<double> stands_for = now - *unit.looks_since;
-  if (unit.lifted ? stands_for.count() < planning::kStandsAfterLift_s : !unit.known_start(now)) return;
+  if (unit.lifted && stands_for.count() < planning::kStandsAfterLift_s) {
+    unit.restart_tracking = true;  // what is seen in somebody's hands counts nothing
+    return;
+  }
+  if (++unit.looks < kLooks || (!unit.lifted && !unit.known_start(now))) return;
   unit.looks_since.reset();
   const std::string reason = unit.mission->reason.value_or("");
   if (!begin_detour(found, reason)) end_mission(unit, wire::MissionState::kFailed, reason);

@@ -49,7 +49,9 @@ bool Driving::begin_detour(const Unit& found, const std::string& reason) {
   unit.looking_for_detour = true;
   unit.detour_start = start;
   // Reading the map and planning are no work for the thread of the sockets.
-  if (!heavy_.try_run([this, found, mission = unit.mission->id, reason] { send_detour(found, mission, reason); })) {
+  if (!heavy_.try_run([this, found, mission = unit.mission->id, reason, number = ++unit.detour_number] {
+        send_detour(found, mission, reason, number);
+      })) {
     unit.looking_for_detour = false;
     return false;
   }
@@ -61,7 +63,7 @@ bool Driving::begin_detour(const Unit& found, const std::string& reason) {
   return true;
 }
 
-Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mission) {
+Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mission, int number) {
   Plan plan;
   planning::RouteRequest asked;
   Start start;
@@ -70,7 +72,7 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   std::optional<double> second_look_m;
   {
     const std::scoped_lock lock(unit->mutex);
-    if (!unit->looking_for_detour || !unit->mission || unit->mission->id != mission) {
+    if (!unit->looking_for_detour || unit->detour_number != number || !unit->mission || unit->mission->id != mission) {
       return fail(ErrorCode::kConflict, "The mission has ended in the meantime.", "missions/" + mission.str());
     }
     plan.mission = *unit->mission;
@@ -105,6 +107,7 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   plan.mission.revision = map.revision;
   plan.mission.path = places;
   plan.again = detour->again;
+  plan.length_m = detour->route.length_m;
   plan.mission.path_index = 0;
   plan.mission.arrival_probability.reset();
   plan.order.mission = mission;
@@ -113,11 +116,12 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   return plan;
 }
 
-void Driving::send_detour(const Unit& found, const MissionId& mission, const std::string& reason) {
-  auto planned = plan_detour(found, mission);
+void Driving::send_detour(const Unit& found, const MissionId& mission, const std::string& reason, int number) {
+  auto planned = plan_detour(found, mission, number);
   RobotUnit& unit = *found;
   const std::scoped_lock lock(unit.mutex);
-  if (!unit.looking_for_detour || !unit.mission || unit.mission->id != mission) return;  // a person was faster
+  if (!unit.looking_for_detour || unit.detour_number != number || !unit.mission || unit.mission->id != mission)
+    return;  // a person was faster, or it was lifted
   unit.looking_for_detour = false;
   const auto now = std::chrono::steady_clock::now();
   if (!planned || !may_go_on(unit, now) || unit.map != planned->mission.map) {
@@ -139,6 +143,9 @@ void Driving::send_detour(const Unit& found, const MissionId& mission, const std
   planned->order.speed_limit_mps = std::min(kTopSpeedMps, unit.hello.max_speed_mps);
   unit.mission = planned->mission;
   unit.mission_at = now;
+  // Another way may be far longer; there are three at most.
+  if (!astray && !unit.second_look_m && longest_mission_s_ == 0)
+    unit.mission_ends = std::max(unit.mission_ends, end_of(planned->length_m, now));
   unit.link->send(planned->order);
   spdlog::info("robot {} mission {} goes another way over {} places", unit.id.str(), mission.str(),
                planned->mission.path.size());

@@ -102,12 +102,15 @@ class Driving : public LinkListener {
 
   void heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello);
   void heard_status(const Unit& unit, wire::AgentStatus status);
-  // After one more picture of a robot that was lifted, with the unit locked: sends it on from where it stands.
+  // After one more picture of a robot that was lifted, or is not known where after a drive that failed; with the unit
+  // locked: sends it on from where it stands, once that has shown.
   void go_on_after_looking(const Unit& unit);
+  // When a mission has lasted too long that sets off now.
+  [[nodiscard]] SteadyTime end_of(double length_m, SteadyTime now) const;
   // Another way after the present one failed. begin_detour, with the unit locked: false where the mission has to end.
   bool begin_detour(const Unit& unit, const std::string& reason);
-  Result<Plan> plan_detour(const Unit& unit, const MissionId& mission);
-  void send_detour(const Unit& unit, const MissionId& mission, const std::string& reason);
+  Result<Plan> plan_detour(const Unit& unit, const MissionId& mission, int number);
+  void send_detour(const Unit& unit, const MissionId& mission, const std::string& reason, int number);
   void heard_refusal(RobotUnit& unit, const wire::MissionRefused& refusal);
   void welcome(const Unit& unit, const std::shared_ptr<AgentLink>& link);
   void look(const Unit& unit);

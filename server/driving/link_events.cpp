@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::int64_t kFramePeriodMs = 200;
 constexpr std::chrono::seconds kTrackingKept{60};  // a robot that was gone for longer may have been carried anywhere
+const char* const kLooksWhereItIs = " I look where I am.";
 const char* const kServerName = "homeward-server/0.1.0";
 
 }  // namespace
@@ -91,15 +92,20 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
     unit.restart_tracking = true;
     unit.belief.reset();
     // It was not put down yet: what was seen in somebody's hands says nothing of where it will stand.
-    if (unit.looks_since) unit.looks_since = unit.status_at;
+    if (unit.under_way && (unit.looks_since || unit.looking_for_detour)) {
+      unit.lifted = true;
+      unit.looks_since = unit.status_at;
+      unit.looking_for_detour = false;  // that way begins where it was
+    }
     unit.looks = 0;
   }
   unit.displaced = now.displaced;
   // Until the robot takes up another way it goes on telling of the one that failed.
   const bool of_failed_way =
-      unit.looking_for_detour || unit.looks_since ||
-      (unit.detours + unit.restarts > 0 && unit.mission->state == wire::MissionState::kAccepted &&
-       now.state == wire::DriveState::kFailed);
+      now.state != wire::DriveState::kStopped &&  // by the rider's hand
+      (unit.looking_for_detour || unit.looks_since ||
+       (unit.detours + unit.restarts > 0 && unit.mission->state == wire::MissionState::kAccepted &&
+        now.state == wire::DriveState::kFailed));
   if (unit.under_way && now.mission == unit.mission->id && !of_failed_way) {
     wire::MissionView& mission = *unit.mission;
     const std::int64_t last = static_cast<std::int64_t>(mission.path.size()) - 1;
@@ -122,7 +128,7 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
           if (unit.online() && unit.lease && !unit.known_start(*unit.status_at)) {
             unit.looks_since = unit.status_at;  // whoever stands before the camera may go on
             unit.looks = 0;
-            mission.reason = now.reason;
+            mission.reason = now.reason.value_or("The robot cannot go on.") + kLooksWhereItIs;
             keep(mission);
           } else {
             end_mission(unit, wire::MissionState::kFailed, now.reason.value_or("the robot cannot go on"));

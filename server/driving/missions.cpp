@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <spdlog/spdlog.h>
 
+#include <cmath>
+
 #include "db/secrets.hpp"
 #include "map/lookup.hpp"
 #include "planning/detour.hpp"
@@ -102,6 +104,11 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
   return plan;
 }
 
+SteadyTime Driving::end_of(double length_m, SteadyTime now) const {
+  const double longest_s = longest_mission_s_ > 0 ? longest_mission_s_ : planning::longest_mission_s(length_m);
+  return now + std::chrono::milliseconds(std::llround(1000.0 * longest_s));
+}
+
 Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest& request) {
   const auto found = find(id);
   if (!found) return pass_on(found);
@@ -143,9 +150,7 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
   unit.sights.clear();
   unit.answered.reset();
   unit.mission_at = now;
-  const double longest_s = longest_mission_s_ > 0 ? longest_mission_s_ : planning::longest_mission_s(planned->length_m);
-  unit.mission_ends =
-      now + std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(longest_s));
+  unit.mission_ends = end_of(planned->length_m, now);
   unit.link->send(planned->order);
   spdlog::info("robot {} mission {} to {} over {} places, by {}", id.str(), mission.id.str(), mission.place.str(),
                mission.path.size(), mission.by);

@@ -92,6 +92,7 @@ struct RobotUnit {
   bool fails_again = false;             // where it failed before
   std::optional<double> second_look_m;  // so far the way to be looked for leads from the destination, and back
   bool looking_for_detour = false;      // no permit goes out until the new way is sent
+  int detour_number = 0;                // counts those that were looked for
   Start detour_start;                   // where that begins
   // Lifted in mid-mission, the last time then, or a drive failed and nothing says where: where it stands is looked for,
   // and no permit goes out.

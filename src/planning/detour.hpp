@@ -14,8 +14,8 @@ namespace homeward::planning {
 /// be in somebody's hands.
 constexpr double kStandsAfterLift_s = 3.0;
 
-/// How long a mission may take that begins with a way of `length_m`, all that it drives beside that way, waits and asks
-/// included: far more than any needs that comes nearer to its end.
+/// How long a mission may take that begins with a way of `length_m`, waits, questions and looking around included:
+/// several times what one took that arrived.
 double longest_mission_s(double length_m);
 
 /// A drive over the places of a path that failed on its way to `path[index]`, and where the robot is believed to be.

@@ -81,7 +81,7 @@ Result<Route> plan_second_look(const map::TopologicalMap& map, const RouteReques
     append(*route, *home);
     return route;
   }
-  return fail(ErrorCode::kNoRoute, "No way leads away from place " + request.from.str() + " and back.",
+  return fail(ErrorCode::kNoRoute, "No way leads two metres away from place " + request.from.str() + " and back.",
               request.from.str());
 }
 

@@ -41,17 +41,18 @@ double position_probability(const FollowState& state, const VisualPath& path) {
 
 double arrival_probability(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
   if (path.alone()) return 1.0;
-  // Where the belief is sure of another place, or of none in this map, both may be right.
+  // Where the belief is sure of another place, both may be right.
   constexpr double kAgrees_m = 3.0;
   constexpr double kDisagreeing = 0.5;
   const auto off_m = off_belief_m(state, path, config);
-  const bool disagrees = state.belief_lost || (off_m && *off_m > kAgrees_m);
-  const double agreeing = disagrees ? kDisagreeing : 1.0;
+  const double agreeing = off_m && *off_m > kAgrees_m ? kDisagreeing : 1.0;
   return agreeing * state.hypotheses.probability_within(position(path.pose(path.size() - 1)), config.arrived_within_m);
 }
 
-bool is_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
-  return arrival_probability(state, path, config) >= least_of_arrival(path, config);
+bool is_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config,
+                           bool somebody_says_so) {
+  const bool unknown_to_the_map = state.belief_lost && !path.alone() && !somebody_says_so;
+  return !unknown_to_the_map && arrival_probability(state, path, config) >= least_of_arrival(path, config);
 }
 
 bool stays_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config) {

@@ -16,10 +16,12 @@ double position_probability(const FollowState& state, const VisualPath& path);
 double arrival_probability(const FollowState& state, const VisualPath& path, const FollowConfig& config);
 
 /// Whether that is enough to say that it has arrived: `arrived_probability`, and less where no map says where the views
-/// lie.
-bool is_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config);
+/// lie. While the server's belief is lost, which is of the whole map, only if somebody says so too.
+bool is_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config,
+                           bool somebody_says_so = false);
 
-/// Whether one that was certain still is; a little less is enough, as the last pictures waver.
+/// Whether one that was certain still is; a little less is enough, as the last pictures waver, and a
+/// belief that gets lost while it turns takes nothing back.
 bool stays_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config);
 
 /// The place of the map that the robot is at by the estimate; nothing where that is not sure enough to drive by.

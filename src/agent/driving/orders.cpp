@@ -8,6 +8,7 @@
 namespace homeward::agent {
 namespace {
 
+constexpr Milliseconds kBeliefLasts_ms = 1000;
 constexpr const char* kRiderSteers = "The rider is steering with the joystick.";
 
 /// Obeys one message after the other.
@@ -43,6 +44,7 @@ struct Clerk {
       outputs.messages.emplace_back(wire::MissionRefused{order.mission, order.order, mission.error().message});
       return;
     }
+    state.belief_changes_ms = now_ms;
     state.follow = begun_from(state.kept, mission->path, mission->map, mission->revision, config.follow, now_ms,
                               config.estimate_lives_ms);
     state.mission = std::make_shared<const Mission>(std::move(*mission));
@@ -82,7 +84,9 @@ struct Clerk {
 
   void operator()(const wire::BeliefReport& belief) const {
     state.follow.belief.reset();
-    state.follow.belief_lost = belief.lost;
+    if (belief.lost == state.follow.belief_lost) state.belief_changes_ms = now_ms;
+    // One report in between is none: whoever walks by may hide everything for a moment.
+    if (now_ms - state.belief_changes_ms >= kBeliefLasts_ms) state.follow.belief_lost = belief.lost;
     state.belief_ms = now_ms;
     if (!state.mission || belief.lost || !belief.place) return;
     state.follow.belief = BelievedView{state.mission->path.view_of(*belief.place), belief.probability};

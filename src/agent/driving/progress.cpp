@@ -119,11 +119,14 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
     state.docking = false;
     state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = now_ms;
   }
-  const bool certain = is_certain_of_arrival(state.follow, state.mission->path, config.follow);
+  const bool certain =
+      is_certain_of_arrival(state.follow, state.mission->path, config.follow, state.asking.said == true);
   const bool near_enough = certain && state.near_since_ms && now_ms - *state.near_since_ms > config.near_ms;
   const bool confirmed = certain && state.asking.since_ms;  // by an answer, or by what it has seen since it asks
   const bool denied = state.asking.said == false;
-  if ((state.seen.at_end || near_enough || confirmed) && !denied && !state.docking) {
+  // What the latest picture said of its end may be older than what speaks against it.
+  const bool at_end = state.seen.at_end && certain;
+  if ((at_end || near_enough || confirmed) && !denied && !state.docking) {
     stop_asking(state);
     if (!state.mission->dock) return end_mission(state, wire::DriveState::kArrived, "");
     state.docking = true;
@@ -132,6 +135,11 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   if (state.docking) {
     // The place is reached; a heading that cannot be taken does not make it a failure.
     constexpr Milliseconds kDockingLimit_ms = 15'000;
+    if (state.covered) {
+      state.last_gain_ms = now_ms;  // it stands, and turns on when it sees again
+      if (now_ms - state.last_answer_ms > config.blind_ms) end_astray(state, "I do not see where I am any more.");
+      return;
+    }
     if (now_ms - state.last_gain_ms > kDockingLimit_ms) {
       end_mission(state, wire::DriveState::kArrived, "I am there, but cannot turn to the right heading.");
     }

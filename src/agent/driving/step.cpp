@@ -271,8 +271,9 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   const std::shared_ptr<const Mission> before = state.mission;
   notice_gap(state, config, now_ms);
   const bool rider = rider_steers(inputs, config, sensors_ms);
-  if (rider && state.drive == wire::DriveState::kDriving)
-    end_mission(state, wire::DriveState::kStopped, kRiderTookOver);
+  // Also where the server may be about to send it on after a drive that failed: a hand on the joystick ends that.
+  const bool may_go_on = state.drive == wire::DriveState::kDriving || state.drive == wire::DriveState::kFailed;
+  if (rider && may_go_on) end_mission(state, wire::DriveState::kStopped, kRiderTookOver);
   obey(state, inputs.messages, rider, config, now_ms, outputs);
   if (now_ms - state.belief_ms > config.belief_silence_ms) {
     state.follow.belief.reset();

@@ -136,9 +136,10 @@ struct DrivingState {
   std::optional<Milliseconds> last_step_ms;
   Milliseconds refuses_until_ms = 0;  // missions that waited while no step was made
   Milliseconds last_message_ms = 0;
-  Milliseconds belief_ms = 0;        // when the server told its belief last
-  Milliseconds last_picture_ms = 0;  // at first, when the mission began
-  Milliseconds picture_came_ms = 0;  // the latest one that counted, less what it was looked at for too long
+  Milliseconds belief_ms = 0;          // when the server told its belief last,
+  Milliseconds belief_changes_ms = 0;  // and, lost or not, the same as follow.belief_lost last
+  Milliseconds last_picture_ms = 0;    // at first, when the mission began
+  Milliseconds picture_came_ms = 0;    // the latest one that counted, less what it was looked at for too long
   Milliseconds last_answer_ms = 0;
   Milliseconds last_sure_ms = 0;              // when it knew last where it was
   std::optional<Milliseconds> near_since_ms;  // how long it has been right beside the destination

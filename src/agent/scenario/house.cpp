@@ -77,10 +77,13 @@ Result<wire::MissionOrder> House::order_from(const PlaceId& place, bool second_l
 /// Where the robot stands that was lifted: by what it sees now alone. Where that says little, the likeliest place.
 Result<std::optional<PlaceId>> House::look_anew(DriveLoop& drive) {
   constexpr int kLooks = 4;
+  const double lifted_s = drive.elapsed_s();
+  while (drive.elapsed_s() - lifted_s < planning::kStandsAfterLift_s) {
+    if (const auto seen = drive.look_again(); !seen) return pass_on(seen);
+  }
   tracker_.restart();
   belief_ = {};
-  const double lifted_s = drive.elapsed_s();
-  for (int look = 0; look < kLooks || drive.elapsed_s() - lifted_s < planning::kStandsAfterLift_s; ++look) {
+  for (int look = 0; look < kLooks; ++look) {
     const auto seen = drive.look_again();
     if (!seen) return pass_on(seen);
     if (!*seen) continue;

@@ -142,16 +142,35 @@ TEST_F(AskingTest, WithACoveredCameraItTakesNoHeading) {
   EXPECT_LT(std::abs(pose_.theta_rad), 0.12);
 }
 
+TEST_F(AskingTest, CoveredWhileItTakesTheHeadingItDoesNotArriveByThat) {
+  wire::MissionOrder order = placed_mission(++seq_);
+  order.dock = true;
+  ASSERT_NO_FATAL_FAILURE(drive_until_it_asks(order));
+  pose_.theta_rad += 0.5;
+  permitted();
+  say(true);
+  ASSERT_TRUE(state_.docking);
+  covered_ = true;
+  EXPECT_GE(until_stopped(true, 60'000), 0);
+  EXPECT_EQ(state_.drive, DriveState::kFailed) << state_.reason;
+}
+
+TEST_F(AskingTest, AYesCountsWhileTheBeliefIsLost) {
+  ASSERT_NO_FATAL_FAILURE(drive_until_it_asks());
+  belief_.lost = true;
+  for (int k = 0; k < 30; ++k) permitted();
+  ASSERT_TRUE(state_.follow.belief_lost);
+  say(true);
+  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+}
+
 TEST_F(AskingTest, ANoIsHeardEvenIfItHasJustBeenPushedAway) {
   ASSERT_NO_FATAL_FAILURE(drive_until_it_asks());
   hidden_ = false;
   config_.follow.arrived_probability = 1.01;
   pose_.x_m -= 0.8;
-  for (int k = 0; k < 40 && state_.drive == DriveState::kDriving; ++k) {
-    // Said in each step: the one in which it is seen to be away is among them.
-    state_.asking.said = false;
-    permitted();
-  }
+  say(false);
+  EXPECT_FALSE(state_.near_since_ms) << "it sees that it is not there";
   EXPECT_EQ(state_.drive, DriveState::kFailed);
   EXPECT_EQ(state_.reason, "Somebody says that this is not kitchen.");
 }

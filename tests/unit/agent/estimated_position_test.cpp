@@ -117,7 +117,9 @@ TEST_F(EstimatedPositionTest, WhereTheBeliefIsSureOfAnotherPlaceItHasNotArrived)
   state_.belief.reset();
   EXPECT_TRUE(is_certain_of_arrival(state_, path_, config_)) << "it says nothing";
   state_.belief_lost = true;
-  EXPECT_LT(arrival_probability(state_, path_, config_), 0.5) << "it does not know the place in this map";
+  EXPECT_FALSE(is_certain_of_arrival(state_, path_, config_)) << "it does not know the place in this map";
+  EXPECT_TRUE(is_certain_of_arrival(state_, path_, config_, true)) << "and somebody says so";
+  EXPECT_TRUE(stays_certain_of_arrival(state_, path_, config_));
   state_.belief_lost = false;
   state_.belief = BelievedView{std::nullopt, 0.9};
   EXPECT_LT(arrival_probability(state_, path_, config_), 0.5) << "a place that is not around the path";

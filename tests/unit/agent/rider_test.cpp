@@ -26,6 +26,19 @@ TEST_F(RiderTest, EndsAMissionInTheSameStepAndDrives) {
   EXPECT_DOUBLE_EQ(outputs.motion.turn_radps, 0.3);
 }
 
+TEST_F(RiderTest, AHandOnTheJoystickEndsWhatMightBeSentOnAfterAFailedDrive) {
+  set_off();
+  server_talks_ = true;
+  belief_.place = PlaceId("p77");
+  belief_.probability = 0.97;
+  ASSERT_GE(until_stopped(true), 0);
+  ASSERT_EQ(state_.drive, DriveState::kFailed) << state_.reason;
+  hand_ = Motion{0.3, 0.0};
+  tick();
+  EXPECT_EQ(state_.drive, DriveState::kStopped);
+  EXPECT_EQ(state_.reason, kRiderTookOver);
+}
+
 TEST_F(RiderTest, ReleasedItStandsAndNothingMovesByItself) {
   set_off();
   hand_ = Motion{0.3, 0.0};

@@ -59,10 +59,26 @@ TEST_F(StepTest, WhileTheBeliefIsLostItHasNotArrived) {
   EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
 }
 
+TEST_F(StepTest, OneReportDoesNotMakeTheBeliefLostOrFindItAgain) {
+  set_off();
+  const auto after = [&](bool lost, int ticks) {
+    belief_.lost = lost;
+    for (int k = 0; k < ticks; ++k) tick({permit("m1", 1, ++seq_)});
+    return state_.follow.belief_lost;
+  };
+  EXPECT_FALSE(after(true, 10));
+  EXPECT_FALSE(after(false, 1));
+  EXPECT_FALSE(after(true, 19)) << "counted anew";
+  EXPECT_TRUE(after(true, 5));
+  EXPECT_TRUE(after(false, 10));
+  EXPECT_TRUE(after(true, 1));
+  EXPECT_FALSE(after(false, 21));
+}
+
 TEST_F(StepTest, ThatTheBeliefIsLostIsForgottenWhenItIsNotToldAnyMore) {
   set_off();
   belief_.lost = true;
-  tick({permit("m1", 1, ++seq_)});
+  for (int k = 0; k < 30; ++k) tick({permit("m1", 1, ++seq_)});
   ASSERT_TRUE(state_.follow.belief_lost);
   server_talks_ = false;
   until_stopped(true, 30'000);

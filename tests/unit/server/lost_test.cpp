@@ -138,8 +138,53 @@ TEST_F(LostTest, AfterAFailedDriveWithNeitherBeliefNorEstimateItLooksForAWhileAn
   wait_for_state(sent.json(), "driving");
   get_lost();
   agent.status(wire::DriveState::kFailed, first, 1, "I am not sure where I am.");
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(16'000)));
-  EXPECT_EQ(wait_for_state(sent.json(), "failed").at("reason"), "I am not sure where I am.");
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(1000)));
+  EXPECT_EQ(mission_now(sent.json()).at("state"), "driving");
+  EXPECT_EQ(mission_now(sent.json()).at("reason"), "I am not sure where I am. I look where I am.");
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(15'000)));
+  EXPECT_EQ(wait_for_state(sent.json(), "failed").at("state"), "failed");
+}
+
+TEST_F(LostTest, LiftedWhileItIsLookedForItStands) {
+  connect();
+  const Answer sent = send_home(lease);
+  const auto first = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(first);
+  agent.status(wire::DriveState::kDriving, first, 1);
+  wait_for_state(sent.json(), "driving");
+  get_lost();
+  agent.status(wire::DriveState::kFailed, first, 1, "I do not recognise the way any more.");
+  ++agent.displaced;
+  agent.status(wire::DriveState::kFailed, first, 1, "I do not recognise the way any more.");
+  for (int looks = 0; looks < 6; ++looks) {
+    agent.look(1);
+    ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
+  }
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(400))) << "it may be in somebody's hands";
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(3000)));
+  std::optional<wire::MissionOrder> second;
+  for (int looks = 0; looks < 6 && !second; ++looks) {
+    agent.look(1);
+    ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
+    second = agent.await<wire::MissionOrder>(milliseconds(300));
+  }
+  EXPECT_TRUE(second) << mission_now(sent.json()).dump();
+}
+
+TEST_F(LostTest, TheRidersHandEndsWhatIsLookedFor) {
+  connect();
+  const Answer sent = send_home(lease);
+  const auto first = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(first);
+  agent.status(wire::DriveState::kDriving, first, 1);
+  wait_for_state(sent.json(), "driving");
+  get_lost();
+  agent.status(wire::DriveState::kFailed, first, 1, "I do not recognise the way any more.");
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(300)));
+  agent.status(wire::DriveState::kStopped, first, 1, "The rider has taken over.");
+  const auto now = wait_for_state(sent.json(), "stopped");
+  EXPECT_EQ(now.at("state"), "stopped");
+  EXPECT_EQ(now.at("reason"), "The rider has taken over.");
 }
 
 TEST_F(LostTest, AfterAFailedDriveItIsSentOnOnceTheBeliefSaysWhereItIs) {
