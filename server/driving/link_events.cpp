@@ -94,6 +94,7 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
     // It was not put down yet: what was seen in somebody's hands says nothing of where it will stand.
     if (unit.under_way && (unit.looks_since || unit.looking_for_detour)) {
       unit.lifted = true;
+      if (unit.looking_for_detour) unit.failed_because = now.reason.value_or("");
       unit.looks_since = unit.status_at;
       unit.looking_for_detour = false;  // that way begins where it was
     }
@@ -122,13 +123,15 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
         if (lifted && unit.online() && unit.lease) {
           unit.lifted = true;
           unit.looks_since = unit.status_at;
+          unit.failed_because = now.reason.value_or("");
           mission.reason = now.reason;
           keep(mission);
         } else if (!begin_detour(found, now.reason.value_or("The robot cannot go on."))) {
           if (unit.online() && unit.lease && !unit.known_start(*unit.status_at)) {
             unit.looks_since = unit.status_at;  // whoever stands before the camera may go on
             unit.looks = 0;
-            mission.reason = now.reason.value_or("The robot cannot go on.") + kLooksWhereItIs;
+            unit.failed_because = now.reason.value_or("The robot cannot go on.");
+            mission.reason = unit.failed_because + kLooksWhereItIs;
             keep(mission);
           } else {
             end_mission(unit, wire::MissionState::kFailed, now.reason.value_or("the robot cannot go on"));

@@ -230,7 +230,7 @@ void Driving::tick(SteadyTime now) {
     }
     if (unit.looks_since) {
       if (now - *unit.looks_since <= kLooksWithin) continue;
-      end_mission(unit, wire::MissionState::kFailed, "");
+      end_mission(unit, wire::MissionState::kFailed, unit.failed_because);
       tell(unit);
       continue;
     }

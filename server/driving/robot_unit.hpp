@@ -97,6 +97,7 @@ struct RobotUnit {
   // Lifted in mid-mission, the last time then, or a drive failed and nothing says where: where it stands is looked for,
   // and no permit goes out.
   std::optional<SteadyTime> looks_since;
+  std::string failed_because;            // what the drive said that ended so
   int looks = 0;                         // pictures since
   bool lifted = false;                   // and it has not driven since
   DriveSights sights;                    // of this mission

@@ -146,7 +146,7 @@ bool on_shortcut(const FollowState& state, const VisualPath& path, const FollowC
   if (path.on_shortcut(state.index)) return true;
   const PoseHypothesis* best = state.hypotheses.best();
   if (!path.on_shortcut(state.index - 1) || best == nullptr) return false;
-  // Its end, in the frame of the end: it is driven to from behind.
+  // Its end still lies ahead.
   const Pose2 end = path.pose(state.index - 1);
   const Pose2 begin = path.pose(state.index - 2);
   const Eigen::Vector2d way_m(end.x_m - begin.x_m, end.y_m - begin.y_m);

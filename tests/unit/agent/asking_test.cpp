@@ -50,6 +50,17 @@ class AskingTest : public StepTest {
   }
   void drive_until_it_asks() { drive_until_it_asks(placed_mission(++seq_)); }
 
+  /// It asks, somebody turns it a little and says yes.
+  void drive_until_it_takes_the_heading() {
+    wire::MissionOrder order = placed_mission(++seq_);
+    order.dock = true;
+    ASSERT_NO_FATAL_FAILURE(drive_until_it_asks(std::move(order)));
+    pose_.theta_rad += 0.5;
+    permitted();
+    say(true);
+    ASSERT_TRUE(state_.docking);
+  }
+
   [[nodiscard]] std::optional<wire::QuestionReport> question() const { return open_question(state_, config_, now_ms_); }
   [[nodiscard]] double arrival() const { return stated_arrival(state_, config_).value(); }
   void say(bool here) { tick({wire::Answer{MissionId("m1"), state_.asking.number, here}, permit("m1", 1, ++seq_)}); }
@@ -94,13 +105,7 @@ TEST_F(AskingTest, AYesMakesAnArrivalOfWhatWasProbableAlready) {
 }
 
 TEST_F(AskingTest, AfterAYesItTakesTheHeadingOfTheDestination) {
-  wire::MissionOrder order = placed_mission(++seq_);
-  order.dock = true;
-  ASSERT_NO_FATAL_FAILURE(drive_until_it_asks(order));
-  pose_.theta_rad += 0.3;  // somebody has turned it a little
-  permitted();
-  say(true);
-  EXPECT_TRUE(state_.docking);
+  ASSERT_NO_FATAL_FAILURE(drive_until_it_takes_the_heading());
   EXPECT_FALSE(question());
   for (int k = 0; k < 400 && state_.drive == DriveState::kDriving; ++k) permitted();
   EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
@@ -108,13 +113,7 @@ TEST_F(AskingTest, AfterAYesItTakesTheHeadingOfTheDestination) {
 }
 
 TEST_F(AskingTest, DoubtsWhileItTakesTheHeadingMakeNoArrival) {
-  wire::MissionOrder order = placed_mission(++seq_);
-  order.dock = true;
-  ASSERT_NO_FATAL_FAILURE(drive_until_it_asks(order));
-  pose_.theta_rad += 0.5;
-  permitted();
-  say(true);
-  ASSERT_TRUE(state_.docking);
+  ASSERT_NO_FATAL_FAILURE(drive_until_it_takes_the_heading());
   ASSERT_NO_FATAL_FAILURE(doubt(0.6));
   permitted();
   EXPECT_FALSE(state_.docking);
@@ -124,13 +123,7 @@ TEST_F(AskingTest, DoubtsWhileItTakesTheHeadingMakeNoArrival) {
 }
 
 TEST_F(AskingTest, WithACoveredCameraItTakesNoHeading) {
-  wire::MissionOrder order = placed_mission(++seq_);
-  order.dock = true;
-  ASSERT_NO_FATAL_FAILURE(drive_until_it_asks(order));
-  pose_.theta_rad += 0.5;
-  permitted();
-  say(true);
-  ASSERT_TRUE(state_.docking);
+  ASSERT_NO_FATAL_FAILURE(drive_until_it_takes_the_heading());
   EXPECT_FALSE(stands(tick({permit("m1", 1, ++seq_)})));
   covered_ = true;
   tick({permit("m1", 1, ++seq_)});
@@ -143,13 +136,7 @@ TEST_F(AskingTest, WithACoveredCameraItTakesNoHeading) {
 }
 
 TEST_F(AskingTest, CoveredWhileItTakesTheHeadingItDoesNotArriveByThat) {
-  wire::MissionOrder order = placed_mission(++seq_);
-  order.dock = true;
-  ASSERT_NO_FATAL_FAILURE(drive_until_it_asks(order));
-  pose_.theta_rad += 0.5;
-  permitted();
-  say(true);
-  ASSERT_TRUE(state_.docking);
+  ASSERT_NO_FATAL_FAILURE(drive_until_it_takes_the_heading());
   covered_ = true;
   EXPECT_GE(until_stopped(true, 60'000), 0);
   EXPECT_EQ(state_.drive, DriveState::kFailed) << state_.reason;

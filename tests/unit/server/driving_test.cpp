@@ -365,69 +365,6 @@ TEST_F(DrivingTest, TheBeliefHearsWhereTheRobotThatDrivesTakesItselfToBe) {
   EXPECT_EQ(driving->place, there);
 }
 
-TEST_F(DrivingTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
-  add_robot();
-  put_on_map();
-  FakeAgent agent;
-  ASSERT_EQ(agent.connect(app->port(), robot, token), 101);
-  const std::string lease = take_lease(*admin);
-  find_itself(agent);
-  const Answer sent = send_home(lease);
-  auto order = agent.await<wire::MissionOrder>();
-  ASSERT_TRUE(order);
-  const PlaceId before = order->path.front().place;
-  agent.status(wire::DriveState::kDriving, order, 1);
-  wait_for_state(sent.json(), "driving");
-  const auto lift = [&] {
-    agent.astray = true;
-    ++agent.displaced;
-    agent.status(wire::DriveState::kFailed, order, 1, "Was I lifted? I look where I am.");
-  };
-  const auto look = [&](unsigned room) {
-    agent.look(room);
-    const auto belief = agent.await<wire::BeliefReport>(milliseconds(60'000));
-    ASSERT_TRUE(belief);
-  };
-  const milliseconds stands(3100);
-  lift();
-  for (int k = 0; k < 4; ++k) look(1);
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(300))) << "it may be in somebody's hands still";
-  lift();
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(stands)) << "and it was; nothing is seen of where it stands now";
-  for (int k = 0; k < 3; ++k) look(2);
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(300))) << "it has not looked enough yet";
-  json now = mission_now(sent.json());
-  EXPECT_EQ(now.at("state"), "driving");
-  EXPECT_EQ(now.at("reason"), "Was I lifted? I look where I am.");
-  look(2);
-  order = agent.await<wire::MissionOrder>();
-  ASSERT_TRUE(order) << mission_now(sent.json()).dump();
-  EXPECT_NE(order->path.front().place, before);
-  ASSERT_TRUE(order->surroundings);
-  EXPECT_GT(order->surroundings->start_probability, 0.5);
-  now = mission_now(sent.json());
-  EXPECT_NE(now.at("reason").get<std::string>().find("I go on from there"), std::string::npos) << now.dump();
-  // Put down where the map knows nothing, it is sent on from the likeliest place, and finds out for itself.
-  agent.astray = false;
-  agent.status(wire::DriveState::kDriving, order, 1);
-  wait_for_state(sent.json(), "driving");
-  lift();
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(stands));
-  for (unsigned k = 0; k < 4; ++k) look(60 + k);
-  order = agent.await<wire::MissionOrder>();
-  ASSERT_TRUE(order) << mission_now(sent.json()).dump();
-  ASSERT_TRUE(order->surroundings);
-  EXPECT_LT(order->surroundings->start_probability, 0.5);
-  // One that shows nothing any more is not waited for for ever.
-  agent.astray = false;
-  agent.status(wire::DriveState::kDriving, order, 1);
-  wait_for_state(sent.json(), "driving");
-  lift();
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(16'000)));
-  now = wait_for_state(sent.json(), "failed");
-  EXPECT_EQ(now.at("reason"), "Was I lifted? I look where I am.");
-}
-
 TEST_F(DrivingTest, AMissionThatLastsTooLongIsStopped) {
   add_robot();
   put_on_map();

@@ -24,6 +24,34 @@ class LostTest : public DrivingTest {
     lease = take_lease(*admin);
     find_itself(agent);
   }
+  /// Connects, is sent home, and drives.
+  void set_off() {
+    connect();
+    sent = send_home(lease);
+    first = agent.await<wire::MissionOrder>();
+    ASSERT_TRUE(first);
+    agent.status(wire::DriveState::kDriving, first, 1);
+    wait_for_state(sent.json(), "driving");
+  }
+  /// Sets off, gets lost, and gives up.
+  void give_up(const char* reason) {
+    ASSERT_NO_FATAL_FAILURE(set_off());
+    ASSERT_NO_FATAL_FAILURE(get_lost());
+    agent.status(wire::DriveState::kFailed, first, 1, reason);
+  }
+  void look(unsigned room) {
+    agent.look(room);
+    ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
+  }
+  /// Looks about until it is sent on, some times at most.
+  std::optional<wire::MissionOrder> sent_on_after_looks(int most) {
+    std::optional<wire::MissionOrder> next;
+    for (int looks = 0; looks < most && !next; ++looks) {
+      look(1);
+      next = agent.await<wire::MissionOrder>(milliseconds(300));
+    }
+    return next;
+  }
   /// Looks at what is in no map until the belief is lost.
   void get_lost() {
     for (unsigned room = 70; room < 90; ++room) {
@@ -38,6 +66,8 @@ class LostTest : public DrivingTest {
 
   FakeAgent agent;
   std::string lease;
+  Answer sent;
+  std::optional<wire::MissionOrder> first;
 };
 
 TEST_F(LostTest, ARobotThatHasSeenNothingIsSentNowhere) {
@@ -57,7 +87,7 @@ TEST_F(LostTest, ALostRobotIsSentFromTheLikeliestPlaceAndLooksAroundFirst) {
   const double surely = agent.await<wire::MissionOrder>().value().surroundings.value().start_probability;
   get_lost();
   ASSERT_TRUE(belief().at("lost").get<bool>());
-  const Answer sent = send_home(lease);
+  sent = send_home(lease);
   ASSERT_EQ(sent.status, 201) << sent.body;
   EXPECT_EQ(sent.json().at("reason"), kLooksAround);
   const auto order = agent.await<wire::MissionOrder>();
@@ -77,13 +107,8 @@ TEST_F(LostTest, ALostRobotIsSentFromTheLikeliestPlaceAndLooksAroundFirst) {
 }
 
 TEST_F(LostTest, AfterAFailedDriveALostRobotGoesOnFromItsOwnEstimate) {
-  connect();
-  const Answer sent = send_home(lease);
-  const auto first = agent.await<wire::MissionOrder>();
-  ASSERT_TRUE(first);
+  ASSERT_NO_FATAL_FAILURE(set_off());
   ASSERT_GE(first->path.size(), 3U);
-  agent.status(wire::DriveState::kDriving, first, 1);
-  wait_for_state(sent.json(), "driving");
   get_lost();
   agent.estimate = wire::EstimateReport{first->path[1].place, 0.85};
   agent.status(wire::DriveState::kFailed, first, 2, "The way is blocked.");
@@ -96,13 +121,8 @@ TEST_F(LostTest, AfterAFailedDriveALostRobotGoesOnFromItsOwnEstimate) {
 }
 
 TEST_F(LostTest, AfterAFailedDriveTheRobotsOwnEstimateIsWhereItBegins) {
-  connect();
-  const Answer sent = send_home(lease);
-  const auto first = agent.await<wire::MissionOrder>();
-  ASSERT_TRUE(first);
+  ASSERT_NO_FATAL_FAILURE(set_off());
   ASSERT_GE(first->path.size(), 3U);
-  agent.status(wire::DriveState::kDriving, first, 1);
-  wait_for_state(sent.json(), "driving");
   ASSERT_FALSE(belief().at("lost").get<bool>());
   ASSERT_NE(belief().at("place"), first->path[1].place.str());
   agent.estimate = wire::EstimateReport{first->path[1].place, 0.97};
@@ -114,13 +134,8 @@ TEST_F(LostTest, AfterAFailedDriveTheRobotsOwnEstimateIsWhereItBegins) {
 }
 
 TEST_F(LostTest, AfterADriveAtOddsWithTheBeliefBothAreAsProbable) {
-  connect();
-  const Answer sent = send_home(lease);
-  const auto first = agent.await<wire::MissionOrder>();
-  ASSERT_TRUE(first);
+  ASSERT_NO_FATAL_FAILURE(set_off());
   ASSERT_GE(first->path.size(), 3U);
-  agent.status(wire::DriveState::kDriving, first, 1);
-  wait_for_state(sent.json(), "driving");
   agent.estimate = wire::EstimateReport{first->path[1].place, 0.5};
   agent.status(wire::DriveState::kFailed, first, 2, "I am not sure where I am: the map says another place.");
   const auto second = agent.await<wire::MissionOrder>();
@@ -130,56 +145,78 @@ TEST_F(LostTest, AfterADriveAtOddsWithTheBeliefBothAreAsProbable) {
 }
 
 TEST_F(LostTest, AfterAFailedDriveWithNeitherBeliefNorEstimateItLooksForAWhileAndEnds) {
-  connect();
-  const Answer sent = send_home(lease);
-  const auto first = agent.await<wire::MissionOrder>();
-  ASSERT_TRUE(first);
-  agent.status(wire::DriveState::kDriving, first, 1);
-  wait_for_state(sent.json(), "driving");
-  get_lost();
-  agent.status(wire::DriveState::kFailed, first, 1, "I am not sure where I am.");
+  ASSERT_NO_FATAL_FAILURE(give_up("I am not sure where I am."));
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(1000)));
   EXPECT_EQ(mission_now(sent.json()).at("state"), "driving");
   EXPECT_EQ(mission_now(sent.json()).at("reason"), "I am not sure where I am. I look where I am.");
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(15'000)));
-  EXPECT_EQ(wait_for_state(sent.json(), "failed").at("state"), "failed");
+  const json now = wait_for_state(sent.json(), "failed");
+  EXPECT_EQ(now.at("state"), "failed");
+  EXPECT_EQ(now.at("reason"), "I am not sure where I am.");
+}
+
+TEST_F(LostTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
+  ASSERT_NO_FATAL_FAILURE(set_off());
+  auto order = first;
+  const PlaceId before = order->path.front().place;
+  const auto lift = [&] {
+    agent.astray = true;
+    ++agent.displaced;
+    agent.status(wire::DriveState::kFailed, order, 1, "Was I lifted? I look where I am.");
+  };
+  const milliseconds stands(3100);
+  lift();
+  for (int k = 0; k < 4; ++k) look(1);
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(300))) << "it may be in somebody's hands still";
+  lift();
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(stands)) << "and it was; nothing is seen of where it stands now";
+  for (int k = 0; k < 3; ++k) look(2);
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(300))) << "it has not looked enough yet";
+  json now = mission_now(sent.json());
+  EXPECT_EQ(now.at("state"), "driving");
+  EXPECT_EQ(now.at("reason"), "Was I lifted? I look where I am.");
+  look(2);
+  order = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(order) << mission_now(sent.json()).dump();
+  EXPECT_NE(order->path.front().place, before);
+  ASSERT_TRUE(order->surroundings);
+  EXPECT_GT(order->surroundings->start_probability, 0.5);
+  now = mission_now(sent.json());
+  EXPECT_NE(now.at("reason").get<std::string>().find("I go on from there"), std::string::npos) << now.dump();
+  // Put down where the map knows nothing, it is sent on from the likeliest place, and finds out for itself.
+  agent.astray = false;
+  agent.status(wire::DriveState::kDriving, order, 1);
+  wait_for_state(sent.json(), "driving");
+  lift();
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(stands));
+  for (unsigned k = 0; k < 4; ++k) look(60 + k);
+  order = agent.await<wire::MissionOrder>();
+  ASSERT_TRUE(order) << mission_now(sent.json()).dump();
+  ASSERT_TRUE(order->surroundings);
+  EXPECT_LT(order->surroundings->start_probability, 0.5);
+  // One that shows nothing any more is not waited for for ever.
+  agent.astray = false;
+  agent.status(wire::DriveState::kDriving, order, 1);
+  wait_for_state(sent.json(), "driving");
+  lift();
+  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(16'000)));
+  now = wait_for_state(sent.json(), "failed");
+  EXPECT_EQ(now.at("reason"), "Was I lifted? I look where I am.");
 }
 
 TEST_F(LostTest, LiftedWhileItIsLookedForItStands) {
-  connect();
-  const Answer sent = send_home(lease);
-  const auto first = agent.await<wire::MissionOrder>();
-  ASSERT_TRUE(first);
-  agent.status(wire::DriveState::kDriving, first, 1);
-  wait_for_state(sent.json(), "driving");
-  get_lost();
-  agent.status(wire::DriveState::kFailed, first, 1, "I do not recognise the way any more.");
+  ASSERT_NO_FATAL_FAILURE(give_up("I do not recognise the way any more."));
   ++agent.displaced;
   agent.status(wire::DriveState::kFailed, first, 1, "I do not recognise the way any more.");
-  for (int looks = 0; looks < 6; ++looks) {
-    agent.look(1);
-    ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
-  }
+  for (int looks = 0; looks < 6; ++looks) look(1);
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(400))) << "it may be in somebody's hands";
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(3000)));
-  std::optional<wire::MissionOrder> second;
-  for (int looks = 0; looks < 6 && !second; ++looks) {
-    agent.look(1);
-    ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
-    second = agent.await<wire::MissionOrder>(milliseconds(300));
-  }
+  const auto second = sent_on_after_looks(6);
   EXPECT_TRUE(second) << mission_now(sent.json()).dump();
 }
 
 TEST_F(LostTest, TheRidersHandEndsWhatIsLookedFor) {
-  connect();
-  const Answer sent = send_home(lease);
-  const auto first = agent.await<wire::MissionOrder>();
-  ASSERT_TRUE(first);
-  agent.status(wire::DriveState::kDriving, first, 1);
-  wait_for_state(sent.json(), "driving");
-  get_lost();
-  agent.status(wire::DriveState::kFailed, first, 1, "I do not recognise the way any more.");
+  ASSERT_NO_FATAL_FAILURE(give_up("I do not recognise the way any more."));
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(300)));
   agent.status(wire::DriveState::kStopped, first, 1, "The rider has taken over.");
   const auto now = wait_for_state(sent.json(), "stopped");
@@ -188,33 +225,16 @@ TEST_F(LostTest, TheRidersHandEndsWhatIsLookedFor) {
 }
 
 TEST_F(LostTest, AfterAFailedDriveItIsSentOnOnceTheBeliefSaysWhereItIs) {
-  connect();
-  const Answer sent = send_home(lease);
-  const auto first = agent.await<wire::MissionOrder>();
-  ASSERT_TRUE(first);
-  agent.status(wire::DriveState::kDriving, first, 1);
-  wait_for_state(sent.json(), "driving");
-  get_lost();
-  agent.status(wire::DriveState::kFailed, first, 1, "I do not recognise the way any more.");
+  ASSERT_NO_FATAL_FAILURE(give_up("I do not recognise the way any more."));
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(400)));
   EXPECT_EQ(mission_now(sent.json()).at("state"), "driving");
-  std::optional<wire::MissionOrder> second;
-  for (int looks = 0; looks < 12 && !second; ++looks) {
-    agent.look(1);
-    ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
-    second = agent.await<wire::MissionOrder>(milliseconds(300));
-  }
+  const auto second = sent_on_after_looks(12);
   ASSERT_TRUE(second) << mission_now(sent.json()).dump();
   EXPECT_EQ(second->path.front().place.str(), belief().at("place").get<std::string>());
 }
 
 TEST_F(LostTest, AfterAFailedDriveItIsToldHowProbableItsStartIs) {
-  connect();
-  const Answer sent = send_home(lease);
-  const auto first = agent.await<wire::MissionOrder>();
-  ASSERT_TRUE(first);
-  agent.status(wire::DriveState::kDriving, first, 1);
-  wait_for_state(sent.json(), "driving");
+  ASSERT_NO_FATAL_FAILURE(set_off());
   agent.look(1);
   ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
   agent.status(wire::DriveState::kFailed, first, 1, "The way is blocked.");
