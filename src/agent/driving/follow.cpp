@@ -224,8 +224,13 @@ FollowResult follow_path(FollowState& state, const VisualPath& path, const featu
 
 }  // namespace
 
-double share_when_here(const VisualPath& path) {
-  return path.alone() ? kAloneShare : homing::VisualHoming::kLeastShare;
+double share_when_here(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
+  if (path.alone()) return kAloneShare;
+  // A few features of things far off agree with any place: that is for those who may be metres away. By night less than
+  // the usual share of a view taken by day may be left at its own spot.
+  constexpr double kOfLeast = 0.5;
+  const double least = homing::VisualHoming::kLeastShare;
+  return is_certain_of_arrival(state, path, config) ? kOfLeast * least : least;
 }
 
 double drives_above(const FollowState& state, const FollowConfig& config) {

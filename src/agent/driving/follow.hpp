@@ -107,8 +107,8 @@ void see_ways(FollowState& state, const VisualPath& path, std::span<const Eigen:
 double drives_above(const FollowState& state, const FollowConfig& config);
 
 /// The share of the destination's features that must have been recognised for it to be right here, whatever the
-/// geometry says: more where no map says how far it is.
-double share_when_here(const VisualPath& path);
+/// geometry says: more where no map says how far it is, less where the estimate is certain that the robot is there.
+double share_when_here(const FollowState& state, const VisualPath& path, const FollowConfig& config);
 
 /// Whether the next picture is better recognised (`follow`) than tracked (`track`).
 bool wants_features(const FollowState& state);

@@ -74,7 +74,7 @@ bool is_reached(FollowState& state, const VisualPath& path, const FollowConfig& 
   state.behind = behind ? state.behind + 1 : 0;
   const bool coincides =
       result.vector->median_parallax_rad < config.homing.arrived_parallax_rad && state.alike > config.alike_share;
-  if (state.most_alike < share_when_here(path)) return false;
+  if (state.most_alike < share_when_here(state, path, config)) return false;
   return state.measured ? distance_m < config.reached_m
                         : coincides || (state.behind >= 2 && distance_m < config.nearby_m);
 }

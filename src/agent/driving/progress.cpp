@@ -39,7 +39,7 @@ std::optional<bool> is_near(const DrivingState& state, const DrivingConfig& conf
   if (!state.follow.view.known() || state.follow.index + 1 != state.mission->path.size()) return false;
   constexpr double kKnownTo_m = 0.1;  // from pictures before, where somebody stands before the camera
   if (!state.follow.measured && state.follow.view.doubt_m() > kKnownTo_m) return std::nullopt;
-  if (state.follow.most_alike < share_when_here(state.mission->path)) return false;
+  if (state.follow.most_alike < share_when_here(state.follow, state.mission->path, config.follow)) return false;
   const auto goal_m = goal(state.follow, state.follow.odometry, config.follow);
   constexpr double kStaysNear_m = 0.05;  // measured a little farther off, it is still near
   const double near_m = config.near_m + (state.near_since_ms ? kStaysNear_m : 0.0);

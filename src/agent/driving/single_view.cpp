@@ -76,9 +76,9 @@ bool vote_instead(FollowState& state, const VisualPath& path, const features::Ap
 
 /// Whether an answer says that the view is right here although hardly anything of it is recognised: things far off show
 /// no parallax, and a few of them agree with any place between here and there. `most_alike`: of it so far.
-bool is_hollow(const homing::TargetSeen& answer, double most_alike, const VisualPath& path) {
+bool is_hollow(const homing::TargetSeen& answer, double most_alike) {
   constexpr double kHere_m = 0.6;
-  return answer.target_m && answer.target_m->norm() < kHere_m && most_alike < share_when_here(path);
+  return answer.target_m && answer.target_m->norm() < kHere_m && most_alike < kAloneShare;
 }
 
 /// Whether a local map of few features has turned round: it says that the view lies elsewhere than the bearings say
@@ -114,7 +114,7 @@ FollowResult home_to_single_view(FollowState& state, const VisualPath& path, con
   const auto answer = visual.update(seen, view, state.odometry, prior, frame, seed);
   const double share = answer ? homing::shared_share(seen, view, answer->vector.inliers) : 0.0;
   const double most_alike = std::max(share, state.most_alike);
-  const bool hollow = answer && is_hollow(*answer, most_alike, path);
+  const bool hollow = answer && is_hollow(*answer, most_alike);
   bool taken = false;
   if (hollow) state.view = ViewTrack();
   if (hollow || (answer && is_turned_round(state, *answer, most_alike))) {

@@ -92,6 +92,21 @@ TEST_F(AskingTest, CertainOfItsDestinationItAsksNobody) {
   EXPECT_EQ(state_.asking.number, 0);
 }
 
+TEST_F(AskingTest, CertainByTheMapItNeedsToRecogniseLessOfItsDestination) {
+  tick({placed_mission(1)});
+  for (int k = 0; k < 1000 && !state_.near_since_ms && state_.drive == DriveState::kDriving; ++k) permitted();
+  ASSERT_EQ(state_.drive, DriveState::kDriving) << state_.reason;
+  hidden_ = true;
+  state_.follow.most_alike = 0.6 * homing::VisualHoming::kLeastShare;
+  permitted();
+  EXPECT_TRUE(state_.near_since_ms) << "by night not more may be left of it";
+  doubt(kProbable);
+  permitted();
+  EXPECT_FALSE(state_.near_since_ms) << "so little of it may be seen from elsewhere";
+  for (int k = 0; k < 40; ++k) permitted();
+  EXPECT_EQ(state_.drive, DriveState::kDriving) << state_.reason;
+}
+
 TEST_F(AskingTest, AYesMakesAnArrivalOfWhatWasProbableAlready) {
   ASSERT_NO_FATAL_FAILURE(drive_until_it_asks());
   const double before = arrival();
