@@ -14,11 +14,13 @@ Cases, each so many missions between rooms drawn at random after a tour of all r
               by day in narrow_house:1, whose doors are 0.85 m wide
   home, home-night, home-people
               the same in the world --home (a world.json)
+  offices, offices-night
+              by day and at night between the eight offices of offices:1, which look alike
 Two at once, each through `homeward simulate run`; results stay in DIR as one file of JSON lines a case, and a case that is
 there already is only counted: delete its file to drive it again. --record keeps a recording of each mission beside it.
 A mission counts as right when it arrived within 0.3 m of its destination's true pose. Prints one table, names the missions
 that are not right and ends with 1 when a bound does not hold: of 100 by day at least 98, of 30 at night 27, with people 28,
-with moved furniture or narrow doors 27, and no collision in any.
+with moved furniture, narrow doors or offices 27, and no collision in any.
 """
 
 import argparse
@@ -45,7 +47,10 @@ CASES = {  # missions, share that must be right, what their entry in the scenari
     "home": (100, 0.98, {}),
     "home-night": (30, 0.9, {"light": "night"}),
     "home-people": (30, 28 / 30, {"people": 3}),
+    "offices": (30, 0.9, {}),
+    "offices-night": (30, 0.9, {"light": "night"}),
 }
+GENERATED = {"house": "house:1", "narrow": "narrow_house:1", "offices": "offices:1"}
 
 
 def rooms_of(world):
@@ -67,7 +72,8 @@ def drive(options, case):
     if out.is_file():
         return
     count, _, entry = CASES[case]
-    world = {"house": "house:1", "narrow": "narrow_house:1"}.get(case.split("-")[0])
+    world = GENERATED.get(case.split("-")[0])
+    rooms = "all" if world == "offices:1" else HOUSE if world else rooms_of(options.home)
     scenario = {
         "format": "homeward-scenario",
         "version": 1,
@@ -75,7 +81,7 @@ def drive(options, case):
         "seed": options.seed,
         "camera": {"model": "hyperbolic_mirror"},
         "robot": "chair" if "-chair" in case else "disc",
-        "tour": {"rooms": HOUSE if world else rooms_of(options.home), "light": "day"},
+        "tour": {"rooms": rooms, "light": "day"},
         "missions": [{"random": options.count or count, **entry}],
     }
     file = options.work / f"{case}.json"
