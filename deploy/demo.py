@@ -173,8 +173,8 @@ def main():
         server.call("PUT", f"/api/v1/robots/{robot}/map", {"map": map_id})
         (data / "truth.jsonl").unlink(missing_ok=True)
         processes.append(subprocess.Popen(
-            [binaries / "homeward-agent", "run", "--server", address, "--robot", robot, "--token-file", token_file,
-             "--driver", "simulator", "--world", WORLD, "--start-room", "bedroom",
+            [binaries / "homeward-simulated-agent", "run", "--server", address, "--robot", robot, "--token-file", token_file,
+             "--world", WORLD, "--start-room", "bedroom",
              "--truth-file", data / "truth.jsonl"], stdout=logs["agent"], stderr=subprocess.STDOUT))
         if arguments.headless:
             return 0 if all(drive(server, robot, map_id, label, data) for label in arguments.to.split(",")) else 1

@@ -16,5 +16,5 @@ web/build.sh
 mkdir -p build
 echo "demo: building (the first time takes some minutes)"
 cmake --preset release -Wno-dev >build/configure-release.log 2>&1 || { cat build/configure-release.log >&2; exit 1; }
-cmake --build --preset release -j "$(nproc)" --target homeward homeward-server homeward-agent
+cmake --build --preset release -j "$(nproc)" --target homeward homeward-server homeward-agent homeward-simulated-agent
 exec python3 deploy/demo.py --bin build/release/bin --web web/dist "$@"

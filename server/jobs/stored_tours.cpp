@@ -8,8 +8,8 @@
 
 namespace homeward::server {
 
-std::vector<const pipeline::TourSource*> StoredTours::views() const {
-  std::vector<const pipeline::TourSource*> views;
+std::vector<const TourSource*> StoredTours::views() const {
+  std::vector<const TourSource*> views;
   for (const auto& source : sources) views.push_back(source.get());
   return views;
 }

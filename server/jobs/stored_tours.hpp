@@ -5,17 +5,17 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/tour.hpp"
 #include "db/store.hpp"
-#include "pipeline/tour.hpp"
 
 namespace homeward::server {
 
 /// Tours of the store with one camera, opened for the pipeline.
 struct StoredTours {
-  std::vector<std::unique_ptr<pipeline::TourSource>> sources;
+  std::vector<std::unique_ptr<TourSource>> sources;
   camera::CameraConfig camera;
 
-  [[nodiscard]] std::vector<const pipeline::TourSource*> views() const;
+  [[nodiscard]] std::vector<const TourSource*> views() const;
 };
 
 /// Errors: kNotFound.

@@ -37,7 +37,7 @@ Status check_file_name(const std::string& file) {
   return {};
 }
 
-class StoredTour : public pipeline::TourSource {
+class StoredTour : public TourSource {
  public:
   StoredTour(db::Store& store, TourId id, std::vector<db::TourImage> stored, std::map<std::int64_t, RangeSweep> sweeps,
              const std::vector<wire::TourMark>& marks)
@@ -49,8 +49,8 @@ class StoredTour : public pipeline::TourSource {
     }
     for (const wire::TourMark& mark : marks) marks_.push_back({mark.image, mark.label});
   }
-  [[nodiscard]] const std::vector<pipeline::TourImage>& images() const override { return images_; }
-  [[nodiscard]] const std::vector<pipeline::TourMark>& marks() const override { return marks_; }
+  [[nodiscard]] const std::vector<TourImage>& images() const override { return images_; }
+  [[nodiscard]] const std::vector<TourMark>& marks() const override { return marks_; }
   [[nodiscard]] Result<Image> read(std::size_t index) const override {
     const auto bytes = store_.image_bytes(id_, stored_.at(index).number);
     if (!bytes) return pass_on(bytes);
@@ -61,8 +61,8 @@ class StoredTour : public pipeline::TourSource {
   db::Store& store_;
   TourId id_;
   std::vector<db::TourImage> stored_;
-  std::vector<pipeline::TourImage> images_;
-  std::vector<pipeline::TourMark> marks_;
+  std::vector<TourImage> images_;
+  std::vector<TourMark> marks_;
 };
 
 }  // namespace
@@ -186,7 +186,7 @@ Result<wire::TourView> TourService::complete(const TourId& id) {
   return get(id);
 }
 
-Result<std::unique_ptr<pipeline::TourSource>> stored_tour(db::Store& store, const TourId& id) {
+Result<std::unique_ptr<TourSource>> stored_tour(db::Store& store, const TourId& id) {
   auto images = store.tour_images(id);
   if (!images) return pass_on(images);
   auto sweeps = store.sweeps(id);

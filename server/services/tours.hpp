@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "core/tour.hpp"
 #include "db/store.hpp"
-#include "pipeline/tour.hpp"
 
 namespace homeward::server {
 
@@ -49,7 +49,7 @@ class TourService {
 };
 
 /// A complete tour of the store as the pipeline reads it. Image ids are "tour id/file".
-Result<std::unique_ptr<pipeline::TourSource>> stored_tour(db::Store& store, const TourId& id);
+Result<std::unique_ptr<TourSource>> stored_tour(db::Store& store, const TourId& id);
 
 /// The camera of a stored tour.
 Result<camera::CameraConfig> camera_of(const db::Tour& tour);

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "agent/files/write_file.hpp"
 #include "cli/command.hpp"
 #include "cli/simulate.hpp"
+#include "files/write_file.hpp"
 #include "imageio/decode.hpp"
 #include "wire/camera_json.hpp"
 
@@ -34,7 +34,7 @@ RowSink folder_sink(const fs::path& out, const camera::CameraConfig& camera) {
              const std::string& condition) -> Status {
     const fs::path folder = out / room / row.name;
     if (!written->insert(folder.string()).second) return {};  // original_1 belongs to both experiments
-    if (const Status made = agent::make_folder(folder); !made) return made;
+    if (const Status made = files::make_folder(folder); !made) return made;
     std::string table = "filename,x_m,y_m,theta_rad,room\n";
     for (std::size_t i = 0; i < row.pictures.size(); ++i) {
       char line[120];
@@ -43,13 +43,13 @@ RowSink folder_sink(const fs::path& out, const camera::CameraConfig& camera) {
       table += line;
       const auto png = imageio::encode_png(row.pictures[i]);
       const std::string name = std::string(line).substr(0, 9);
-      const Status kept = agent::write_file(folder / name, {reinterpret_cast<const char*>(png.data()), png.size()});
+      const Status kept = files::write_file(folder / name, {reinterpret_cast<const char*>(png.data()), png.size()});
       if (!kept) return kept;
     }
     for (const auto& [name, text] : {std::pair<std::string, std::string>{"poses.csv", table},
                                      {"camera.json", wire::camera_to_json(camera).dump(2) + "\n"},
                                      {"condition.json", condition + "\n"}}) {
-      if (const Status kept = agent::write_file(folder / name, text); !kept) return kept;
+      if (const Status kept = files::write_file(folder / name, text); !kept) return kept;
     }
     return {};
   };
@@ -65,7 +65,7 @@ Status run(const BenchOptions& options) {
     if (fs::exists(options.out, error) && !fs::is_empty(options.out, error)) {
       return fail(ErrorCode::kConflict, "The folder holds something already; name a new or empty one.", options.out);
     }
-    if (const Status made = agent::make_folder(options.out); !made) return made;
+    if (const Status made = files::make_folder(options.out); !made) return made;
     keep = folder_sink(options.out, *config);
   }
   auto bar = std::make_unique<ProgressBar>();
@@ -74,8 +74,8 @@ Status run(const BenchOptions& options) {
   if (!tables) return pass_on(tables);
   if (!options.out.empty()) {
     const fs::path out(options.out);
-    if (const Status kept = agent::write_file(out / "tables.txt", text_of(*tables, bench)); !kept) return kept;
-    if (const Status kept = agent::write_file(out / "tables.json", json_of(*tables, bench)); !kept) return kept;
+    if (const Status kept = files::write_file(out / "tables.txt", text_of(*tables, bench)); !kept) return kept;
+    if (const Status kept = files::write_file(out / "tables.json", json_of(*tables, bench)); !kept) return kept;
   }
   std::cout << (options.json ? json_of(*tables, bench) : text_of(*tables, bench));
   return {};

@@ -9,12 +9,12 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "agent/files/read_file.hpp"
-#include "agent/files/tour_folder.hpp"
-#include "agent/files/write_file.hpp"
 #include "camera/mirror_ring.hpp"
 #include "cli/command.hpp"
 #include "cli/residual_picture.hpp"
+#include "files/read_file.hpp"
+#include "files/tour_folder.hpp"
+#include "files/write_file.hpp"
 #include "imageio/decode.hpp"
 #include "wire/camera_json.hpp"
 
@@ -46,11 +46,11 @@ struct Pictures {
 
 /// All pictures of a folder that can be read and have the size of the first; the others are told and skipped.
 Result<Pictures> read_all(const std::string& folder) {
-  const auto files = agent::pictures_in(folder);
+  const auto files = files::pictures_in(folder);
   if (!files) return pass_on(files);
   Pictures pictures;
   for (const fs::path& file : *files) {
-    auto image = agent::read_picture(file);
+    auto image = files::read_picture(file);
     if (!image) {
       tell({image.error().code, "Skipped: " + image.error().message, image.error().where});
       continue;
@@ -194,9 +194,9 @@ Status calibrate(const CalibrateOptions& options) {
     const std::vector<std::uint8_t> png =
         imageio::encode_png(residual_picture(pictures->images.front(), views, *result));
     const std::string bytes(png.begin(), png.end());
-    if (const Status drawn = agent::write_file(options.residuals, bytes); !drawn) return drawn;
+    if (const Status drawn = files::write_file(options.residuals, bytes); !drawn) return drawn;
   }
-  const Status written = agent::write_file(options.out, wire::camera_to_json(result->config).dump(2) + "\n");
+  const Status written = files::write_file(options.out, wire::camera_to_json(result->config).dump(2) + "\n");
   if (!written) return written;
   if (options.json) {
     std::cout << to_json(*result, views).dump() << "\n";

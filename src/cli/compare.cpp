@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "agent/files/read_file.hpp"
-#include "agent/files/write_file.hpp"
 #include "cli/command.hpp"
 #include "features/aggregate.hpp"
 #include "features/global.hpp"
+#include "files/read_file.hpp"
+#include "files/write_file.hpp"
 #include "imageio/decode.hpp"
 #include "matching/retrieval_index.hpp"
 #include "matching/visual_distance.hpp"
@@ -36,7 +36,7 @@ struct View {
 };
 
 Result<View> view_of(const pipeline::Eye& eye, const std::string& file) {
-  auto picture = agent::read_picture(file);
+  auto picture = files::read_picture(file);
   if (!picture) return pass_on(picture);
   auto panorama = eye.unwrap(*picture);
   if (!panorama) return fail(panorama.error().code, panorama.error().message, file);
@@ -112,7 +112,7 @@ Status compare_by_features(const pipeline::Eye& eye, const std::vector<View>& vi
                                                     verified ? std::optional(*verified) : std::nullopt);
     const auto png = imageio::encode_png(drawing);
     const std::string_view bytes(reinterpret_cast<const char*>(png.data()), png.size());
-    if (Status written = agent::write_file(options.drawing, bytes); !written) return written;
+    if (Status written = files::write_file(options.drawing, bytes); !written) return written;
   }
   return {};
 }
@@ -136,7 +136,7 @@ Status compare(const CompareOptions& options) {
   if (!options.drawing.empty() && (!by_features || options.pictures.size() != 2)) {
     return fail(ErrorCode::kInvalidInput, "Two pictures compared by features can be drawn, nothing else.", "--draw");
   }
-  const auto config = agent::read_camera(options.camera);
+  const auto config = files::read_camera(options.camera);
   if (!config) return pass_on(config);
   const auto camera = camera::Camera::create(*config);
   if (!camera) return pass_on(camera);

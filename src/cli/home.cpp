@@ -76,7 +76,7 @@ Status answer_pairs(const BothEnds& ends, const HomeOptions& options) {
 Status answer_by_map(AppearanceGallery& current, const HomeOptions& options) {
   const auto stored = db::load_map(options.map);
   if (!stored) return pass_on(stored);
-  const auto config = agent::read_camera(options.pairs.camera);
+  const auto config = files::read_camera(options.pairs.camera);
   if (!config) return pass_on(config);
   auto eye = pipeline::eye_for(stored->map, *config);
   if (!eye) return pass_on(eye);

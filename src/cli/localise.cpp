@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "agent/files/read_file.hpp"
-#include "agent/files/tour_folder.hpp"
 #include "cli/command.hpp"
 #include "db/map_file.hpp"
+#include "files/read_file.hpp"
+#include "files/tour_folder.hpp"
 #include "pipeline/belief_tracker.hpp"
 
 namespace homeward::cli {
@@ -40,7 +40,7 @@ nlohmann::json line_of(const std::string& image, const localisation::Belief& bel
 Result<std::vector<std::optional<Pose2>>> odometry_of(const LocaliseOptions& options, std::size_t pictures) {
   std::vector<std::optional<Pose2>> poses(pictures);
   if (options.no_odometry) return poses;
-  const auto folder = agent::TourFolder::open(options.images);
+  const auto folder = files::TourFolder::open(options.images);
   if (!folder) return pass_on(folder);
   for (std::size_t i = 0; i < pictures; ++i) poses[i] = folder->images()[i].odometry;
   return poses;
@@ -49,21 +49,21 @@ Result<std::vector<std::optional<Pose2>>> odometry_of(const LocaliseOptions& opt
 Status localise(const LocaliseOptions& options) {
   auto stored = db::load_map(options.map);
   if (!stored) return pass_on(stored);
-  const auto files = agent::pictures_in(options.images);
+  const auto files = files::pictures_in(options.images);
   if (!files) return pass_on(files);
   const auto odometry = odometry_of(options, files->size());
   if (!odometry) return pass_on(odometry);
   const auto map = std::make_shared<const map::TopologicalMap>(std::move(stored->map));
   camera::CameraConfig camera = map->camera;
   if (!options.camera.empty()) {
-    const auto own = agent::read_camera(options.camera);
+    const auto own = files::read_camera(options.camera);
     if (!own) return pass_on(own);
     camera = *own;
   }
   auto tracker = pipeline::BeliefTracker::create(map, camera);
   if (!tracker) return pass_on(tracker);
   for (std::size_t i = 0; i < files->size(); ++i) {
-    const auto picture = agent::read_picture((*files)[i]);
+    const auto picture = files::read_picture((*files)[i]);
     if (!picture) return pass_on(picture);
     if (options.restart_every > 0 && i % static_cast<std::size_t>(options.restart_every) == 0) tracker->restart();
     const auto begin = std::chrono::steady_clock::now();

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
-#include "agent/files/read_file.hpp"
-#include "agent/files/tour_folder.hpp"
 #include "cli/command.hpp"
+#include "files/read_file.hpp"
+#include "files/tour_folder.hpp"
 #include "pipeline/eye.hpp"
 #include "pipeline/loop_detector.hpp"
 
@@ -30,9 +30,9 @@ double processor_ms() {
 }
 
 Status loops(const LoopsOptions& options) {
-  const auto files = agent::pictures_in(options.images);
+  const auto files = files::pictures_in(options.images);
   if (!files) return pass_on(files);
-  const auto config = agent::read_camera(options.camera);
+  const auto config = files::read_camera(options.camera);
   if (!config) return pass_on(config);
   const auto camera = camera::Camera::create(*config);
   if (!camera) return pass_on(camera);
@@ -47,7 +47,7 @@ Status loops(const LoopsOptions& options) {
   cv::setNumThreads(1);  // one processor is what a robot has to spare, and what is counted
   for (const std::filesystem::path& file : *files) {
     const double begin_ms = processor_ms();
-    const auto picture = agent::read_picture(file);
+    const auto picture = files::read_picture(file);
     if (!picture) return pass_on(picture);
     auto appearance = eye->look(*picture);
     if (!appearance) return fail(appearance.error().code, appearance.error().message, file.string());

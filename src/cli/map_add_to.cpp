@@ -3,10 +3,10 @@
 #include <iostream>
 #include <optional>
 
-#include "agent/files/read_file.hpp"
 #include "cli/command.hpp"
 #include "cli/map_output.hpp"
 #include "db/map_file.hpp"
+#include "files/read_file.hpp"
 #include "map/parts.hpp"
 #include "pipeline/grow_map.hpp"
 #include "wire/build_json.hpp"
@@ -40,7 +40,7 @@ Status add_to_map(const AddToOptions& options, const TourFolders& tours) {
   if (!stored) return pass_on(stored);
   std::optional<camera::CameraConfig> camera;
   if (!options.camera.empty()) {
-    const auto own = agent::read_camera(options.camera);
+    const auto own = files::read_camera(options.camera);
     if (!own) return pass_on(own);
     camera = *own;
   }

@@ -7,12 +7,12 @@
 #include <iostream>
 #include <memory>
 
-#include "agent/files/read_file.hpp"
-#include "agent/files/write_file.hpp"
 #include "cli/command.hpp"
 #include "cli/map.hpp"
 #include "cli/map_output.hpp"
 #include "db/map_file.hpp"
+#include "files/read_file.hpp"
+#include "files/write_file.hpp"
 #include "map/parts.hpp"
 #include "pipeline/build_map.hpp"
 #include "pipeline/report/report_page.hpp"
@@ -52,7 +52,7 @@ Result<std::string> write_report(const MapBuildOptions& options, const pipeline:
   const auto page = pipeline::report_page(built, tours.sources(), report);
   if (!page) return pass_on(page);
   const std::filesystem::path file = std::filesystem::path(options.report) / "report.html";
-  if (const Status written = agent::write_file(file, *page); !written) return pass_on(written);
+  if (const Status written = files::write_file(file, *page); !written) return pass_on(written);
   return file.string();
 }
 
@@ -85,10 +85,10 @@ Status build(const MapBuildOptions& options) {
                       *tours);
   }
   if (options.camera.empty()) return fail(ErrorCode::kInvalidInput, "A new map needs its camera.", "--camera");
-  const auto camera = agent::read_camera(options.camera);
+  const auto camera = files::read_camera(options.camera);
   if (!camera) return pass_on(camera);
   if (!options.report.empty()) {  // before the work: a folder that cannot be made is not told after it
-    if (Status made = agent::make_folder(options.report); !made) return made;
+    if (Status made = files::make_folder(options.report); !made) return made;
   }
   const auto begin = std::chrono::steady_clock::now();
   Result<pipeline::BuiltMap> built;

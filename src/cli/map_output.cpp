@@ -16,7 +16,7 @@ Result<TourFolders> TourFolders::open(const std::vector<std::string>& folders) {
   TourFolders result;
   std::set<std::string> names;
   for (const std::string& folder : folders) {
-    auto tour = agent::TourFolder::open(folder);
+    auto tour = files::TourFolder::open(folder);
     if (!tour) return pass_on(tour);
     const std::string name = map::tour_of(tour->images().front().id);
     if (!names.insert(name).second) {
@@ -28,9 +28,9 @@ Result<TourFolders> TourFolders::open(const std::vector<std::string>& folders) {
   return result;
 }
 
-std::vector<const pipeline::TourSource*> TourFolders::sources() const {
-  std::vector<const pipeline::TourSource*> sources;
-  for (const agent::TourFolder& tour : tours_) sources.push_back(&tour);
+std::vector<const TourSource*> TourFolders::sources() const {
+  std::vector<const TourSource*> sources;
+  for (const files::TourFolder& tour : tours_) sources.push_back(&tour);
   return sources;
 }
 
@@ -44,7 +44,7 @@ Status add_thumbnails(const map::TopologicalMap& map, const TourFolders& tours, 
     wanted.insert(hypothesis.prototype_a);
     wanted.insert(hypothesis.prototype_b);
   }
-  for (const pipeline::TourSource* tour : tours.sources()) {
+  for (const TourSource* tour : tours.sources()) {
     for (std::size_t i = 0; i < tour->images().size(); ++i) {
       const ImageId& id = tour->images()[i].id;
       if (!wanted.contains(id) || thumbnails.contains(id)) continue;

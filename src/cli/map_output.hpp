@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "agent/files/tour_folder.hpp"
 #include "core/result.hpp"
+#include "core/tour.hpp"
 #include "db/map_file.hpp"
+#include "files/tour_folder.hpp"
 #include "map/topological_map.hpp"
-#include "pipeline/tour.hpp"
 
 namespace homeward::cli {
 
@@ -20,10 +20,10 @@ class TourFolders {
  public:
   /// Errors: those of TourFolder::open; kInvalidInput (two folders of one name: their pictures would be the same).
   static Result<TourFolders> open(const std::vector<std::string>& folders);
-  [[nodiscard]] std::vector<const pipeline::TourSource*> sources() const;
+  [[nodiscard]] std::vector<const TourSource*> sources() const;
 
  private:
-  std::vector<agent::TourFolder> tours_;
+  std::vector<files::TourFolder> tours_;
 };
 
 /// Adds thumbnails of what a dashboard shows and `thumbnails` lacks: prototypes, destinations, hypotheses.

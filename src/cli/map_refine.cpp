@@ -5,12 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "agent/files/read_file.hpp"
-#include "agent/files/tour_folder.hpp"
 #include "cli/command.hpp"
 #include "cli/map.hpp"
 #include "cli/map_output.hpp"
 #include "db/map_file.hpp"
+#include "files/read_file.hpp"
+#include "files/tour_folder.hpp"
 #include "pipeline/refine_map.hpp"
 
 namespace homeward::cli {
@@ -67,11 +67,11 @@ void print_result(const pipeline::RefinedMap& refined, const std::string& file) 
 Status refine(const MapRefineOptions& options) {
   auto stored = db::load_map(options.map);
   if (!stored) return pass_on(stored);
-  const auto drive = agent::TourFolder::open(options.images);
+  const auto drive = files::TourFolder::open(options.images);
   if (!drive) return pass_on(drive);
   std::optional<camera::CameraConfig> camera;
   if (!options.camera.empty()) {
-    const auto own = agent::read_camera(options.camera);
+    const auto own = files::read_camera(options.camera);
     if (!own) return pass_on(own);
     camera = *own;
   }

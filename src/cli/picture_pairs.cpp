@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "agent/files/csv.hpp"
+#include "files/csv.hpp"
 
 namespace homeward::cli {
 
@@ -15,7 +15,7 @@ void add_picture_pairs(CLI::App& command, PicturePairs& pairs) {
 }
 
 Result<pipeline::Eye> eye_of(const PicturePairs& pairs) {
-  const auto config = agent::read_camera(pairs.camera);
+  const auto config = files::read_camera(pairs.camera);
   if (!config) return pass_on(config);
   const auto camera = camera::Camera::create(*config);
   if (!camera) return pass_on(camera);
@@ -28,7 +28,7 @@ Status answer_each(const PicturePairs& pairs, const std::string& command, const 
     return fail(ErrorCode::kInvalidInput, "Give either --current and --target, or --pairs.", command);
   }
   if (one_pair) return answer(pairs.current, pairs.target, {});
-  const auto table = agent::read_csv(pairs.pairs);
+  const auto table = files::read_csv(pairs.pairs);
   if (!table) return pass_on(table);
   const auto current = table->column("current");
   const auto target = table->column("target");

@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
-#include "agent/files/read_file.hpp"
 #include "cli/recent.hpp"
 #include "core/result.hpp"
+#include "files/read_file.hpp"
 #include "pipeline/eye.hpp"
 
 namespace homeward::cli {
@@ -48,7 +48,7 @@ class Gallery {
   /// Errors: of reading the file, and of what is made of it, with the file's path as where.
   Result<std::shared_ptr<const Made>> look(const std::filesystem::path& file) {
     return seen_.get(file, [&](const std::filesystem::path& path) -> Result<Made> {
-      const auto picture = agent::read_picture(path);
+      const auto picture = files::read_picture(path);
       if (!picture) return pass_on(picture);
       auto made = make_(eye_, *picture);
       if (made) return made;

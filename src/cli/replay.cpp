@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "agent/recording/replay.hpp"
+#include "recording/replay.hpp"
 
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "agent/recording/export.hpp"
 #include "cli/command.hpp"
+#include "recording/export.hpp"
 
 namespace homeward::cli {
 namespace {
@@ -43,7 +43,7 @@ json to_json(const std::optional<db::WhyStopped>& why) {
           {"last_confidence", or_null(why->last_confidence)}};
 }
 
-json to_json(const agent::ReplayResult& result) {
+json to_json(const recording::ReplayResult& result) {
   json value = {{"mission", result.header.mission},
                 {"label", result.header.label},
                 {"agent", result.header.agent},
@@ -57,7 +57,7 @@ json to_json(const agent::ReplayResult& result) {
                 {"complete", result.complete},
                 {"note", result.note},
                 {"why_stopped", to_json(result.why)}};
-  for (const agent::ReplayDifference& difference : result.differing) {
+  for (const recording::ReplayDifference& difference : result.differing) {
     value["differing"].push_back({{"step", difference.step},
                                   {"what", difference.what},
                                   {"recorded", difference.recorded},
@@ -83,12 +83,12 @@ void print(const db::WhyStopped& why) {
   if (why.last_confidence) std::printf("  confidence       %.2f in the last home vector\n", *why.last_confidence);
 }
 
-void print(const agent::ReplayResult& result) {
+void print(const recording::ReplayResult& result) {
   std::printf("%lld of %lld steps, %lld pictures, %lld vectors: %s\n", static_cast<long long>(result.compared),
               static_cast<long long>(result.steps), static_cast<long long>(result.pictures),
               static_cast<long long>(result.vectors),
               result.same() ? "the same, bit for bit" : (std::to_string(result.differences) + " differences").c_str());
-  for (const agent::ReplayDifference& difference : result.differing) {
+  for (const recording::ReplayDifference& difference : result.differing) {
     std::printf("  step %lld, %s: recorded %s, replayed %s\n", static_cast<long long>(difference.step),
                 difference.what.c_str(), difference.recorded.c_str(), difference.replayed.c_str());
   }
@@ -112,9 +112,9 @@ Status tell_why(const ReplayOptions& options) {
 
 Status run(const ReplayOptions& options) {
   if (options.why) return tell_why(options);
-  if (!options.out.empty()) return agent::export_recording(options.recording, options.out);
+  if (!options.out.empty()) return recording::export_recording(options.recording, options.out);
   ProgressBar bar;
-  const auto result = agent::replay(options.recording, [&](double share) { bar.show("replaying", share); });
+  const auto result = recording::replay(options.recording, [&](double share) { bar.show("replaying", share); });
   if (!result) return pass_on(result);
   if (options.json) {
     std::cout << to_json(*result).dump() << std::endl;

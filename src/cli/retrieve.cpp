@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "agent/files/csv.hpp"
-#include "agent/files/read_file.hpp"
 #include "cli/command.hpp"
 #include "features/aggregate.hpp"
+#include "files/csv.hpp"
+#include "files/read_file.hpp"
 #include "matching/rerank.hpp"
 #include "matching/retrieval_index.hpp"
 #include "pipeline/eye.hpp"
@@ -33,7 +33,7 @@ struct RetrieveOptions {
 
 /// The column `filename` of a table.
 Result<std::vector<std::string>> names_in(const std::string& file) {
-  const auto table = agent::read_csv(file);
+  const auto table = files::read_csv(file);
   if (!table) return pass_on(table);
   const auto column = table->column("filename");
   if (!column) return fail(ErrorCode::kInvalidInput, "The first line must name the column filename.", file);
@@ -44,7 +44,7 @@ Result<std::vector<std::string>> names_in(const std::string& file) {
 }
 
 Result<features::FeatureSet> look(const pipeline::Eye& eye, const fs::path& file) {
-  const auto picture = agent::read_picture(file);
+  const auto picture = files::read_picture(file);
   if (!picture) return pass_on(picture);
   auto appearance = eye.look(*picture);
   if (!appearance) return fail(appearance.error().code, appearance.error().message, file.string());
@@ -135,7 +135,7 @@ std::vector<Found> best_of(const Gallery& gallery, const std::optional<matching:
 }
 
 Status retrieve(const RetrieveOptions& options) {
-  const auto config = agent::read_camera(options.camera);
+  const auto config = files::read_camera(options.camera);
   if (!config) return pass_on(config);
   const auto camera = camera::Camera::create(*config);
   if (!camera) return pass_on(camera);

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "agent/files/read_file.hpp"
-#include "agent/scenario/scenario_run.hpp"
 #include "cli/command.hpp"
 #include "cli/simulate.hpp"
+#include "files/read_file.hpp"
+#include "scenario/scenario_run.hpp"
 
 namespace homeward::cli {
 namespace {
@@ -25,7 +25,7 @@ struct SimulateRunOptions {
   std::vector<int> only;
 };
 
-nlohmann::json to_json(const agent::MissionResult& result) {
+nlohmann::json to_json(const scenario::MissionResult& result) {
   nlohmann::json value = {
       {"from", result.from},
       {"to", result.to},
@@ -46,7 +46,7 @@ nlohmann::json to_json(const agent::MissionResult& result) {
       {"belief_apart_s", result.belief_apart_s},
       {"asked", result.asked}};
   if (result.arrival_probability) value["arrival_probability"] = *result.arrival_probability;
-  for (const agent::StopEvent& stop : result.stops) {
+  for (const scenario::StopEvent& stop : result.stops) {
     value["stops"].push_back({{"t_s", stop.t_s}, {"reason", stop.reason}});
     if (stop.stand_after_s) value["stops"].back()["stand_after_s"] = *stop.stand_after_s;
   }
@@ -57,7 +57,7 @@ nlohmann::json to_json(const agent::MissionResult& result) {
   return value;
 }
 
-nlohmann::json to_json(const agent::CycleTrace& cycle) {
+nlohmann::json to_json(const scenario::CycleTrace& cycle) {
   nlohmann::json people_m = nlohmann::json::array();
   for (const Eigen::Vector2d& person : cycle.people_m) people_m.push_back({person.x(), person.y()});
   return {
@@ -91,11 +91,11 @@ nlohmann::json to_json(const agent::CycleTrace& cycle) {
       {"state", cycle.state}};
 }
 
-void print(const agent::MissionResult& result) {
+void print(const scenario::MissionResult& result) {
   std::printf("%-14s -> %-14s %-8s %5.2f m off, %5.1f m driven (shortest %5.1f m), %d collisions, %5.1f s",
               result.from.c_str(), result.to.c_str(), result.arrived ? "arrived" : "failed", result.final_error_m,
               result.path_m, result.shortest_m, result.collisions, result.duration_s);
-  for (const agent::StopEvent& stop : result.stops) std::printf("; at %.1f s: %s", stop.t_s, stop.reason.c_str());
+  for (const scenario::StopEvent& stop : result.stops) std::printf("; at %.1f s: %s", stop.t_s, stop.reason.c_str());
   if (result.kidnapped_at_s) std::printf("; kidnapped at %.1f s", *result.kidnapped_at_s);
   if (result.told_after_s) std::printf(", told %.1f s later", *result.told_after_s);
   std::printf("\n");
@@ -103,26 +103,26 @@ void print(const agent::MissionResult& result) {
 }
 
 Status run(const SimulateRunOptions& options) {
-  const auto text = agent::read_text(options.scenario);
+  const auto text = files::read_text(options.scenario);
   if (!text) return pass_on(text);
   const auto scenario = wire::parse_scenario(*text, options.scenario);
   if (!scenario) return pass_on(scenario);
   const auto told = [](const std::string& what) { std::cerr << what << " ...\n"; };
-  const auto done = [&](const agent::MissionResult& result) {
+  const auto done = [&](const scenario::MissionResult& result) {
     if (options.json) {
       std::cout << to_json(result).dump() << std::endl;
     } else {
       print(result);
     }
   };
-  agent::ScenarioListener listener{told, done, {}};
+  scenario::ScenarioListener listener{told, done, {}};
   std::ofstream trace;
   if (!options.trace.empty()) {
     trace.open(options.trace);
     if (!trace) return fail(ErrorCode::kIo, "The trace cannot be written.", options.trace);
-    listener.cycled = [&](const agent::CycleTrace& cycle) { trace << to_json(cycle).dump() << "\n"; };
+    listener.cycled = [&](const scenario::CycleTrace& cycle) { trace << to_json(cycle).dump() << "\n"; };
   }
-  std::optional<agent::RecordingOptions> record;
+  std::optional<recording::RecordingOptions> record;
   if (!options.record.empty()) {
     std::error_code ignored;
     if (std::filesystem::exists(options.record, ignored) && !std::filesystem::is_empty(options.record, ignored)) {
@@ -134,7 +134,7 @@ Status run(const SimulateRunOptions& options) {
     record->folder_limit_bytes = std::numeric_limits<std::int64_t>::max();
   }
   const std::string folder = std::filesystem::path(options.scenario).parent_path().string();
-  Status ran = agent::run_scenario(*scenario, folder, listener, record, {options.only.begin(), options.only.end()});
+  Status ran = scenario::run_scenario(*scenario, folder, listener, record, {options.only.begin(), options.only.end()});
   if (!ran && ran.error().where.empty()) ran.error().where = options.scenario;
   return ran;
 }

@@ -2,13 +2,13 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "agent/drivers/simulated_robot.hpp"
-#include "agent/drivers/usual_cameras.hpp"
-#include "agent/files/read_file.hpp"
-#include "agent/files/world_folder.hpp"
-#include "agent/files/write_file.hpp"
 #include "cli/simulate.hpp"
+#include "files/read_file.hpp"
+#include "files/write_file.hpp"
 #include "imageio/decode.hpp"
+#include "scenario/simulated_robot.hpp"
+#include "scenario/usual_cameras.hpp"
+#include "scenario/world_folder.hpp"
 #include "sim/laser.hpp"
 #include "wire/camera_json.hpp"
 #include "wire/scans_json.hpp"
@@ -63,13 +63,13 @@ Result<TourWriter> TourWriter::open(const StageOptions& options) {
   if (!config) return pass_on(config);
   auto camera = camera::Camera::create(*config);
   if (!camera) return pass_on(camera);
-  const auto light = agent::light_named(options.light);
+  const auto light = scenario::light_named(options.light);
   if (!light) return pass_on(light);
-  auto world = agent::load_world(options.world);
+  auto world = scenario::load_world(options.world);
   if (!world) return pass_on(world);
-  if (const Status made = agent::make_folder(folder); !made) return pass_on(made);
+  if (const Status made = files::make_folder(folder); !made) return pass_on(made);
   auto parts = std::make_unique<Parts>(Parts{folder, *config, sim::LitWorld(std::move(*world)), nullptr, options.seed});
-  agent::prepare_light(parts->world, *light);
+  scenario::prepare_light(parts->world, *light);
   parts->renderer = std::make_unique<sim::Renderer>(parts->world, *light, std::move(*camera));
   return TourWriter(std::move(parts));
 }
@@ -92,7 +92,7 @@ Status TourWriter::add(const Pose2& pose, const std::string& room, const Pose2* 
   const Image picture = p.renderer->render(pose, {}, noise_seed);
   const std::vector<std::uint8_t> jpeg = imageio::encode_jpeg(picture, kQuality);
   if (const Status written =
-          agent::write_file(p.folder / name, {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
+          files::write_file(p.folder / name, {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
       !written) {
     return written;
   }
@@ -103,7 +103,7 @@ Status TourWriter::add(const Pose2& pose, const std::string& room, const Pose2* 
         std::to_string(p.t_us) + formatted(",%.4f,%.4f,%.5f\n", odometry->x_m, odometry->y_m, odometry->theta_rad);
   }
   // What the simulated chair drives by: a tour that sees less would call free what is under a table.
-  const sim::LaserConfig laser = agent::safety_scanner();
+  const sim::LaserConfig laser = scenario::safety_scanner();
   p.scanner.angle_step_rad = 2.0 * kPi / laser.rays;
   p.scanner.range_max_m = laser.range_max_m;
   const std::vector<float> ranges = sim::scan(p.world.rays(), pose, {}, laser, noise_seed);
@@ -139,14 +139,14 @@ Status TourWriter::finish(const std::vector<std::pair<std::string, std::string>>
     files.emplace_back("tour.json", tour.dump(2) + "\n");
   }
   for (const auto& [name, text] : files) {
-    if (const Status written = agent::write_file(p.folder / name, text); !written) return written;
+    if (const Status written = files::write_file(p.folder / name, text); !written) return written;
   }
   return {};
 }
 
 Result<camera::CameraConfig> camera_named(const std::string& name_or_file) {
-  if (const auto usual = agent::usual_camera(name_or_file)) return *usual;
-  return agent::read_camera(name_or_file);
+  if (const auto usual = scenario::usual_camera(name_or_file)) return *usual;
+  return files::read_camera(name_or_file);
 }
 
 }  // namespace homeward::cli

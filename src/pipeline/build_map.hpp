@@ -9,11 +9,11 @@
 
 #include "camera/camera_config.hpp"
 #include "core/result.hpp"
+#include "core/tour.hpp"
 #include "features/appearance.hpp"
 #include "map/topological_map.hpp"
 #include "mapping/map_builder.hpp"
 #include "mapping/pair_table.hpp"
-#include "pipeline/tour.hpp"
 
 namespace homeward::pipeline {
 

@@ -7,11 +7,11 @@
 
 #include "camera/camera_config.hpp"
 #include "core/result.hpp"
+#include "core/tour.hpp"
 #include "map/topological_map.hpp"
 #include "mapping/grow.hpp"
 #include "pipeline/build_map.hpp"
 #include "pipeline/eye.hpp"
-#include "pipeline/tour.hpp"
 
 namespace homeward::pipeline {
 

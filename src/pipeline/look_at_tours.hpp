@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "core/tour.hpp"
 #include "mapping/growth_input.hpp"
 #include "pipeline/eye.hpp"
-#include "pipeline/tour.hpp"
 
 namespace homeward::pipeline {
 

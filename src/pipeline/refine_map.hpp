@@ -9,12 +9,12 @@
 
 #include "camera/camera_config.hpp"
 #include "core/result.hpp"
+#include "core/tour.hpp"
 #include "features/appearance.hpp"
 #include "localisation/localiser.hpp"
 #include "map/topological_map.hpp"
 #include "mapping/refine.hpp"
 #include "pipeline/build_map.hpp"
-#include "pipeline/tour.hpp"
 
 namespace homeward::pipeline {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "core/tour.hpp"
 #include "map/topological_map.hpp"
-#include "pipeline/tour.hpp"
 
 namespace homeward::pipeline {
 

@@ -4,11 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "agent/files/csv.hpp"
-#include "agent/files/grey_map.hpp"
-#include "agent/files/tour_folder.hpp"
-#include "agent/files/tour_scans.hpp"
 #include "camera/camera.hpp"
+#include "files/csv.hpp"
+#include "files/grey_map.hpp"
+#include "files/tour_folder.hpp"
+#include "files/tour_scans.hpp"
 #include "fuzz/mutate.hpp"
 #include "support/folders.hpp"
 #include "support/scratch_folder.hpp"
@@ -79,7 +79,7 @@ TEST(FuzzTexts, Scans) {
     const ScratchFolder folder;
     folder.put("scans.json", about);
     folder.put("scans.csv", mutator.damaged("filename,r0,r1\n00000.jpg,1.25,12.000\n00001.jpg,,0.5\n"));
-    const auto sweeps = agent::read_scans(folder.path());
+    const auto sweeps = files::read_scans(folder.path());
     if (!sweeps) expect_message(sweeps.error(), folder.text("scans.csv"));
   }
 }
@@ -123,7 +123,7 @@ TEST(FuzzTexts, Csv) {
   const std::string good = "filename,t_us\n00000.jpg,1000000\n00001.jpg,1100000\n\n00002.jpg,1200000\n";
   for (int i = 0; i < 1500; ++i) {
     const std::string text = mutator.damaged(good);
-    const auto table = agent::read_csv(folder.put("t.csv", text));
+    const auto table = files::read_csv(folder.put("t.csv", text));
     if (!table) {
       expect_message(table.error(), text);
       continue;
@@ -138,7 +138,7 @@ TEST(FuzzTexts, GreyMap) {
   const std::string good = "P5\n# floor\n7 5\n255\n" + std::string(35, '\x7f');
   for (int i = 0; i < 1500; ++i) {
     const std::string text = mutator.damaged(good);
-    const auto image = agent::read_grey_map(folder.put("m.pgm", text));
+    const auto image = files::read_grey_map(folder.put("m.pgm", text));
     if (!image) {
       expect_message(image.error(), text);
       continue;
@@ -157,7 +157,7 @@ TEST(FuzzTexts, TourFolder) {
     folder.put("times.csv", mutator.damaged("filename,t_us\na.jpg,1000000\nb.jpg,1100000\n"));
     folder.put("odometry.csv", mutator.damaged("t_us,x_m,y_m,theta_rad\n900000,0,0,0\n1200000,1.5,-0.25,3.0\n"));
     folder.put("tour.json", mutator.damaged(R"({"marks":[{"image":"a.jpg","label":"kitchen"}]})"));
-    const auto tour = agent::TourFolder::open(folder.path());
+    const auto tour = files::TourFolder::open(folder.path());
     if (!tour) {
       expect_message(tour.error(), folder.text("times.csv") + folder.text("odometry.csv") + folder.text("tour.json"));
       continue;

@@ -80,8 +80,8 @@ class Clock(unittest.TestCase):
         robot, token_file = demo.robot_with_token(server, self.data)
         map_id = demo.teach(server, BIN, self.data, token_file)
         server.call("PUT", f"/api/v1/robots/{robot}/map", {"map": map_id})
-        self.start("agent", BIN / "homeward-agent", "run", "--server", server.address, "--robot", robot, "--token-file",
-                   token_file, "--driver", "simulator", "--world", demo.WORLD, "--start-room", "hall", "--truth-file",
+        self.start("agent", BIN / "homeward-simulated-agent", "run", "--server", server.address, "--robot", robot, "--token-file",
+                   token_file, "--world", demo.WORLD, "--start-room", "hall", "--truth-file",
                    self.data / "truth.jsonl")
         jumps = threading.Thread(target=self.jump_under_way)
         jumps.start()

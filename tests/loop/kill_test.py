@@ -218,8 +218,8 @@ class Kill(unittest.TestCase):
         self.server.call("PUT", f"/api/v1/robots/{robot['id']}/map", {"map": self.map_id})
         with open(self.data / "agent.log", "ab") as log:
             type(self).agent = subprocess.Popen(
-                [BIN / "homeward-agent", "run", "--server", self.server.address, "--robot", robot["id"],
-                 "--token-file", self.data / "robot-token", "--driver", "simulator", "--world", "house:1",
+                [BIN / "homeward-simulated-agent", "run", "--server", self.server.address, "--robot", robot["id"],
+                 "--token-file", self.data / "robot-token", "--world", "house:1",
                  "--start-room", "living_room", "--truth-file", self.data / "truth.jsonl", "--record",
                  self.data / "recordings"], stdout=log,
                 stderr=subprocess.STDOUT)

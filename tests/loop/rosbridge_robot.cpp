@@ -11,8 +11,8 @@
 #include <mutex>
 #include <thread>
 
-#include "agent/drivers/simulator_driver.hpp"
 #include "imageio/decode.hpp"
+#include "scenario/simulator_driver.hpp"
 #include "support/rosbridge_server.hpp"
 #include "support/sample_rosbridge.hpp"
 #include "wire/camera_json.hpp"
@@ -26,7 +26,7 @@ std::atomic<bool> ended{false};
 std::atomic<bool> camera_silent{false};
 std::atomic<bool> scanner_silent{false};
 
-void send_pictures(agent::Driver& robot, testing::RosbridgeServer& bridge, const std::stop_token& stop) {
+void send_pictures(driving::Driver& robot, testing::RosbridgeServer& bridge, const std::stop_token& stop) {
   constexpr int kQuality = 90;
   while (!stop.stop_requested()) {
     const auto taken = robot.next_picture(stop);
@@ -38,21 +38,21 @@ void send_pictures(agent::Driver& robot, testing::RosbridgeServer& bridge, const
 }
 
 int run(const std::vector<std::string>& arguments) {
-  agent::SimulatorDriverConfig config;
+  scenario::SimulatorDriverConfig config;
   config.world = arguments[2];
   config.start_room = arguments[3];
   config.robot = arguments[4];
   config.truth_file = arguments[5];
-  const auto made = agent::make_simulator_driver(config);
+  const auto made = scenario::make_simulator_driver(config);
   if (!made) {
     std::cerr << made.error().message << " (" << made.error().where << ")\n";
     return 1;
   }
-  agent::Driver& robot = **made;
+  driving::Driver& robot = **made;
 
   const double timeout_s = arguments.size() > 7 ? std::stod(arguments[7]) : 1e9;
   std::mutex mutex;
-  agent::Motion twist;
+  driving::Motion twist;
   Clock::time_point heard = Clock::now();
   testing::RosbridgeServer bridge(static_cast<unsigned short>(std::stoi(arguments[1])),
                                   {[&](const std::string& topic, const nlohmann::json& msg) {
@@ -78,7 +78,7 @@ int run(const std::vector<std::string>& arguments) {
       if (std::chrono::duration<double>(Clock::now() - heard).count() > timeout_s) twist = {};
       robot.command(twist);
     }
-    const agent::Reading reading = robot.read();
+    const driving::Reading reading = robot.read();
     if (tick % kTicksPerSweep == 0) {
       const std::int64_t stamp_us = 1000 * reading.t_ms + 1;
       bridge.publish("/odom", testing::odometry_message(stamp_us, reading.odometry, reading.speed_mps));

@@ -5,14 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/tour.hpp"
+#include "core/tour.hpp"
 #include "support/painted_room.hpp"
 #include "support/sample_cameras.hpp"
 
 namespace homeward::testing {
 
 /// A tour whose pictures are in memory.
-class MemoryTour final : public pipeline::TourSource {
+class MemoryTour final : public TourSource {
  public:
   explicit MemoryTour(std::string name) : name_(std::move(name)) {}
 
@@ -26,14 +26,14 @@ class MemoryTour final : public pipeline::TourSource {
   }
   void mark(std::string image, std::string label) { marks_.push_back({std::move(image), std::move(label)}); }
 
-  [[nodiscard]] const std::vector<pipeline::TourImage>& images() const override { return images_; }
-  [[nodiscard]] const std::vector<pipeline::TourMark>& marks() const override { return marks_; }
+  [[nodiscard]] const std::vector<TourImage>& images() const override { return images_; }
+  [[nodiscard]] const std::vector<TourMark>& marks() const override { return marks_; }
   [[nodiscard]] Result<Image> read(std::size_t index) const override { return pictures_[index]; }
 
  private:
   std::string name_;
-  std::vector<pipeline::TourImage> images_;
-  std::vector<pipeline::TourMark> marks_;
+  std::vector<TourImage> images_;
+  std::vector<TourMark> marks_;
   std::vector<Result<Image>> pictures_;
 };
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "agent/drivers/driver.hpp"
+#include "driving/driver.hpp"
 
 namespace homeward::agent {
 
@@ -17,6 +17,6 @@ struct FolderDriverConfig {
 
 /// Pictures of a folder in name order as if a camera took them now; for localising without a robot. It has no wheels
 /// and no range sensor, so that no mission can drive it. Errors: kNotFound, kEmptyInput, those of read_camera.
-Result<std::unique_ptr<Driver>> make_folder_driver(const FolderDriverConfig& config);
+Result<std::unique_ptr<driving::Driver>> make_folder_driver(const FolderDriverConfig& config);
 
 }  // namespace homeward::agent

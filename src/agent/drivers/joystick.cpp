@@ -17,9 +17,10 @@ namespace {
 
 constexpr double kDeadZone = 0.15;  // of full deflection; springs and noise stay below it
 constexpr double kFullDeflection = 32767.0;
-constexpr Milliseconds kTryAgain_ms = 1000;
-constexpr Milliseconds kHeld_ms = 10'000;  // without a word; a hand hardly keeps a stick so still, a dead battery does
-constexpr int kMostEvents = 1000;          // at one time: no device says more between two cycles
+constexpr driving::Milliseconds kTryAgain_ms = 1000;
+constexpr driving::Milliseconds kHeld_ms =
+    10'000;                        // without a word; a hand hardly keeps a stick so still, a dead battery does
+constexpr int kMostEvents = 1000;  // at one time: no device says more between two cycles
 
 static_assert(sizeof(js_event) == 8);
 
@@ -56,7 +57,8 @@ Joystick::~Joystick() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-std::optional<RiderHand> Joystick::read(const Body& body, Milliseconds now_ms, Milliseconds said_ms) {
+std::optional<driving::RiderHand> Joystick::read(const driving::Body& body, driving::Milliseconds now_ms,
+                                                 driving::Milliseconds said_ms) {
   if (descriptor_ < 0) {
     if (now_ms - tried_ms_ < kTryAgain_ms) return std::nullopt;
     tried_ms_ = now_ms;
@@ -72,7 +74,7 @@ std::optional<RiderHand> Joystick::read(const Body& body, Milliseconds now_ms, M
   const double left = -beyond_dead_zone(axes_[0]);
   const bool at_rest = forward == 0.0 && left == 0.0;
   // A touch that is over already counts too.
-  RiderHand hand{said_ms, std::exchange(touched_, false) || !at_rest, {}};
+  driving::RiderHand hand{said_ms, std::exchange(touched_, false) || !at_rest, {}};
   rested_ = rested_ || at_rest;
   if (!there_) {
     told_("the joystick " + device_ + (rested_ ? " is there" : " is there, but not at rest: release it"));
@@ -85,7 +87,7 @@ std::optional<RiderHand> Joystick::read(const Body& body, Milliseconds now_ms, M
   return hand;
 }
 
-void Joystick::forget(Milliseconds now_ms) {
+void Joystick::forget(driving::Milliseconds now_ms) {
   if (there_) told_("the joystick " + device_ + " is gone");
   ::close(descriptor_);
   descriptor_ = -1;

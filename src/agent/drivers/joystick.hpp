@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "agent/driving/step.hpp"
 #include "core/result.hpp"
+#include "driving/step.hpp"
 
 namespace homeward::agent {
 
@@ -30,27 +30,28 @@ class Joystick {
   /// One that is deflected when it comes wants no motion until it has been at rest once: it may lie on its side. Nor
   /// does one that has been deflected for 10 s without a word: a device tells of changes only, and so does a wireless
   /// one whose battery died under the rider's hand.
-  std::optional<RiderHand> read(const Body& body, Milliseconds now_ms, Milliseconds said_ms);
+  std::optional<driving::RiderHand> read(const driving::Body& body, driving::Milliseconds now_ms,
+                                         driving::Milliseconds said_ms);
 
  private:
   Joystick(std::string device, int descriptor, std::function<void(const std::string&)> told);
   bool drain();
-  void forget(Milliseconds now_ms);
+  void forget(driving::Milliseconds now_ms);
   void take_event();
 
   std::string device_;
   std::function<void(const std::string&)> told_;
   int descriptor_ = -1;
-  Milliseconds tried_ms_ = 0;
+  driving::Milliseconds tried_ms_ = 0;
   std::array<std::uint8_t, 8> event_{};  // as much of one as has come
   std::size_t have_ = 0;
-  std::array<double, 2> axes_{};  // -1..1
-  bool there_ = false;            // and that was told
-  bool touched_ = false;          // deflected at some moment since the last reading
-  bool spoke_ = false;            // since the last reading
-  Milliseconds spoke_ms_ = 0;     // when it last told of a change
-  bool doubted_ = false;          // it has been deflected for too long, and that was told
-  bool rested_ = false;           // it has been at rest since it came
+  std::array<double, 2> axes_{};        // -1..1
+  bool there_ = false;                  // and that was told
+  bool touched_ = false;                // deflected at some moment since the last reading
+  bool spoke_ = false;                  // since the last reading
+  driving::Milliseconds spoke_ms_ = 0;  // when it last told of a change
+  bool doubted_ = false;                // it has been deflected for too long, and that was told
+  bool rested_ = false;                 // it has been at rest since it came
 };
 
 }  // namespace homeward::agent

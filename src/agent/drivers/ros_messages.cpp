@@ -71,7 +71,7 @@ RosStamp stamp_of(Fields& message) {
 
 RosSweep sweep_of(Fields& message, const Pose2& robot_from_scan, const Outline& body) {
   RosSweep sweep{stamp_of(message), {}, 0.0};
-  Scan& scan = sweep.scan;
+  driving::Scan& scan = sweep.scan;
   scan.robot_from_scan = robot_from_scan;
   scan.angle_min_rad = message.number("angle_min");
   scan.angle_step_rad = message.number("angle_increment");
@@ -257,15 +257,15 @@ std::vector<std::string> ros_farewell(const wire::RosbridgeFile& robot) {
   return texts;
 }
 
-std::string ros_motion(const wire::RosbridgeFile& robot, const Motion& motion) {
+std::string ros_motion(const wire::RosbridgeFile& robot, const driving::Motion& motion) {
   json twist = {{"linear", vector3(motion.speed_mps, 0.0)}, {"angular", vector3(0.0, motion.turn_radps)}};
   // The bridge fills in a header that is left out, by the robot's own clock.
   if (is_stamped(robot.cmd_vel.type)) twist = {{"twist", twist}};
   return json{{"op", "publish"}, {"topic", robot.cmd_vel.topic}, {"msg", twist}}.dump();
 }
 
-Body body_of(const wire::RosBody& outline) {
-  Body body;
+driving::Body body_of(const wire::RosBody& outline) {
+  driving::Body body;
   body.max_speed_mps = outline.max_speed_mps;
   body.max_turn_radps = outline.max_turn_radps;
   body.deceleration_mps2 = outline.deceleration_mps2;

@@ -8,10 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "agent/driving/body.hpp"
-#include "agent/driving/scan.hpp"
 #include "core/pose2.hpp"
 #include "core/result.hpp"
+#include "driving/body.hpp"
+#include "driving/scan.hpp"
 #include "wire/rosbridge_json.hpp"
 
 namespace homeward::agent {
@@ -22,7 +22,7 @@ using RosStamp = std::optional<std::int64_t>;
 
 struct RosSweep {
   RosStamp stamp_us;
-  Scan scan;                  // returns nearer than `range_min` count where they lie outside of the robot's body
+  driving::Scan scan;         // returns nearer than `range_min` count where they lie outside of the robot's body
   double blind_beyond_m = 0;  // so far beyond the body reaches what is nearer than `range_min`
 };
 struct RosOdometry {
@@ -35,7 +35,7 @@ struct RosPicture {
   std::vector<std::uint8_t> bytes;  // a JPEG or PNG, not looked at
 };
 struct RosTwist {  // of the rider's joystick
-  Motion motion;
+  driving::Motion motion;
 };
 struct RosStatus {
   std::string level;  // "error", "warning", "info" or "none"
@@ -55,9 +55,9 @@ Result<RosMessage> decode_ros_message(std::string_view text, const wire::Rosbrid
 std::vector<std::string> ros_greeting(const wire::RosbridgeFile& robot);
 /// What is said last: the robot stands, and topics are given back.
 std::vector<std::string> ros_farewell(const wire::RosbridgeFile& robot);
-std::string ros_motion(const wire::RosbridgeFile& robot, const Motion& motion);
+std::string ros_motion(const wire::RosbridgeFile& robot, const driving::Motion& motion);
 
 /// The robot's body, its outline as it is.
-Body body_of(const wire::RosBody& outline);
+driving::Body body_of(const wire::RosBody& outline);
 
 }  // namespace homeward::agent

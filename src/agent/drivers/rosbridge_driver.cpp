@@ -11,8 +11,8 @@
 
 #include "agent/drivers/odometry_track.hpp"
 #include "agent/drivers/ros_messages.hpp"
-#include "agent/files/read_file.hpp"
 #include "agent/link/json_socket.hpp"
+#include "files/read_file.hpp"
 #include "imageio/decode.hpp"
 
 namespace homeward::agent {
@@ -21,27 +21,27 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kPublishPeriod = std::chrono::milliseconds(50);
 // Some cycles of the agent's: a loop above that hangs has the robot brake, long before the base does so by itself.
-constexpr Milliseconds kCommandLife_ms = 150;
-constexpr Milliseconds kZerosAfterMotion_ms = 1000;  // said again and again: the bridge keeps no count
-constexpr double kAtRest_mps = 0.005;                // of a joystick; what is less is no hand
+constexpr driving::Milliseconds kCommandLife_ms = 150;
+constexpr driving::Milliseconds kZerosAfterMotion_ms = 1000;  // said again and again: the bridge keeps no count
+constexpr double kAtRest_mps = 0.005;                         // of a joystick; what is less is no hand
 constexpr double kAtRest_radps = 0.01;
-constexpr Milliseconds kOdometrySilence_ms = 400;
-constexpr Milliseconds kOdometryPeriod_ms = 100;  // of the slowest that is asked for
-constexpr Milliseconds kMostLag_ms = 300;
+constexpr driving::Milliseconds kOdometrySilence_ms = 400;
+constexpr driving::Milliseconds kOdometryPeriod_ms = 100;  // of the slowest that is asked for
+constexpr driving::Milliseconds kMostLag_ms = 300;
 constexpr double kBlindBeyond_m = 0.05;  // what is kept free beside the body anyway
 // Longer than the agent bears without sweeps: after a lost connection it stops for certain.
-constexpr Milliseconds kWithheld_ms = 600;
-constexpr Milliseconds kSuspicious_ms = 5000;
+constexpr driving::Milliseconds kWithheld_ms = 600;
+constexpr driving::Milliseconds kSuspicious_ms = 5000;
 constexpr auto kFarewellLimit = std::chrono::milliseconds(1000);
 
 /// Goes on while the computer is suspended, so that what was said before is old when it wakes up.
-Milliseconds now_ms() {
+driving::Milliseconds now_ms() {
   timespec now{};
   ::clock_gettime(CLOCK_BOOTTIME, &now);
-  return Milliseconds{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
+  return driving::Milliseconds{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
 }
 
-bool stands(const Motion& motion) { return motion.speed_mps == 0.0 && motion.turn_radps == 0.0; }
+bool stands(const driving::Motion& motion) { return motion.speed_mps == 0.0 && motion.turn_radps == 0.0; }
 
 /// Foreign text for a log line.
 std::string shown(std::string text) {
@@ -54,12 +54,12 @@ std::string shown(std::string text) {
 
 /// One topic that is listened to.
 struct Feed {
-  Milliseconds arrived_ms = 0;
+  driving::Milliseconds arrived_ms = 0;
   RosStamp stamp_us;
   bool missed = false;  // its absence was told
 
   /// Whether this is a new message, not one that a bridge or node said before.
-  bool take(RosStamp stamp, Milliseconds now) {
+  bool take(RosStamp stamp, driving::Milliseconds now) {
     if (stamp && stamp == stamp_us) return false;
     stamp_us = stamp;
     arrived_ms = now;
@@ -68,7 +68,7 @@ struct Feed {
   }
 };
 
-class RosbridgeDriver final : public Driver {
+class RosbridgeDriver final : public driving::Driver {
  public:
   RosbridgeDriver(wire::RosbridgeFile robot, camera::CameraConfig camera, const ServerAddress& address,
                   std::function<void(const std::string&)> told)
@@ -92,19 +92,19 @@ class RosbridgeDriver final : public Driver {
   RosbridgeDriver& operator=(const RosbridgeDriver&) = delete;
 
   [[nodiscard]] const camera::CameraConfig& camera() const override { return camera_; }
-  [[nodiscard]] Body body() const override { return body_; }
+  [[nodiscard]] driving::Body body() const override { return body_; }
 
-  Reading read() override {
+  driving::Reading read() override {
     const bool live = socket_->up() && socket_->lag().count() <= kMostLag_ms;
     const std::lock_guard lock(mutex_);
-    Reading reading;
+    driving::Reading reading;
     reading.t_ms = now_ms();
     reading.odometry = track_.at(std::nullopt);
     reading.speed_mps = speed_mps_;
     reading.rider = rider_;
     // A touch that is over already counts too.
     if (std::exchange(touched_, false) && reading.rider) reading.rider->deflected = true;
-    std::optional<Scan> sweep = std::exchange(sweep_, std::nullopt);
+    std::optional<driving::Scan> sweep = std::exchange(sweep_, std::nullopt);
     if (!live || interrupted_ || reading.t_ms - odom_.arrived_ms > kOdometrySilence_ms) return reading;
     reading.scan = std::move(sweep);
     // A sweep says nothing of where the robot has got to since its wheels fell silent: it counts as old as their word.
@@ -112,11 +112,11 @@ class RosbridgeDriver final : public Driver {
     return reading;
   }
 
-  void command(const Motion& motion) override {
+  void command(const driving::Motion& motion) override {
     const std::lock_guard lock(mutex_);
     commanded_ms_ = now_ms();
     if (interrupted_ && stands(motion) && commanded_ms_ >= withheld_until_ms_) interrupted_ = false;
-    const Motion obeyed = interrupted_ ? Motion{} : motion;
+    const driving::Motion obeyed = interrupted_ ? driving::Motion{} : motion;
     const bool stops = stands(obeyed) && !stands(command_);
     command_ = obeyed;
     if (!stops) return;
@@ -124,13 +124,14 @@ class RosbridgeDriver final : public Driver {
     changed_.notify_all();
   }
 
-  Result<std::optional<TakenPicture>> next_picture(std::stop_token stop) override {
+  Result<std::optional<driving::TakenPicture>> next_picture(std::stop_token stop) override {
     while (true) {
       std::unique_lock lock(mutex_);
-      if (!changed_.wait(lock, stop, [this] { return picture_.has_value(); })) return std::optional<TakenPicture>();
+      if (!changed_.wait(lock, stop, [this] { return picture_.has_value(); }))
+        return std::optional<driving::TakenPicture>();
       const RosPicture sent = std::move(*picture_);
       picture_.reset();
-      TakenPicture taken{image_.arrived_ms, {}, track_.at(sent.stamp_us), {}};
+      driving::TakenPicture taken{image_.arrived_ms, {}, track_.at(sent.stamp_us), {}};
       lock.unlock();
       auto picture = decoded(sent.bytes);
       if (!picture) {
@@ -187,7 +188,7 @@ class RosbridgeDriver final : public Driver {
     auto message = decode_ros_message(text, robot_);
     if (!message) return complain(message.error());
     if (const auto* status = std::get_if<RosStatus>(&*message)) return tell_status(*status);
-    const Milliseconds now = now_ms();
+    const driving::Milliseconds now = now_ms();
     bool blind = false;
     double blind_beyond_m = 0.0;
     {
@@ -219,10 +220,10 @@ class RosbridgeDriver final : public Driver {
   }
 
   /// The mutex is held.
-  void take_hand(const Motion& motion, Milliseconds now) {
+  void take_hand(const driving::Motion& motion, driving::Milliseconds now) {
     const bool deflected = std::abs(motion.speed_mps) > kAtRest_mps || std::abs(motion.turn_radps) > kAtRest_radps;
     touched_ = touched_ || deflected;
-    rider_ = RiderHand{now, deflected, deflected && robot_.rider->relayed ? motion : Motion{}};
+    rider_ = driving::RiderHand{now, deflected, deflected && robot_.rider->relayed ? motion : driving::Motion{}};
   }
 
   void tell_status(const RosStatus& status) {
@@ -243,13 +244,13 @@ class RosbridgeDriver final : public Driver {
     auto next = Clock::now();
     while (!stop.stop_requested()) {
       next = std::max(next + kPublishPeriod, Clock::now());
-      std::optional<Motion> motion;
+      std::optional<driving::Motion> motion;
       Clock::time_point good_until;
       {
         std::unique_lock lock(mutex_);
         changed_.wait_until(lock, stop, next, [this] { return at_once_; });
         at_once_ = false;
-        const Milliseconds now = now_ms();
+        const driving::Milliseconds now = now_ms();
         if (now - commanded_ms_ > kCommandLife_ms) command_ = {};
         if (!stands(command_)) {
           moved_ = true;
@@ -271,7 +272,7 @@ class RosbridgeDriver final : public Driver {
          {std::pair(&odom_, &robot_.odom), std::pair(&scan_, &robot_.scan), std::pair(&image_, &robot_.image)}) {
       {
         const std::lock_guard lock(mutex_);
-        const Milliseconds since_ms = std::max(feed->arrived_ms, connected_ms_);
+        const driving::Milliseconds since_ms = std::max(feed->arrived_ms, connected_ms_);
         if (feed->missed || now_ms() - since_ms < kSuspicious_ms) continue;
         feed->missed = true;
       }
@@ -281,7 +282,7 @@ class RosbridgeDriver final : public Driver {
 
   wire::RosbridgeFile robot_;
   camera::CameraConfig camera_;
-  Body body_;
+  driving::Body body_;
   std::function<void(const std::string&)> told_;
   bool blindness_told_ = false;  // of the socket's thread alone
   std::atomic<int> useless_{0};
@@ -294,15 +295,15 @@ class RosbridgeDriver final : public Driver {
   Feed image_;
   OdometryTrack track_;
   double speed_mps_ = 0.0;
-  std::optional<Scan> sweep_;
+  std::optional<driving::Scan> sweep_;
   std::optional<RosPicture> picture_;
-  std::optional<RiderHand> rider_;
+  std::optional<driving::RiderHand> rider_;
   bool touched_ = false;  // the hand was there at some moment since the last reading
-  Motion command_;
-  Milliseconds commanded_ms_ = 0;
-  Milliseconds connected_ms_ = 0;
-  Milliseconds zeros_until_ms_ = 0;
-  Milliseconds withheld_until_ms_ = 0;
+  driving::Motion command_;
+  driving::Milliseconds commanded_ms_ = 0;
+  driving::Milliseconds connected_ms_ = 0;
+  driving::Milliseconds zeros_until_ms_ = 0;
+  driving::Milliseconds withheld_until_ms_ = 0;
   bool interrupted_ = false;  // a connection was lost, and the agent has not stood still since
   bool moved_ = false;
   bool at_once_ = false;
@@ -313,15 +314,15 @@ class RosbridgeDriver final : public Driver {
 
 }  // namespace
 
-Result<std::unique_ptr<Driver>> make_rosbridge_driver(const std::string& file,
-                                                      std::function<void(const std::string&)> told) {
-  const auto text = read_text(file);
+Result<std::unique_ptr<driving::Driver>> make_rosbridge_driver(const std::string& file,
+                                                               std::function<void(const std::string&)> told) {
+  const auto text = files::read_text(file);
   if (!text) return pass_on(text);
   auto robot = wire::parse_rosbridge(*text, file);
   if (!robot) return pass_on(robot);
   const auto address = parse_websocket_address(robot->address);
   if (!address) return pass_on(address);
-  auto camera = read_camera(std::filesystem::path(file).parent_path() / robot->camera);
+  auto camera = files::read_camera(std::filesystem::path(file).parent_path() / robot->camera);
   if (!camera) return pass_on(camera);
   return std::make_unique<RosbridgeDriver>(std::move(*robot), std::move(*camera), *address, std::move(told));
 }

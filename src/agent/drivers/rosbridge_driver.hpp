@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "agent/drivers/driver.hpp"
+#include "driving/driver.hpp"
 
 namespace homeward::agent {
 
@@ -17,7 +17,7 @@ namespace homeward::agent {
 /// fresh; what was taken when is matched among the robot's own stamps. Sweeps are withheld, so that the agent stops,
 /// while odometry is silent, while the connection lags, and after a lost connection until the agent has stood still.
 /// Errors: kNotFound, kInvalidInput, kUnsupportedFormat, naming file and field.
-Result<std::unique_ptr<Driver>> make_rosbridge_driver(const std::string& file,
-                                                      std::function<void(const std::string&)> told);
+Result<std::unique_ptr<driving::Driver>> make_rosbridge_driver(const std::string& file,
+                                                               std::function<void(const std::string&)> told);
 
 }  // namespace homeward::agent

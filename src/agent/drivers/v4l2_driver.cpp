@@ -15,7 +15,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "agent/files/read_file.hpp"
+#include "files/read_file.hpp"
 #include "imageio/decode.hpp"
 
 namespace homeward::agent {
@@ -26,7 +26,7 @@ constexpr auto kSilenceLimit = std::chrono::seconds(2);
 constexpr auto kStopCheck = std::chrono::milliseconds(100);
 constexpr unsigned kBuffers = 4;
 
-Milliseconds now_ms() {
+driving::Milliseconds now_ms() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now().time_since_epoch()).count();
 }
 
@@ -151,20 +151,20 @@ Status start(Capture& capture, const std::string& name) {
   return {};
 }
 
-class V4l2Driver final : public Driver {
+class V4l2Driver final : public driving::Driver {
  public:
   V4l2Driver(std::unique_ptr<Capture> capture, camera::CameraConfig camera, const V4l2DriverConfig& config)
       : capture_(std::move(capture)),
         camera_(std::move(camera)),
         device_(config.device),
-        period_ms_(static_cast<Milliseconds>(1000.0 / config.pictures_per_s)) {}
+        period_ms_(static_cast<driving::Milliseconds>(1000.0 / config.pictures_per_s)) {}
 
   [[nodiscard]] const camera::CameraConfig& camera() const override { return camera_; }
-  [[nodiscard]] Body body() const override { return {}; }
-  Reading read() override { return {now_ms(), {}, 0.0, std::nullopt, std::nullopt}; }
-  void command(const Motion&) override {}
+  [[nodiscard]] driving::Body body() const override { return {}; }
+  driving::Reading read() override { return {now_ms(), {}, 0.0, std::nullopt, std::nullopt}; }
+  void command(const driving::Motion&) override {}
 
-  Result<std::optional<TakenPicture>> next_picture(std::stop_token stop) override {
+  Result<std::optional<driving::TakenPicture>> next_picture(std::stop_token stop) override {
     const auto limit = Clock::now() + kSilenceLimit;
     std::optional<Error> damage;
     while (!stop.stop_requested()) {
@@ -192,12 +192,12 @@ class V4l2Driver final : public Driver {
       picture->t_ms = taken_ms_ = taken->t_ms;
       return std::optional(std::move(*picture));
     }
-    return std::optional<TakenPicture>();
+    return std::optional<driving::TakenPicture>();
   }
 
  private:
   struct Bytes {
-    Milliseconds t_ms = 0;
+    driving::Milliseconds t_ms = 0;
     std::vector<std::uint8_t> bytes;
   };
 
@@ -222,27 +222,27 @@ class V4l2Driver final : public Driver {
   }
 
   /// By the kernel's steady clock where the camera's driver stamps with it.
-  static Milliseconds taken_at(const v4l2_buffer& buffer) {
-    const Milliseconds now = now_ms();
+  static driving::Milliseconds taken_at(const v4l2_buffer& buffer) {
+    const driving::Milliseconds now = now_ms();
     if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) return now;
-    const Milliseconds stamp =
-        1000 * static_cast<Milliseconds>(buffer.timestamp.tv_sec) + buffer.timestamp.tv_usec / 1000;
-    constexpr Milliseconds kOldest_ms = 1000;
+    const driving::Milliseconds stamp =
+        1000 * static_cast<driving::Milliseconds>(buffer.timestamp.tv_sec) + buffer.timestamp.tv_usec / 1000;
+    constexpr driving::Milliseconds kOldest_ms = 1000;
     return std::clamp(stamp, now - kOldest_ms, now);
   }
 
   std::unique_ptr<Capture> capture_;
   camera::CameraConfig camera_;
   std::string device_;
-  Milliseconds period_ms_;
-  Milliseconds taken_ms_ = 0;
+  driving::Milliseconds period_ms_;
+  driving::Milliseconds taken_ms_ = 0;
 };
 
 }  // namespace
 
-Result<TakenPicture> v4l2_picture(V4l2Format format, std::span<const std::uint8_t> bytes, int width_px, int height_px,
-                                  std::size_t bytes_per_row, const std::string& device) {
-  TakenPicture taken;
+Result<driving::TakenPicture> v4l2_picture(V4l2Format format, std::span<const std::uint8_t> bytes, int width_px,
+                                           int height_px, std::size_t bytes_per_row, const std::string& device) {
+  driving::TakenPicture taken;
   if (format == V4l2Format::kMjpeg) {
     auto picture = imageio::decode(bytes, device);
     if (!picture) return pass_on(picture);
@@ -268,11 +268,11 @@ Result<TakenPicture> v4l2_picture(V4l2Format format, std::span<const std::uint8_
   return taken;
 }
 
-Result<std::unique_ptr<Driver>> make_v4l2_driver(const V4l2DriverConfig& config) {
+Result<std::unique_ptr<driving::Driver>> make_v4l2_driver(const V4l2DriverConfig& config) {
   if (!(config.pictures_per_s > 0.0 && config.pictures_per_s <= 60.0)) {
     return fail(ErrorCode::kInvalidInput, "The rate must lie between 0 and 60 pictures a second.", "--rate");
   }
-  auto camera = read_camera(config.camera);
+  auto camera = files::read_camera(config.camera);
   if (!camera) return pass_on(camera);
   auto capture = open_device(config.device);
   if (!capture) return pass_on(capture);

@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
-#include "agent/files/read_file.hpp"
+#include "files/read_file.hpp"
 
 namespace homeward::agent {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-Milliseconds ms_of(Clock::time_point time) {
+driving::Milliseconds ms_of(Clock::time_point time) {
   return std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count();
 }
 
@@ -28,7 +28,7 @@ Image image_of(const cv::Mat& bgr) {
   return image;
 }
 
-class VideoDriver final : public Driver {
+class VideoDriver final : public driving::Driver {
  public:
   VideoDriver(const cv::VideoCapture& video, camera::CameraConfig camera, VideoDriverConfig config)
       : video_(video), camera_(std::move(camera)), config_(std::move(config)) {
@@ -37,11 +37,11 @@ class VideoDriver final : public Driver {
   }
 
   [[nodiscard]] const camera::CameraConfig& camera() const override { return camera_; }
-  [[nodiscard]] Body body() const override { return {}; }
-  Reading read() override { return {ms_of(Clock::now()), {}, 0.0, std::nullopt, std::nullopt}; }
-  void command(const Motion&) override {}
+  [[nodiscard]] driving::Body body() const override { return {}; }
+  driving::Reading read() override { return {ms_of(Clock::now()), {}, 0.0, std::nullopt, std::nullopt}; }
+  void command(const driving::Motion&) override {}
 
-  Result<std::optional<TakenPicture>> next_picture(std::stop_token stop) override {
+  Result<std::optional<driving::TakenPicture>> next_picture(std::stop_token stop) override {
     if (!begun_) begin();
     const double now_s = Seconds(Clock::now() - *begun_).count();
     if (!advance()) return after_the_last(stop);
@@ -52,14 +52,14 @@ class VideoDriver final : public Driver {
     std::unique_lock lock(mutex_);
     const auto due = *begun_ + std::chrono::duration_cast<Clock::duration>(Seconds(time_s_));
     pause_.wait_until(lock, stop, due, [] { return false; });
-    if (stop.stop_requested()) return std::optional<TakenPicture>();
+    if (stop.stop_requested()) return std::optional<driving::TakenPicture>();
     cv::Mat picture;
     if (!video_.retrieve(picture) || picture.type() != CV_8UC3 || picture.cols != camera_.width_px ||
         picture.rows != camera_.height_px) {
       return fail(ErrorCode::kIo, "A picture of the video cannot be read.", config_.file);
     }
     ++shown_;
-    return std::optional(TakenPicture{ms_of(due), image_of(picture), {}, {}});
+    return std::optional(driving::TakenPicture{ms_of(due), image_of(picture), {}, {}});
   }
 
  private:
@@ -82,8 +82,8 @@ class VideoDriver final : public Driver {
     return true;
   }
 
-  Result<std::optional<TakenPicture>> after_the_last(const std::stop_token& stop) {
-    if (!config_.repeat || shown_ == 0) return std::optional<TakenPicture>();
+  Result<std::optional<driving::TakenPicture>> after_the_last(const std::stop_token& stop) {
+    if (!config_.repeat || shown_ == 0) return std::optional<driving::TakenPicture>();
     if (!video_.open(config_.file, cv::CAP_FFMPEG))
       return fail(ErrorCode::kIo, "The video cannot be read again.", config_.file);
     {
@@ -112,13 +112,13 @@ class VideoDriver final : public Driver {
 
 }  // namespace
 
-Result<std::unique_ptr<Driver>> make_video_driver(const VideoDriverConfig& config) {
+Result<std::unique_ptr<driving::Driver>> make_video_driver(const VideoDriverConfig& config) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(config.file, ignored)) {
     return fail(ErrorCode::kNotFound, "There is no such file.", config.file);
   }
   const std::filesystem::path beside = std::filesystem::path(config.file).parent_path() / "camera.json";
-  auto camera = read_camera(config.camera.empty() ? beside : std::filesystem::path(config.camera));
+  auto camera = files::read_camera(config.camera.empty() ? beside : std::filesystem::path(config.camera));
   if (!camera) return pass_on(camera);
   cv::VideoCapture video;
   try {

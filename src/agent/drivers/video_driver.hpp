@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "agent/drivers/driver.hpp"
+#include "driving/driver.hpp"
 
 namespace homeward::agent {
 
@@ -17,6 +17,6 @@ struct VideoDriverConfig {
 /// A video as if a camera took it now: pictures come at the times that the file gives them, and those are left out for
 /// which there was no time. It has no wheels and no range sensor, so that no mission can drive it.
 /// Errors: kNotFound, kUnsupportedFormat, kWrongImageSize, those of read_camera.
-Result<std::unique_ptr<Driver>> make_video_driver(const VideoDriverConfig& config);
+Result<std::unique_ptr<driving::Driver>> make_video_driver(const VideoDriverConfig& config);
 
 }  // namespace homeward::agent

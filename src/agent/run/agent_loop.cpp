@@ -11,24 +11,24 @@
 #include <utility>
 
 #include "agent/drivers/joystick.hpp"
-#include "agent/driving/stated.hpp"
-#include "agent/driving/step.hpp"
 #include "agent/link/link_client.hpp"
-#include "agent/recording/recorder.hpp"
 #include "agent/run/looker.hpp"
 #include "agent/run/real_time.hpp"
+#include "driving/stated.hpp"
+#include "driving/step.hpp"
 #include "pipeline/eye.hpp"
+#include "recording/recorder.hpp"
 
 namespace homeward::agent {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kCycle = std::chrono::milliseconds(40);
-constexpr Milliseconds kStatusPeriod_ms = 250;
+constexpr driving::Milliseconds kStatusPeriod_ms = 250;
 constexpr const char* kAgent = "homeward-agent/0.1.0";
 
 /// Goes on while the machine sleeps, unlike the steady clock: one that wakes up knows that its permit has run out.
-Milliseconds now_ms() {
+driving::Milliseconds now_ms() {
   timespec now{};
   ::clock_gettime(CLOCK_BOOTTIME, &now);
   return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
@@ -46,8 +46,8 @@ std::string random_session() {
   return text;
 }
 
-wire::AgentStatus status_of(const DrivingState& state, const DrivingConfig& config, const Reading& reading,
-                            std::int64_t seq) {
+wire::AgentStatus status_of(const driving::DrivingState& state, const driving::DrivingConfig& config,
+                            const driving::Reading& reading, std::int64_t seq) {
   wire::AgentStatus status;
   status.seq = seq;
   status.t_us = now_us();
@@ -63,18 +63,19 @@ wire::AgentStatus status_of(const DrivingState& state, const DrivingConfig& conf
   }
   status.min_range_m = state.min_range_m;
   status.vectors_per_s = static_cast<double>(state.answers_ms.size());
-  status.arrival_probability = stated_arrival(state, config);
-  status.estimate = stated_estimate(state, config);
-  status.possible_places = stated_places(state);
-  status.question = open_question(state, config, reading.t_ms);
+  status.arrival_probability = driving::stated_arrival(state, config);
+  status.estimate = driving::stated_estimate(state, config);
+  status.possible_places = driving::stated_places(state);
+  status.question = driving::open_question(state, config, reading.t_ms);
   status.displaced = state.displaced;
   status.astray = state.drive == wire::DriveState::kFailed && state.astray;
   return status;
 }
 
 /// What the rider's hand says: of two joysticks the one that is deflected.
-std::optional<RiderHand> rider_hand(const Reading& reading, Joystick* joystick, const Body& body) {
-  std::optional<RiderHand> hand = reading.rider;
+std::optional<driving::RiderHand> rider_hand(const driving::Reading& reading, Joystick* joystick,
+                                             const driving::Body& body) {
+  std::optional<driving::RiderHand> hand = reading.rider;
   if (joystick == nullptr) return hand;
   const auto own = joystick->read(body, now_ms(), reading.t_ms);
   return own && (!hand || own->deflected) ? own : hand;
@@ -83,24 +84,24 @@ std::optional<RiderHand> rider_hand(const Reading& reading, Joystick* joystick, 
 /// The driver stands still however the loop is left.
 class StandStill {
  public:
-  explicit StandStill(Driver& driver) : driver_(driver) {}
+  explicit StandStill(driving::Driver& driver) : driver_(driver) {}
   ~StandStill() { driver_.command({}); }
   StandStill(const StandStill&) = delete;
   StandStill& operator=(const StandStill&) = delete;
 
  private:
-  Driver& driver_;
+  driving::Driver& driver_;
 };
 
 }  // namespace
 
-Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_token& stop) {
+Status run_agent(driving::Driver& driver, const AgentOptions& options, const std::stop_token& stop) {
   const auto camera = camera::Camera::create(driver.camera());
   if (!camera) return pass_on(camera);
   const features::FeatureConfig features = pipeline::suited_feature_config(**camera);
   const auto eye = pipeline::Eye::create(driver.camera(), features);
   if (!eye) return pass_on(eye);
-  DrivingConfig config;
+  driving::DrivingConfig config;
   config.body = driver.body();
   config.feature_config_id = features::feature_config_id(features);
 
@@ -121,12 +122,13 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
   const StandStill at_the_end(driver);
   LinkClient link(options.server, options.robot, options.token, std::move(hello), options.told);
   std::int64_t frame_seq = 0;
-  Looker looker(driver, *eye, now_ms, [&](const CameraPicture& picture) {
+  Looker looker(driver, *eye, now_ms, [&](const recording::CameraPicture& picture) {
     if (link.up()) link.send(wire::Frame{++frame_seq, now_us(), *picture.bytes, picture.odometry});
   });
-  std::unique_ptr<Recorder> recorder;
+  std::unique_ptr<recording::Recorder> recorder;
   if (options.record) {
-    auto created = Recorder::create(*options.record, {kAgent, driver.camera(), features, config}, options.told);
+    auto created =
+        recording::Recorder::create(*options.record, {kAgent, driver.camera(), features, config}, options.told);
     if (!created) return pass_on(created);
     recorder = std::move(*created);
   }
@@ -137,47 +139,48 @@ Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_to
         "program "
         "to run in real time (CAP_SYS_NICE, or a real-time priority limit of 10)");
   }
-  DrivingState state;
+  driving::DrivingState state;
   std::int64_t status_seq = 0;
-  Milliseconds status_ms = 0;
+  driving::Milliseconds status_ms = 0;
   wire::DriveState told_state = wire::DriveState::kIdle;
   bool told_question = false;
   auto next_cycle = Clock::now();
   while (!stop.stop_requested()) {
     if (auto trouble = looker.trouble()) return tl::unexpected<Error>(*trouble);
-    const Reading reading = driver.read();
-    Inputs inputs;
+    const driving::Reading reading = driver.read();
+    driving::Inputs inputs;
     inputs.odometry = reading.odometry;
     inputs.rider = rider_hand(reading, joystick.get(), config.body);
     inputs.link_up = link.up();
     inputs.messages = link.take_messages();
-    PictureBytes picture;
+    recording::PictureBytes picture;
     if (auto looked_at = looker.take()) {
       inputs.picture = std::move(looked_at->seen);
       picture = std::move(looked_at->bytes);
     }
-    const Milliseconds now = now_ms();
+    const driving::Milliseconds now = now_ms();
     inputs.sensors_now_ms = reading.t_ms;
     if (reading.scan) inputs.scan = {reading.scan_t_ms.value_or(reading.t_ms), *reading.scan};
     for (const wire::ServerMessage& message : inputs.messages) {
       if (const auto* welcome = std::get_if<wire::Welcome>(&message)) looker.set_show_period(welcome->frame_period_ms);
     }
-    const Outputs outputs = recorder ? recorder->step(state, inputs, picture, now) : step(state, inputs, config, now);
+    const driving::Outputs outputs =
+        recorder ? recorder->step(state, inputs, picture, now) : driving::step(state, inputs, config, now);
     // Frozen while it thought, it must not do what it thought before; the next step says why it stopped.
     const bool held_up = now_ms() - now > config.loop_silence_ms;
-    driver.command(held_up ? Motion{} : outputs.motion);
+    driver.command(held_up ? driving::Motion{} : outputs.motion);
     for (wire::AgentMessage message : outputs.messages) {
       if (auto* stopped = std::get_if<wire::Stopped>(&message)) stopped->t_us = now_us();
       link.send(message);
     }
     looker.set_looking(state.drive == wire::DriveState::kDriving);
-    looker.set_features_wanted(wants_features(state.follow));
+    looker.set_features_wanted(driving::wants_features(state.follow));
     const bool changed = state.drive != told_state;
     if (changed)
       options.told(std::string(wire::drive_state_name(state.drive)) +
                    (state.reason.empty() ? "" : ": " + state.reason));
     told_state = state.drive;
-    const bool asks = open_question(state, config, reading.t_ms).has_value();
+    const bool asks = driving::open_question(state, config, reading.t_ms).has_value();
     const bool asks_anew = asks != std::exchange(told_question, asks);
     if (changed || asks_anew || now - status_ms >= kStatusPeriod_ms) {
       status_ms = now;

@@ -6,11 +6,11 @@
 #include <stop_token>
 #include <string>
 
-#include "agent/drivers/driver.hpp"
 #include "agent/link/address.hpp"
-#include "agent/recording/recording_thread.hpp"
 #include "core/ids.hpp"
 #include "core/result.hpp"
+#include "driving/driver.hpp"
+#include "recording/recording_thread.hpp"
 
 namespace homeward::agent {
 
@@ -19,15 +19,15 @@ struct AgentOptions {
   RobotId robot;
   std::string token;
   std::string robot_name;
-  std::function<void(const std::string&)> told;  // what happens, for a log; called from any thread
-  std::optional<RecordingOptions> record;        // each mission in a file of its own
-  std::string joystick = {};                     // the rider's, at this machine (/dev/input/js0); empty: none
+  std::function<void(const std::string&)> told;       // what happens, for a log; called from any thread
+  std::optional<recording::RecordingOptions> record;  // each mission in a file of its own
+  std::string joystick = {};                          // the rider's, at this machine (/dev/input/js0); empty: none
 };
 
 /// Runs a robot until `stop` is asked for: one thread looks at pictures, one (the caller's) decides 25 times a second
 /// and commands the driver, one speaks with the server. The driver is commanded to zero at the end, however it ends.
 /// Errors: those of the eye and of pictures, of Recorder::create and of Joystick::open. A recording that cannot go on
 /// is given up, and the robot drives on.
-Status run_agent(Driver& driver, const AgentOptions& options, const std::stop_token& stop);
+Status run_agent(driving::Driver& driver, const AgentOptions& options, const std::stop_token& stop);
 
 }  // namespace homeward::agent

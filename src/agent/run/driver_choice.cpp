@@ -14,31 +14,25 @@ std::optional<Error> missing(const DriverOptions& options, const std::string& op
 
 }  // namespace
 
-void add_driver_options(CLI::App& command, DriverOptions& options) {
-  command
-      .add_option("--driver", options.driver,
-                  "simulator, rosbridge (a ROS robot), or without wheels: v4l2 (a USB camera), folder, video")
-      ->check(CLI::IsMember({"simulator", "rosbridge", "folder", "video", "v4l2"}))
-      ->capture_default_str();
-  command.add_option("--camera", options.camera,
-                     "V4l2, folder, video: camera.json (folder and video: else the one beside the pictures). "
-                     "Simulator: a model (hyperbolic_mirror) or a camera.json");
-  command
-      .add_option("--world", options.simulator.world,
-                  "Simulator: house:SEED, narrow_house:SEED, offices:SEED, wards:SEED or a world.json")
-      ->capture_default_str();
-  command.add_option("--light", options.simulator.light, "Simulator: day, night or half")->capture_default_str();
-  command.add_option("--profile", options.simulator.robot, "Simulator: disc or chair")
-      ->check(CLI::IsMember({"disc", "chair"}))
-      ->capture_default_str();
-  command.add_option("--ranges", options.simulator.ranges, "Simulator: laser or ultrasound")
-      ->check(CLI::IsMember({"laser", "ultrasound"}))
-      ->capture_default_str();
-  command.add_option("--start-room", options.simulator.start_room, "Simulator: room to start in");
-  command.add_option("--people", options.simulator.people, "Simulator: people who walk about")
-      ->check(CLI::Range(0, 50));
-  command.add_option("--seed", options.simulator.seed, "Simulator: seed of noise and people");
-  command.add_option("--truth-file", options.simulator.truth_file, "Simulator: append true poses to this file");
+void add_driver_options(CLI::App& command, DriverOptions& options, const std::vector<FurtherDriver>& further) {
+  std::vector<std::string> names = {"rosbridge", "folder", "video", "v4l2"};
+  std::string summary = "rosbridge (a ROS robot), or without wheels: v4l2 (a USB camera), folder, video";
+  for (const FurtherDriver& driver : further) {
+    names.push_back(driver.name);
+    summary = driver.name + " (" + driver.summary + "), " + summary;
+  }
+  CLI::Option* choice = command.add_option("--driver", options.driver, summary)->check(CLI::IsMember(names));
+  if (further.empty()) {
+    choice->required();
+  } else {
+    options.driver = further.front().name;
+    choice->capture_default_str();
+  }
+  command.add_option(
+      "--camera", options.camera,
+      "V4l2, folder, video: camera.json (folder and video: else the one beside the pictures)" +
+          std::string(further.empty() ? "" : ". Simulator: a model (hyperbolic_mirror) or a camera.json"));
+  for (const FurtherDriver& driver : further) driver.add_options(command);
   command.add_option("--rosbridge", options.rosbridge_file,
                      "Rosbridge: the robot's description (JSON, format homeward-rosbridge)");
   command.add_option("--images", options.folder.folder, "Folder: where the pictures are");
@@ -48,11 +42,15 @@ void add_driver_options(CLI::App& command, DriverOptions& options) {
   command.add_flag("--repeat", options.repeat, "Folder, video: begin again after the last picture");
 }
 
-Result<std::unique_ptr<Driver>> make_driver(const DriverOptions& options,
-                                            std::function<void(const std::string&)> told) {
+Result<std::unique_ptr<driving::Driver>> make_driver(const DriverOptions& options,
+                                                     const std::vector<FurtherDriver>& further,
+                                                     std::function<void(const std::string&)> heard) {
+  for (const FurtherDriver& driver : further) {
+    if (driver.name == options.driver) return driver.make(options.camera);
+  }
   if (options.driver == "rosbridge") {
     if (const auto error = missing(options, "--rosbridge", options.rosbridge_file)) return tl::unexpected(*error);
-    return make_rosbridge_driver(options.rosbridge_file, std::move(told));
+    return make_rosbridge_driver(options.rosbridge_file, std::move(heard));
   }
   if (options.driver == "folder") {
     if (const auto error = missing(options, "--images", options.folder.folder)) return tl::unexpected(*error);
@@ -76,9 +74,7 @@ Result<std::unique_ptr<Driver>> make_driver(const DriverOptions& options,
     v4l2.pictures_per_s = options.pictures_per_s.value_or(v4l2.pictures_per_s);
     return make_v4l2_driver(v4l2);
   }
-  SimulatorDriverConfig simulator = options.simulator;
-  if (!options.camera.empty()) simulator.camera = options.camera;
-  return make_simulator_driver(simulator);
+  return fail(ErrorCode::kInvalidInput, "There is no driver of this name.", options.driver);
 }
 
 }  // namespace homeward::agent

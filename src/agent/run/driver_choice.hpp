@@ -4,21 +4,21 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "agent/drivers/driver.hpp"
 #include "agent/drivers/folder_driver.hpp"
-#include "agent/drivers/simulator_driver.hpp"
 #include "agent/drivers/v4l2_driver.hpp"
 #include "agent/drivers/video_driver.hpp"
+#include "driving/driver.hpp"
 
 namespace homeward::agent {
 
 /// What the command line says about the robot.
 struct DriverOptions {
-  std::string driver = "simulator";
+  std::string driver;
   std::string camera;  // empty: the driver's usual one
-  SimulatorDriverConfig simulator;
   std::string rosbridge_file;
   FolderDriverConfig folder;
   VideoDriverConfig video;
@@ -27,10 +27,23 @@ struct DriverOptions {
   bool repeat = false;
 };
 
-void add_driver_options(CLI::App& command, DriverOptions& options);
+/// A driver that a program offers beside those of this module.
+struct FurtherDriver {
+  std::string name;     // of --driver
+  std::string summary;  // what --help says of it
+  std::function<void(CLI::App& command)> add_options;
+  /// `camera`: what --camera says, or empty. Errors: those of the driver.
+  std::function<Result<std::unique_ptr<driving::Driver>>(const std::string& camera)> make;
+};
 
-/// The robot that was chosen. `told` hears of what happens, for a log. Errors: those of the driver; kInvalidInput when
+/// Adds --driver and what the drivers need. --driver must be given, but where there is a further driver: the first of
+/// them is the usual one then.
+void add_driver_options(CLI::App& command, DriverOptions& options, const std::vector<FurtherDriver>& further);
+
+/// The robot that was chosen. `heard` hears of what happens, for a log. Errors: those of the driver; kInvalidInput when
 /// an option that it needs is missing.
-Result<std::unique_ptr<Driver>> make_driver(const DriverOptions& options, std::function<void(const std::string&)> told);
+Result<std::unique_ptr<driving::Driver>> make_driver(const DriverOptions& options,
+                                                     const std::vector<FurtherDriver>& further,
+                                                     std::function<void(const std::string&)> heard);
 
 }  // namespace homeward::agent

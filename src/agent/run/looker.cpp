@@ -3,8 +3,8 @@
 
 namespace homeward::agent {
 
-Looker::Looker(Driver& driver, const pipeline::Eye& eye, std::function<Milliseconds()> now_ms,
-               std::function<void(const CameraPicture&)> show)
+Looker::Looker(driving::Driver& driver, const pipeline::Eye& eye, std::function<driving::Milliseconds()> now_ms,
+               std::function<void(const recording::CameraPicture&)> show)
     : driver_(driver),
       eye_(eye),
       now_ms_(std::move(now_ms)),
@@ -32,22 +32,22 @@ void Looker::fail_with(const Error& error) {
 }
 
 void Looker::run(const std::stop_token& stop) {
-  Milliseconds shown_ms = -1'000'000;
+  driving::Milliseconds shown_ms = -1'000'000;
   while (!stop.stop_requested()) {
     auto taken = driver_.next_picture(stop);
     if (!taken) return fail_with(taken.error());
     if (!*taken) return;
-    const Milliseconds taken_ms = now_ms_();
+    const driving::Milliseconds taken_ms = now_ms_();
     const bool shown = taken_ms - shown_ms >= show_period_ms_;
     if (!shown && !looking_) continue;
-    CameraPicture picture = as_sent(std::move(**taken));
+    recording::CameraPicture picture = recording::as_sent(std::move(**taken));
     picture.recognised = features_wanted_;
     if (shown) {
       shown_ms = taken_ms;
       show_(picture);
     }
     if (!looking_) continue;
-    auto seen = look(picture, eye_);
+    auto seen = recording::look(picture, eye_);
     if (!seen) return fail_with(seen.error());
     const std::lock_guard lock(mutex_);
     newest_ = LookedAt{std::move(*seen), picture.bytes};

@@ -7,26 +7,26 @@
 #include <optional>
 #include <thread>
 
-#include "agent/drivers/driver.hpp"
-#include "agent/driving/step.hpp"
-#include "agent/recording/look.hpp"
 #include "core/result.hpp"
+#include "driving/driver.hpp"
+#include "driving/step.hpp"
 #include "pipeline/eye.hpp"
+#include "recording/look.hpp"
 
 namespace homeward::agent {
 
 /// A picture that was looked at, and the bytes that were.
 struct LookedAt {
-  SeenPicture seen;
-  PictureBytes bytes;
+  driving::SeenPicture seen;
+  recording::PictureBytes bytes;
 };
 
 /// Takes pictures from a driver in a thread of its own: what was seen for the heart of the agent, JPEGs for the server.
 class Looker {
  public:
   /// `now_ms`: the clock of the heart. `show`: hears of a picture for the server, as often as `set_show_period` says.
-  Looker(Driver& driver, const pipeline::Eye& eye, std::function<Milliseconds()> now_ms,
-         std::function<void(const CameraPicture&)> show);
+  Looker(driving::Driver& driver, const pipeline::Eye& eye, std::function<driving::Milliseconds()> now_ms,
+         std::function<void(const recording::CameraPicture&)> show);
   ~Looker();
   Looker(const Looker&) = delete;
   Looker& operator=(const Looker&) = delete;
@@ -37,7 +37,7 @@ class Looker {
   void set_looking(bool looking) { looking_ = looking; }
   /// Whether pictures are recognised; otherwise they are only made ready for tracking.
   void set_features_wanted(bool wanted) { features_wanted_ = wanted; }
-  void set_show_period(Milliseconds period_ms) { show_period_ms_ = period_ms; }
+  void set_show_period(driving::Milliseconds period_ms) { show_period_ms_ = period_ms; }
   /// Why there are no more pictures, when there are none.
   std::optional<Error> trouble();
 
@@ -45,13 +45,13 @@ class Looker {
   void run(const std::stop_token& stop);
   void fail_with(const Error& error);
 
-  Driver& driver_;
+  driving::Driver& driver_;
   const pipeline::Eye& eye_;
-  std::function<Milliseconds()> now_ms_;
-  std::function<void(const CameraPicture&)> show_;
+  std::function<driving::Milliseconds()> now_ms_;
+  std::function<void(const recording::CameraPicture&)> show_;
   std::atomic<bool> looking_{false};
   std::atomic<bool> features_wanted_{true};
-  std::atomic<Milliseconds> show_period_ms_{200};
+  std::atomic<driving::Milliseconds> show_period_ms_{200};
   std::mutex mutex_;
   std::optional<LookedAt> newest_;
   std::optional<Error> trouble_;

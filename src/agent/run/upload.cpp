@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "agent/files/read_file.hpp"
-#include "agent/files/tour_folder.hpp"
+#include "files/read_file.hpp"
+#include "files/tour_folder.hpp"
 #include "wire/camera_json.hpp"
 #include "wire/error_table.hpp"
 #include "wire/scans_json.hpp"
@@ -60,14 +60,14 @@ Result<std::string> open_tour(RestClient& server, const std::string& name, const
   return made->value("id", std::string());
 }
 
-std::string file_name(const pipeline::TourImage& image) {
+std::string file_name(const TourImage& image) {
   const std::string& id = image.id.str();
   return id.substr(id.find('/') + 1);
 }
 
 Status put_picture(RestClient& server, const std::string& tour, std::size_t number, const std::filesystem::path& file,
-                   const pipeline::TourImage& image) {
-  const auto bytes = read_text(file);
+                   const TourImage& image) {
+  const auto bytes = files::read_text(file);
   if (!bytes) return pass_on(bytes);
   const bool png = file.extension() == ".png" || file.extension() == ".PNG";
   std::map<std::string, std::string> headers = {{"Content-Type", png ? "image/png" : "image/jpeg"},
@@ -87,7 +87,7 @@ Status put_picture(RestClient& server, const std::string& tour, std::size_t numb
 }
 
 Status put_sweep(RestClient& server, const std::string& tour, std::size_t number, const std::filesystem::path& folder,
-                 const pipeline::TourImage& image) {
+                 const TourImage& image) {
   if (!image.sweep) return {};
   const std::string path = "/api/v1/tours/" + tour + "/images/" + std::to_string(number) + "/sweep";
   const auto answer = server.call("PUT", path, wire::sweep_to_json(*image.sweep).dump(),
@@ -106,15 +106,15 @@ Status put_sweep(RestClient& server, const std::string& tour, std::size_t number
 
 Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& options,
                                  const std::function<void(double)>& progress) {
-  const auto tour = TourFolder::open(options.folder);
+  const auto tour = files::TourFolder::open(options.folder);
   if (!tour) return pass_on(tour);
   const std::filesystem::path folder(options.folder);
   const auto camera =
-      read_camera(options.camera.empty() ? folder / "camera.json" : std::filesystem::path(options.camera));
+      files::read_camera(options.camera.empty() ? folder / "camera.json" : std::filesystem::path(options.camera));
   if (!camera) return pass_on(camera);
   const auto id = open_tour(server, options.name, *camera);
   if (!id) return pass_on(id);
-  const auto files = pictures_in(options.folder);
+  const auto files = files::pictures_in(options.folder);
   if (!files) return pass_on(files);
   UploadedTour uploaded{*id, {}};
   std::size_t kept = 0;  // the server numbers without gaps
@@ -132,7 +132,7 @@ Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& option
   }
   if (kept == 0) return tl::unexpected<Error>(uploaded.skipped.front());
   json marks = {{"marks", json::array()}};
-  for (const pipeline::TourMark& mark : tour->marks()) {
+  for (const TourMark& mark : tour->marks()) {
     const auto error = std::ranges::find(uploaded.skipped, (folder / mark.image).string(), &Error::where);
     if (error == uploaded.skipped.end()) {
       marks["marks"].push_back({{"image", mark.image}, {"label", mark.label}});

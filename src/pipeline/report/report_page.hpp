@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "core/tour.hpp"
 #include "pipeline/build_map.hpp"
-#include "pipeline/tour.hpp"
 
 namespace homeward::pipeline {
 

@@ -7,8 +7,8 @@
 #include <array>
 #include <iostream>
 
-#include "agent/files/tour_folder.hpp"
 #include "db/map_file.hpp"
+#include "files/tour_folder.hpp"
 #include "localisation/localiser.hpp"
 #include "mapping/parallel.hpp"
 #include "truth.hpp"
@@ -27,11 +27,11 @@ struct Walk {
 };
 
 Walk see(const fs::path& folder, const map::TopologicalMap& map, int threads) {
-  const agent::TourFolder source = or_die(agent::TourFolder::open(folder));
+  const files::TourFolder source = or_die(files::TourFolder::open(folder));
   const auto poses = read_poses(folder / "poses.csv");
   const auto eye = or_die(pipeline::Eye::create(map.camera, map.feature_config));
   Walk walk;
-  for (const pipeline::TourImage& image : source.images()) {
+  for (const TourImage& image : source.images()) {
     walk.odometry.push_back(image.odometry);
     walk.truth.push_back(poses.at(file_of(image.id)));
   }

@@ -167,7 +167,7 @@ std::optional<geometry::PlanarEstimate> verified(std::span<const geometry::Corre
 class Camera {
  public:
   Camera(const fs::path& file, const std::vector<Variant>& variants) {
-    const camera::CameraConfig config = or_die(agent::read_camera(file));
+    const camera::CameraConfig config = or_die(files::read_camera(file));
     features_ = usual_features(config);
     features_.max_sift = 0;
     features_.max_columns = 0;
@@ -180,7 +180,7 @@ class Camera {
   }
 
   [[nodiscard]] Whole look(const fs::path& file) const {
-    const auto panorama = or_die(eye_->unwrap(or_die(agent::read_picture(file))));
+    const auto panorama = or_die(eye_->unwrap(or_die(files::read_picture(file))));
     Whole whole;
     whole.appearance = features::extract(panorama, features_, floats_ ? &whole.unrounded : nullptr);
     return whole;

@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "agent/files/read_file.hpp"
 #include "core/angles.hpp"
 #include "features/columns.hpp"
 #include "features/extract.hpp"
+#include "files/read_file.hpp"
 #include "geometry/planar_motion.hpp"
 #include "matching/match.hpp"
 #include "matching/match_columns.hpp"

@@ -12,12 +12,12 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "agent/drivers/simulated_robot.hpp"
-#include "agent/driving/estimated_position.hpp"
-#include "agent/files/world_folder.hpp"
-#include "agent/scenario/drive_loop.hpp"
-#include "agent/scenario/house.hpp"
 #include "core/angles.hpp"
+#include "driving/estimated_position.hpp"
+#include "scenario/drive_loop.hpp"
+#include "scenario/simulated_robot.hpp"
+#include "scenario/simulated_server.hpp"
+#include "scenario/world_folder.hpp"
 #include "sim/floor.hpp"
 #include "taught.hpp"
 
@@ -117,7 +117,7 @@ struct Ending {
 };
 
 /// The places from which the last metres begin: in sight of the destination, some metres off.
-std::vector<const map::Place*> starts_of(const agent::TaughtWorld& taught, const Pose2& target) {
+std::vector<const map::Place*> starts_of(const scenario::TaughtWorld& taught, const Pose2& target) {
   constexpr double kLeast_m = 1.2;
   constexpr double kMost_m = 4.0;
   std::vector<const map::Place*> starts;
@@ -128,28 +128,28 @@ std::vector<const map::Place*> starts_of(const agent::TaughtWorld& taught, const
   return starts;
 }
 
-Ending drive(const agent::TaughtWorld& taught, agent::SimulatedRobot& robot, const pipeline::Eye& eye,
+Ending drive(const scenario::TaughtWorld& taught, scenario::SimulatedRobot& robot, const pipeline::Eye& eye,
              const map::Destination& destination, const PlaceId& told, Kind kind, const Options& options) {
   constexpr double kShort_m = 1.0;
   const Pose2& target = taught.destination_poses.at(destination.label);
-  agent::House house = or_die(agent::House::create(taught, destination));
+  scenario::House house = or_die(scenario::House::create(taught, destination));
   or_die(house.find_place(robot));
   wire::MissionOrder order = or_die(house.order_from(told));
   if (order.surroundings) order.surroundings->start_probability = options.start_probability;
-  agent::DrivingConfig config;
-  config.body = agent::body_of(sim::disc_profile());
+  driving::DrivingConfig config;
+  config.body = scenario::body_of(sim::disc_profile());
   config.feature_config_id = taught.map->feature_config_id;
-  const agent::ScenarioListener listener;
-  agent::DriveLoop drive(robot, eye, agent::FaultSchedule({}), config, listener, nullptr);
+  const scenario::ScenarioListener listener;
+  scenario::DriveLoop drive(robot, eye, scenario::FaultSchedule({}), config, listener, nullptr);
   drive.ask_belief([&](const features::Appearance& seen, const Pose2& odometry, const auto& estimate) {
     return house.believe(seen, odometry, estimate);
   });
   Ending ending;
   ending.kind = kind;
   ending.to = destination.label;
-  drive.end_when([&](const agent::CycleTrace& now) {
+  drive.end_when([&](const scenario::CycleTrace& now) {
     if (options.only > 0) {
-      const auto apart = agent::off_belief_m(drive.state().follow, drive.state().mission->path, config.follow);
+      const auto apart = driving::off_belief_m(drive.state().follow, drive.state().mission->path, config.follow);
       std::fprintf(
           stderr, "%.1f s: stated %.4f, sure %.4f, elsewhere %.4f, off %.2f m, belief %s, apart %.1f m\n", now.t_s,
           now.arrival_probability, now.position_probability, now.elsewhere, apart_m(now.pose, target),
@@ -199,11 +199,11 @@ double calibration_error(const std::vector<Ending>& endings) {
 
 int run(const Options& options) {
   constexpr int kTries = 200;
-  agent::TaughtWorld taught = teach_all_rooms(options.world, options.seed);
-  const auto light = or_die(agent::light_named(options.light));
-  agent::prepare_light(*taught.world, light);
+  scenario::TaughtWorld taught = teach_all_rooms(options.world, options.seed);
+  const auto light = or_die(scenario::light_named(options.light));
+  scenario::prepare_light(*taught.world, light);
   const auto eye = or_die(pipeline::Eye::create(taught.camera, taught.map->feature_config));
-  agent::SimulatedRobotConfig robot_config;
+  scenario::SimulatedRobotConfig robot_config;
   robot_config.camera = taught.camera;
   robot_config.light = light;
   robot_config.profile = sim::disc_profile();
@@ -227,7 +227,7 @@ int run(const Options& options) {
         start.y_m += kBeside_m * unit(random);
         start.theta_rad = wrap_angle(start.theta_rad + kBeside_rad * unit(random));
         const auto room = sim::room_at(taught.world->world(), {start.x_m, start.y_m});
-        auto robot = or_die(agent::SimulatedRobot::create(*taught.world, robot_config, start));
+        auto robot = or_die(scenario::SimulatedRobot::create(*taught.world, robot_config, start));
         const auto clearance_m = [&](const Pose2& pose) { return robot.clearance_m(pose); };
         if (!room || clearance_m(start) < kLeastRoom_m) continue;
         if (kind == Kind::kNextRoom || kind == Kind::kMirrored) {

@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "agent/drivers/usual_cameras.hpp"
-#include "agent/files/world_folder.hpp"
-#include "agent/scenario/mission_run.hpp"
 #include "core/angles.hpp"
 #include "homing/home_vector.hpp"
+#include "scenario/mission_run.hpp"
+#include "scenario/usual_cameras.hpp"
+#include "scenario/world_folder.hpp"
 #include "sim/floor.hpp"
 #include "wire/appearance_blob.hpp"
 
@@ -98,12 +98,12 @@ int main(int argc, char** argv) {
   app.add_flag("--trace", trace, "each cycle on standard error");
   CLI11_PARSE(app, argc, argv);
 
-  sim::LitWorld world(or_die(agent::load_world(world_name)));
-  const auto light = or_die(agent::light_named(light_name));
-  const auto day = or_die(agent::light_named("day"));
-  agent::prepare_light(world, day);
-  agent::prepare_light(world, light);
-  const camera::CameraConfig camera_config = agent::usual_camera(model).value();
+  sim::LitWorld world(or_die(scenario::load_world(world_name)));
+  const auto light = or_die(scenario::light_named(light_name));
+  const auto day = or_die(scenario::light_named("day"));
+  scenario::prepare_light(world, day);
+  scenario::prepare_light(world, light);
+  const camera::CameraConfig camera_config = scenario::usual_camera(model).value();
   const auto camera = or_die(camera::Camera::create(camera_config));
   const auto features = pipeline::suited_feature_config(*camera);
   const auto eye = or_die(pipeline::Eye::create(camera_config, features));
@@ -148,12 +148,12 @@ int main(int argc, char** argv) {
       }
       continue;
     }
-    agent::SimulatedRobotConfig config;
+    scenario::SimulatedRobotConfig config;
     config.camera = camera_config;
     config.light = light;
     config.profile = profile;
     config.seed = own_seed;
-    auto robot = or_die(agent::SimulatedRobot::create(world, config, start));
+    auto robot = or_die(scenario::SimulatedRobot::create(world, config, start));
     wire::MissionOrder order;
     order.mission = MissionId("homing");
     order.order = {1, 1};
@@ -164,12 +164,12 @@ int main(int argc, char** argv) {
     order.final_image = ImageId("target");
     order.final_appearance = wire::encode_appearance(or_die(eye.look(renderer.render(target, {}, own_seed + 1))));
     order.dock = true;
-    agent::DrivingConfig driving;
-    driving.body = agent::body_of(profile);
+    driving::DrivingConfig driving;
+    driving.body = scenario::body_of(profile);
     driving.feature_config_id = order.feature_config_id;
-    agent::ScenarioListener listener;
+    scenario::ScenarioListener listener;
     if (trace) {
-      listener.cycled = [&](const agent::CycleTrace& now) {
+      listener.cycled = [&](const scenario::CycleTrace& now) {
         const Eigen::Vector2d off = Eigen::Rotation2Dd(-now.pose.theta_rad) *
                                     Eigen::Vector2d(target.x_m - now.pose.x_m, target.y_m - now.pose.y_m);
         std::fprintf(stderr, "%5.1f true %6.3f %6.3f goal %6.3f %6.3f conf %.2f inl %3d par %.3f v %.2f w %5.2f %s\n",
@@ -177,8 +177,8 @@ int main(int argc, char** argv) {
                      now.parallax_rad, now.speed_mps, now.turn_radps, now.state.c_str());
       };
     }
-    auto result = or_die(agent::drive_order(robot, eye, order, {}, driving, listener));
-    agent::judge(robot.vehicle(), target, result);
+    auto result = or_die(scenario::drive_order(robot, eye, order, {}, driving, listener));
+    scenario::judge(robot.vehicle(), target, result);
     arrived += result.arrived ? 1 : 0;
     collisions += result.collisions;
     errors_m.push_back(result.final_error_m);

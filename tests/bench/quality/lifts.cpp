@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <random>
 
-#include "agent/drivers/simulated_robot.hpp"
-#include "agent/driving/continuity.hpp"
-#include "agent/driving/sweep_continuity.hpp"
-#include "agent/files/world_folder.hpp"
-#include "agent/scenario/look_alike_spot.hpp"
 #include "core/angles.hpp"
+#include "driving/continuity.hpp"
+#include "driving/sweep_continuity.hpp"
+#include "scenario/look_alike_spot.hpp"
+#include "scenario/simulated_robot.hpp"
+#include "scenario/world_folder.hpp"
 #include "taught.hpp"
 
 namespace homeward {
@@ -27,27 +27,27 @@ struct Options {
 
 struct Seen {
   features::Appearance appearance;
-  agent::Scan scan;
+  driving::Scan scan;
   Pose2 pose;
 };
 
-Seen look(agent::SimulatedRobot& robot, const pipeline::Eye& eye) {
+Seen look(scenario::SimulatedRobot& robot, const pipeline::Eye& eye) {
   return {or_die(eye.look(robot.picture())), robot.sweep(), robot.vehicle().pose()};
 }
 
 void compare(const char* what, const Seen& before, const Seen& now, const Pose2& before_from_now) {
-  const auto share = agent::continued_share(before.appearance, now.appearance, before_from_now.theta_rad, 1);
-  const auto rays = agent::contradiction(before.scan, now.scan, before_from_now);
+  const auto share = driving::continued_share(before.appearance, now.appearance, before_from_now.theta_rad, 1);
+  const auto rays = driving::contradiction(before.scan, now.scan, before_from_now);
   std::printf("%s,features,%.3f,rays,%.3f,moved_m,%.2f\n", what, share.value_or(-1.0), rays.value_or(-1.0),
               std::hypot(before.pose.x_m - now.pose.x_m, before.pose.y_m - now.pose.y_m));
 }
 
 int run(const Options& options) {
-  agent::TaughtWorld taught = teach_all_rooms(options.world, options.seed);
-  const auto light = or_die(agent::light_named(options.light));
-  agent::prepare_light(*taught.world, light);
+  scenario::TaughtWorld taught = teach_all_rooms(options.world, options.seed);
+  const auto light = or_die(scenario::light_named(options.light));
+  scenario::prepare_light(*taught.world, light);
   const auto eye = or_die(pipeline::Eye::create(taught.camera, taught.map->feature_config));
-  agent::SimulatedRobotConfig config;
+  scenario::SimulatedRobotConfig config;
   config.camera = taught.camera;
   config.light = light;
   config.profile = sim::disc_profile();
@@ -65,10 +65,10 @@ int run(const Options& options) {
     here.y_m += kBeside_m * unit(random);
     here.theta_rad = wrap_angle(here.theta_rad + 0.3 * unit(random));
     config.seed = random();
-    auto robot = or_die(agent::SimulatedRobot::create(*taught.world, config, here));
-    if (robot.clearance_m(here) < agent::kLiftClearance_m) continue;
+    auto robot = or_die(scenario::SimulatedRobot::create(*taught.world, config, here));
+    if (robot.clearance_m(here) < scenario::kLiftClearance_m) continue;
     const Seen before = look(robot, eye);
-    const auto there = or_die(agent::look_alike_spot(taught, robot, eye));
+    const auto there = or_die(scenario::look_alike_spot(taught, robot, eye));
     if (!there) continue;
     const Pose2 step{kStep_m * std::abs(unit(random)), 0.0, kStep_rad * unit(random)};
     robot.carry_to(here * step);

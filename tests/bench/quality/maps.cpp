@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "agent/files/tour_folder.hpp"
+#include "files/tour_folder.hpp"
 #include "mapping/compare_all.hpp"
 #include "mapping/map_builder.hpp"
 #include "mapping/parallel.hpp"
@@ -78,15 +78,15 @@ bool known_already(const fs::path& file, SeenTour& tour) {
 }
 
 SeenTour see(const fs::path& folder, const fs::path& cache, int threads) {
-  const agent::TourFolder source = or_die(agent::TourFolder::open(folder));
+  const files::TourFolder source = or_die(files::TourFolder::open(folder));
   const std::map<std::string, Pose> poses = read_poses(folder / "poses.csv");
-  const agent::CsvTable table = or_die(agent::read_csv(folder / "poses.csv"));
+  const files::CsvTable table = or_die(files::read_csv(folder / "poses.csv"));
   std::map<std::string, std::string> room_of;
   if (const auto column = table.column("room")) {
     for (const auto& row : table.rows) room_of[row[table.column("filename").value()]] = row[*column];
   }
   SeenTour tour;
-  for (const pipeline::TourImage& image : source.images()) {
+  for (const TourImage& image : source.images()) {
     const std::string& id = image.id.str();
     const std::string name = id.substr(id.rfind('/') + 1);
     tour.images.push_back({image.id, image.t_us, image.odometry});
@@ -99,7 +99,7 @@ SeenTour see(const fs::path& folder, const fs::path& cache, int threads) {
   tour.pairs = mapping::PairTable(static_cast<int>(count));
   const fs::path file = cache / (folder.filename().string() + ".seen");
   if (!cache.empty() && known_already(file, tour)) return tour;
-  const camera::CameraConfig config = or_die(agent::read_camera(folder / "camera.json"));
+  const camera::CameraConfig config = or_die(files::read_camera(folder / "camera.json"));
   const auto eye = or_die(pipeline::Eye::create(config, usual_features(config)));
   const auto look = [&](std::size_t i) { tour.appearances[i] = or_die(eye.look(or_die(source.read(i)))); };
   mapping::parallel_for(count, threads, look, [](std::size_t) {}, {});

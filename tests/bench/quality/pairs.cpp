@@ -26,14 +26,14 @@ struct Pair : KnownPair {
 class Pictures {
  public:
   explicit Pictures(const fs::path& camera_file) {
-    const camera::CameraConfig config = or_die(agent::read_camera(camera_file));
+    const camera::CameraConfig config = or_die(files::read_camera(camera_file));
     eye_.emplace(or_die(pipeline::Eye::create(config, usual_features(config))));
   }
 
   const features::Appearance& operator()(const fs::path& file) {
     const auto known = seen_.find(file);
     if (known != seen_.end()) return known->second;
-    return seen_.emplace(file, or_die(eye_->look(or_die(agent::read_picture(file))))).first->second;
+    return seen_.emplace(file, or_die(eye_->look(or_die(files::read_picture(file))))).first->second;
   }
 
  private:

@@ -26,11 +26,11 @@ struct Seen {
 double distance_m(const Seen& a, const Seen& b) { return distance_m(a.pose, b.pose); }
 
 std::vector<Seen> read_tour(const fs::path& folder) {
-  const camera::CameraConfig config = or_die(agent::read_camera(folder / "camera.json"));
+  const camera::CameraConfig config = or_die(files::read_camera(folder / "camera.json"));
   const auto eye = or_die(pipeline::Eye::create(config, usual_features(config)));
   std::vector<Seen> tour;
   for (const auto& [file, pose] : read_poses(folder / "poses.csv")) {
-    tour.push_back({file, pose, or_die(eye.look(or_die(agent::read_picture(folder / file))))});
+    tour.push_back({file, pose, or_die(eye.look(or_die(files::read_picture(folder / file))))});
   }
   return tour;
 }

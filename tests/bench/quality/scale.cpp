@@ -30,7 +30,7 @@ std::vector<features::Appearance> look_at(const fs::path& folder, const camera::
   const auto eye = or_die(pipeline::Eye::create(config, usual_features(config)));
   std::vector<features::Appearance> tour;
   for (const auto& [file, pose] : read_poses(folder / "poses.csv")) {
-    tour.push_back(or_die(eye.look(or_die(agent::read_picture(folder / file)))));
+    tour.push_back(or_die(eye.look(or_die(files::read_picture(folder / file)))));
   }
   return tour;
 }

@@ -8,11 +8,11 @@
 #include <cstdio>
 #include <iostream>
 
-#include "agent/files/tour_folder.hpp"
-#include "agent/files/world_folder.hpp"
-#include "agent/scenario/true_ways.hpp"
 #include "db/map_file.hpp"
+#include "files/tour_folder.hpp"
 #include "mapping/shortcut_edges.hpp"
+#include "scenario/true_ways.hpp"
+#include "scenario/world_folder.hpp"
 #include "sim/floor.hpp"
 #include "truth.hpp"
 
@@ -27,9 +27,9 @@ struct Options {
   mapping::ShortcutConfig config;
 };
 
-agent::PicturePoses poses_of(const map::TopologicalMap& map, const std::string& tour) {
+scenario::PicturePoses poses_of(const map::TopologicalMap& map, const std::string& tour) {
   const auto truth = read_poses(std::filesystem::path(tour) / "poses.csv");
-  agent::PicturePoses poses;
+  scenario::PicturePoses poses;
   for (const map::MapImage& image : map.images) {
     const Pose& pose = truth.at(image.id.str().substr(image.id.str().rfind('/') + 1));
     poses.emplace(image.id, Pose2{pose.x_m, pose.y_m, pose.theta_rad});
@@ -38,16 +38,16 @@ agent::PicturePoses poses_of(const map::TopologicalMap& map, const std::string& 
 }
 
 std::vector<mapping::TourSweep> sweeps_of(const std::string& folder) {
-  const agent::TourFolder tour = or_die(agent::TourFolder::open(folder));
+  const files::TourFolder tour = or_die(files::TourFolder::open(folder));
   std::vector<mapping::TourSweep> sweeps;
-  for (const pipeline::TourImage& image : tour.images()) {
+  for (const TourImage& image : tour.images()) {
     if (image.sweep) sweeps.push_back({image.id, *image.sweep});
   }
   return sweeps;
 }
 
 /// Of ways between all destinations over the shortest that there is, in the order of size.
-std::vector<double> ratios(const map::TopologicalMap& map, const agent::PicturePoses& poses, const sim::World& world,
+std::vector<double> ratios(const map::TopologicalMap& map, const scenario::PicturePoses& poses, const sim::World& world,
                            bool shortcuts) {
   std::vector<double> found;
   for (const map::Destination& from : map.destinations) {
@@ -56,7 +56,7 @@ std::vector<double> ratios(const map::TopologicalMap& map, const agent::PictureP
       const Pose2& b = poses.at(to.image);
       const double shortest_m = sim::length_m(sim::shortest_way(world.drivable, {a.x_m, a.y_m}, {b.x_m, b.y_m}));
       if (shortest_m < 1.0) continue;
-      const auto way_m = agent::way_over_edges_m(map, poses, {a.x_m, a.y_m}, to, shortcuts);
+      const auto way_m = scenario::way_over_edges_m(map, poses, {a.x_m, a.y_m}, to, shortcuts);
       if (way_m) found.push_back(*way_m / shortest_m);
     }
   }
@@ -74,9 +74,9 @@ void print_ratios(const char* what, const std::vector<double>& sorted) {
 
 int run(const Options& options) {
   map::TopologicalMap map = or_die(db::load_map(options.map)).map;
-  const sim::World world = or_die(agent::load_world(options.world));
+  const sim::World world = or_die(scenario::load_world(options.world));
   const sim::Obstacles obstacles(world);
-  const agent::PicturePoses poses = poses_of(map, options.tour);
+  const scenario::PicturePoses poses = poses_of(map, options.tour);
   map.shortcuts.clear();
   mapping::settle_shortcuts(map);
   const auto found = mapping::propose_shortcuts(map, sweeps_of(options.tour), options.config);
@@ -85,7 +85,7 @@ int run(const Options& options) {
   for (const map::Shortcut& one : found) {
     const Pose2& a = poses.at(one.image_a);
     const Pose2& b = poses.at(one.image_b);
-    const double clearance_m = agent::clearance_along_m(obstacles, sim::disc_profile(), a, b);
+    const double clearance_m = scenario::clearance_along_m(obstacles, sim::disc_profile(), a, b);
     touching += clearance_m <= 0.0 ? 1 : 0;
     least_m = std::min(least_m, clearance_m);
     if (options.each) {

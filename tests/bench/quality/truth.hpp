@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "agent/files/csv.hpp"
-#include "agent/files/read_file.hpp"
 #include "core/angles.hpp"
 #include "core/result.hpp"
+#include "files/csv.hpp"
+#include "files/read_file.hpp"
 #include "pipeline/eye.hpp"
 
 /// Pictures whose true places or directions are known, as the programs of this folder read them.
@@ -36,7 +36,7 @@ inline double distance_m(const Pose& a, const Pose& b) { return std::hypot(a.x_m
 
 /// Columns filename, x_m, y_m, theta_rad.
 inline std::map<std::string, Pose> read_poses(const std::filesystem::path& file) {
-  const agent::CsvTable table = or_die(agent::read_csv(file));
+  const files::CsvTable table = or_die(files::read_csv(file));
   std::map<std::string, Pose> poses;
   const auto at = [&](const char* name) { return table.column(name).value(); };
   for (const auto& row : table.rows) {
@@ -59,7 +59,7 @@ struct KnownPair {
 /// different places.
 inline std::vector<KnownPair> read_pairs(const std::filesystem::path& list, const std::filesystem::path& poses_file,
                                          double same_m) {
-  const agent::CsvTable table = or_die(agent::read_csv(list));
+  const files::CsvTable table = or_die(files::read_csv(list));
   const std::map<std::string, Pose> poses = poses_file.empty() ? std::map<std::string, Pose>{} : read_poses(poses_file);
   const auto cell = [&](const std::vector<std::string>& row, const char* name) {
     const auto column = table.column(name);

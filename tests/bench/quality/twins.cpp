@@ -12,15 +12,15 @@
 #include <cstdio>
 #include <random>
 
-#include "agent/drivers/simulated_robot.hpp"
-#include "agent/driving/pose_hypotheses.hpp"
-#include "agent/driving/tour_ways.hpp"
-#include "agent/files/world_folder.hpp"
-#include "agent/scenario/look_alike_spot.hpp"
+#include "driving/pose_hypotheses.hpp"
+#include "driving/tour_ways.hpp"
 #include "homing/visual_homing.hpp"
 #include "localisation/candidates.hpp"
 #include "map/lookup.hpp"
 #include "matching/visual_distance.hpp"
+#include "scenario/look_alike_spot.hpp"
+#include "scenario/simulated_robot.hpp"
+#include "scenario/world_folder.hpp"
 #include "taught.hpp"
 
 namespace homeward {
@@ -50,7 +50,7 @@ struct View {
 /// What is known of the map: its prototypes, and the ways between them that the tour drove.
 struct Known {
   std::vector<View> views;
-  std::vector<agent::TourWay> ways;
+  std::vector<driving::TourWay> ways;
 };
 
 std::vector<View> nearest(const std::vector<View>& views, const Pose2& at) {
@@ -63,23 +63,23 @@ std::vector<View> nearest(const std::vector<View>& views, const Pose2& at) {
 }
 
 /// Looks as a robot does that knows that it is at one of the two places, and prints what is recognised there.
-void look(agent::PoseHypotheses& side, const features::Appearance& seen, const std::vector<Eigen::Vector2d>& points_m,
+void look(driving::PoseHypotheses& side, const features::Appearance& seen, const std::vector<Eigen::Vector2d>& points_m,
           const Known& known, const Pose2& start) {
   const Pose2 at = side.best() != nullptr ? side.best()->map_from_robot : start;
   std::optional<double> room_m;
-  if (side.best() != nullptr) room_m = agent::room_on_ways_m(points_m, known.ways, *side.best());
+  if (side.best() != nullptr) room_m = driving::room_on_ways_m(points_m, known.ways, *side.best());
   std::printf(",%.3f,%.3f,%.3f", at.x_m, at.y_m, room_m.value_or(kUnknown_m));
-  std::vector<agent::ViewSighting> sightings;
+  std::vector<driving::ViewSighting> sightings;
   for (const View& view : nearest(known.views, at)) {
     const auto pair = matching::compare(seen, *view.appearance, {}, kSeed);
-    agent::ViewSighting one;
+    driving::ViewSighting one;
     one.map_from_view = view.pose;
     one.prior_share = 0.1;
     if (pair.pose) {
       one.share = homing::shared_share(seen, *view.appearance, pair.verified);
       one.agreeing = pair.verified;
-      one.direction = agent::SightedDirection{pair.pose->motion.direction_rad, pair.pose->motion.turn_rad,
-                                              pair.pose->confidence, homing::usual_distance_m(one.share)};
+      one.direction = driving::SightedDirection{pair.pose->motion.direction_rad, pair.pose->motion.turn_rad,
+                                                pair.pose->confidence, homing::usual_distance_m(one.share)};
     }
     sightings.push_back(one);
     std::printf(",%.3f,%d,%.4f,%.4f,%d,%d", apart_m(view.pose, at), pair.verified, pair.distance,
@@ -117,10 +117,10 @@ struct Walk {
   Pose2 twin;
 };
 
-void drive(const Walk& walk, agent::SimulatedRobot& robot, const pipeline::Eye& eye, const Known& known) {
+void drive(const Walk& walk, scenario::SimulatedRobot& robot, const pipeline::Eye& eye, const Known& known) {
   constexpr double kFarthestStep_m = 1.0;  // beyond it the tour was interrupted
-  agent::PoseHypotheses truth;
-  agent::PoseHypotheses twin;
+  driving::PoseHypotheses truth;
+  driving::PoseHypotheses twin;
   for (std::size_t step = 0; step < walk.way.size(); ++step) {
     const Pose2& here = walk.way[step];
     if (robot.clearance_m(here) < 0.0) return;
@@ -133,7 +133,7 @@ void drive(const Walk& walk, agent::SimulatedRobot& robot, const pipeline::Eye& 
     robot.carry_to(here);
     const auto seen = or_die(eye.look(robot.picture()));
     std::printf("%s,%d,%zu,%.3f,%.3f", walk.light, walk.number, step, here.x_m, here.y_m);
-    const std::vector<Eigen::Vector2d> points_m = agent::hit_points(robot.sweep());
+    const std::vector<Eigen::Vector2d> points_m = driving::hit_points(robot.sweep());
     look(truth, seen, points_m, known, walk.own);
     look(twin, seen, points_m, known, walk.twin);
     std::printf("\n");
@@ -141,7 +141,7 @@ void drive(const Walk& walk, agent::SimulatedRobot& robot, const pipeline::Eye& 
 }
 
 int run(const Options& options) {
-  agent::TaughtWorld taught = teach_all_rooms(options.world, options.seed);
+  scenario::TaughtWorld taught = teach_all_rooms(options.world, options.seed);
   const auto eye = or_die(pipeline::Eye::create(taught.camera, taught.map->feature_config));
   const localisation::CandidateFinder finder(*taught.map);
   Known known;
@@ -158,11 +158,11 @@ int run(const Options& options) {
   std::vector<Pose2> tour;
   for (const auto& [image, pose] : taught.picture_poses) tour.push_back(pose);
   for (const std::string& name : options.lights) {
-    agent::SimulatedRobotConfig config;
+    scenario::SimulatedRobotConfig config;
     config.camera = taught.camera;
-    config.light = or_die(agent::light_named(name));
+    config.light = or_die(scenario::light_named(name));
     config.profile = sim::disc_profile();
-    agent::prepare_light(*taught.world, config.light);
+    scenario::prepare_light(*taught.world, config.light);
     std::mt19937_64 random(options.seed);
     std::uniform_real_distribution<double> aside_m(-0.3, 0.3);
     for (int number = 0; number < options.walks;) {
@@ -176,7 +176,7 @@ int run(const Options& options) {
       std::transform(begin, begin + kSteps, std::back_inserter(walk.way),
                      [&](const Pose2& pose) { return pose * aside; });
       config.seed = random();
-      auto robot = or_die(agent::SimulatedRobot::create(*taught.world, config, walk.way.front()));
+      auto robot = or_die(scenario::SimulatedRobot::create(*taught.world, config, walk.way.front()));
       drive(walk, robot, eye, known);
     }
   }

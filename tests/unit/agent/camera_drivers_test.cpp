@@ -37,14 +37,16 @@ std::string put_video(const ScratchFolder& folder, int pictures, double rate) {
   return file;
 }
 
-int grey_of(const TakenPicture& taken) { return (*taken.picture.at(kWidth_px / 2, kHeight_px / 2) - 20 + 10) / 20; }
+int grey_of(const driving::TakenPicture& taken) {
+  return (*taken.picture.at(kWidth_px / 2, kHeight_px / 2) - 20 + 10) / 20;
+}
 
 TEST(Videos, ArePlayedAtTheirOwnTimes) {
   const ScratchFolder folder;
   put_camera(folder);
   const auto driver = make_video_driver({put_video(folder, 6, 10.0), "", false});
   ASSERT_TRUE(driver) << driver.error().message;
-  std::vector<TakenPicture> all;
+  std::vector<driving::TakenPicture> all;
   while (true) {
     auto taken = (*driver)->next_picture({});
     ASSERT_TRUE(taken) << taken.error().message;
@@ -53,7 +55,7 @@ TEST(Videos, ArePlayedAtTheirOwnTimes) {
   }
   ASSERT_GE(all.size(), 3U);  // a busy machine may leave some out, but neither the first nor the order
   EXPECT_EQ(grey_of(all.front()), 0);
-  for (const TakenPicture& taken : all) {
+  for (const driving::TakenPicture& taken : all) {
     EXPECT_NEAR(static_cast<double>(taken.t_ms - all.front().t_ms), 100.0 * grey_of(taken), 2.0);
     EXPECT_TRUE(taken.jpeg.empty());
   }

@@ -45,7 +45,7 @@ TEST(RosSweeps, SeeWhatIsInRangeAndNothingElse) {
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_EQ(std::isfinite(sweep.scan.ranges_m[i]), std::find(seen.begin(), seen.end(), i) != seen.end()) << i;
   }
-  EXPECT_EQ(hit_points(sweep.scan).size(), 3U);
+  EXPECT_EQ(driving::hit_points(sweep.scan).size(), 3U);
 }
 
 TEST(RosSweeps, SeeWhatIsTooNearToMeasureWhereItIsNotTheRobotItself) {
@@ -201,7 +201,7 @@ TEST(RosMessages, SurviveDamage) {
         EXPECT_TRUE(std::isfinite(odometry->pose.x_m) && std::isfinite(odometry->pose.theta_rad));
       }
       if (const auto* sweep = std::get_if<RosSweep>(&*message)) {
-        for (const Eigen::Vector2d& point : hit_points(sweep->scan)) EXPECT_TRUE(point.allFinite());
+        for (const Eigen::Vector2d& point : driving::hit_points(sweep->scan)) EXPECT_TRUE(point.allFinite());
       }
     }
   }
@@ -238,14 +238,14 @@ TEST(RosBodies, CoverTheirOutline) {
     outline.front_m = front_m;
     outline.back_m = back_m;
     outline.width_m = width_m;
-    const Body body = body_of(outline);
+    const driving::Body body = body_of(outline);
     for (double along = 0.0; along <= 1.0; along += 0.01) {
       for (const double side : {-0.5, 0.0, 0.5}) {
         const std::vector<Eigen::Vector2d> point = {{-back_m + along * (front_m + back_m), side * width_m}};
-        EXPECT_LE(clearance_m(body, point), 1e-9) << along;
+        EXPECT_LE(driving::clearance_m(body, point), 1e-9) << along;
         const std::vector<Eigen::Vector2d> beside = {{point[0].x(), point[0].y() + std::copysign(0.1, side)}};
         if (side != 0.0) {
-          EXPECT_NEAR(clearance_m(body, beside), 0.1, 1e-9) << along;
+          EXPECT_NEAR(driving::clearance_m(body, beside), 0.1, 1e-9) << along;
         }
       }
     }

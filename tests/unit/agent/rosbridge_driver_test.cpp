@@ -8,13 +8,13 @@ namespace {
 
 TEST_F(RosbridgeDriverTest, TellsWhatTheRobotSenses) {
   sense();
-  Reading reading;
+  driving::Reading reading;
   ASSERT_TRUE(eventually([&] {
     reading = driver_->read();
     return reading.scan.has_value();
   }));
-  EXPECT_EQ(hit_points(*reading.scan).size(), 4U);
-  EXPECT_DOUBLE_EQ(hit_points(*reading.scan)[0].x(), 1.1);
+  EXPECT_EQ(driving::hit_points(*reading.scan).size(), 4U);
+  EXPECT_DOUBLE_EQ(driving::hit_points(*reading.scan)[0].x(), 1.1);
   EXPECT_DOUBLE_EQ(reading.speed_mps, 0.2);
   EXPECT_DOUBLE_EQ(reading.odometry.x_m, 0.001);
   EXPECT_LE(*reading.scan_t_ms, reading.t_ms);
@@ -158,12 +158,12 @@ TEST_F(RosbridgeDriverTest, WithholdsSweepsWithoutOdometry) {
 
 TEST_F(RosbridgeDriverTest, SweepsAreNoYoungerThanTheWordOfTheWheels) {
   ASSERT_TRUE(sweeps_come(4s));
-  const Milliseconds silent_since_ms = driver_->read().t_ms;
+  const driving::Milliseconds silent_since_ms = driver_->read().t_ms;
   int sweeps = 0;
   for (int i = 0; i < 12; ++i) {
     bridge_->publish("/scan", sweep_message(stamp_us_ += 100'000, {1.0, 2.0}));
     std::this_thread::sleep_for(30ms);
-    const Reading reading = driver_->read();
+    const driving::Reading reading = driver_->read();
     if (!reading.scan) continue;
     ++sweeps;
     EXPECT_LE(reading.scan_t_ms.value(), silent_since_ms + 100) << "the agent stops as for any other silence";

@@ -96,7 +96,7 @@ class RosbridgeDriverTest : public ::testing::Test {
     bridge_->publish("/scan", sweep_message(stamp_us_, {1.0, 2.0, 3.0, 4.0}));
   }
   /// Whether a sweep comes through within a while of a live robot. Meanwhile the agent commands `motion`.
-  bool sweeps_come(std::chrono::milliseconds within, const Motion& motion = {}) {
+  bool sweeps_come(std::chrono::milliseconds within, const driving::Motion& motion = {}) {
     const auto end = Clock::now() + within;
     while (Clock::now() < end) {
       sense();
@@ -107,7 +107,7 @@ class RosbridgeDriverTest : public ::testing::Test {
     return false;
   }
   /// The next picture, or nothing within four seconds.
-  std::optional<TakenPicture> picture() {
+  std::optional<driving::TakenPicture> picture() {
     std::stop_source stop;
     const std::jthread ender([&stop](const std::stop_token& over) {
       const auto end = Clock::now() + 4s;
@@ -118,7 +118,7 @@ class RosbridgeDriverTest : public ::testing::Test {
     EXPECT_TRUE(taken);
     return taken ? std::move(*taken) : std::nullopt;
   }
-  void drive(const Motion& motion, std::chrono::milliseconds duration) {
+  void drive(const driving::Motion& motion, std::chrono::milliseconds duration) {
     const auto end = Clock::now() + duration;
     while (Clock::now() < end) {
       driver_->command(motion);
@@ -131,7 +131,7 @@ class RosbridgeDriverTest : public ::testing::Test {
   std::vector<Heard> heard_;
   std::vector<std::string> told_;
   std::unique_ptr<RosbridgeServer> bridge_;
-  std::unique_ptr<Driver> driver_;
+  std::unique_ptr<driving::Driver> driver_;
   std::int64_t stamp_us_ = 50'000'000;  // the robot's clock has nothing to do with ours
   int sensed_ = 0;
 };

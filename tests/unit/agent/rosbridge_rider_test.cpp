@@ -16,7 +16,7 @@ class RiderOnABridge : public RosbridgeDriverTest {
                                   {"angular", {{"x", 0.0}, {"y", 0.0}, {"z", turn_radps}}}});
   }
   /// The newest word of the hand, once it is that.
-  bool says(bool deflected, const Motion& wanted) {
+  bool says(bool deflected, const driving::Motion& wanted) {
     return eventually([&] {
       const auto rider = driver_->read().rider;
       return rider && rider->deflected == deflected && rider->wanted.speed_mps == wanted.speed_mps &&
@@ -29,10 +29,10 @@ TEST_F(RiderOnABridge, IsHeardWithTheTimeOfItsLastWord) {
   EXPECT_FALSE(driver_->read().rider);
   push(0.25, -0.5);
   EXPECT_TRUE(says(true, {0.25, -0.5}));
-  const Reading now = driver_->read();
+  const driving::Reading now = driver_->read();
   EXPECT_LE(now.rider->said_ms, now.t_ms);
   std::this_thread::sleep_for(100ms);
-  const Reading later = driver_->read();
+  const driving::Reading later = driver_->read();
   EXPECT_EQ(later.rider->said_ms, now.rider->said_ms) << "nothing was said since";
   EXPECT_GE(later.t_ms, now.t_ms + 90);
   push(0.0, 0.0);

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <map>
 
-#include "agent/files/csv.hpp"
-#include "agent/files/read_file.hpp"
 #include "camera/calibrate.hpp"
 #include "camera/mirror_ring.hpp"
+#include "files/csv.hpp"
+#include "files/read_file.hpp"
 #include "support/folders.hpp"
 
 namespace homeward::camera {
@@ -29,7 +29,7 @@ class RealMirrors : public ::testing::Test {
     }
     std::ranges::sort(files);
     for (const fs::path& file : files) {
-      auto picture = agent::read_picture(file);
+      auto picture = files::read_picture(file);
       ASSERT_TRUE(picture) << picture.error().message;
       names_.push_back(file.filename().string());
       pictures_.push_back(std::move(*picture));
@@ -85,7 +85,7 @@ TEST_F(RealMirrors, AMirrorForPanoramas) {
 
 TEST_F(RealMirrors, CornersLieWhereTheToolboxHasThem) {
   read("VMRImage");
-  const auto table = agent::read_csv(folder_ / "vmr_corners.csv");
+  const auto table = files::read_csv(folder_ / "vmr_corners.csv");
   ASSERT_TRUE(table);
   const auto column = [&](const char* name) { return table->column(name).value(); };
   std::map<std::string, std::vector<Eigen::Vector2d>> truth_px;

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "driving/asking.hpp"
+
+namespace homeward::driving {
+
+void ask(Asking& asking, std::int64_t now_ms) {
+  ++asking.number;
+  asking.since_ms = now_ms;
+  asking.said.reset();
+}
+
+void withdraw(Asking& asking) {
+  asking.since_ms.reset();
+  asking.said.reset();
+}
+
+bool hear(Asking& asking, std::int64_t question, bool here) {
+  if (!asking.since_ms || asking.said || question != asking.number) return false;
+  asking.said = here;
+  return true;
+}
+
+}  // namespace homeward::driving

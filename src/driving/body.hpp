@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/outline.hpp"
+#include "driving/scan.hpp"
+
+namespace homeward::driving {
+
+/// A robot's body and how fast it may move.
+struct Body {
+  Outline outline;
+  double max_speed_mps = 0.8;
+  double max_turn_radps = 1.2;
+  double deceleration_mps2 = 1.0;
+  double turn_deceleration_radps2 = 5.0;
+  bool vague_ranges = false;  // of its range sensors: ways that seem closed may be open (ultrasound)
+};
+
+/// Speed forward and turn counter-clockwise.
+struct Motion {
+  double speed_mps = 0.0;
+  double turn_radps = 0.0;
+};
+
+/// From the body's outline to the nearest point, metres; negative inside. Far when there is no point.
+double clearance_m(const Body& body, std::span<const Eigen::Vector2d> points_m);
+
+/// The points as the robot sees them after it moved along an arc for so many seconds, robot frame then, metres.
+std::vector<Eigen::Vector2d> seen_after(std::span<const Eigen::Vector2d> points_m, const Motion& motion,
+                                        double seconds);
+
+/// The wanted motion, slowed or stopped so that the body could still brake before touching any point: range sensors
+/// have the last word. What only turns a body away from contact stays allowed. One that is not round keeps to its bend
+/// when it is slowed, and where that is not safe takes the safe motion most like it; what it does must also be safe
+/// while it still turns as it does now, by `turning_radps`.
+Motion made_safe(const Motion& wanted, const Body& body, std::span<const Eigen::Vector2d> points_m,
+                 double turning_radps = 0.0);
+
+}  // namespace homeward::driving

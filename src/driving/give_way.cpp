@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "driving/give_way.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace homeward::driving {
+namespace {
+
+constexpr double kSpacing_m = 0.1;     // of the trail
+constexpr std::size_t kLongest = 300;  // points of it: to and fro before somebody a few times
+constexpr double kGotOn_m = 0.3;       // with less it has not got on, however it turned there
+constexpr double kBack_m = 1.2;
+constexpr double kLeastBack_m = 0.5;  // with less of a trail it stays
+constexpr double kThere_m = 0.15;
+constexpr double kFartherBack_m = 0.8;  // each time that somebody still stands there
+constexpr double kFarthestBack_m = 4.0;
+constexpr std::int64_t kTurning_ms = 3500;        // before it backs off,
+constexpr double kBacking_mps = 0.25;             // and so fast
+constexpr std::int64_t kWaiting_ms = 2500;        // at least
+constexpr std::int64_t kLongestWait_ms = 12'000;  // while somebody walks about
+constexpr std::int64_t kQuiet_ms = 1500;          // nobody walks there any more
+constexpr std::int64_t kSomebody_ms = 20'000;     // since somebody stirred: it is no thing
+constexpr int kTimes = 3;                         // from a thing
+constexpr double kElsewhere_m = 2.0;              // from where it backed off: it has got past
+
+Eigen::Vector2d position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
+
+/// The newest point of the trail that is so far off, else the farthest; nothing where that is too near. By distance,
+/// not along the trail: that leads to and fro where the robot has backed off before.
+std::optional<Eigen::Vector2d> point_behind(const std::deque<Eigen::Vector2d>& trail_m, const Eigen::Vector2d& here_m,
+                                            double distance_m) {
+  Eigen::Vector2d behind_m = here_m;
+  for (auto point = trail_m.rbegin(); point != trail_m.rend() && (behind_m - here_m).norm() < distance_m; ++point) {
+    if ((*point - here_m).norm() > (behind_m - here_m).norm()) behind_m = *point;
+  }
+  if ((behind_m - here_m).norm() < kLeastBack_m) return std::nullopt;
+  return behind_m;
+}
+
+/// How far it is from a point to the nearest thing in a direction, in a lane as wide as the body.
+double free_along_m(std::span<const Eigen::Vector2d> points_m, const Eigen::Vector2d& from_m,
+                    const Eigen::Vector2d& direction, double half_width_m) {
+  constexpr double kFarthest_m = 3.0;
+  double free_m = kFarthest_m;
+  for (const Eigen::Vector2d& point : points_m) {
+    const Eigen::Vector2d off_m = point - from_m;
+    const double along_m = off_m.dot(direction);
+    const double across_m = direction.x() * off_m.y() - direction.y() * off_m.x();
+    if (along_m > 0.0 && std::abs(across_m) < half_width_m) free_m = std::min(free_m, along_m);
+  }
+  return free_m;
+}
+
+/// Beside a point to which it backs off, robot frame: where most room is left on one side for somebody to pass.
+Eigen::Vector2d pulled_over(const Body& body, std::span<const Eigen::Vector2d> points_m,
+                            const Eigen::Vector2d& behind_m) {
+  constexpr double kBeside_m = 0.12;  // to the wall
+  constexpr double kStep_m = 0.05;
+  constexpr double kMost_m = 0.8;
+  constexpr double kWide_m = 2.0;  // enough on one side without pulling over
+  const double radius_m = body.outline.radius_m;
+  const Eigen::Vector2d ahead = -behind_m.normalized();
+  const Eigen::Vector2d left(-ahead.y(), ahead.x());
+  const double left_m = free_along_m(points_m, behind_m, left, radius_m);
+  const double right_m = free_along_m(points_m, behind_m, -left, radius_m);
+  if (std::max(left_m, right_m) > kWide_m) return behind_m;
+  const Eigen::Vector2d aside = left_m < right_m ? left : Eigen::Vector2d(-left);
+  Eigen::Vector2d best_m = behind_m;
+  for (double shift_m = kStep_m; shift_m < kMost_m; shift_m += kStep_m) {
+    const Eigen::Vector2d there_m = behind_m + shift_m * aside;
+    const bool room = std::ranges::all_of(
+        points_m, [&](const Eigen::Vector2d& point) { return (point - there_m).norm() >= radius_m + kBeside_m; });
+    if (!room) break;
+    best_m = there_m;
+  }
+  return best_m;
+}
+
+void enter(GiveWay& state, GiveWay::Phase phase, std::int64_t now_ms) {
+  state.phase = phase;
+  state.phase_since_ms = now_ms;
+  state.still_at_m.reset();
+}
+
+bool has_stood(GiveWay& state, const Eigen::Vector2d& here_m, std::int64_t now_ms, std::int64_t patience_ms) {
+  if (state.still_at_m && (*state.still_at_m - here_m).norm() <= kGotOn_m)
+    return now_ms - state.still_since_ms >= patience_ms;
+  state.still_at_m = here_m;
+  state.still_since_ms = now_ms;
+  return false;
+}
+
+}  // namespace
+
+void remember_trail(GiveWay& state, const Pose2& odometry) {
+  const Eigen::Vector2d here_m = position(odometry);
+  if (!state.trail_m.empty() && (state.trail_m.back() - here_m).norm() < kSpacing_m) return;
+  state.trail_m.push_back(here_m);
+  if (state.trail_m.size() > kLongest) state.trail_m.pop_front();
+}
+
+std::optional<Eigen::Vector2d> give_way(GiveWay& state, const Body& body, const Surroundings& about,
+                                        const Pose2& odometry, std::int64_t now_ms, std::int64_t patience_ms) {
+  const Eigen::Vector2d here_m = position(odometry);
+  const auto quiet_for = [&](std::int64_t ms) { return !about.stirred_ms || now_ms - *about.stirred_ms >= ms; };
+  if (state.phase == GiveWay::Phase::kOnTheWay) {
+    const double backed_m = (state.back_to_m - state.blocked_at_m).norm();
+    if ((here_m - state.blocked_at_m).norm() > std::max(kElsewhere_m, backed_m + kThere_m)) state.times = 0;
+    const bool somebody = !quiet_for(kSomebody_ms);
+    if (!has_stood(state, here_m, now_ms, patience_ms) || (state.times >= kTimes && !somebody)) return std::nullopt;
+    const double back_m = somebody ? std::min(kFarthestBack_m, kBack_m + state.times * kFartherBack_m) : kBack_m;
+    const auto behind_m = point_behind(state.trail_m, here_m, back_m);
+    if (!behind_m) return std::nullopt;
+    if (state.times == 0) state.blocked_at_m = here_m;
+    ++state.times;
+    state.back_to_m = *behind_m;
+    if (somebody && is_round(body.outline)) {
+      const Eigen::Rotation2Dd turned(odometry.theta_rad);
+      state.back_to_m = here_m + turned * pulled_over(body, about.points_m, turned.inverse() * (*behind_m - here_m));
+    }
+    state.backing_ms =
+        kTurning_ms + static_cast<std::int64_t>(1000.0 * (state.back_to_m - here_m).norm() / kBacking_mps);
+    enter(state, GiveWay::Phase::kBacking, now_ms);
+  }
+  if (state.phase == GiveWay::Phase::kBacking) {
+    const bool there = (state.back_to_m - here_m).norm() < kThere_m;
+    if (!there && now_ms - state.phase_since_ms < state.backing_ms) {
+      const Pose2 goal = inverse(odometry) * Pose2{state.back_to_m.x(), state.back_to_m.y(), 0.0};
+      return Eigen::Vector2d(goal.x_m, goal.y_m);
+    }
+    enter(state, GiveWay::Phase::kWaiting, now_ms);
+  }
+  const std::int64_t waited_ms = now_ms - state.phase_since_ms;
+  if (waited_ms < kWaiting_ms || (!quiet_for(kQuiet_ms) && waited_ms < kLongestWait_ms)) {
+    return Eigen::Vector2d(Eigen::Vector2d::Zero());
+  }
+  enter(state, GiveWay::Phase::kOnTheWay, now_ms);
+  return std::nullopt;
+}
+
+void forget_standing(GiveWay& state) {
+  state.still_at_m.reset();
+  state.phase = GiveWay::Phase::kOnTheWay;
+}
+
+void begin_way(GiveWay& state) {
+  forget_standing(state);
+  state.times = std::min(state.times, kTimes - 1);
+}
+
+}  // namespace homeward::driving

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "driving/orders.hpp"
+
+#include <algorithm>
+
+#include "wire/appearance_blob.hpp"
+
+namespace homeward::driving {
+namespace {
+
+constexpr Milliseconds kBeliefLasts_ms = 1000;
+constexpr const char* kRiderSteers = "The rider is steering with the joystick.";
+
+/// Obeys one message after the other.
+struct Clerk {
+  DrivingState& state;
+  bool rider_steers;
+  const DrivingConfig& config;
+  Milliseconds now_ms;
+  Outputs& outputs;
+
+  void operator()(const wire::Welcome& welcome) const {
+    // A new connection: nothing of an older epoch moves the robot any more.
+    state.least_epoch = std::max(state.least_epoch, welcome.epoch);
+    if (state.drive == wire::DriveState::kDriving && state.newest.epoch < welcome.epoch) {
+      end_mission(state, wire::DriveState::kStopped, "The connection to the house was made anew.");
+    }
+  }
+
+  void operator()(const wire::MissionOrder& order) const {
+    if (order.order <= state.newest || order.order.epoch < state.least_epoch) return;
+    state.newest = order.order;
+    if (rider_steers || now_ms < state.refuses_until_ms) {
+      outputs.messages.emplace_back(
+          wire::MissionRefused{order.mission, order.order,
+                               rider_steers ? kRiderSteers : "The robot's computer was held up; send it again."});
+      return;
+    }
+    auto mission = decode_mission(order, config);
+    if (!mission) {
+      if (state.drive == wire::DriveState::kDriving) {
+        end_mission(state, wire::DriveState::kStopped, "Another mission was sent that cannot be driven.");
+      }
+      outputs.messages.emplace_back(wire::MissionRefused{order.mission, order.order, mission.error().message});
+      return;
+    }
+    state.belief_changes_ms = now_ms;
+    state.follow = begun_from(state.kept, mission->path, mission->map, mission->revision, config.follow, now_ms,
+                              config.estimate_lives_ms);
+    state.mission = std::make_shared<const Mission>(std::move(*mission));
+    state.permit_ends_ms = now_ms + order.valid_for_ms;
+    state.drive = wire::DriveState::kDriving;
+    state.reason.clear();
+    state.at_odds = false;
+    state.astray = false;
+    state.looking = {};
+    state.continuity = {};
+    withdraw(state.asking);
+    state.off_path_since_ms.reset();
+    state.off_belief_since_ms.reset();
+    state.seen = {};
+    state.docking = false;
+    state.near_since_ms.reset();
+    state.covered = false;
+    state.pictured = false;
+    state.last_message_ms = now_ms;
+  }
+
+  void operator()(const wire::Permit& permit) const {
+    if (state.drive != wire::DriveState::kDriving || permit.mission != state.mission->id) return;
+    if (permit.order <= state.newest || permit.order.epoch != state.newest.epoch) return;
+    state.newest = permit.order;
+    state.permit_ends_ms = now_ms + permit.valid_for_ms;
+  }
+
+  void operator()(const wire::StopOrder& stop) const {
+    // A stop is obeyed whatever its age: stopping once too often harms nobody. What it overtook comes too late.
+    state.newest = std::max(state.newest, wire::Order{stop.epoch, stop.seq});
+    if (state.drive == wire::DriveState::kDriving) {
+      end_mission(state, wire::DriveState::kStopped, stop.reason.empty() ? "Stopped by " + stop.by + "." : stop.reason);
+    }
+    outputs.messages.emplace_back(wire::Stopped{stop.stop_id, 0});
+  }
+
+  void operator()(const wire::BeliefReport& belief) const {
+    state.follow.belief.reset();
+    if (belief.lost == state.follow.belief_lost) state.belief_changes_ms = now_ms;
+    // One report in between is none: whoever walks by may hide everything for a moment.
+    if (now_ms - state.belief_changes_ms >= kBeliefLasts_ms) state.follow.belief_lost = belief.lost;
+    state.belief_ms = now_ms;
+    if (!state.mission || belief.lost || !belief.place) return;
+    state.follow.belief = BelievedView{state.mission->path.view_of(*belief.place), belief.probability};
+  }
+
+  void operator()(const wire::Answer& answer) const {
+    if (state.drive != wire::DriveState::kDriving || answer.mission != state.mission->id) return;
+    if (!hear(state.asking, answer.question, answer.here)) return;
+    const VisualPath& path = state.mission->path;
+    const Pose2& there = path.pose(path.size() - 1);
+    state.follow.hypotheses.told({there.x_m, there.y_m}, config.follow.arrived_within_m,
+                                 answer.here ? kAnswerOdds : 1.0 / kAnswerOdds);
+  }
+  void operator()(const wire::LinkError&) const {}
+};
+
+}  // namespace
+
+void end_mission(DrivingState& state, wire::DriveState how, std::string reason) {
+  state.drive = how;
+  state.reason = std::move(reason);
+  state.docking = false;
+  withdraw(state.asking);
+}
+
+void obey(DrivingState& state, const std::vector<wire::ServerMessage>& messages, bool rider_steers,
+          const DrivingConfig& config, Milliseconds now_ms, Outputs& outputs) {
+  for (const wire::ServerMessage& message : messages) {
+    state.last_message_ms = now_ms;
+    std::visit(Clerk{state, rider_steers, config, now_ms, outputs}, message);
+  }
+}
+
+namespace {
+
+/// Where the views of a path lie, and the views around it.
+Status place_views(const wire::MissionOrder& order, VisualPath& path) {
+  if (!order.surroundings) {
+    place_by_edges(path);
+    return {};
+  }
+  const wire::Surroundings& around = *order.surroundings;
+  path.map_from_view = around.path;
+  path.map_from_view.resize(path.views.size() - 1);
+  path.map_from_view.push_back(around.final_pose);
+  path.spread_m = around.spread_m;
+  path.start_probability = around.start_probability;
+  for (const wire::PlacedView& view : around.nearby) {
+    auto appearance = wire::decode_appearance(view.appearance, "place " + view.place.str());
+    if (!appearance) return pass_on(appearance);
+    path.nearby.push_back({view.place, std::move(*appearance), view.map_from_view});
+  }
+  const auto position_of = [&](int view) -> Eigen::Vector2d {
+    const auto number = static_cast<std::size_t>(view);
+    const bool on_path = number < around.path.size();
+    const Pose2& pose = on_path ? around.path[number] : around.nearby[number - around.path.size()].map_from_view;
+    return {pose.x_m, pose.y_m};
+  };
+  for (const auto& [from, to] : around.ways) path.ways.push_back({position_of(from), position_of(to)});
+  if (path.alone()) return {};
+  std::vector<const features::Appearance*> views;
+  for (int view = 0; view < path.placed(); ++view) views.push_back(&path.appearance(view));
+  path.index = std::make_shared<const ViewIndex>(views);
+  return {};
+}
+
+}  // namespace
+
+Result<Mission> decode_mission(const wire::MissionOrder& order, const DrivingConfig& config) {
+  if (order.feature_config_id != config.feature_config_id) {
+    return fail(ErrorCode::kFeatureConfigMismatch,
+                "The map's features (" + order.feature_config_id + ") are not this robot's (" +
+                    config.feature_config_id + "); rebuild the map from the kept images.",
+                "mission/feature_config_id");
+  }
+  Mission mission;
+  mission.id = order.mission;
+  mission.map = order.map;
+  mission.revision = order.revision;
+  mission.label = order.label;
+  mission.dock = order.dock;
+  mission.speed_limit_mps = order.speed_limit_mps;
+  for (const wire::PathPlace& place : order.path) {
+    auto view = wire::decode_appearance(place.appearance, "place " + place.place.str());
+    if (!view) return pass_on(view);
+    mission.path.views.push_back(std::move(*view));
+    mission.path.edges.push_back(place.next);
+    mission.path.places.push_back(place.place);
+  }
+  auto last = wire::decode_appearance(order.final_appearance, order.final_image.str());
+  if (!last) return pass_on(last);
+  // The destination's own picture is often its place's prototype; passing it twice would be one view too many.
+  if (!order.path.empty() && order.path.back().image == order.final_image) mission.path.views.pop_back();
+  mission.path.views.push_back(std::move(*last));
+  if (!order.path.empty()) mission.path.places.resize(mission.path.views.size(), order.path.back().place);
+  mission.path.edges.resize(mission.path.views.size());
+  if (const Status placed = place_views(order, mission.path); !placed) return pass_on(placed);
+  return mission;
+}
+
+}  // namespace homeward::driving

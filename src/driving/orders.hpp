@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "driving/step.hpp"
+
+namespace homeward::driving {
+
+/// Takes the server's messages into the state: newer missions, permits, stops. What is older than what was obeyed
+/// already is passed over. Missions are refused while the rider steers, and when they waited for a loop that was held
+/// up.
+void obey(DrivingState& state, const std::vector<wire::ServerMessage>& messages, bool rider_steers,
+          const DrivingConfig& config, Milliseconds now_ms, Outputs& outputs);
+
+/// Ends the mission: the robot stands until a newer one comes.
+void end_mission(DrivingState& state, wire::DriveState how, std::string reason);
+
+}  // namespace homeward::driving

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "driving/step.hpp"
+
+namespace homeward::driving {
+
+/// Ends a mission that has arrived, that makes no way any more, or that does not know where it is; beside the
+/// destination and not certain of it, asks people. `now_ms`: by the sensors' clock.
+void judge_progress(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms);
+
+}  // namespace homeward::driving

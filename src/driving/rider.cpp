@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "driving/rider.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace homeward::driving {
+namespace {
+
+constexpr double kCreep_mps = 0.12;
+constexpr double kCreep_radps = 0.4;
+
+}  // namespace
+
+bool rider_steers(const Inputs& inputs, const DrivingConfig& config, Milliseconds sensors_ms) {
+  return inputs.rider && inputs.rider->deflected &&
+         std::abs(sensors_ms - inputs.rider->said_ms) <= config.rider_silence_ms;
+}
+
+Motion rider_motion(const RiderHand& hand, const std::optional<SeenScan>& scan,
+                    const std::vector<Eigen::Vector2d>& points_m, double turning_radps, const DrivingConfig& config,
+                    Milliseconds sensors_ms) {
+  if (!std::isfinite(hand.wanted.speed_mps) || !std::isfinite(hand.wanted.turn_radps)) return {};
+  if (scan && sensors_ms - scan->taken_ms <= config.scan_silence_ms) {
+    return made_safe(hand.wanted, config.body, points_m, turning_radps);
+  }
+  const Motion creeping{std::clamp(hand.wanted.speed_mps, -kCreep_mps, kCreep_mps),
+                        std::clamp(hand.wanted.turn_radps, -kCreep_radps, kCreep_radps)};
+  return made_safe(creeping, config.body, {});
+}
+
+}  // namespace homeward::driving

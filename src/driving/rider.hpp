@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "driving/step.hpp"
+
+namespace homeward::driving {
+
+/// Why a mission ends when the rider takes the joystick.
+inline constexpr const char* kRiderTookOver = "The rider has taken over.";
+
+/// Whether the rider's hand is on the joystick now. A word that is too old, or of a time to come, is of no hand.
+bool rider_steers(const Inputs& inputs, const DrivingConfig& config, Milliseconds sensors_ms);
+
+/// The motion that the rider wants, made safe by a fresh sweep while the body turns by `turning_radps`. Without one the
+/// rider still moves, but creeps only: a person who sits in a doorway is not left there because a scanner broke.
+Motion rider_motion(const RiderHand& hand, const std::optional<SeenScan>& scan,
+                    const std::vector<Eigen::Vector2d>& points_m, double turning_radps, const DrivingConfig& config,
+                    Milliseconds sensors_ms);
+
+}  // namespace homeward::driving

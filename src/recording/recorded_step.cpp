@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording/recorded_step.hpp"
+
+namespace homeward::recording {
+
+db::RecordedSweep to_recorded(const driving::SeenScan& scan) {
+  return {scan.taken_ms,         scan.scan.angle_min_rad, scan.scan.angle_step_rad,
+          scan.scan.range_max_m, scan.scan.ranges_m,      scan.scan.robot_from_scan};
+}
+
+driving::SeenScan from_recorded(const db::RecordedSweep& sweep) {
+  return {sweep.taken_ms,
+          {sweep.ranges_m, sweep.angle_min_rad, sweep.angle_step_rad, sweep.range_max_m, sweep.robot_from_scan}};
+}
+
+void put_outcome(db::RecordedStep& step, const driving::DrivingState& state, const driving::Outputs& outputs) {
+  step.speed_mps = outputs.motion.speed_mps;
+  step.turn_radps = outputs.motion.turn_radps;
+  step.state = state.drive;
+  step.reason = state.reason;
+  step.path_index = state.follow.index;
+  step.answered = state.seen.answered;
+  step.docking = state.docking;
+  step.covered = state.covered;
+  step.vector.reset();
+  step.tracks.reset();
+  if (const auto& vector = state.seen.vector) {
+    step.vector =
+        db::RecordedVector{vector->bearing_rad, vector->turn_rad, vector->confidence, vector->median_parallax_rad,
+                           vector->nearness,    vector->matches,  vector->inliers};
+    const homing::TrackCounts& tracks = state.seen.tracks;
+    step.tracks = db::RecordedTracks{tracks.tracked, tracks.recovered, tracks.lost};
+  }
+  step.min_range_m = state.min_range_m;
+  step.said = outputs.messages;
+}
+
+db::RecordedStep to_recorded(std::int64_t seq, const driving::Inputs& inputs, const PictureBytes& bytes,
+                             const driving::DrivingState& state, const driving::Outputs& outputs,
+                             driving::Milliseconds now_ms) {
+  db::RecordedStep step;
+  step.seq = seq;
+  step.now_ms = now_ms;
+  step.sensors_ms = inputs.sensors_now_ms;
+  step.odometry = inputs.odometry;
+  step.link_up = inputs.link_up;
+  step.heard = inputs.messages;
+  if (inputs.scan) step.sweep = to_recorded(*inputs.scan);
+  if (inputs.picture)
+    step.picture = db::RecordedPicture{inputs.picture->taken_ms, inputs.picture->odometry, bytes,
+                                       inputs.picture->appearance != nullptr};
+  if (inputs.rider) {
+    step.rider = db::RecordedRider{inputs.rider->said_ms, inputs.rider->deflected, inputs.rider->wanted.speed_mps,
+                                   inputs.rider->wanted.turn_radps};
+  }
+  put_outcome(step, state, outputs);
+  return step;
+}
+
+driving::Inputs inputs_of(const db::RecordedStep& step) {
+  driving::Inputs inputs;
+  inputs.sensors_now_ms = step.sensors_ms;
+  inputs.odometry = step.odometry;
+  inputs.link_up = step.link_up;
+  inputs.messages = step.heard;
+  if (step.sweep) inputs.scan = from_recorded(*step.sweep);
+  if (step.rider) {
+    inputs.rider =
+        driving::RiderHand{step.rider->said_ms, step.rider->deflected, {step.rider->speed_mps, step.rider->turn_radps}};
+  }
+  return inputs;
+}
+
+}  // namespace homeward::recording

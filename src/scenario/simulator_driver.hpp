@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "driving/driver.hpp"
+#include "scenario/simulated_robot.hpp"
+
+namespace homeward::scenario {
+
+struct SimulatorDriverConfig {
+  std::string world = "house:1";
+  std::string light = "day";
+  std::string robot = "disc";    // or "chair"
+  std::string ranges = "laser";  // or "ultrasound"
+  std::string start_room;        // empty: the world's start
+  std::string camera = "hyperbolic_mirror";
+  std::string truth_file;  // empty: none. Else JSON lines with the true pose, the command, collisions so far
+  int people = 0;
+  std::uint64_t seed = 1;
+  std::function<std::optional<driving::RiderHand>(driving::Milliseconds)> rider =
+      {};  // the joystick at a simulated time; empty: none
+};
+
+/// A simulated robot whose time is the machine's own; when the machine is too slow, simulated time falls behind.
+/// Errors: those of load_world; kNotFound for a room.
+Result<std::unique_ptr<driving::Driver>> make_simulator_driver(const SimulatorDriverConfig& config);
+
+}  // namespace homeward::scenario
