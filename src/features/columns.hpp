@@ -19,7 +19,7 @@ using ColumnInvariants = std::array<float, kColumnInvariants>;
 using UnroundedColumns = Eigen::Matrix<float, Eigen::Dynamic, kColumnInvariants, Eigen::RowMajor>;
 
 /// What one unit of the diagonal Mahalanobis distance is for each of them: the standard deviation of the difference
-/// between the same segment in two pictures taken 0.4 to 1 m apart. Measured; docs/benchmarks.md says how.
+/// between the same segment in two pictures taken 0.4 to 1 m apart. Measured; docs/experiments/columns.md says how.
 constexpr ColumnInvariants kColumnSpread = {0.08F, 0.10F, 0.03F, 0.15F, 0.21F, 0.14F, 0.13F, 0.09F, 0.08F, 0.07F};
 
 /// A piece of one column of a panorama between two neighbouring maxima of the vertical gradient.

@@ -14,7 +14,7 @@ inline constexpr int kMaxSiftCodeLength = 64;
 /// distances, and it gathers nearly all that differs between descriptors in few of its coefficients (as principal
 /// components would: Ke & Sukthankar 2004; but without training). Kept are the first of `kMaxSiftCodeLength`, ordered
 /// by their spread on rendered and real indoor pictures, 8 bits each, all of one step: Euclidean distances of codes are
-/// distances of descriptors. docs/benchmarks.md says what each length costs.
+/// distances of descriptors. docs/experiments/appearance_bytes.md has what each length costs.
 void encode_sift(std::span<const float, 128> descriptor, std::span<std::uint8_t> code);
 
 /// The numbers that `encode_sift` rounds to bytes, at most `kMaxSiftCodeLength`. Their Euclidean distances are those of

@@ -128,7 +128,7 @@ std::vector<SiftPoint> clear_of_border(std::vector<SiftPoint> found, const cv::M
 }
 
 /// Which blobs to keep. Larger ones are seen again from farther away: the root of the size counts too
-/// (docs/benchmarks.md has the comparison).
+/// (docs/experiments/appearance_bytes.md).
 std::vector<SiftPoint> strongest(const std::vector<SiftPoint>& points, const Strip& strip, int budget) {
   std::vector<RankedFeature> ranked;
   ranked.reserve(points.size());

@@ -34,8 +34,9 @@ SharedView shared_view(std::span<const Correspondence> correspondences, const Mo
 }
 
 double repetition_probability(const SharedView& view) {
-  // By hand, on pairs of two real corridors and a rendered house by day and by night (docs/benchmarks.md): from views
-  // that are as far apart as their matches are high, 15 % agree at the least; the nearer, the more, up to the half.
+  // By hand, on pairs of two real corridors and a rendered house by day and by night
+  // (docs/experiments/look_alike_matches.md): from views that are as far apart as their matches are high, 15 % agree at
+  // the least; the nearer, the more, up to the half.
   constexpr double kLeastAgreeing = 0.15;
   constexpr double kPerLogHeight = 0.17;
   constexpr double kMostAsked = 0.5;

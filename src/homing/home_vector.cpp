@@ -37,7 +37,7 @@ Result<HomeVector> home_vector(const features::Appearance& current, const featur
 
 Result<HomeVector> uncertain_home_vector(const features::Appearance& current, const features::Appearance& target,
                                          std::uint64_t seed) {
-  // Of pairs of which half show one place, and that get no other answer: docs/benchmarks.md, "All pairs of a grid".
+  // Of pairs of which half show one place, and that get no other answer: docs/experiments/homing_grid.md.
   constexpr double kConfidence = 0.02;
   const auto sure = home_vector(current, target, {}, seed);
   if (sure) return sure;

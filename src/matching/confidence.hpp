@@ -30,7 +30,7 @@ ConfidenceSigns signs_of(const geometry::PlanarEstimate& estimate, std::span<con
 
 /// The probability that the two views are of one place and the direction is right within 15 degrees. Logistic
 /// regression on pairs of rendered and real pictures, rooms that look alike among them, by
-/// tests/bench/quality/confidence.py; docs/benchmarks.md has its reliability. Where the map of the target is known it
+/// tests/bench/quality/confidence.py; docs/experiments/confidence.md has how. Where the map of the target is known it
 /// is that much less likely as what agrees is found elsewhere too: which never makes it more likely.
 double confidence(const ConfidenceSigns& signs);
 

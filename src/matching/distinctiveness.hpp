@@ -15,7 +15,7 @@ namespace homeward::matching {
 using SeenPlace = std::vector<const features::FeatureSet*>;
 
 /// Squared distance of SIFT codes below which two features look alike: most matches of one thing seen twice are nearer,
-/// most chance ones are not. Chosen with `not_elsewhere`; docs/benchmarks.md, "What is common says little".
+/// most chance ones are not. Chosen with `not_elsewhere`; docs/experiments/common_features.md.
 inline constexpr int kAlikeDistance2 = 4000;
 
 /// How many of `places` have each feature's like, 255 for more: its document frequency, a picture being the document

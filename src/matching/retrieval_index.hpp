@@ -18,7 +18,7 @@ inline constexpr int kRetrievalWords = 16;
 struct RetrievalConfig {
   int code_length = 1024;  // bytes kept of each place, at most
   // Places from which on the graph is made. Below, looking at all of them is exact and quick (100,000 in 7 ms of a
-  // processor), and nothing is to be built: docs/benchmarks.md.
+  // processor), and nothing is to be built: docs/experiments/retrieval_index.md.
   std::size_t graph_from = 200'000;
 };
 

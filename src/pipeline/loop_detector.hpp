@@ -70,7 +70,7 @@ class LoopDetector {
 };
 
 /// Settings of features for a camera that are quick to find and enough for loops: SIFT alone, fewer of it, on a
-/// panorama of five eighths of the usual width (docs/benchmarks.md has the comparison).
+/// panorama of five eighths of the usual width (docs/experiments/online_loops.md).
 features::FeatureConfig loop_feature_config(const camera::Camera& camera);
 
 }  // namespace homeward::pipeline

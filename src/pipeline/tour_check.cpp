@@ -27,10 +27,11 @@ bool same_view(const features::Appearance& a, const features::Appearance& b, std
   return relation.verified() && relation.match_share >= kSameShare && relation.parallax_rad <= kSameParallax_rad;
 }
 
-constexpr float kFarther = 12.0F;    // times as far as a relative elsewhere: a step to a stranger (docs/benchmarks.md)
-constexpr float kAsNear = 1.2F;      // a relative elsewhere is as near as the neighbour on the other side
-constexpr int kSideBySide = 2;       // pictures between relatives of a way that is driven again
-constexpr double kMostJumps = 0.35;  // share of the steps from which on a tour is no tour
+// Figures: docs/experiments/tours_out_of_order.md.
+constexpr float kFarther = 12.0F;      // times as far as a relative elsewhere: a step to a stranger
+constexpr float kAsNear = 1.2F;        // a relative elsewhere is as near as the neighbour on the other side
+constexpr int kSideBySide = 2;         // pictures between relatives of a way that is driven again
+constexpr double kMostJumps = 0.35;    // share of the steps from which on a tour is no tour
 constexpr std::size_t kMostNamed = 8;  // pictures that a warning names
 
 struct Relative {
