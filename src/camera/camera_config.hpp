@@ -16,7 +16,7 @@ struct Intrinsics {
   double cy_px = 0.0;
 };
 
-/// A perspective camera looking into a hyperbolic mirror (Svoboda & Pajdla; Goedemé 2007, eq. 13-20).
+/// A perspective camera looking into a hyperbolic mirror (Svoboda & Pajdla; Goedemé 2007, eq. 15, 16, 19, 20).
 struct HyperbolicMirror {
   Intrinsics intrinsics;
   double a_mm = 0.0;  // (z+e)^2/a^2 - (x^2+y^2)/b^2 = 1, e = sqrt(a^2+b^2)

@@ -11,7 +11,7 @@ namespace homeward::camera {
 // One pair of functions for each model: camera-frame directions from pixels and back. Camera frame: x right in the
 // picture, y down, z along the optical axis. Directions given are of unit length; directions taken may have any.
 
-/// Svoboda & Pajdla's central catadioptric camera; Goedemé 2007, eq. 13-20 (eq. 16 without its 0/0, eq. 20 without the
+/// Svoboda & Pajdla's central catadioptric camera; Goedemé 2007, eq. 15, 16, 19, 20 (16 without its 0/0, 20 without the
 /// choice of the largest root, which fails below -50 degrees).
 std::optional<Eigen::Vector3d> direction_from_pixel(const HyperbolicMirror& mirror, const Eigen::Vector2d& pixel_px);
 std::optional<Eigen::Vector2d> pixel_from_direction(const HyperbolicMirror& mirror, const Eigen::Vector3d& direction);

@@ -14,6 +14,7 @@ namespace homeward::camera {
 
 /// The common working image: columns are azimuth, wrapping, forward in the centre and left on the left
 /// (azimuth = -2 pi ((u + 0.5) / width - 0.5)); rows are linear in elevation, highest first, square pixels.
+/// Ours: Goedemé 2007 §3 works on the radial lines of the mirror picture itself; here one image serves every camera.
 struct PanoramaGeometry {
   int width_px = 1024;
   double elevation_max_rad = 0.34;

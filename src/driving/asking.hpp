@@ -9,6 +9,7 @@ namespace homeward::driving {
 /// People err: one who is asked whether this is the place, and says so, is right 19 times of 20. An answer multiplies
 /// the odds of being there by this factor, or divides them by it; it makes no arrival of what is improbable (0.9 takes
 /// 0.33 before).
+/// Bayes' rule in odds; the number is ours, by judgement.
 constexpr double kAnswerOdds = 19.0;
 
 /// The question to people whether this is the destination, which the robot stands beside and is not certain of.

@@ -22,6 +22,7 @@ struct VotedView {
 /// turned round or of another thing now and then, and so are several in a row; right ones agree on the view's heading
 /// and meet in one spot. So each answer is a vote, and the spot and heading that most agree on count: a robust
 /// triangulation of bearings over odometry.
+/// Ours: docs/experiments/homing_to_one_view.md.
 class BearingVotes {
  public:
   /// `sure`: not a mere hint (homing::uncertain_home_vector). `guess_m`: how far the view may be, as this answer says.

@@ -8,6 +8,7 @@
 namespace homeward::driving {
 
 /// Distance of every cell of a square about the origin to the nearest of some points, as far as it matters.
+/// By definition, cell by cell: with few points and a short reach that is enough.
 class DistanceField {
  public:
   /// Points outside of the square count for the cells near them, too. Distances end at `far_m`.

@@ -13,6 +13,7 @@ namespace homeward::driving {
 double position_probability(const FollowState& state, const VisualPath& path);
 
 /// Probability that the robot is within `arrived_within_m` of the destination's view; 1 of one view alone.
+/// Ours: docs/experiments/stated_arrival.md.
 double arrival_probability(const FollowState& state, const VisualPath& path, const FollowConfig& config);
 
 /// Whether that is enough to say that it has arrived: `arrived_probability`, and less where no map says where the views

@@ -27,6 +27,7 @@ MeasuredPose measured_pose(const ViewSighting& sighting, const PoseHypothesesCon
 Eigen::Vector3d difference(const Pose2& to, const Pose2& from);
 
 /// A measurement against what is expected: its squared difference, in standard deviations, 50 at most.
+/// Mahalanobis distance, as in the gate of a Kalman filter.
 double disagreement(const PoseHypothesis& hypothesis, const ExpectedView& view, const SightedDirection& seen,
                     const PoseHypothesesConfig& config);
 /// By the sighting's pose, or where it has none by its direction. Precondition: it has one of them.

@@ -18,6 +18,7 @@ struct FloorRoom {
 
 /// What the way to a goal still costs from every point of the floor about the robot, round whatever stands there: in
 /// metres, crowded ones counted for more.
+/// Dijkstra (1959) over a grid; the cost of crowded ground is ours.
 class FloorDistance {
  public:
   /// A goal that cannot be reached from `start_m` is replaced by the point nearest to it that can.

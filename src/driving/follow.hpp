@@ -100,6 +100,7 @@ FollowResult track(FollowState& state, const VisualPath& path, const tracking::T
 
 /// One sweep, of `odometry`: whether it shows something on ways that a tour drove, were the robot where it takes itself
 /// to be. Only the way driven between two sweeps makes the second one say something new.
+/// Ours: tour_ways.hpp.
 void see_ways(FollowState& state, const VisualPath& path, std::span<const Eigen::Vector2d> points_m,
               const Pose2& odometry);
 

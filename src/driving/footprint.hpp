@@ -10,6 +10,7 @@ namespace homeward::driving {
 
 /// A body for many quick questions to a distance field: as discs inside its outline, large ones along the middle and
 /// smaller ones towards the corners. Off by a cell of the field, and by 2 cm at the tips of a wheelchair's corners.
+/// Discs for a body: Ziegler & Stiller, Fast collision checking for intelligent vehicle motion planning (2010).
 class Footprint {
  public:
   /// For that many headings all round, the first of them given.

@@ -16,6 +16,7 @@ namespace homeward::driving {
 /// to the side of it where that leaves them more room, a moment's wait, and on again once nobody walks there any more.
 /// From a thing that stays the robot so backs off three times, and then waits before it; sent on from there it tries
 /// once more.
+/// Ours: docs/experiments/missions.md.
 struct GiveWay {
   enum class Phase : std::uint8_t { kOnTheWay, kBacking, kWaiting };
 

@@ -27,6 +27,7 @@ bool take_in(FollowState& state, const Result<homing::TargetSeen>& answer, const
 std::optional<homing::DistancePrior> distance_known(const FollowState& state, bool mapped);
 
 /// Whether the view homed to, the destination's own, is reached.
+/// Ours: Goedemé 2007 §7.2.4 leaves the end to the locomotion system.
 bool is_reached(FollowState& state, const VisualPath& path, const FollowConfig& config, const FollowResult& result);
 
 }  // namespace homeward::driving

@@ -19,6 +19,7 @@ struct LocalWay {
 /// The cheapest way over a grid of what one sweep saw, to a goal in the robot frame (Dijkstra; cells near things cost
 /// more, so ways keep to the middle of doors), for a round body; of another only the radius counts. `heading_rad`: the
 /// robot's, in any frame that does not turn with it. Nothing when the robot is walled in.
+/// Dijkstra (1959); what is asked beside it is ours.
 std::optional<LocalWay> local_way(const Body& body, std::span<const Eigen::Vector2d> points_m,
                                   const Eigen::Vector2d& goal_m, double heading_rad = 0.0);
 

@@ -23,6 +23,7 @@ struct LongPlan {
 
 /// The motion that leads on along the plan to a goal in the robot frame; the plan is made anew where it has to be.
 /// Standing still, without a plan, where the goal cannot be got nearer to.
+/// Pure pursuit of the plan (Coulter 1992); when it is kept is ours.
 Motion steer_long(LongPlan& plan, const Body& body, std::span<const Eigen::Vector2d> points_m,
                   const Eigen::Vector2d& goal_m, const Pose2& odometry, double speed_mps, double turn_gain);
 

@@ -13,6 +13,7 @@ namespace homeward::driving {
 
 /// Driving on a little for a robot that does not know which of several places it is at: from one spot they may look
 /// alike, from a few metres on they do not. It goes where most room is, each time another way than it came.
+/// Ours: docs/experiments/telling_twins_apart.md.
 struct LookAround {
   std::optional<Eigen::Vector2d> aim_m;  // frame of odometry; nothing before the next is chosen
   Pose2 odometry;                        // at the latest step

@@ -16,6 +16,7 @@ struct ComparedView {
 
 /// Compares a picture with the views that it may be of: those near to where the robot may be, those of the path that
 /// come next, and the few of all that look most like it.
+/// Ours: Goedemé 2007 §7 compares with the next view of the path alone: docs/experiments/one_estimate_while_driving.md.
 std::vector<ComparedView> compare_views(const FollowState& state, const VisualPath& path,
                                         const features::Appearance& seen, const FollowConfig& config,
                                         std::uint64_t seed);

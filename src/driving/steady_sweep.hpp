@@ -15,6 +15,7 @@ namespace homeward::driving {
 /// of those that the sweeps before it show in the same direction, moved by odometry, where they agree with it to within
 /// the noise. What is new, or moves, is as the newest sweep alone shows it. A body that must keep centimetres away from
 /// jambs would otherwise go by the lucky ones among many sweeps, a little nearer each time.
+/// Ours: docs/experiments/wheelchair.md.
 class SteadySweep {
  public:
   /// Takes up a new sweep, taken at this pose of the robot; time by the sensors' clock.

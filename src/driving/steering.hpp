@@ -15,6 +15,7 @@ namespace homeward::driving {
 /// things it heads where there is more room first. `heading_rad`: the robot's, in any frame that does not turn with it.
 /// `turn_gain`: turn rate for each radian towards the next point of the way. It is no promise that the motion is safe:
 /// `made_safe` has the last word.
+/// A proportional law towards the next point of local_path.hpp: ours.
 Motion steer_round(const Body& body, std::span<const Eigen::Vector2d> points_m, const Eigen::Vector2d& goal_m,
                    double heading_rad, double speed_mps, double turn_gain);
 

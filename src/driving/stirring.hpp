@@ -19,6 +19,7 @@ struct Stirring {
 };
 
 /// One sweep more, taken at `odometry`. Something stirs when it stands where a second ago the sweep looked through.
+/// Ours, because somebody is worth waiting for and a thing is not.
 void watch(Stirring& state, const Scan& scan, const Pose2& odometry, std::int64_t now_ms);
 
 }  // namespace homeward::driving

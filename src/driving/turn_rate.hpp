@@ -8,6 +8,7 @@ namespace homeward::driving {
 
 /// How fast a robot turns, by its odometry: over a tenth of a second or so, as one step between two messages of it says
 /// nothing.
+/// A difference quotient over that time; ours.
 class TurnRate {
  public:
   /// Where it heads now. A gap in time says nothing of how it turns.

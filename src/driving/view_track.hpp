@@ -19,6 +19,7 @@ struct ViewTrackConfig {
 /// Where one view lies in the frame of odometry: bearings from several poses, triangulated as they come (a bearing-only
 /// Kalman filter). Depth comes from the map's edges, from bearings that turn as the robot drives, and,
 /// where nothing else is known, as a first guess from the parallax.
+/// Aidala, Kalman filter behavior in bearings-only tracking applications (1979).
 class ViewTrack {
  public:
   [[nodiscard]] bool known() const { return known_; }

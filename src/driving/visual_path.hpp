@@ -64,6 +64,7 @@ struct VisualPath {
 
 /// Gives the views of a path poses by its edges where no map did. What an edge does not say is taken from what its two
 /// views show of each other; where that says nothing either, the next view lies a metre straight ahead.
+/// Dead reckoning along the edges; ours.
 void place_by_edges(VisualPath& path);
 
 }  // namespace homeward::driving

@@ -17,6 +17,7 @@ struct RankedFeature {
 
 /// Which features to keep, at most `budget`: the strongest of each sector of azimuth in turn, so that no single poster
 /// takes the whole budget. Indices, round by round; among equally strong ones the first.
+/// Ours: geometry needs matches all around.
 std::vector<int> spread_over_azimuth(std::span<const RankedFeature> found, int budget);
 
 }  // namespace homeward::features

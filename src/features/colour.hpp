@@ -10,6 +10,7 @@ namespace homeward::features {
 
 /// Mean, standard deviation and cube root of the third central moment of R, G and B, each over 0..1, in the order
 /// R mean, R spread, R skewness, G ..., B ... . Rotation of the robot does not change them.
+/// Stricker & Orengo, Similarity of color images (1995); Goedemé 2007 §4.2.1 takes the invariants of its eq. 1 instead.
 std::array<float, 9> colour_moments(const camera::Panorama& panorama);
 
 /// Euclidean distance of two sets of moments.
@@ -25,8 +26,8 @@ inline constexpr std::int8_t kNoColour = -128;
 bool colours_agree(const std::int8_t* a, const std::int8_t* b, int bound);
 
 /// C_PQ = integral of PQ / sqrt(integral of P^2 times integral of Q^2) of the bands centred on their means, for RG, RB,
-/// GB, over a square patch whose columns wrap (Goedemé 2007 §3.1): each in -1..1, unchanged by gain and offset of any
-/// band. A band without variation gives 0.
+/// GB, over a square patch whose columns wrap (Goedemé 2007 §3.2, eq. 1): each in -1..1, unchanged by gain and offset
+/// of any band. A band without variation gives 0.
 std::array<double, 3> colour_correlations(const Image& rgb, double centre_u_px, double centre_v_px, double radius_px);
 
 /// The same in 8 bits: times 127, rounded.

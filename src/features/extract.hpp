@@ -16,7 +16,7 @@ struct Unrounded {
 
 /// The features of one panorama: upright SIFT with colour invariants, spread over azimuth, and the colour moments.
 /// A picture without texture gives few or none. Seam-safe: turning the robot moves features and changes nothing else.
-/// Method: Lowe 2004; fixed orientation after Ledwich & Williams 2004; Goedemé 2007 §3 (colour invariants);
+/// Method: Lowe 2004; fixed orientation after Ledwich & Williams 2004; Goedemé 2007 §3.2 (colour invariants);
 /// Arandjelović & Zisserman 2012 (square roots of descriptors).
 /// `unrounded`, where asked for, is filled with as many rows as there are features of each kind.
 Appearance extract(const camera::Panorama& panorama, const FeatureConfig& config, Unrounded* unrounded = nullptr);

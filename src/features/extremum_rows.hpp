@@ -19,6 +19,7 @@ void subtract(std::span<const float* const> blurred, std::span<float* const> dif
 
 /// The columns from `first` to below `end` at which the middle row's value is larger than `floor` in size and not
 /// beaten by the four next to it: few.
+/// The first part of the search for extrema of the scale space: Lowe 2004, §3.1.
 void find_candidates(const RowBand& band, int first, int end, float floor, std::vector<int>& found);
 
 }  // namespace homeward::features

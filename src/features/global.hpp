@@ -13,7 +13,7 @@ namespace homeward::features {
 
 /// Ways to compare two pictures as a whole. None of them changes when the robot turns.
 enum class GlobalMeasure {
-  kMoments,             // colour moments (Goedemé 2007 §4.2)
+  kMoments,             // colour moments (Stricker & Orengo 1995, in the part of Goedemé 2007 §4.2.1)
   kJeffrey,             // Jeffrey divergence of grey histograms (Ferdaus 2008, eq. 3.1)
   kChiSquare,           // chi-square statistics of grey histograms (eq. 3.2)
   kAbsoluteDifference,  // sum of absolute differences of grey histograms (eq. 3.3)

@@ -17,6 +17,8 @@ struct SignVotes {
 };
 
 /// Every match votes by its parallax over its uncertainty and by its change of scale, each as far as it is believed.
+/// Hartley & Zisserman, Multiple View Geometry (2004), §9.6, decide the sign by one point in front of both views; as
+/// log-odds of all matches and with their changes of scale it is ours, because far things show no parallax.
 SignVotes vote_on_sign(std::span<const Correspondence> correspondences, const MotionFit& fit);
 
 /// The votes, after turning the motion round if they speak against it.

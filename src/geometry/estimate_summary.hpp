@@ -11,6 +11,7 @@ namespace homeward::geometry {
 
 /// A fit with its direction's sign settled, as an estimate; the evidence is left to the caller, who knows the search.
 /// Errors: kTooLittleSupport when fewer than three matches are within the bound.
+/// No method of its own: what motion_fit.hpp and direction_sign.hpp found, in one struct.
 Result<PlanarEstimate> summarise(std::span<const Correspondence> correspondences, MotionFit fit, double max_error_rad);
 
 /// What `estimate` makes of the matches whose numbers all are numbers; inliers index all the same.

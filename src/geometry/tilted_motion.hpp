@@ -30,6 +30,7 @@ using MotionAngles = Eigen::Matrix<double, 5, 1>;
 TiltedMotion moved(const TiltedMotion& motion, const MotionAngles& by);
 
 /// First-order angular distances of a correspondence to the epipolar constraint of one motion.
+/// Hartley & Zisserman, Multiple View Geometry (2004), §11.4.3 (Sampson distance), here for angles.
 class EpipolarError {
  public:
   explicit EpipolarError(const TiltedMotion& motion);
@@ -66,6 +67,7 @@ std::vector<int> matches_within(double bound_rad, const TiltedMotion& motion,
 
 /// One Gauss-Newton step with Cauchy weights of `scale_rad`, all five angles free within the prior, on the matches
 /// whose epipolar error is below `bound_rad`.
+/// Iteratively reweighted least squares: Holland & Welsch (1977).
 void refine_tilted(const MatchRows& matches, double bound_rad, double scale_rad, const TiltPrior& prior,
                    TiltedMotion& motion);
 

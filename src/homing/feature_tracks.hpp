@@ -32,8 +32,9 @@ struct TrackCounts {
   int lost = 0;       // known and not seen now
 };
 
-/// The features of a local map followed from picture to picture (Goedemé 2007 §7.3): tracked, and where they get lost,
-/// taken up again where the map says they must be when the surroundings look as they did. Copies are independent.
+/// The features of a local map followed from picture to picture (Goedemé 2007 §7.2.1 and §7.2.2): tracked, and where
+/// they get lost, taken up again where the map says they must be when the surroundings look as they did. Copies are
+/// independent.
 class FeatureTracks {
  public:
   FeatureTracks() = default;

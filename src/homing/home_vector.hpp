@@ -32,13 +32,14 @@ HomeVector vector_of(const matching::VerifiedMatch& verified);
 /// The home vector from two appearances alone (no memory of former frames).
 /// Errors: kTooFewFeatures, kTooLittleSupport. It never guesses. When the two views coincide the bearing means nothing:
 /// median_parallax_rad is then below arrived_parallax_rad.
-/// Method: planar epipolar geometry, Goedemé 2007 §7.
+/// Method: planar epipolar geometry, Goedemé 2007 §7.1.1, for planar motion (geometry/planar_motion.hpp).
 Result<HomeVector> home_vector(const features::Appearance& current, const features::Appearance& target,
                                const HomingConfig& config, std::uint64_t seed);
 
 /// The same for a robot that would rather follow a hint than stand: where home_vector has no answer, the motion that at
 /// least three matches agree on, which may be chance and of another place. Its confidence is 0.02 then.
 /// Errors: kTooFewFeatures, kTooLittleSupport.
+/// Ours: docs/experiments/homing_grid.md.
 Result<HomeVector> uncertain_home_vector(const features::Appearance& current, const features::Appearance& target,
                                          std::uint64_t seed);
 

@@ -43,10 +43,11 @@ struct FirstGuess {
   double distance_spread = 0.6;  // of the logarithm of the distance
 };
 
-/// The features of one target picture in space, in the target's own robot frame (Goedemé 2007 §7.2). Distances come
+/// The features of one target picture in space, in the target's own robot frame (Goedemé 2007 §7.1.2). Distances come
 /// from triangulation between the target picture and the pictures on the way, refined together with the robot's poses
 /// on the floor; the scale comes from odometry where there is one, else the first baseline keeps the length it was
 /// given. Deterministic; holds no pictures. Copies are independent.
+/// That it grows and is refined on the way is ours.
 class LocalMap {
  public:
   LocalMap() = default;

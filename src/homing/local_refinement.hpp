@@ -40,6 +40,7 @@ struct RefinementResult {
 /// bearings with a robust loss, odometry between views, the guess of the first distance and what is usual of distances
 /// in rooms (Ceres, Levenberg-Marquardt with the features eliminated; one thread, so it is deterministic). The target's
 /// frame stands still. Nothing where it does not converge to numbers; the problem is then as it was.
+/// Triggs, McLauchlan, Hartley & Fitzgibbon, Bundle adjustment: a modern synthesis (2000).
 std::optional<RefinementResult> refine_local_map(RefinementProblem& problem);
 
 }  // namespace homeward::homing

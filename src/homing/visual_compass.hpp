@@ -13,10 +13,10 @@ struct CompassReading {
   double sharpness = 0.0;  // 1 - residual over that of the usual turn: near 0 it could be any turn
 };
 
-/// The rotation that minimises the squared difference of two panoramas (Zeil, Hofmann and Chahl 2003; Labrosse 2006),
-/// in grey values freed of brightness and contrast, found over all columns and refined between them. It holds near the
-/// target: what is near the camera shifts by more than the turn. Errors: kInvalidInput (different sizes, no pixel that
-/// both see), kTooFewFeatures (a picture of one brightness).
+/// The rotation that minimises the squared difference of two panoramas (Zeil, Hofmann & Chahl 2003; Labrosse 2006;
+/// Ferdaus 2008 §4.4), in grey values freed of brightness and contrast, found over all columns and refined between
+/// them. It holds near the target: what is near the camera shifts by more than the turn. Errors: kInvalidInput
+/// (different sizes, no pixel that both see), kTooFewFeatures (a picture of one brightness).
 Result<CompassReading> visual_compass(const camera::Panorama& current, const camera::Panorama& target);
 
 }  // namespace homeward::homing

@@ -52,8 +52,8 @@ struct TargetSeen {
   bool began = false;                                           // the local map is new
 };
 
-/// Homing to one view through a local map of its features (Goedemé 2007 §7.2): an initialisation by two views, then a
-/// pose against the map for every picture, the map growing and being refined as the robot moves. Deterministic by the
+/// Homing to one view through a local map of its features (Goedemé 2007 §7.1-7.2): an initialisation by two views, then
+/// a pose against the map for every picture, the map growing and being refined as the robot moves. Deterministic by the
 /// pictures and seeds given. Copies are independent.
 class VisualHoming {
  public:

@@ -14,6 +14,8 @@ namespace homeward::localisation {
 
 /// Which places of a map a picture may show, before features are compared: those whose appearances it looks most like
 /// as a whole. Several threads may ask at once.
+/// Ours, where Goedemé 2007 §5.3 compares with many images of the database: an index first, so that cost does not grow
+/// with the map.
 class CandidateFinder {
  public:
   /// `map` outlives the finder.

@@ -50,6 +50,7 @@ struct Belief {
 /// Bayes filter over the places of one map and the state "not in this map" (Goedemé 2007 §5). Starts uniform, which is
 /// the kidnapped robot. A picture is compared with the places where the robot is expected and with those that it looks
 /// most like: the cost of an update hardly depends on the size of the map.
+/// Sensor model after eq. 14, with a floor and a state for all that is not in the map, which are ours.
 class Localiser {
  public:
   /// Keeps a copy of the map.

@@ -19,6 +19,7 @@ struct DrivenBelief {
 /// P(x | x') between places when odometry tells how far the robot drove: a Gaussian of the difference between that and
 /// the length of the way through the map. Its spread is that of the odometry, of the lengths, which are as good as what
 /// they were taken from, and of the places: a robot may stand anywhere in them.
+/// Goedemé 2007 eq. 13 with metres in place of place transitions: ours.
 class MetricMotion {
  public:
   /// `map` need not outlive the model.

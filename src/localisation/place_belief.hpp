@@ -19,6 +19,7 @@ struct MoveOdds {
 /// Probabilities of all places and of "not in this map"; together they sum to 1. Nearly all places of a large map are
 /// as good as equally improbable: they share one number, and only those that differ are kept singly. So every step
 /// costs what the places that were looked at cost, however large the map is.
+/// Bayes filter: Goedemé 2007 §5.1, eq. 10-12; Ferdaus 2008, eq. 3.5 and 3.6. To keep few of the numbers is ours.
 class PlaceBelief {
  public:
   /// `motion` outlives the belief.

@@ -12,6 +12,8 @@ namespace homeward::map {
 /// For people only: drawn from what edges say about direction, turn and length, and from odometry where the tour has
 /// it, so that the graph looks like the building's floor plan up to a turn. Components stand side by side.
 /// Same map, same drawing.
+/// Gauss-Seidel sweeps over a linear pose graph, headings first and then positions, as by Lu & Milios (1997); keeping
+/// drawn places apart is ours.
 std::vector<Eigen::Vector2d> layout(const TopologicalMap& map);
 
 }  // namespace homeward::map

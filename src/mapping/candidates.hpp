@@ -31,6 +31,8 @@ bool tour_neighbours(std::span<const int> tour_of, int a, int b, const Candidate
 /// with words of these images: matching/retrieval_index.hpp). A pair is one if either of its images picks the other.
 /// Does not depend on `threads`.
 /// Errors: kInvalidInput (descriptors of different lengths), kCancelled.
+/// In place of the global colour measure of Goedemé 2007 §4.2.3, which still compares all pairs; what is compared:
+/// docs/experiments/pairs_compared.md.
 Result<PairLists> first_candidates(std::span<const features::Appearance> appearances, std::span<const int> tour_of,
                                    const CandidateConfig& config, std::uint64_t seed, int threads,
                                    const std::stop_token& stop);
@@ -39,6 +41,7 @@ Result<PairLists> first_candidates(std::span<const features::Appearance> appeara
 /// of `table` were found near each other and are no tour neighbours, the tour neighbours of a are to be compared with
 /// those of b, and a with what is near b. Near is a visual distance up to the median between tour images `around`
 /// apart. Of each image the pairs that most finds speak for, the nearer the more; none that `compared` has already.
+/// Ours, because the papers compare all pairs.
 PairLists second_candidates(const PairTable& table, const PairLists& compared, std::span<const int> tour_of,
                             const CandidateConfig& config);
 

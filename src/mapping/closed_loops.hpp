@@ -30,6 +30,7 @@ WayWithLoops close_way(std::span<const LoopHypothesis> hypotheses, std::span<con
 /// do: where a stretch is taken for a wrong place, it mostly is by every earlier pass of that place, and these runs
 /// agree. The worst stretch first, each with those before it gone: a false run makes right ones look wrong, but less
 /// than they do it. A person's decision is never taken back.
+/// Ours: the papers never take a loop back (Goedemé 2006 §3.6), and one wrong loop bends all of a map.
 std::vector<std::size_t> take_back(std::span<const LoopHypothesis> hypotheses, std::span<const Subcluster> subclusters,
                                    const PairTable& pairs, const TourTrack& track, const HypothesisConfig& config);
 

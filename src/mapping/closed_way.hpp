@@ -25,6 +25,8 @@ struct LoopTie {
 /// The way driven with its closed loops: headings and then positions that fit steps and ties best in the least squares
 /// sense, each with the certainty that the steps and ties between two images leave it (the effective resistance of the
 /// network that they make). A tie never speaks for itself: its own group can be taken out.
+/// Lu & Milios (1997) for the network; Barooah & Hespanha, Estimation on graphs from relative measurements (2007), for
+/// resistances as variances.
 class ClosedWay {
  public:
   /// Ties whose ends the way does not join are left out. Precondition: groups ascend, 0 first, without gaps.

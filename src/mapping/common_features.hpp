@@ -20,6 +20,7 @@ struct CommonFeaturesConfig {
 /// For each place those known to be so far away that they cannot show the same things, ascending: joined with it by
 /// edges (either way, blocked ones too), by no shorter way than `far_m` or `far_hops`, and no loop between the two is
 /// undecided. Whatever is not joined may be anywhere, next door too.
+/// Ours, for the document frequencies of matching/distinctiveness.hpp: docs/experiments/common_features.md.
 std::vector<std::vector<int>> far_places(const map::TopologicalMap& map, const CommonFeaturesConfig& config);
 
 /// Gives the SIFT features of every place and destination their document frequency: how many far places have the like.

@@ -30,6 +30,7 @@ using PlacePair = std::pair<int, int>;
 
 /// Every transition between places that a tour drove, in both directions. `place_of_image` has an index into `places`
 /// for each image of the input.
+/// Goedemé 2006 §3.3 (links are possible transitions); lengths, bearings and weak edges are ours.
 std::vector<map::Edge> form_edges(const MappingInput& input, const TourPath& path, const TourTrack& track,
                                   const MappingConfig& config, std::span<const map::Place> places,
                                   std::span<const int> place_of_image, Sights& sights);

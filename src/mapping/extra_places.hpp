@@ -24,6 +24,7 @@ struct ExtraPlaces {
 /// directly, the weak edge stays beside the sound ones.
 /// `pinned`: images that stay where they are (prototypes of subclusters, marked images). `settled`: of two places, by
 /// their indices, whether nothing is to be put in between them. Places are appended.
+/// Ours: docs/experiments/weak_edges.md.
 ExtraPlaces insert_extra_places(const MappingInput& input, const MappingConfig& config, std::span<const int> pinned,
                                 Sights& sights, std::vector<map::Place>& places, std::vector<int>& place_of_image,
                                 const std::function<bool(int, int)>& settled = {});

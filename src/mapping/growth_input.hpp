@@ -25,7 +25,7 @@ struct NewTours {
 };
 
 /// New tours and an old map side by side. A map keeps no appearances of its images but those of its places: each of
-/// them stands as one more image behind the new ones, an anchor, in a tour of its own.
+/// them stands as one more image behind the new ones, an anchor, in a tour of its own. Ours.
 struct GrowthInput {
   std::vector<map::MapImage> images;  // the new ones, then for each anchor the prototype of its place
   std::vector<int> tour_of;

@@ -9,6 +9,7 @@ namespace homeward::mapping {
 /// (a place: by the most shared images, each old id at most once; a destination: by its image), new ones otherwise. Ids
 /// of places that are gone are not used again. `previous` may be null. Edges and destinations follow.
 /// Before the call the ids in `map` need only be distinct.
+/// Ours: the papers build a map once.
 void keep_identity(map::TopologicalMap& map, const map::TopologicalMap* previous);
 
 }  // namespace homeward::mapping

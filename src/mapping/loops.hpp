@@ -26,6 +26,8 @@ struct ClosedLoops {
 /// differ never share a place. threshold: the visual distance up to which images make one place. `previous`, or null:
 /// the decisions of people on its hypotheses hold. `old`, or null: images of the input that are places of another map,
 /// one tour each; they never merge with each other, and what is believed of them and new images follows both ways.
+/// Goedemé 2006 §3.3-3.6; what stands beside it, the way driven above all, is ours:
+/// docs/experiments/sources_of_evidence.md.
 ClosedLoops close_loops(const MappingInput& input, const MappingConfig& config, const TourTrack& track,
                         const std::vector<const std::string*>& labels, float threshold,
                         const map::TopologicalMap* previous, const OldPlaces* old = nullptr);

@@ -14,6 +14,7 @@ namespace homeward::mapping {
 /// An old map beside new tours: which images are its places, where these lie, and how far it bears out that a new image
 /// shows one of them. Its way is that of its odometry, held together by its edges: a map keeps of its pictures what
 /// edges tell, the turn and the bearing from one prototype to the next. Those that the odometry excludes do not count.
+/// Ours: docs/experiments/maps_that_grow.md.
 class OldPlaces {
  public:
   /// `metric`: whether the new tours have odometry. The arguments outlive this.

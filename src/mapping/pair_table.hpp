@@ -14,7 +14,7 @@ namespace homeward::mapping {
 /// What two tour images say about each other. Directions as in geometry::PlanarMotion: the second image seen from the
 /// first one's robot frame.
 struct PairRelation {
-  float distance = std::numeric_limits<float>::infinity();  // visual distance D (design: features, section 3.2)
+  float distance = std::numeric_limits<float>::infinity();  // visual distance D (matching/visual_distance.hpp)
   int inliers = 0;                                          // matches that one planar motion explains
   float match_share = 0.0F;                                 // of the inliers in the smaller number of features
   float direction_rad = 0.0F;                               // where the second viewpoint lies

@@ -27,6 +27,7 @@ struct SeenStrip {
 
 /// The floor as the sweeps of tours saw it, put where the map's layout has their pictures. What no ray passed is
 /// unknown, and unknown is not free; a ray that came back with nothing says nothing.
+/// What rays show to be free: Moravec & Elfes, High resolution maps from wide angle sonar (1985), here without a grid.
 class SeenFloor {
  public:
   static constexpr double kWidest_m = 3.0;

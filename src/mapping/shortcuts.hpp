@@ -35,6 +35,7 @@ struct ShortcutConfig {
 /// What a person rejected between two places is not proposed again. Lengths are the layout's, also those of edges, and
 /// blocked edges count as open: what a person closed gives no reason for a way round it. All are kProposed. Same map
 /// and sweeps, same shortcuts.
+/// That these three agree is ours.
 std::vector<map::Shortcut> propose_shortcuts(const map::TopologicalMap& map, std::span<const TourSweep> sweeps,
                                              const ShortcutConfig& config = {});
 

@@ -28,6 +28,7 @@ struct MutualSight {
 /// Where they tell the same motion, each way keeps its own. Where only one found any, the other way is its inverse.
 /// Where they disagree at most one is right: both ways take the surer one, at the probability that is left to it:
 /// c1 (1 - c2) / (1 - c1 c2), Bayes' rule for two statements that exclude each other.
+/// That both ways are compared is ours, because matching is not symmetric.
 MutualSight join_sights(const PairRelation& ahead, const PairRelation& back);
 
 /// Sights between images of a tour, each pair compared once, when it is first asked for. Deterministic.

@@ -7,6 +7,7 @@ namespace homeward::mapping {
 
 /// Empirical distribution of the visual distance D between images of one place: tells how usual a distance is. It takes
 /// the part of the spread that the papers divide by (2006 eq. 6), which is 0 for places of one image and saturates.
+/// Ours in place of that.
 class UsualDistances {
  public:
   /// Distances that are infinite are left out.
@@ -29,6 +30,7 @@ class UsualDistances {
 /// share of pairs of one place that are at least as different, against the share of pairs a little further apart that
 /// are at least as alike. The papers divide D by its spread within a place (2006 eq. 6). That, like the share of the
 /// places' own distances alone, gives half of the true pairs less than 0.5 and so speaks against them.
+/// Ours: docs/experiments/sources_of_evidence.md.
 class SamePlaceScale {
  public:
   /// D of image pairs that certainly show one place, and of pairs that certainly lie next to each other but do not.

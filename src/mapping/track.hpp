@@ -47,6 +47,8 @@ struct TrackPrediction {
 /// The way of each tour, step by step: turns from the pictures (a visual compass has no drift of its own), lengths from
 /// odometry; without odometry in typical steps, a step with little parallax counting as short. First-order uncertainty:
 /// a wrong turn in step k moves all that follows by its lever arm. A step that neither tells breaks the way.
+/// Compounding of uncertain steps: Smith & Cheeseman, On the representation and estimation of spatial uncertainty
+/// (1986); to judge loops by it is ours.
 class TourTrack {
  public:
   /// `place_extent`: how large a place is, metres with odometry (`metric`), else typical steps.

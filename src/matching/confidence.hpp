@@ -24,6 +24,7 @@ struct ConfidenceSigns {
 /// some things, which agree, and others that stand elsewhere, which match as clearly and disagree. `correspondences`
 /// are those of `matches`, in their order. Turning one of the views changes nothing. `target`, SIFT features of the
 /// picture that the matches lead to, says what is common in its map; without it nothing does.
+/// Ours, because in buildings that look alike the number of matches tells next to nothing.
 ConfidenceSigns signs_of(const geometry::PlanarEstimate& estimate, std::span<const Match> matches,
                          std::span<const geometry::Correspondence> correspondences,
                          const features::FeatureSet* target = nullptr);

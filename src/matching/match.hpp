@@ -25,7 +25,7 @@ struct Match {
 };
 
 /// Mutual nearest neighbours that pass the ratio test in one direction and the colour check. Ascending in `current`.
-/// (Goedemé 2007 §3.3; Lowe 2004.)
+/// (Goedemé 2007 §3.4; Lowe 2004, §7.1.)
 std::vector<Match> match(const features::FeatureSet& current, const features::FeatureSet& target,
                          const MatchConfig& config);
 

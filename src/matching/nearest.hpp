@@ -22,6 +22,7 @@ struct NearestNeighbours {
 
 /// Compares all pairs, exactly, with the vector instructions that the processor has. Both sets hold at least one
 /// descriptor, all of the same length, at most 1024.
+/// In place of the approximate kd-tree of Goedemé 2007 §3.4.
 NearestNeighbours find_nearest(const ByteDescriptors& current, const ByteDescriptors& target);
 
 /// The same with instructions that most processors have (AVX2), or without: the same numbers.

@@ -41,6 +41,8 @@ std::vector<geometry::Correspondence> correspondences(const features::Appearance
 
 /// Matches two appearances and verifies them by planar epipolar geometry. Deterministic by `seed`.
 /// Errors: kTooFewFeatures, kTooLittleSupport.
+/// Goedemé 2007 counts matches as they are (§4.2.2) and fits geometry for homing alone (§7.1.1); to verify before
+/// counting is ours.
 Result<VerifiedMatch> verify(const features::Appearance& current, const features::Appearance& target,
                              const VerifyConfig& config, std::uint64_t seed);
 

@@ -20,7 +20,7 @@ struct PairComparison {
 };
 
 /// The visual distance D = (1/N) ((n_a + n_b) / 2) (sum |da_i| / N) over N verified matches, da_i being their azimuth
-/// differences after the best common turn (circular median), radians. Goedemé 2007 §4.2, eq. 4 of Goedemé 2006.
+/// differences after the best common turn (circular median), radians. Goedemé 2007 eq. 3, Goedemé 2006 eq. 4.
 /// Nearly symmetric; deterministic by `seed`.
 PairComparison compare(const features::Appearance& a, const features::Appearance& b, const VerifyConfig& config,
                        std::uint64_t seed);

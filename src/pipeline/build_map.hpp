@@ -55,6 +55,7 @@ struct BuiltMap {
 /// Pictures that cannot be read are left out and noted.
 /// Errors: kEmptyInput, kTooFewImages (under 3 that can be read), kTooFewFeatures (names the share of pictures without
 /// texture), kWrongImageSize, kCancelled, that of TourSource::read when no picture can be read; each names a picture.
+/// The order of the steps: Goedemé 2006 §3.
 Result<map::TopologicalMap> build_map(const std::vector<const TourSource*>& tours, const camera::CameraConfig& camera,
                                       const BuildOptions& options, const map::TopologicalMap* previous = nullptr,
                                       const ProgressSink& progress = {}, const std::stop_token& stop = {});

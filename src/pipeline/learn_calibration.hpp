@@ -15,6 +15,7 @@ namespace homeward::pipeline {
 /// from a uniform start, and it is counted how often the answer is the picture's place or a neighbour of it. Long tours
 /// are sampled. Odometry counts where a tour has it, as it will when a robot has it. `appearances`, `tour_of`: of
 /// map.images. The answer does not depend on `threads`. Errors: kCancelled.
+/// The function: localisation/calibration.hpp (Platt 1999); to learn it on the tour itself is ours.
 Result<map::BeliefCalibration> learn_calibration(const map::TopologicalMap& map,
                                                  std::span<const features::Appearance> appearances,
                                                  std::span<const int> tour_of, int threads,

@@ -40,6 +40,7 @@ struct Loop {
 /// its confidence / (1 + D), with the visual distance D (Goedemé 2007 §4.2): pictures taken side by side share most of
 /// their features, in nearly the same directions; from the other end of the same room they share few, far apart.
 /// Earlier answers bring in candidates and do not change a score. Deterministic: the same pictures give the same loops.
+/// The whole is ours: docs/experiments/online_loops.md.
 class LoopDetector {
  public:
   /// Errors: kInvalidInput (a number below 1, no more pictures kept than the gap, a score not within 0 to 1).

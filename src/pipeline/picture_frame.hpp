@@ -35,6 +35,7 @@ class FrameSampler {
 
 /// That all pictures were taken by one camera, as far as their frames tell. It is blind to two cameras of the same size
 /// that both see in all corners. Error: kInvalidInput, naming the first picture of the other camera.
+/// Ours, because features of two cameras do not compare.
 Status check_one_camera(std::span<const map::MapImage> images, std::span<const PictureFrame> frames);
 
 }  // namespace homeward::pipeline

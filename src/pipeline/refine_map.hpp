@@ -59,6 +59,7 @@ PlaceId sure_place(const localisation::Belief& belief, const RefineOptions& opti
 /// Refines a map by sights, in driving order. A sight speaks for a place when the belief was sure (see options), that
 /// of the next sight as well and near it, and verified geometry says that it was taken there and not between places.
 /// Places that the map does not have (any more) are passed over. Errors: kCancelled.
+/// Ours (which sights count); the choice among them: mapping/refine.hpp.
 Result<RefinedBySights> refine_by_sights(const map::TopologicalMap& map, std::span<const DriveSight> sights,
                                          const RefineOptions& options, const std::stop_token& stop = {});
 

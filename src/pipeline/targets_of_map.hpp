@@ -9,6 +9,7 @@ namespace homeward::pipeline {
 
 /// Tells pictures to be driven to what is common in the building that a map shows. They need not be in the map: each
 /// stands for the place that most of its features agree with.
+/// Ours: matching/distinctiveness.hpp.
 class TargetsOfMap {
  public:
   /// The map must outlive it.

@@ -39,6 +39,7 @@ std::vector<Way> failed_ways(const FailedDrive& failed);
 /// robot was sent from another place than it stood at, went astray, or is unsure: then it finds out by driving on, at
 /// the destination by a second look at it (plan_second_look). Nothing: a person decides, because the destination's own
 /// place is reached, no edge can be blamed, or the mission has had its detours or restarts.
+/// Ours: Goedemé 2007 §6 plans once.
 std::optional<std::vector<Way>> detour_after(const FailedDrive& failed);
 
 /// Whether it failed where the mission failed before: all of `failed`, one at least, were in `closed` already.

@@ -11,6 +11,8 @@ namespace homeward::planning {
 
 /// The map's edges with what they cost, and the cheapest chains of them. Costs of turns belong to pairs of edges, so
 /// the search goes from edge to edge.
+/// Goedemé 2007 §6 (Dijkstra), over edges as nodes: Caldwell, On finding minimum routes in a network with turn
+/// penalties (1961).
 class Roads {
  public:
   /// Edges that are not blocked; `by` and the models of the request decide on costs.

@@ -21,6 +21,8 @@ struct SurroundingsConfig {
 /// near to it by `layout` (map::metric_layout of this map), and those that look like a place of it, wherever they lie;
 /// the same of the places that are `likely` to be where the robot begins when that is not sure.
 /// None of the route's own. Same map and route, same places.
+/// Ours: a path of views alone (Goedemé 2007 §7) does not tell a robot that it left it:
+/// docs/experiments/one_estimate_while_driving.md.
 std::vector<PlaceId> surroundings(const map::TopologicalMap& map, std::span<const PlaceId> route,
                                   std::span<const PlaceId> likely, const map::MetricLayout& layout,
                                   const SurroundingsConfig& config = {});

@@ -7,7 +7,7 @@
 
 namespace homeward::testing {
 
-/// The mirror camera of the design: looks up, forward at the top of its picture, left at the right.
+/// The usual mirror camera: looks up, forward at the top of its picture, left at the right.
 inline camera::CameraConfig mirror_camera(double valid_radius_min_px = 30.0) {
   camera::CameraConfig config;
   config.width_px = 640;

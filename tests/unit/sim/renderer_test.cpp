@@ -31,7 +31,7 @@ camera::CameraConfig small_sphere() {
   return config;
 }
 
-/// The mirror of the design in a quarter of its size.
+/// The usual mirror camera in a quarter of its size.
 camera::CameraConfig small_mirror() {
   camera::CameraConfig config = homeward::testing::mirror_camera();
   config.width_px = 160;
