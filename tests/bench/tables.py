@@ -78,24 +78,31 @@ def read_table(file):
     return table
 
 
+def text_of(value):
+    return f"{value['count']} of {value['of']}" if isinstance(value, dict) else str(value)
+
+
+def number_of(value, where):
+    if isinstance(value, dict):
+        return float(value["count"]) / float(value["of"])
+    if not isinstance(value, Number):
+        raise Malformed(f"{where}: {json.dumps(value)} is no number to hold against a bound")
+    return float(value)
+
+
 def bound_text(bound):
-    return ", ".join(f"{sign} {bound[key]}" for key, sign in (("least", "≥"), ("most", "≤")) if key in bound)
+    return ", ".join(f"{sign} {text_of(bound[key])}" for key, sign in (("least", "≥"), ("most", "≤")) if key in bound)
 
 
 def holds(value, bound, where):
-    if isinstance(value, dict):
-        number = float(value["count"]) / float(value["of"])
-    elif isinstance(value, Number):
-        number = float(value)
-    else:
-        raise Malformed(f"{where}: {json.dumps(value)} is no number to hold against a bound")
-    return float(bound.get("least", number)) <= number <= float(bound.get("most", number))
+    number = number_of(value, where)
+    return all(number >= number_of(bound[key], where) if key == "least" else number <= number_of(bound[key], where) for key in bound)
 
 
 def cell(value, column, row, where):
     if value is None:
         return ""
-    text = f"{value['count']} of {value['of']}" if isinstance(value, dict) else str(value)
+    text = text_of(value)
     own = row.get("bounds", {}).get(column["figure"])
     bound = own or {key: column[key] for key in ("least", "most") if key in column}
     remarks = [bound_text(own)] if own else []
