@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include "support/folders.hpp"
 
@@ -23,19 +24,57 @@ std::string read(const fs::path& file) {
   return text.str();
 }
 
-TEST(IncludeArrows, PointOneWayInAllSources) {
+/// Every source of the program by its path.
+std::map<std::string, std::string> all_sources() {
   const fs::path root = project_folder();
-  int files = 0;
+  std::map<std::string, std::string> sources;
   for (const char* folder : {"src", "db", "server"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".cpp" && extension != ".hpp") continue;
-      ++files;
-      const std::string path = fs::relative(entry.path(), root).generic_string();
-      EXPECT_THAT(include_problems(path, read(entry.path())), IsEmpty());
+      sources[fs::relative(entry.path(), root).generic_string()] = read(entry.path());
     }
   }
-  EXPECT_GT(files, 100) << "the sources were not found";
+  return sources;
+}
+
+TEST(IncludeArrows, PointOneWayInAllSources) {
+  const auto sources = all_sources();
+  EXPECT_GT(sources.size(), 100U) << "the sources were not found";
+  for (const auto& [path, source] : sources) EXPECT_THAT(include_problems(path, source), IsEmpty());
+}
+
+TEST(IncludeArrows, FormNoCircleInAllSources) { EXPECT_THAT(include_circles(all_sources()), IsEmpty()); }
+
+TEST(IncludeArrows, RefuseTwoFilesThatIncludeEachOther) {
+  const std::map<std::string, std::string> sources = {{"src/map/graph.cpp", "#include \"map/graph.hpp\"\n"},
+                                                      {"src/map/graph.hpp", "#include <vector>\n"},
+                                                      {"src/map/lookup.hpp", "#include \"map/graph.hpp\"\n"}};
+  EXPECT_THAT(include_circles(sources), IsEmpty());
+  auto circle = sources;
+  circle["src/map/graph.cpp"] += "#include \"map/lookup.hpp\"\n";
+  EXPECT_THAT(include_circles(circle),
+              ElementsAre(HasSubstr("files include each other in a circle: map/graph, map/lookup")));
+}
+
+TEST(IncludeArrows, RefuseACircleOfThreeFiles) {
+  EXPECT_THAT(include_circles({{"db/a.hpp", "#include \"db/b.hpp\""},
+                               {"db/b.hpp", "#include \"db/c.hpp\""},
+                               {"db/c.hpp", "  #  include \"db/a.hpp\""},
+                               {"db/d.hpp", "#include \"db/a.hpp\""}}),
+              ElementsAre(HasSubstr("db/a, db/b, db/c")));
+}
+
+TEST(IncludeArrows, RefuseFoldersThatIncludeEachOtherThroughDifferentFiles) {
+  EXPECT_THAT(include_circles({{"server/http/a.hpp", "#include \"server/auth/b.hpp\""},
+                               {"server/auth/c.hpp", "#include \"server/http/d.hpp\""}}),
+              ElementsAre(HasSubstr("folders include each other in a circle: server/auth, server/http")));
+  EXPECT_THAT(include_circles({{"src/sim/a.hpp", "#include \"sim/generate/b.hpp\""},
+                               {"src/sim/generate/c.hpp", "#include \"sim/d.hpp\""}}),
+              ElementsAre(HasSubstr("sim/., sim/generate")));
+  EXPECT_THAT(include_circles({{"src/sim/generate/c.hpp", "#include \"sim/d.hpp\""},
+                               {"server/http/a.hpp", "#include \"server/auth/b.hpp\""}}),
+              IsEmpty());
 }
 
 TEST(IncludeArrows, RefuseALowerModuleThatIncludesAHigherOne) {
@@ -48,12 +87,15 @@ TEST(IncludeArrows, RefuseSiblings) {
   EXPECT_EQ(include_problems("src/localisation/a.cpp", "#include \"planning/route.hpp\"").size(), 1U);
   EXPECT_EQ(include_problems("src/wire/a.cpp", "#include \"localisation/localiser.hpp\"").size(), 1U);
   EXPECT_EQ(include_problems("server/service/a.cpp", "#include \"sim/motion.hpp\"").size(), 1U);
+  EXPECT_EQ(include_problems("src/agent/a.cpp", "#include \"sim/motion.hpp\"").size(), 1U);
+  EXPECT_EQ(include_problems("src/agent/a.cpp", "#include \"scenario/mission_run.hpp\"").size(), 1U);
+  EXPECT_EQ(include_problems("src/scenario/a.cpp", "#include \"agent/run/program.hpp\"").size(), 1U);
 }
 
 TEST(IncludeArrows, AcceptWhatTheTableAllows) {
   EXPECT_THAT(include_problems("src/pipeline/eye.cpp", "#include \"pipeline/eye.hpp\"\n#include \"map/graph.hpp\"\n"),
               IsEmpty());
-  EXPECT_THAT(include_problems("src/cli/main.cpp", "#include \"agent/files/tour_folder.hpp\"\n#include <iostream>\n"),
+  EXPECT_THAT(include_problems("src/cli/main.cpp", "#include \"files/tour_folder.hpp\"\n#include <iostream>\n"),
               IsEmpty());
   EXPECT_THAT(include_problems("db/sqlite/a.cpp", "#include <SQLiteCpp/SQLiteCpp.h>\n"), IsEmpty());
   EXPECT_THAT(include_problems("server/http/a.cpp", "#include <boost/beast/core.hpp>\n"), IsEmpty());
@@ -63,9 +105,11 @@ TEST(IncludeArrows, AcceptWhatTheTableAllows) {
 TEST(IncludeArrows, KeepSocketsDatabaseAndWorldInTheirPlaces) {
   EXPECT_EQ(include_problems("server/service/a.cpp", "#include <boost/asio.hpp>").size(), 1U);
   EXPECT_EQ(include_problems("server/service/a.cpp", "#include <SQLiteCpp/SQLiteCpp.h>").size(), 1U);
-  EXPECT_EQ(include_problems("src/agent/step.cpp", "#include <boost/beast.hpp>").size(), 1U);
+  EXPECT_EQ(include_problems("src/driving/step.cpp", "#include <boost/beast.hpp>").size(), 1U);
   for (const char* header : {"fstream", "filesystem", "iostream", "chrono", "thread"}) {
-    EXPECT_EQ(include_problems("src/features/a.cpp", "#  include <" + std::string(header) + ">").size(), 1U) << header;
+    for (const char* path : {"src/features/a.cpp", "src/driving/a.cpp"}) {
+      EXPECT_EQ(include_problems(path, "#  include <" + std::string(header) + ">").size(), 1U) << path << header;
+    }
   }
 }
 

@@ -58,7 +58,7 @@ std::vector<Pair> read_pairs(const char* file) {
 class Pictures {
  public:
   Pictures(const char* camera_file, int max_columns, int max_sift) {
-    const auto config = homeward::agent::read_camera(camera_file);
+    const auto config = homeward::files::read_camera(camera_file);
     const auto camera = homeward::camera::Camera::create(config.value());
     features = homeward::pipeline::suited_feature_config(*camera.value());
     features.max_columns = max_columns;
@@ -73,7 +73,7 @@ class Pictures {
     return seen_.emplace(file, homeward::features::extract(panorama, features)).first->second;
   }
   homeward::camera::Panorama unwrap(const std::string& file) {
-    return eye_->unwrap(homeward::agent::read_picture(file).value()).value();
+    return eye_->unwrap(homeward::files::read_picture(file).value()).value();
   }
   homeward::features::FeatureConfig features;
 

@@ -208,7 +208,7 @@ int main(int argc, char** argv) {
   try {
     cv::setNumThreads(1);
     homeward::StageClock clock;
-    const auto camera = homeward::or_die(homeward::agent::read_camera(std::filesystem::path(folder) / "camera.json"));
+    const auto camera = homeward::or_die(homeward::files::read_camera(std::filesystem::path(folder) / "camera.json"));
     const auto tour = homeward::look_at(folder, camera);
     homeward::Stage look = clock.lap();
     look.wall_s /= static_cast<double>(tour.size());
