@@ -7,14 +7,15 @@
 #include <thread>
 
 #include "db/secrets.hpp"
-#include "server/auth/account_routes.hpp"
 #include "server/auth/passwords.hpp"
-#include "server/driving/robot_routes.hpp"
-#include "server/http/app_front.hpp"
-#include "server/http/operation_routes.hpp"
-#include "server/jobs/build_jobs.hpp"
-#include "server/services/map_routes.hpp"
-#include "server/services/tour_routes.hpp"
+#include "server/front/app_front.hpp"
+#include "server/routes/account_routes.hpp"
+#include "server/routes/job_routes.hpp"
+#include "server/routes/map_routes.hpp"
+#include "server/routes/operation_routes.hpp"
+#include "server/routes/robot_routes.hpp"
+#include "server/routes/tour_routes.hpp"
+#include "server/work/build_jobs.hpp"
 
 namespace homeward::server {
 namespace {
@@ -86,6 +87,7 @@ struct App::Parts {
     add_account_routes(router, authenticator, *store);
     add_tour_routes(router, tours, *store);
     add_map_routes(router, maps, jobs, *store);
+    add_job_routes(router, jobs);
     add_robot_routes(router, driving, *store);
     add_operation_routes(router, metrics, *store);
     metrics.gauge("homeward_robots_online", "Robots with a link", [this] { return double(driving.online()); });

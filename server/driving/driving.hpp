@@ -9,8 +9,8 @@
 #include "db/store.hpp"
 #include "server/driving/robot_unit.hpp"
 #include "server/http/message.hpp"
-#include "server/jobs/work_pool.hpp"
 #include "server/services/maps.hpp"
+#include "server/work/work_pool.hpp"
 #include "server/ws/event_hub.hpp"
 
 namespace homeward::server {

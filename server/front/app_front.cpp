@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/http/app_front.hpp"
+#include "server/front/app_front.hpp"
 
 #include <spdlog/spdlog.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/auth/account_routes.hpp"
+#include "server/routes/account_routes.hpp"
 
-#include "db/secrets.hpp"
 #include "server/auth/passwords.hpp"
+#include "server/auth/tokens.hpp"
 #include "server/http/access.hpp"
 #include "server/http/json_body.hpp"
 
@@ -140,20 +140,6 @@ Response setup_needed(db::Store& store) {
 }
 
 }  // namespace
-
-Result<NewToken> make_token(db::Store& store, const std::string& name, db::Role role,
-                            const std::optional<RobotId>& robot) {
-  const std::string secret = db::random_secret();
-  db::Token token;
-  token.name = name;
-  token.hash = db::secret_hash(secret);
-  token.role = role;
-  token.robot = robot;
-  token.created_us = wall_clock_us();
-  const auto added = store.add_token(token);
-  if (!added) return pass_on(added);
-  return NewToken{added->id, secret};
-}
 
 void add_account_routes(Router& router, Authenticator& authenticator, db::Store& store) {
   Authenticator* auth = &authenticator;

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "db/store.hpp"
-#include "server/auth/authenticator.hpp"
-#include "server/http/router.hpp"
 
 namespace homeward::server {
-
-/// setup, login, logout, me, users, tokens.
-void add_account_routes(Router& router, Authenticator& authenticator, db::Store& store);
 
 /// A new token, and its secret to be shown once.
 struct NewToken {
   std::string id;
   std::string secret;
 };
+/// Adds a token to the store; `robot`: that it speaks for, of role robot. Errors: those of the store.
 Result<NewToken> make_token(db::Store& store, const std::string& name, db::Role role,
                             const std::optional<RobotId>& robot);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/services/map_routes.hpp"
+#include "server/routes/map_routes.hpp"
 
 #include <set>
 
 #include "map/layout.hpp"
 #include "map/lookup.hpp"
 #include "server/http/json_body.hpp"
-#include "server/services/route_answer.hpp"
+#include "server/routes/route_answer.hpp"
 #include "wire/graph_json.hpp"
 #include "wire/json_write.hpp"
 
@@ -187,10 +187,6 @@ Response import_map(MapService& maps, const Request& request) {
   return json_response(201, {{"map", wire::map_info_to_json(view_of(*record))}});
 }
 
-Response job_response(int status, const Result<wire::JobView>& job) {
-  return job ? json_response(status, wire::job_to_json(*job)) : problem_of(job);
-}
-
 }  // namespace
 
 void add_map_routes(Router& router, MapService& maps, BuildJobs& jobs, db::Store& store) {
@@ -232,12 +228,6 @@ void add_map_routes(Router& router, MapService& maps, BuildJobs& jobs, db::Store
         return belief ? json_response(200, wire::belief_to_json(*belief)) : problem_of(belief);
       },
       Lane::kHeavy, kMaxImageBody);
-  router.add({"GET", "/api/v1/jobs/{job}", "viewer", Lane::kWork, 0,
-              [j](Request& request) { return job_response(200, j->get(JobId(request.parameter("job")))); }});
-  router.add({"POST", "/api/v1/jobs/{job}/take", "installer", Lane::kWork, kMaxJsonBody,
-              [j](Request& request) { return job_response(202, j->take(JobId(request.parameter("job")))); }});
-  router.add({"POST", "/api/v1/jobs/{job}/cancel", "installer", Lane::kWork, kMaxJsonBody,
-              [j](Request& request) { return job_response(202, j->cancel(JobId(request.parameter("job")))); }});
 }
 
 }  // namespace homeward::server

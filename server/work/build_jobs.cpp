@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/jobs/build_jobs.hpp"
+#include "server/work/build_jobs.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -8,8 +8,8 @@
 
 #include "pipeline/build_map.hpp"
 #include "server/auth/authenticator.hpp"
-#include "server/jobs/stored_tours.hpp"
 #include "server/services/tours.hpp"
+#include "server/work/stored_tours.hpp"
 
 namespace homeward::server {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "pipeline/grow_map.hpp"
 #include "pipeline/refine_map.hpp"
-#include "server/jobs/build_jobs.hpp"
-#include "server/jobs/learning_words.hpp"
-#include "server/jobs/stored_tours.hpp"
+#include "server/work/build_jobs.hpp"
+#include "server/work/learning_words.hpp"
+#include "server/work/stored_tours.hpp"
 #include "wire/appearance_blob.hpp"
 
 namespace homeward::server {

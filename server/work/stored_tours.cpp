@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/jobs/stored_tours.hpp"
+#include "server/work/stored_tours.hpp"
 
 #include <set>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/driving/robot_routes.hpp"
+#include "server/routes/robot_routes.hpp"
 
 #include <limits>
 
-#include "server/auth/account_routes.hpp"
+#include "server/auth/tokens.hpp"
 #include "server/http/json_body.hpp"
 #include "wire/mission_json.hpp"
 #include "wire/robot_json.hpp"

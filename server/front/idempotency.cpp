@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/http/idempotency.hpp"
+#include "server/front/idempotency.hpp"
 
 #include "server/auth/authenticator.hpp"
 

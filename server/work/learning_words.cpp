@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/jobs/learning_words.hpp"
+#include "server/work/learning_words.hpp"
 
 #include <map>
 

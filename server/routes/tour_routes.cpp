@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/services/tour_routes.hpp"
+#include "server/routes/tour_routes.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/services/route_answer.hpp"
+#include "server/routes/route_answer.hpp"
 
 #include <charconv>
 #include <sstream>

@@ -3,13 +3,13 @@
 
 #include "server/auth/authenticator.hpp"
 #include "server/driving/driving.hpp"
+#include "server/front/idempotency.hpp"
 #include "server/http/access.hpp"
 #include "server/http/http_server.hpp"
-#include "server/http/idempotency.hpp"
 #include "server/http/metrics.hpp"
 #include "server/http/router.hpp"
 #include "server/http/static_files.hpp"
-#include "server/jobs/work_pool.hpp"
+#include "server/work/work_pool.hpp"
 #include "server/ws/event_hub.hpp"
 
 namespace homeward::server {

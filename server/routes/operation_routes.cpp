@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/http/operation_routes.hpp"
+#include "server/routes/operation_routes.hpp"
 
 namespace homeward::server {
 namespace {

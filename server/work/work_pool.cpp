@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/jobs/work_pool.hpp"
+#include "server/work/work_pool.hpp"
 
 namespace homeward::server {
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/auth/tokens.hpp"
+
+#include "db/secrets.hpp"
+#include "server/auth/authenticator.hpp"
+
+namespace homeward::server {
+
+Result<NewToken> make_token(db::Store& store, const std::string& name, db::Role role,
+                            const std::optional<RobotId>& robot) {
+  const std::string secret = db::random_secret();
+  db::Token token;
+  token.name = name;
+  token.hash = db::secret_hash(secret);
+  token.role = role;
+  token.robot = robot;
+  token.created_us = wall_clock_us();
+  const auto added = store.add_token(token);
+  if (!added) return pass_on(added);
+  return NewToken{added->id, secret};
+}
+
+}  // namespace homeward::server

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/routes/job_routes.hpp"
+
+#include "wire/job_json.hpp"
+
+namespace homeward::server {
+namespace {
+
+Response job_response(int status, const Result<wire::JobView>& job) {
+  return job ? json_response(status, wire::job_to_json(*job)) : problem_of(job);
+}
+
+}  // namespace
+
+void add_job_routes(Router& router, BuildJobs& jobs) {
+  BuildJobs* j = &jobs;
+  router.add({"GET", "/api/v1/jobs/{job}", "viewer", Lane::kWork, 0,
+              [j](Request& request) { return job_response(200, j->get(JobId(request.parameter("job")))); }});
+  router.add({"POST", "/api/v1/jobs/{job}/take", "installer", Lane::kWork, kMaxJsonBody,
+              [j](Request& request) { return job_response(202, j->take(JobId(request.parameter("job")))); }});
+  router.add({"POST", "/api/v1/jobs/{job}/cancel", "installer", Lane::kWork, kMaxJsonBody,
+              [j](Request& request) { return job_response(202, j->cancel(JobId(request.parameter("job")))); }});
+}
+
+}  // namespace homeward::server
