@@ -38,7 +38,7 @@ class Store {
   /// A new password also ends the sessions of the person. Errors: kNotFound.
   virtual Status set_password_hash(const UserId& id, const std::string& password_hash) = 0;
   /// Errors: kNotFound.
-  virtual Status set_role(const UserId& id, Role role) = 0;
+  virtual Status set_role(const UserId& id, wire::Role role) = 0;
   /// With all sessions. Errors: kNotFound, kConflict (the last admin).
   virtual Status remove_user(const UserId& id) = 0;
 

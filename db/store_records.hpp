@@ -14,21 +14,15 @@
 #include "wire/job_json.hpp"
 #include "wire/map_info_json.hpp"
 #include "wire/mission_json.hpp"
+#include "wire/role.hpp"
 #include "wire/tour_json.hpp"
 
 namespace homeward::db {
 
-/// Each person's role includes those before it; kRobot stands apart.
-enum class Role { kViewer, kRider, kCarer, kInstaller, kAdmin, kRobot };
-
-/// "viewer", "rider", "carer", "installer", "admin", "robot".
-std::string_view role_name(Role role);
-std::optional<Role> role(std::string_view name);
-
 struct User {
   UserId id;
   std::string name;
-  Role role = Role::kViewer;
+  wire::Role role = wire::Role::kViewer;
   std::string password_hash;  // Argon2id, as libsodium writes it
   TimeUs created_us = 0;
 };
@@ -46,7 +40,7 @@ struct Token {
   std::string id;
   std::string name;
   std::string hash;  // of the secret
-  Role role = Role::kRobot;
+  wire::Role role = wire::Role::kRobot;
   std::optional<RobotId> robot;  // the one that it speaks for
   TimeUs created_us = 0;
   std::optional<TimeUs> expires_us;  // nothing: never

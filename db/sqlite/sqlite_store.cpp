@@ -6,8 +6,6 @@
 namespace homeward::db {
 namespace {
 
-constexpr std::array<std::string_view, 6> kRoleNames = {"viewer", "rider", "carer", "installer", "admin", "robot"};
-
 /// After a restart nothing moves until a person says so again.
 void stop_missions(SQLite::Database& database) {
   execute(database,
@@ -15,14 +13,6 @@ void stop_missions(SQLite::Database& database) {
 }
 
 }  // namespace
-
-std::string_view role_name(Role role) { return kRoleNames.at(static_cast<std::size_t>(role)); }
-
-std::optional<Role> role(std::string_view name) {
-  const auto* const found = std::find(kRoleNames.begin(), kRoleNames.end(), name);
-  if (found == kRoleNames.end()) return std::nullopt;
-  return static_cast<Role>(found - kRoleNames.begin());
-}
 
 SqliteStore::SqliteStore(const std::filesystem::path& folder)
     : lock_(folder), folder_(folder), database_(folder / "homeward.db") {

@@ -21,7 +21,7 @@ class SqliteStore final : public Store {
   Result<std::optional<User>> user_by_name(const std::string& name) override;
   Result<std::optional<User>> user(const UserId& id) override;
   Status set_password_hash(const UserId& id, const std::string& password_hash) override;
-  Status set_role(const UserId& id, Role role) override;
+  Status set_role(const UserId& id, wire::Role role) override;
   Status remove_user(const UserId& id) override;
 
   // --- Secrets ---

@@ -5,8 +5,8 @@
 namespace homeward::db {
 namespace {
 
-Role stored_role(const std::string& name) {
-  const std::optional<Role> value = role(name);
+wire::Role stored_role(const std::string& name) {
+  const std::optional<wire::Role> value = wire::role(name);
   if (!value) refuse(ErrorCode::kCorruptFile, "The database holds the unknown role '" + name + "'.");
   return *value;
 }
@@ -30,7 +30,7 @@ User insert_user(SQLite::Database& database, User user) {
     refuse(ErrorCode::kConflict, "There is already a person called '" + user.name + "'.", "name");
   }
   execute(database, "INSERT INTO users (id, name, role, password_hash, created_us) VALUES (?, ?, ?, ?, ?)", user.id,
-          user.name, std::string(role_name(user.role)), user.password_hash, user.created_us);
+          user.name, std::string(wire::role_name(user.role)), user.password_hash, user.created_us);
   return user;
 }
 
@@ -88,12 +88,12 @@ Status SqliteStore::set_password_hash(const UserId& id, const std::string& passw
   });
 }
 
-Status SqliteStore::set_role(const UserId& id, Role role) {
+Status SqliteStore::set_role(const UserId& id, wire::Role role) {
   return database_.work([&](SQLite::Database& database) {
     const std::optional<User> before = find_user(database, kUserById, id.str());
     if (!before) no_such_user(id);
-    execute(database, "UPDATE users SET role = ? WHERE id = ?", std::string(role_name(role)), id);
-    if (before->role == Role::kAdmin) keep_an_admin(database);
+    execute(database, "UPDATE users SET role = ? WHERE id = ?", std::string(wire::role_name(role)), id);
+    if (before->role == wire::Role::kAdmin) keep_an_admin(database);
   });
 }
 
@@ -102,7 +102,7 @@ Status SqliteStore::remove_user(const UserId& id) {
     const std::optional<User> before = find_user(database, kUserById, id.str());
     if (!before) no_such_user(id);
     execute(database, "DELETE FROM users WHERE id = ?", id);
-    if (before->role == Role::kAdmin) keep_an_admin(database);
+    if (before->role == wire::Role::kAdmin) keep_an_admin(database);
   });
 }
 
@@ -136,7 +136,7 @@ Result<Token> SqliteStore::add_token(Token token) {
     if (token.id.empty()) token.id = random_id();
     execute(database,
             "INSERT INTO tokens (id, name, hash, role, robot, created_us, expires_us) VALUES (?, ?, ?, ?, ?, ?, ?)",
-            token.id, token.name, token.hash, std::string(role_name(token.role)), token.robot, token.created_us,
+            token.id, token.name, token.hash, std::string(wire::role_name(token.role)), token.robot, token.created_us,
             token.expires_us);
     return token;
   });
@@ -188,7 +188,7 @@ Result<User> SqliteStore::finish_setup(const std::string& hash, User admin) {
     if (execute(database, "DELETE FROM settings WHERE key = 'setup_hash' AND value = ?", hash) == 0) {
       refuse(ErrorCode::kForbidden, "This set-up link is not valid, or was used before.", "token");
     }
-    admin.role = Role::kAdmin;
+    admin.role = wire::Role::kAdmin;
     return insert_user(database, admin);
   });
 }

@@ -34,7 +34,7 @@ class StoreTest : public ::testing::Test {
   Store& store() { return *store_; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
-  static User person(const std::string& name, Role role) {
+  static User person(const std::string& name, wire::Role role) {
     User user;
     user.name = name;
     user.role = role;

@@ -10,38 +10,38 @@ namespace {
 class StorePeople : public StoreTest {};
 
 TEST_F(StorePeople, ArePresentAfterReopening) {
-  const auto added = store().add_user(person("Anna", Role::kCarer));
+  const auto added = store().add_user(person("Anna", wire::Role::kCarer));
   ASSERT_TRUE(added);
   open();
   const auto found = store().user_by_name("anna");
   ASSERT_TRUE(found && *found);
   EXPECT_EQ((*found)->id, added->id);
-  EXPECT_EQ((*found)->role, Role::kCarer);
+  EXPECT_EQ((*found)->role, wire::Role::kCarer);
   EXPECT_EQ((*found)->password_hash, "argon of Anna");
   EXPECT_EQ(store().user(added->id)->value().name, "Anna");
   EXPECT_FALSE(store().user_by_name("Berta")->has_value());
 }
 
 TEST_F(StorePeople, HaveNamesOfTheirOwn) {
-  ASSERT_TRUE(store().add_user(person("Anna", Role::kCarer)));
-  const auto again = store().add_user(person("ANNA", Role::kViewer));
+  ASSERT_TRUE(store().add_user(person("Anna", wire::Role::kCarer)));
+  const auto again = store().add_user(person("ANNA", wire::Role::kViewer));
   ASSERT_FALSE(again);
   EXPECT_EQ(again.error().code, ErrorCode::kConflict);
   EXPECT_EQ(store().users()->size(), 1U);
 }
 
 TEST_F(StorePeople, KeepAnAdmin) {
-  const User admin = *store().add_user(person("Anna", Role::kAdmin));
+  const User admin = *store().add_user(person("Anna", wire::Role::kAdmin));
   EXPECT_EQ(store().remove_user(admin.id).error().code, ErrorCode::kConflict);
-  EXPECT_EQ(store().set_role(admin.id, Role::kViewer).error().code, ErrorCode::kConflict);
-  EXPECT_EQ(store().user(admin.id)->value().role, Role::kAdmin);
-  ASSERT_TRUE(store().add_user(person("Berta", Role::kAdmin)));
+  EXPECT_EQ(store().set_role(admin.id, wire::Role::kViewer).error().code, ErrorCode::kConflict);
+  EXPECT_EQ(store().user(admin.id)->value().role, wire::Role::kAdmin);
+  ASSERT_TRUE(store().add_user(person("Berta", wire::Role::kAdmin)));
   EXPECT_TRUE(store().remove_user(admin.id));
   EXPECT_EQ(store().remove_user(admin.id).error().code, ErrorCode::kNotFound);
 }
 
 TEST_F(StorePeople, SessionsEndByTimeByHandAndWithANewPassword) {
-  const User user = *store().add_user(person("Anna", Role::kRider));
+  const User user = *store().add_user(person("Anna", wire::Role::kRider));
   const auto sign_in = [&](const std::string& hash) { return store().add_session({hash, user.id, 10, 100}); };
   ASSERT_TRUE(sign_in("a"));
   EXPECT_TRUE(store().session_by_hash("a", 99)->has_value());
@@ -67,10 +67,10 @@ TEST_F(StorePeople, TokensAreRevokedAndGoWithTheirRobot) {
   const auto found = store().token_by_hash(secret_hash("secret"), 1'000'000);
   ASSERT_TRUE(found && *found);
   EXPECT_EQ((*found)->robot, robot.id);
-  EXPECT_EQ((*found)->role, Role::kRobot);
+  EXPECT_EQ((*found)->role, wire::Role::kRobot);
   Token second;
   second.hash = "other";
-  second.role = Role::kInstaller;
+  second.role = wire::Role::kInstaller;
   second.expires_us = 10;
   second = *store().add_token(second);
   EXPECT_TRUE(store().token_by_hash("other", 9)->has_value());
@@ -84,12 +84,12 @@ TEST_F(StorePeople, TokensAreRevokedAndGoWithTheirRobot) {
 
 TEST_F(StorePeople, TheSetUpSecretWorksOnce) {
   ASSERT_TRUE(store().set_setup_hash("right"));
-  EXPECT_EQ(store().finish_setup("wrong", person("Eve", Role::kAdmin)).error().code, ErrorCode::kForbidden);
-  const auto admin = store().finish_setup("right", person("Anna", Role::kViewer));
+  EXPECT_EQ(store().finish_setup("wrong", person("Eve", wire::Role::kAdmin)).error().code, ErrorCode::kForbidden);
+  const auto admin = store().finish_setup("right", person("Anna", wire::Role::kViewer));
   ASSERT_TRUE(admin);
-  EXPECT_EQ(admin->role, Role::kAdmin);
+  EXPECT_EQ(admin->role, wire::Role::kAdmin);
   EXPECT_FALSE(store().setup_hash()->has_value());
-  EXPECT_EQ(store().finish_setup("right", person("Eve", Role::kAdmin)).error().code, ErrorCode::kForbidden);
+  EXPECT_EQ(store().finish_setup("right", person("Eve", wire::Role::kAdmin)).error().code, ErrorCode::kForbidden);
   EXPECT_EQ(store().users()->size(), 1U);
 }
 
