@@ -14,6 +14,7 @@
 #include "server/routes/map_routes.hpp"
 #include "server/routes/operation_routes.hpp"
 #include "server/routes/robot_routes.hpp"
+#include "server/routes/socket_routes.hpp"
 #include "server/routes/tour_routes.hpp"
 #include "server/work/build_jobs.hpp"
 
@@ -81,14 +82,14 @@ struct App::Parts {
         maps(*store, events),
         driving(*store, maps, events, heavy, journal, config.longest_mission_s),
         jobs(*store, maps, events, threads_of(config)),
-        front({router, access, files, authenticator, idempotency, metrics, workers, heavy, driving, events,
-               [this] { return snapshot(); }}) {
+        front({router, access, files, authenticator, idempotency, metrics, workers, heavy}) {
     driving.when_arrived([this](const db::Drive& drive) { jobs.add_drive(drive); });
     add_account_routes(router, authenticator, *store);
     add_tour_routes(router, tours, *store);
     add_map_routes(router, maps, jobs, *store);
     add_job_routes(router, jobs);
     add_robot_routes(router, driving, *store);
+    add_socket_routes(router, driving, events, [this] { return snapshot(); });
     add_operation_routes(router, metrics, *store);
     metrics.gauge("homeward_robots_online", "Robots with a link", [this] { return double(driving.online()); });
     metrics.gauge("homeward_dashboards", "Open event sockets", [this] { return double(events.subscribers()); });
@@ -181,5 +182,7 @@ Result<std::unique_ptr<App>> App::start(const AppConfig& config) {
 std::uint16_t App::port() const { return parts_->http->port(); }
 
 const std::string& App::setup_link() const { return parts_->setup_link; }
+
+const Router& App::router() const { return parts_->router; }
 
 }  // namespace homeward::server

@@ -25,6 +25,8 @@ struct AppConfig {
 /// Everything that is wrong with a configuration; empty when it is fine.
 std::vector<std::string> problems(const AppConfig& config);
 
+class Router;
+
 /// The whole server: store, services, pools and front, wired together.
 class App {
  public:
@@ -37,6 +39,8 @@ class App {
   [[nodiscard]] std::uint16_t port() const;
   /// The one-time link, or empty when there is an administrator already.
   [[nodiscard]] const std::string& setup_link() const;
+  /// What is answered, and to whom.
+  [[nodiscard]] const Router& router() const;
 
  private:
   struct Parts;

@@ -85,7 +85,7 @@ Result<std::optional<Caller>> Authenticator::identify(const Request& request) {
     if (!*user) return std::optional<Caller>();
     caller.id = (*user)->id.str();
     caller.name = (*user)->name;
-    caller.role = db::role_name((*user)->role);
+    caller.role = (*user)->role;
   } else {
     const auto token = store_.token_by_hash(hash, wall_clock_us());
     if (!token) return pass_on(token);
@@ -93,7 +93,7 @@ Result<std::optional<Caller>> Authenticator::identify(const Request& request) {
       return fail(ErrorCode::kUnauthenticated, "This token is not known, or it was revoked.", "Authorization");
     caller.id = (*token)->id;
     caller.name = (*token)->name;
-    caller.role = db::role_name((*token)->role);
+    caller.role = (*token)->role;
     if ((*token)->robot) caller.robot = (*token)->robot->str();
   }
   const std::scoped_lock lock(mutex_);
@@ -128,7 +128,7 @@ Result<Authenticator::SignedIn> Authenticator::set_up(const std::string& token, 
   if (const Status status = check_new_account(name, password); !status) return pass_on(status);
   db::User admin;
   admin.name = name;
-  admin.role = db::Role::kAdmin;
+  admin.role = wire::Role::kAdmin;
   admin.password_hash = hash_of_password(password);
   admin.created_us = wall_clock_us();
   const auto user = store_.finish_setup(db::secret_hash(token), admin);

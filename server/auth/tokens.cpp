@@ -6,7 +6,7 @@
 
 namespace homeward::server {
 
-Result<NewToken> make_token(db::Store& store, const std::string& name, db::Role role,
+Result<NewToken> make_token(db::Store& store, const std::string& name, wire::Role role,
                             const std::optional<RobotId>& robot) {
   const std::string secret = db::random_secret();
   db::Token token;

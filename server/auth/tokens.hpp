@@ -14,7 +14,7 @@ struct NewToken {
   std::string secret;
 };
 /// Adds a token to the store; `robot`: that it speaks for, of role robot. Errors: those of the store.
-Result<NewToken> make_token(db::Store& store, const std::string& name, db::Role role,
+Result<NewToken> make_token(db::Store& store, const std::string& name, wire::Role role,
                             const std::optional<RobotId>& robot);
 
 }  // namespace homeward::server

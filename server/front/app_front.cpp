@@ -29,12 +29,6 @@ Response broken(const std::string& what) {
   return problem({ErrorCode::kInternal, "The server has a fault; its log says more.", ""});
 }
 
-// An answer with a secret in it must not lie on the disk.
-bool answer_is_secret(const Route& route) {
-  return route.pattern == "/api/v1/tokens" || route.pattern == "/api/v1/robots" ||
-         route.pattern == "/api/v1/robots/{robot}/lease";
-}
-
 // The answer to what is neither a route nor a page.
 std::optional<Response> no_route(const Request& request, const Router::Match& match) {
   const bool page = match.allowed.empty() && !is_application_path(request.path);
@@ -61,8 +55,8 @@ std::variant<std::size_t, Response> AppFront::admit(Request& request) {
     if (auto refused = no_route(request, match)) return *refused;
     return std::size_t{0};  // a page of the dashboard
   }
-  if (match.route->role != "anyone" && !brings_a_secret(request)) return sign_in_first();
-  return match.route->max_body;
+  if (!match.route->operation.roles.includes_anyone() && !brings_a_secret(request)) return sign_in_first();
+  return match.route->operation.max_body;
 }
 
 void AppFront::answer(std::shared_ptr<Request> request, Reply reply) {
@@ -82,11 +76,11 @@ void AppFront::answer(std::shared_ptr<Request> request, Reply reply) {
   }
   request->parameters = match.parameters;
   const Route* route = match.route;
-  if (route->lane == Lane::kNow) {
+  if (route->operation.lane == Lane::kNow) {
     const auto caller = parts_.authenticator.identify_at_once(*request);
-    if (route->role == "anyone" || caller) return reply(checked(*request, *route, caller));
+    if (route->operation.roles.includes_anyone() || caller) return reply(checked(*request, *route, caller));
   }
-  WorkPool& pool = route->lane == Lane::kHeavy ? parts_.heavy : parts_.workers;
+  WorkPool& pool = route->operation.lane == Lane::kHeavy ? parts_.heavy : parts_.workers;
   const bool queued = pool.try_run([this, request, route, reply] { reply(handle(*request, *route)); });
   if (!queued) reply(problem({ErrorCode::kOverloaded, "The server is busy; try again in a second.", request->path}));
 }
@@ -102,14 +96,14 @@ Response AppFront::handle(Request& request, const Route& route) {
   }
 }
 
-std::optional<Response> AppFront::refusal(const Request& request, const std::string& role,
+std::optional<Response> AppFront::refusal(const Request& request, const AllowedRoles& roles,
                                           const std::optional<Caller>& caller) {
-  if (role != "anyone") {
-    if (!caller) return sign_in_first();
-    if (!role_allows(caller->role, role)) {
-      return problem(
-          {ErrorCode::kForbidden, "This needs the role " + role + "; yours is " + caller->role + ".", request.path});
-    }
+  if (roles.includes_anyone()) return std::nullopt;
+  if (!caller) return sign_in_first();
+  if (!roles.allow(caller->role)) {
+    const std::string role(wire::role_name(caller->role));
+    return problem(
+        {ErrorCode::kForbidden, "This needs the role " + roles.text() + "; yours is " + role + ".", request.path});
   }
   return std::nullopt;
 }
@@ -117,19 +111,20 @@ std::optional<Response> AppFront::refusal(const Request& request, const std::str
 Response AppFront::checked(Request& request, const Route& route, const std::optional<Caller>& caller) {
   const auto began = steady_clock::now();
   const auto run = [&]() -> Response {
-    if (auto refused = refusal(request, route.role, caller)) return *refused;
+    if (auto refused = refusal(request, route.operation.roles, caller)) return *refused;
     const bool by_token = caller && !caller->by_cookie;
     if (changes_something(request) && !by_token) {
       const bool signed_by_cookie = caller && caller->by_cookie;
       const bool foreign_origin = !request.header("origin").empty() && !parts_.access.from_own_page(request);
-      if (foreign_origin || (signed_by_cookie && route.role != "anyone" && !parts_.access.from_own_page(request))) {
+      if (foreign_origin ||
+          (signed_by_cookie && !route.operation.roles.includes_anyone() && !parts_.access.from_own_page(request))) {
         return problem({ErrorCode::kForbidden, "A change must come from a page of this server.", "Origin"});
       }
     }
     if (caller) request.caller = *caller;
     // A stop must not wait for the disk, and stopping twice does no harm.
-    if (route.lane == Lane::kNow) return route.handler(request);
-    return parts_.idempotency.run(request, answer_is_secret(route), route.handler);
+    if (route.operation.lane == Lane::kNow) return route.handler(request);
+    return parts_.idempotency.run(request, route.operation.answer_holds_secret, route.handler);
   };
   Response response;
   try {
@@ -138,8 +133,8 @@ Response AppFront::checked(Request& request, const Route& route, const std::opti
     response = broken(exception.what());
   }
   const double seconds = std::chrono::duration<double>(steady_clock::now() - began).count();
-  parts_.metrics.answered(request.method, route.pattern, response.status, seconds);
-  spdlog::debug("{} {} {} by {} in {:.1f} ms", request.method, route.pattern, response.status,
+  parts_.metrics.answered(request.method, std::string(route.operation.pattern), response.status, seconds);
+  spdlog::debug("{} {} {} by {} in {:.1f} ms", request.method, route.operation.pattern, response.status,
                 caller ? caller->id : "nobody", seconds * 1e3);
   return response;
 }
@@ -155,32 +150,24 @@ void AppFront::upgrade(std::shared_ptr<Request> request, std::function<void(Upgr
   if (!queued) reply(problem({ErrorCode::kOverloaded, "The server is busy.", request->path}));
 }
 
-Front::Upgrade AppFront::open_socket(Request& request) {
+Upgrade AppFront::open_socket(Request& request) {
   if (!parts_.access.host_allowed(request.header("host"))) {
     return problem({ErrorCode::kForbidden, "This server does not answer to that name.", "Host"});
   }
-  // The sockets are routes of their own; only what they are for differs.
-  Router sockets;
-  sockets.add({"GET", "/api/v1/events", "viewer", Lane::kWork, 0, {}});
-  sockets.add({"GET", "/api/v1/robots/{robot}/link", "robot", Lane::kWork, 0, {}});
-  const Router::Match match = sockets.find(request.method, request.path);
-  if (match.route == nullptr) {
+  const Router::Match match = parts_.router.find(request.method, request.path);
+  if (match.route == nullptr || !match.route->open_socket) {
     return problem({ErrorCode::kNotFound, "There is no WebSocket at " + request.path + ".", request.path});
   }
   const auto caller = parts_.authenticator.identify(request);
   if (!caller) return problem_of(caller);
-  if (auto refused = refusal(request, match.route->role, *caller)) return *refused;
+  if (auto refused = refusal(request, match.route->operation.roles, *caller)) return *refused;
   const bool has_origin = !request.header("origin").empty();
   if (((*caller)->by_cookie || has_origin) && !parts_.access.from_own_page(request)) {
     return problem({ErrorCode::kForbidden, "A socket must be opened by a page of this server.", "Origin"});
   }
-  if (match.route->role == "viewer") return parts_.events.subscribe(parts_.snapshot);
-  const RobotId robot(match.parameters.at("robot"));
-  if (const auto known = parts_.driving.get(robot); !known) return problem_of(known);
-  if ((*caller)->robot != robot.str()) {
-    return problem({ErrorCode::kForbidden, "This token does not speak for robot " + robot.str() + ".", request.path});
-  }
-  return parts_.driving.open_link(robot);
+  request.caller = **caller;
+  request.parameters = match.parameters;
+  return match.route->open_socket(request);
 }
 
 }  // namespace homeward::server

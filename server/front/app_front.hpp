@@ -2,7 +2,6 @@
 #pragma once
 
 #include "server/auth/authenticator.hpp"
-#include "server/driving/driving.hpp"
 #include "server/front/idempotency.hpp"
 #include "server/http/access.hpp"
 #include "server/http/http_server.hpp"
@@ -10,7 +9,6 @@
 #include "server/http/router.hpp"
 #include "server/http/static_files.hpp"
 #include "server/work/work_pool.hpp"
-#include "server/ws/event_hub.hpp"
 
 namespace homeward::server {
 
@@ -24,9 +22,6 @@ struct FrontParts {
   Metrics& metrics;
   WorkPool& workers;
   WorkPool& heavy;
-  Driving& driving;
-  EventHub& events;
-  EventHub::MakeSnapshot snapshot;
 };
 
 /// Checks who asks, from where and for what, and hands the request to its handler in the right lane.
@@ -42,7 +37,8 @@ class AppFront : public Front {
   Response handle(Request& request, const Route& route);
   Response checked(Request& request, const Route& route, const std::optional<Caller>& caller);
   Upgrade open_socket(Request& request);
-  std::optional<Response> refusal(const Request& request, const std::string& role, const std::optional<Caller>& caller);
+  std::optional<Response> refusal(const Request& request, const AllowedRoles& roles,
+                                  const std::optional<Caller>& caller);
 
   FrontParts parts_;
 };

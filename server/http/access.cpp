@@ -1,18 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/access.hpp"
 
-#include <algorithm>
-#include <array>
-
 namespace homeward::server {
 namespace {
-
-constexpr std::array<std::string_view, 5> kRanks = {"viewer", "rider", "carer", "installer", "admin"};
-
-int rank_of(std::string_view role) {
-  const auto found = std::find(kRanks.begin(), kRanks.end(), role);
-  return found == kRanks.end() ? -1 : static_cast<int>(found - kRanks.begin());
-}
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -59,16 +49,6 @@ bool AccessPolicy::from_own_page(const Request& request) const {
 
 bool is_loopback(std::string_view address) {
   return address == "localhost" || address == "::1" || address == "[::1]" || address.substr(0, 4) == "127.";
-}
-
-bool is_role(const std::string& name) { return name == "robot" || rank_of(name) >= 0; }
-
-bool role_allows(const std::string& role, const std::string& needed) {
-  if (needed == "anyone") return true;
-  const bool robot_too = needed == "installer, robot" || needed == "viewer, robot";
-  if (role == "robot") return robot_too || needed == "robot";
-  const int least = rank_of(robot_too ? needed.substr(0, needed.find(',')) : needed);
-  return least >= 0 && rank_of(role) >= least;
 }
 
 void add_security_headers(Response& response) {

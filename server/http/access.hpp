@@ -33,10 +33,6 @@ std::string host_without_port(std::string_view host);
 /// Whether an address to listen on is reachable from this machine alone.
 bool is_loopback(std::string_view address);
 
-/// Whether `role` may do what asks for `needed` ("anyone", one role and all above it, or "installer, robot").
-bool role_allows(const std::string& role, const std::string& needed);
-bool is_role(const std::string& name);
-
 /// Sent with every answer: no scripts but ours, no frames, no guessing of types.
 void add_security_headers(Response& response);
 

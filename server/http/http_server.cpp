@@ -275,12 +275,12 @@ asio::awaitable<bool> HttpServer::State::write(beast::tcp_stream& stream, Respon
 
 asio::awaitable<void> HttpServer::State::upgrade(beast::tcp_stream& stream, Parser& parser,
                                                  std::shared_ptr<Request> request) {
-  auto waiter = std::make_shared<Waiter<Front::Upgrade>>(asio::any_io_executor(context.get_executor()));
+  auto waiter = std::make_shared<Waiter<Upgrade>>(asio::any_io_executor(context.get_executor()));
   stream.expires_never();
-  front.upgrade(request, reply_to<Front::Upgrade>(waiter));
+  front.upgrade(request, reply_to<Upgrade>(waiter));
   error_code error;
   while (!waiter->answer) co_await waiter->timer.async_wait(asio::redirect_error(asio::use_awaitable, error));
-  Front::Upgrade answer = std::move(*waiter->answer);
+  Upgrade answer = std::move(*waiter->answer);
   if (cutting) co_return;
   if (auto* refusal = std::get_if<Response>(&answer)) {
     co_await write(stream, std::move(*refusal), parser.get().version(), false, false);

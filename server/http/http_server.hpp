@@ -32,7 +32,6 @@ class Front {
   virtual std::variant<std::size_t, Response> admit(Request& request) = 0;
   virtual void answer(std::shared_ptr<Request> request, Reply reply) = 0;
   /// A WebSocket handshake: its handler, or the refusal. May take a while: `reply` as above.
-  using Upgrade = std::variant<Response, std::shared_ptr<SocketHandler>>;
   virtual void upgrade(std::shared_ptr<Request> request, std::function<void(Upgrade)> reply) = 0;
 };
 

@@ -10,14 +10,15 @@
 #include <string_view>
 
 #include "core/result.hpp"
+#include "wire/role.hpp"
 
 namespace homeward::server {
 
-/// Who asks, once a token or cookie was recognised. An empty user name means nobody.
+/// Who asks, once a token or cookie was recognised. An empty id means nobody.
 struct Caller {
-  std::string id;     // of the user or token; what idempotency keys belong to
-  std::string name;   // shown to others: who drives, who edited
-  std::string role;   // "viewer", "rider", "carer", "installer", "admin", "robot"
+  std::string id;    // of the user or token; what idempotency keys belong to
+  std::string name;  // shown to others: who drives, who edited
+  wire::Role role = wire::Role::kViewer;
   std::string robot;  // for role robot: the robot that the token is for, or empty
   bool by_cookie = false;
 };

@@ -22,7 +22,7 @@ bool is_parameter(const std::string& segment) { return segment.size() > 2 && seg
 }  // namespace
 
 void Router::add(Route route) {
-  std::vector<std::string> segments = segments_of(route.pattern);
+  std::vector<std::string> segments = segments_of(route.operation.pattern);
   entries_.push_back({std::move(route), std::move(segments)});
 }
 
@@ -50,9 +50,10 @@ Router::Match Router::find(const std::string& method, const std::string& path) c
       }
     }
     if (!fits) continue;
-    allowed.insert(entry.route.method);
+    const std::string offered(entry.route.operation.method);
+    allowed.insert(offered);
     // A path spelled out beats one with parameters: maps/import is not a map called "import".
-    if (entry.route.method == wanted && literals > best_literals) {
+    if (offered == wanted && literals > best_literals) {
       best_literals = literals;
       match.route = &entry.route;
       match.parameters = std::move(parameters);
@@ -62,6 +63,12 @@ Router::Match Router::find(const std::string& method, const std::string& path) c
   if (!allowed.empty()) allowed.insert("OPTIONS");
   for (const std::string& one : allowed) match.allowed += (match.allowed.empty() ? "" : ", ") + one;
   return match;
+}
+
+std::vector<Operation> Router::operations() const {
+  std::vector<Operation> operations;
+  for (const Entry& entry : entries_) operations.push_back(entry.route.operation);
+  return operations;
 }
 
 }  // namespace homeward::server

@@ -2,10 +2,15 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
+#include "server/http/allowed_roles.hpp"
 #include "server/http/message.hpp"
+#include "server/ws/socket.hpp"
 
 namespace homeward::server {
 
@@ -20,15 +25,27 @@ inline constexpr std::size_t kMaxJsonBody = 1024UL * 1024;
 inline constexpr std::size_t kMaxImageBody = 32UL * 1024 * 1024;
 inline constexpr std::size_t kMaxMapBody = 256UL * 1024 * 1024;
 
+/// What holds of an operation whoever asks for it and whatever it does.
+struct Operation {
+  std::string_view id;  // its operationId in proto/openapi.yaml
+  std::string_view method;
+  std::string_view pattern;  // "/api/v1/tours/{tour}/images/{n}"
+  AllowedRoles roles;
+  Lane lane = Lane::kWork;
+  std::size_t max_body = 0;          // bytes
+  bool answer_holds_secret = false;  // the answer must not lie on the disk nor stand in a log
+};
+
+/// What a WebSocket handshake comes to: a refusal, or what the socket is for.
+using Upgrade = std::variant<Response, std::shared_ptr<SocketHandler>>;
+
 using Handler = std::function<Response(Request&)>;
+using SocketOpener = std::function<Upgrade(Request&)>;
 
 struct Route {
-  std::string method;
-  std::string pattern;  // "/api/v1/tours/{tour}/images/{n}"
-  std::string role;     // least role: "anyone", "viewer", ..., "robot"; "installer, robot" allows both
-  Lane lane = Lane::kWork;
-  std::size_t max_body = kMaxJsonBody;
+  Operation operation;
   Handler handler;
+  SocketOpener open_socket = nullptr;  // of an operation that is a WebSocket
 };
 
 /// Finds the handler of a request by method and path.
@@ -43,6 +60,8 @@ class Router {
   };
   /// HEAD is answered by GET's route.
   [[nodiscard]] Match find(const std::string& method, const std::string& path) const;
+  /// The operations that have a route, in the order in which they were added.
+  [[nodiscard]] std::vector<Operation> operations() const;
 
  private:
   struct Entry {

@@ -5,6 +5,7 @@
 #include "server/auth/tokens.hpp"
 #include "server/http/access.hpp"
 #include "server/http/json_body.hpp"
+#include "server/routes/operations.hpp"
 
 namespace homeward::server {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 using nlohmann::json;
 
 json user_to_json(const db::User& user) {
-  return {{"id", user.id.str()}, {"name", user.name}, {"role", db::role_name(user.role)}};
+  return {{"id", user.id.str()}, {"name", user.name}, {"role", wire::role_name(user.role)}};
 }
 
 Response signed_in(int status, const Authenticator::SignedIn& result) {
@@ -63,7 +64,7 @@ Response add_user(db::Store& store, const Request& request) {
   const std::string role = reader.choice("role", {"viewer", "rider", "carer", "installer", "admin"});
   if (const Status status = reader.finish(); !status) return problem_of(status);
   if (const Status status = check_new_account(user.name, password); !status) return problem_of(status);
-  user.role = db::role(role).value();
+  user.role = wire::role(role).value();
   user.password_hash = hash_of_password(password);
   user.created_us = wall_clock_us();
   const auto added = store.add_user(user);
@@ -86,7 +87,7 @@ Response list_tokens(db::Store& store) {
   for (const db::Token& token : *tokens) {
     list.push_back({{"id", token.id},
                     {"name", token.name},
-                    {"role", db::role_name(token.role)},
+                    {"role", wire::role_name(token.role)},
                     {"robot", token.robot ? json(token.robot->str()) : json(nullptr)},
                     {"created_us", token.created_us}});
   }
@@ -98,23 +99,24 @@ Response add_token(db::Store& store, const Request& request) {
   if (!body) return not_json(body.error());
   wire::ObjectReader reader(*body, "body");
   const std::string name = reader.text("name", 200);
-  const std::string role = reader.choice("role", {"viewer", "rider", "carer", "installer", "admin", "robot"});
+  const std::string role_text = reader.choice("role", {"viewer", "rider", "carer", "installer", "admin", "robot"});
   const auto robot = reader.optional_text("robot");
   if (const Status status = reader.finish(); !status) return problem_of(status);
   if (name.empty()) return problem({ErrorCode::kInvalidInput, "A token needs a name.", "body/name"});
-  if (robot && role != "robot") {
+  const wire::Role role = wire::role(role_text).value();
+  if (robot && role != wire::Role::kRobot) {
     return problem({ErrorCode::kInvalidInput, "Only a token of role robot speaks for a robot.", "body/robot"});
   }
   // Nobody hands out more than he may do himself.
-  if (role != "robot" && !role_allows(request.caller.role, role)) {
-    return problem({ErrorCode::kForbidden, "Your role cannot make a token of role " + role + ".", "body/role"});
+  if (role != wire::Role::kRobot && !wire::includes(request.caller.role, role)) {
+    return problem({ErrorCode::kForbidden, "Your role cannot make a token of role " + role_text + ".", "body/role"});
   }
   std::optional<RobotId> id;
   if (robot) {
     id = RobotId(*robot);
     if (const auto known = store.robot(*id); !known) return problem_of(known);
   }
-  const auto token = make_token(store, name, db::role(role).value(), id);
+  const auto token = make_token(store, name, role, id);
   if (!token) return problem_of(token);
   return json_response(201, {{"id", token->id}, {"token", token->secret}});
 }
@@ -123,8 +125,9 @@ Response remove_token(Authenticator& authenticator, db::Store& store, const Requ
   const auto tokens = store.tokens();
   if (!tokens) return problem_of(tokens);
   for (const db::Token& token : *tokens) {
-    const std::string role(db::role_name(token.role));
-    if (token.id == request.parameter("token") && role != "robot" && !role_allows(request.caller.role, role)) {
+    if (token.id == request.parameter("token") && token.role != wire::Role::kRobot &&
+        !wire::includes(request.caller.role, token.role)) {
+      const std::string role(wire::role_name(token.role));
       return problem({ErrorCode::kForbidden, "Your role cannot revoke a token of role " + role + ".", token.id});
     }
   }
@@ -144,12 +147,10 @@ Response setup_needed(db::Store& store) {
 void add_account_routes(Router& router, Authenticator& authenticator, db::Store& store) {
   Authenticator* auth = &authenticator;
   db::Store* db = &store;
-  router.add({"GET", "/api/v1/setup", "anyone", Lane::kWork, 0, [db](Request&) { return setup_needed(*db); }});
-  router.add({"POST", "/api/v1/setup", "anyone", Lane::kHeavy, kMaxJsonBody,
-              [auth](Request& request) { return set_up(*auth, request); }});
-  router.add({"POST", "/api/v1/login", "anyone", Lane::kHeavy, kMaxJsonBody,
-              [auth](Request& request) { return log_in(*auth, request); }});
-  router.add({"POST", "/api/v1/logout", "viewer", Lane::kWork, kMaxJsonBody, [auth](Request& request) {
+  router.add({operation("get_setup"), [db](Request&) { return setup_needed(*db); }});
+  router.add({operation("set_up"), [auth](Request& request) { return set_up(*auth, request); }});
+  router.add({operation("log_in"), [auth](Request& request) { return log_in(*auth, request); }});
+  router.add({operation("log_out"), [auth](Request& request) {
                 const Status status = auth->log_out(request);
                 if (!status) return problem_of(status);
                 Response response = empty_response(204);
@@ -157,19 +158,17 @@ void add_account_routes(Router& router, Authenticator& authenticator, db::Store&
                     std::string(kSessionCookie) + "=; Path=/; HttpOnly; SameSite=Strict; Max-Age=0";
                 return response;
               }});
-  router.add(
-      {"GET", "/api/v1/me", "viewer, robot", Lane::kWork, 0, [](Request& request) {
-         const Caller& caller = request.caller;
-         return json_response(200, {{"user", {{"id", caller.id}, {"name", caller.name}, {"role", caller.role}}}});
-       }});
-  router.add({"GET", "/api/v1/users", "admin", Lane::kWork, 0, [db](Request&) { return list_users(*db); }});
-  router.add({"POST", "/api/v1/users", "admin", Lane::kHeavy, kMaxJsonBody,
-              [db](Request& request) { return add_user(*db, request); }});
-  router.add({"GET", "/api/v1/tokens", "installer", Lane::kWork, 0, [db](Request&) { return list_tokens(*db); }});
-  router.add({"POST", "/api/v1/tokens", "installer", Lane::kWork, kMaxJsonBody,
-              [db](Request& request) { return add_token(*db, request); }});
-  router.add({"DELETE", "/api/v1/tokens/{token}", "installer", Lane::kWork, kMaxJsonBody,
-              [auth, db](Request& request) { return remove_token(*auth, *db, request); }});
+  router.add({operation("get_me"), [](Request& request) {
+                const Caller& caller = request.caller;
+                return json_response(
+                    200,
+                    {{"user", {{"id", caller.id}, {"name", caller.name}, {"role", wire::role_name(caller.role)}}}});
+              }});
+  router.add({operation("list_users"), [db](Request&) { return list_users(*db); }});
+  router.add({operation("add_user"), [db](Request& request) { return add_user(*db, request); }});
+  router.add({operation("list_tokens"), [db](Request&) { return list_tokens(*db); }});
+  router.add({operation("add_token"), [db](Request& request) { return add_token(*db, request); }});
+  router.add({operation("remove_token"), [auth, db](Request& request) { return remove_token(*auth, *db, request); }});
 }
 
 }  // namespace homeward::server

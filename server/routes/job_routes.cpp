@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/routes/job_routes.hpp"
 
+#include "server/routes/operations.hpp"
 #include "wire/job_json.hpp"
 
 namespace homeward::server {
@@ -14,11 +15,11 @@ Response job_response(int status, const Result<wire::JobView>& job) {
 
 void add_job_routes(Router& router, BuildJobs& jobs) {
   BuildJobs* j = &jobs;
-  router.add({"GET", "/api/v1/jobs/{job}", "viewer", Lane::kWork, 0,
+  router.add({operation("get_job"),
               [j](Request& request) { return job_response(200, j->get(JobId(request.parameter("job")))); }});
-  router.add({"POST", "/api/v1/jobs/{job}/take", "installer", Lane::kWork, kMaxJsonBody,
+  router.add({operation("take_job"),
               [j](Request& request) { return job_response(202, j->take(JobId(request.parameter("job")))); }});
-  router.add({"POST", "/api/v1/jobs/{job}/cancel", "installer", Lane::kWork, kMaxJsonBody,
+  router.add({operation("cancel_job"),
               [j](Request& request) { return job_response(202, j->cancel(JobId(request.parameter("job")))); }});
 }
 

@@ -6,6 +6,7 @@
 #include "map/layout.hpp"
 #include "map/lookup.hpp"
 #include "server/http/json_body.hpp"
+#include "server/routes/operations.hpp"
 #include "server/routes/route_answer.hpp"
 #include "wire/graph_json.hpp"
 #include "wire/json_write.hpp"
@@ -193,41 +194,31 @@ void add_map_routes(Router& router, MapService& maps, BuildJobs& jobs, db::Store
   MapService* m = &maps;
   BuildJobs* j = &jobs;
   db::Store* db = &store;
-  const std::string root = "/api/v1/maps";
-  const auto add = [&](const char* method, const std::string& path, const char* role, Handler handler,
-                       Lane lane = Lane::kWork, std::size_t max_body = kMaxJsonBody) {
-    router.add({method, root + path, role, lane, max_body, std::move(handler)});
-  };
-  add("GET", "", "viewer", [db](Request&) { return list_maps(*db); });
-  add("POST", "", "installer", [j](Request& request) { return add_map(*j, request); });
-  add("GET", "/{map}", "viewer", [db](Request& request) {
-    const auto map = db->map(map_in(request));
-    return map ? json_response(200, wire::map_info_to_json(view_of(*map))) : problem_of(map);
-  });
-  add("DELETE", "/{map}", "installer", [j, db](Request& request) { return remove_map(*j, *db, request); });
-  add("POST", "/{map}/builds", "installer", [j](Request& request) { return build_again(*j, request); });
-  add("PUT", "/{map}/refine", "installer", [j](Request& request) { return set_refine(*j, request); });
-  add("GET", "/{map}/graph", "viewer", [m](Request& request) { return graph(*m, request); });
-  add("GET", "/{map}/places/{place}/thumbnail", "viewer",
-      [m](Request& request) { return place_thumbnail(*m, request); });
-  add("GET", "/{map}/images/{tour}/{file}/thumbnail", "viewer", [m](Request& request) {
-    return thumbnail(*m, map_in(request), ImageId(request.parameter("tour") + "/" + request.parameter("file")));
-  });
-  add("POST", "/{map}/edits", "installer", [m](Request& request) { return edit(*m, request); });
-  add("GET", "/{map}/history", "viewer", [m](Request& request) { return history(*m, request); });
-  add("POST", "/{map}/undo", "installer", [m](Request& request) { return undo(*m, request); });
-  add("GET", "/{map}/export", "viewer", [db](Request& request) { return export_map(*db, request); });
-  add(
-      "POST", "/import", "installer", [m](Request& request) { return import_map(*m, request); }, Lane::kHeavy,
-      kMaxMapBody);
-  add("GET", "/{map}/route", "viewer", [m](Request& request) { return answer_route(*m, map_in(request), request); });
-  add(
-      "POST", "/{map}/localise", "viewer",
-      [m](Request& request) {
-        const auto belief = m->localise(map_in(request), request.bytes());
-        return belief ? json_response(200, wire::belief_to_json(*belief)) : problem_of(belief);
-      },
-      Lane::kHeavy, kMaxImageBody);
+  router.add({operation("list_maps"), [db](Request&) { return list_maps(*db); }});
+  router.add({operation("add_map"), [j](Request& request) { return add_map(*j, request); }});
+  router.add({operation("get_map"), [db](Request& request) {
+                const auto map = db->map(map_in(request));
+                return map ? json_response(200, wire::map_info_to_json(view_of(*map))) : problem_of(map);
+              }});
+  router.add({operation("remove_map"), [j, db](Request& request) { return remove_map(*j, *db, request); }});
+  router.add({operation("rebuild_map"), [j](Request& request) { return build_again(*j, request); }});
+  router.add({operation("set_refine_mode"), [j](Request& request) { return set_refine(*j, request); }});
+  router.add({operation("get_graph"), [m](Request& request) { return graph(*m, request); }});
+  router.add({operation("get_place_thumbnail"), [m](Request& request) { return place_thumbnail(*m, request); }});
+  router.add({operation("get_image_thumbnail"), [m](Request& request) {
+                return thumbnail(*m, map_in(request),
+                                 ImageId(request.parameter("tour") + "/" + request.parameter("file")));
+              }});
+  router.add({operation("edit_map"), [m](Request& request) { return edit(*m, request); }});
+  router.add({operation("get_history"), [m](Request& request) { return history(*m, request); }});
+  router.add({operation("undo_edit"), [m](Request& request) { return undo(*m, request); }});
+  router.add({operation("export_map"), [db](Request& request) { return export_map(*db, request); }});
+  router.add({operation("import_map"), [m](Request& request) { return import_map(*m, request); }});
+  router.add({operation("get_route"), [m](Request& request) { return answer_route(*m, map_in(request), request); }});
+  router.add({operation("localise"), [m](Request& request) {
+                const auto belief = m->localise(map_in(request), request.bytes());
+                return belief ? json_response(200, wire::belief_to_json(*belief)) : problem_of(belief);
+              }});
 }
 
 }  // namespace homeward::server

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/routes/operation_routes.hpp"
 
+#include "server/routes/operations.hpp"
+
 namespace homeward::server {
 namespace {
 
@@ -37,24 +39,14 @@ std::string html_escaped(std::string_view text) {
 void add_operation_routes(Router& router, Metrics& metrics, db::Store& store) {
   Metrics* m = &metrics;
   db::Store* db = &store;
-  router.add({"GET", "/healthz", "anyone", Lane::kNow, 0,
-              [](Request&) { return text_response(200, "text/plain; charset=utf-8", "ok\n"); }});
-  // The handshakes themselves are taken before routes are looked at.
-  for (const auto& [path, role] :
-       {std::pair("/api/v1/events", "viewer"), std::pair("/api/v1/robots/{robot}/link", "robot")}) {
-    router.add({"GET", path, role, Lane::kWork, 0, [](Request&) {
-                  Response response = problem(426, "Upgrade required", "This is a WebSocket.");
-                  response.headers["upgrade"] = "websocket";
-                  return response;
-                }});
-  }
-  router.add({"GET", "/readyz", "anyone", Lane::kWork, 0, [db](Request&) {
+  router.add({operation("healthz"), [](Request&) { return text_response(200, "text/plain; charset=utf-8", "ok\n"); }});
+  router.add({operation("readyz"), [db](Request&) {
                 const bool ready = db->setup_hash().has_value();
                 return text_response(ready ? 200 : 503, "text/plain; charset=utf-8", ready ? "ready\n" : "not ready\n");
               }});
-  router.add({"GET", "/metrics", "anyone", Lane::kWork, 0,
+  router.add({operation("metrics"),
               [m](Request&) { return text_response(200, "text/plain; version=0.0.4; charset=utf-8", m->text()); }});
-  router.add({"GET", "/api/docs", "anyone", Lane::kWork, 0, [](Request&) {
+  router.add({operation("api_docs"), [](Request&) {
                 return text_response(200, "text/html; charset=utf-8",
                                      "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\">"
                                      "<title>Homeward: the REST interface</title></head><body>"

@@ -5,6 +5,7 @@
 
 #include "server/auth/tokens.hpp"
 #include "server/http/json_body.hpp"
+#include "server/routes/operations.hpp"
 #include "wire/mission_json.hpp"
 #include "wire/robot_json.hpp"
 
@@ -32,7 +33,7 @@ Response add_robot(Driving& driving, db::Store& store, const Request& request) {
   if (const Status status = reader.finish(); !status) return problem_of(status);
   const auto robot = driving.add(name);
   if (!robot) return problem_of(robot);
-  const auto token = make_token(store, name, db::Role::kRobot, robot->id);
+  const auto token = make_token(store, name, wire::Role::kRobot, robot->id);
   if (!token) return problem_of(token);
   return json_response(201, {{"id", robot->id.str()}, {"name", robot->name}, {"token", token->secret}});
 }
@@ -145,34 +146,29 @@ Response stop(Driving& driving, const Request& request) {
 void add_robot_routes(Router& router, Driving& driving, db::Store& store) {
   Driving* d = &driving;
   db::Store* db = &store;
-  const std::string root = "/api/v1/robots";
-  const auto add = [&](const char* method, const std::string& path, const char* role, Handler handler) {
-    router.add({method, root + path, role, Lane::kWork, kMaxJsonBody, std::move(handler)});
-  };
-  add("GET", "", "viewer", [d](Request&) {
-    json list = json::array();
-    for (const wire::RobotView& robot : d->list()) list.push_back(wire::robot_to_json(robot));
-    return json_response(200, {{"robots", list}});
-  });
-  add("POST", "", "installer", [d, db](Request& request) { return add_robot(*d, *db, request); });
-  add("GET", "/{robot}", "viewer", [d](Request& request) { return robot_response(d->get(robot_in(request))); });
-  add("PUT", "/{robot}/map", "installer", [d](Request& request) { return set_map(*d, request); });
-  add("POST", "/{robot}/lease", "rider", [d](Request& request) { return take_lease(*d, request); });
-  add("PUT", "/{robot}/lease", "rider", [d](Request& request) { return keep_lease(*d, request); });
-  add("DELETE", "/{robot}/lease", "rider", [d](Request& request) { return release_lease(*d, request); });
-  add("GET", "/{robot}/missions", "viewer", [d, db](Request& request) { return list_missions(*d, *db, request); });
-  add("POST", "/{robot}/missions", "rider", [d](Request& request) { return start_mission(*d, request); });
-  add("GET", "/{robot}/missions/{mission}", "viewer", [d](Request& request) {
-    const auto mission = d->mission(robot_in(request), MissionId(request.parameter("mission")));
-    return mission ? json_response(200, wire::mission_to_json(*mission)) : problem_of(mission);
-  });
-  add("POST", "/{robot}/missions/{mission}/answer", "rider", [d](Request& request) { return answer(*d, request); });
-  router.add({"POST", root + "/{robot}/stop", "viewer", Lane::kNow, 4096,
-              [d](Request& request) { return stop(*d, request); }});
-  add("GET", "/{robot}/frame", "viewer", [d](Request& request) {
-    const auto frame = d->frame(robot_in(request));
-    return frame ? bytes_response(*frame, "image/jpeg") : problem_of(frame);
-  });
+  router.add({operation("list_robots"), [d](Request&) {
+                json list = json::array();
+                for (const wire::RobotView& robot : d->list()) list.push_back(wire::robot_to_json(robot));
+                return json_response(200, {{"robots", list}});
+              }});
+  router.add({operation("add_robot"), [d, db](Request& request) { return add_robot(*d, *db, request); }});
+  router.add({operation("get_robot"), [d](Request& request) { return robot_response(d->get(robot_in(request))); }});
+  router.add({operation("set_robot_map"), [d](Request& request) { return set_map(*d, request); }});
+  router.add({operation("take_lease"), [d](Request& request) { return take_lease(*d, request); }});
+  router.add({operation("keep_lease"), [d](Request& request) { return keep_lease(*d, request); }});
+  router.add({operation("release_lease"), [d](Request& request) { return release_lease(*d, request); }});
+  router.add({operation("list_missions"), [d, db](Request& request) { return list_missions(*d, *db, request); }});
+  router.add({operation("start_mission"), [d](Request& request) { return start_mission(*d, request); }});
+  router.add({operation("get_mission"), [d](Request& request) {
+                const auto mission = d->mission(robot_in(request), MissionId(request.parameter("mission")));
+                return mission ? json_response(200, wire::mission_to_json(*mission)) : problem_of(mission);
+              }});
+  router.add({operation("answer_question"), [d](Request& request) { return answer(*d, request); }});
+  router.add({operation("stop_robot"), [d](Request& request) { return stop(*d, request); }});
+  router.add({operation("get_frame"), [d](Request& request) {
+                const auto frame = d->frame(robot_in(request));
+                return frame ? bytes_response(*frame, "image/jpeg") : problem_of(frame);
+              }});
 }
 
 }  // namespace homeward::server

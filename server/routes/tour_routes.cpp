@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "server/http/json_body.hpp"
+#include "server/routes/operations.hpp"
 #include "wire/camera_json.hpp"
 #include "wire/scans_json.hpp"
 #include "wire/tour_json.hpp"
@@ -139,24 +140,17 @@ Response list_tours(TourService& tours) {
 void add_tour_routes(Router& router, TourService& tours, db::Store& store) {
   TourService* service = &tours;
   db::Store* db = &store;
-  const std::string teacher = "installer, robot";
-  router.add(
-      {"GET", "/api/v1/tours", "viewer, robot", Lane::kWork, 0, [service](Request&) { return list_tours(*service); }});
-  router.add({"POST", "/api/v1/tours", teacher, Lane::kWork, kMaxJsonBody,
-              [service](Request& request) { return add_tour(*service, request); }});
-  router.add({"GET", "/api/v1/tours/{tour}", "viewer, robot", Lane::kWork, 0, [service](Request& request) {
+  router.add({operation("list_tours"), [service](Request&) { return list_tours(*service); }});
+  router.add({operation("add_tour"), [service](Request& request) { return add_tour(*service, request); }});
+  router.add({operation("get_tour"), [service](Request& request) {
                 const auto tour = service->get(TourId(request.parameter("tour")));
                 return tour ? json_response(200, wire::tour_info_to_json(*tour)) : problem_of(tour);
               }});
-  router.add({"PUT", "/api/v1/tours/{tour}/images/{n}", teacher, Lane::kHeavy, kMaxImageBody,
-              [service](Request& request) { return put_image(*service, request); }});
-  router.add({"GET", "/api/v1/tours/{tour}/images/{n}", "viewer, robot", Lane::kWork, 0,
-              [db](Request& request) { return get_image(*db, request); }});
-  router.add({"PUT", "/api/v1/tours/{tour}/images/{n}/sweep", teacher, Lane::kWork, kMaxJsonBody,
-              [service](Request& request) { return put_sweep(*service, request); }});
-  router.add({"PUT", "/api/v1/tours/{tour}/marks", teacher, Lane::kWork, kMaxJsonBody,
-              [service](Request& request) { return put_marks(*service, request); }});
-  router.add({"POST", "/api/v1/tours/{tour}/complete", teacher, Lane::kWork, kMaxJsonBody, [service](Request& request) {
+  router.add({operation("put_image"), [service](Request& request) { return put_image(*service, request); }});
+  router.add({operation("get_image"), [db](Request& request) { return get_image(*db, request); }});
+  router.add({operation("put_sweep"), [service](Request& request) { return put_sweep(*service, request); }});
+  router.add({operation("put_marks"), [service](Request& request) { return put_marks(*service, request); }});
+  router.add({operation("complete_tour"), [service](Request& request) {
                 const auto tour = service->complete(TourId(request.parameter("tour")));
                 return tour ? json_response(200, wire::tour_info_to_json(*tour)) : problem_of(tour);
               }});

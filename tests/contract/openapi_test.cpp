@@ -119,8 +119,8 @@ TEST(OpenApi, RepeatsTheSchemasOfFilesAndMessages) {
 }
 
 TEST(OpenApi, EveryOperationHasAnIdOfItsOwnAndARole) {
-  const std::set<std::string> roles = {"anyone",    "viewer", "rider", "carer",
-                                       "installer", "admin",  "robot", "installer, robot"};
+  const std::set<std::string> roles = {"anyone", "viewer", "rider",         "carer",           "installer",
+                                       "admin",  "robot",  "viewer, robot", "installer, robot"};
   std::set<std::string> ids;
   for (const Operation& operation : operations()) {
     ASSERT_TRUE(operation.value.contains("operationId")) << operation.name();

@@ -10,12 +10,13 @@ namespace {
 
 TEST(Router, FindsByMethodAndPathAndDecodesParameters) {
   Router router;
-  router.add({"GET", "/maps/{map}", "viewer", Lane::kWork, 0, {}});
-  router.add({"DELETE", "/maps/{map}", "installer", Lane::kWork, 0, {}});
-  router.add({"GET", "/maps/import", "viewer", Lane::kWork, 1, {}});
+  constexpr AllowedRoles kAnyone = AllowedRoles::anyone();
+  router.add({{"get_map", "GET", "/maps/{map}", kAnyone}, {}});
+  router.add({{"remove_map", "DELETE", "/maps/{map}", kAnyone}, {}});
+  router.add({{"import_map", "GET", "/maps/import", kAnyone, Lane::kWork, 1}, {}});
   EXPECT_EQ(router.find("GET", "/maps/a%20b").parameters.at("map"), "a b");
-  EXPECT_EQ(router.find("HEAD", "/maps/a").route->method, "GET");
-  EXPECT_EQ(router.find("GET", "/maps/import").route->max_body, 1U) << "a path spelled out beats a parameter";
+  EXPECT_EQ(router.find("HEAD", "/maps/a").route->operation.method, "GET");
+  EXPECT_EQ(router.find("GET", "/maps/import").route->operation.max_body, 1U) << "a path spelled out beats a parameter";
   EXPECT_EQ(router.find("PUT", "/maps/a").route, nullptr);
   EXPECT_EQ(router.find("PUT", "/maps/a").allowed, "DELETE, GET, HEAD, OPTIONS");
   EXPECT_EQ(router.find("GET", "/maps/").route, nullptr) << "an empty parameter is none";
@@ -37,15 +38,27 @@ TEST(Access, AnswersToItsOwnNamesAlone) {
   EXPECT_FALSE(access.origin_allowed("http://evil.example", "evil.example"));
 }
 
-TEST(Access, EachRoleIncludesThoseBeforeIt) {
-  EXPECT_TRUE(role_allows("admin", "installer"));
-  EXPECT_FALSE(role_allows("carer", "installer"));
-  EXPECT_TRUE(role_allows("robot", "installer, robot"));
-  EXPECT_TRUE(role_allows("admin", "installer, robot"));
-  EXPECT_FALSE(role_allows("carer", "installer, robot"));
-  EXPECT_FALSE(role_allows("robot", "viewer"));
-  EXPECT_FALSE(role_allows("admin", "robot"));
-  EXPECT_FALSE(role_allows("", "viewer"));
+TEST(AllowedRoles, EachRoleIncludesThoseBeforeIt) {
+  using wire::Role;
+  const AllowedRoles installer = AllowedRoles::at_least(Role::kInstaller);
+  EXPECT_TRUE(installer.allow(Role::kAdmin));
+  EXPECT_FALSE(installer.allow(Role::kCarer));
+  EXPECT_FALSE(installer.allow(Role::kRobot));
+  EXPECT_FALSE(installer.includes_anyone());
+  const AllowedRoles teacher = AllowedRoles::at_least_or_robot(Role::kInstaller);
+  EXPECT_TRUE(teacher.allow(Role::kRobot));
+  EXPECT_TRUE(teacher.allow(Role::kAdmin));
+  EXPECT_FALSE(teacher.allow(Role::kCarer));
+  EXPECT_FALSE(AllowedRoles::at_least(Role::kViewer).allow(Role::kRobot));
+  EXPECT_FALSE(AllowedRoles::at_least(Role::kRobot).allow(Role::kAdmin));
+  EXPECT_TRUE(AllowedRoles::at_least(Role::kRobot).allow(Role::kRobot));
+}
+
+TEST(AllowedRoles, AreWrittenAsInTheContract) {
+  using wire::Role;
+  EXPECT_EQ(AllowedRoles::anyone().text(), "anyone");
+  EXPECT_EQ(AllowedRoles::at_least(Role::kRider).text(), "rider");
+  EXPECT_EQ(AllowedRoles::at_least_or_robot(Role::kInstaller).text(), "installer, robot");
 }
 
 TEST(Message, BrokenEscapesAreRefused) {

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <stdexcept>
+#include <string_view>
+
+#include "server/http/router.hpp"
+
+namespace homeward::server {
+
+/// Every operation of proto/openapi.yaml, in its order: who may call it, where its handler runs, how large a body it
+/// takes, and whether its answer holds a secret. A contract test compares roles and paths with the file.
+inline constexpr std::array kOperations = [] {
+  using wire::Role;
+  constexpr AllowedRoles kAnyone = AllowedRoles::anyone();
+  constexpr AllowedRoles kViewer = AllowedRoles::at_least(Role::kViewer);
+  constexpr AllowedRoles kRider = AllowedRoles::at_least(Role::kRider);
+  constexpr AllowedRoles kInstaller = AllowedRoles::at_least(Role::kInstaller);
+  constexpr AllowedRoles kAdmin = AllowedRoles::at_least(Role::kAdmin);
+  constexpr AllowedRoles kRobot = AllowedRoles::at_least(Role::kRobot);
+  constexpr AllowedRoles kViewerOrRobot = AllowedRoles::at_least_or_robot(Role::kViewer);
+  constexpr AllowedRoles kInstallerOrRobot = AllowedRoles::at_least_or_robot(Role::kInstaller);
+  return std::array{
+      Operation{"get_setup", "GET", "/api/v1/setup", kAnyone, Lane::kWork},
+      Operation{"set_up", "POST", "/api/v1/setup", kAnyone, Lane::kHeavy, kMaxJsonBody, true},
+      Operation{"log_in", "POST", "/api/v1/login", kAnyone, Lane::kHeavy, kMaxJsonBody, true},
+      Operation{"log_out", "POST", "/api/v1/logout", kViewer, Lane::kWork, kMaxJsonBody},
+      Operation{"get_me", "GET", "/api/v1/me", kViewerOrRobot, Lane::kWork},
+      Operation{"list_users", "GET", "/api/v1/users", kAdmin, Lane::kWork},
+      Operation{"add_user", "POST", "/api/v1/users", kAdmin, Lane::kHeavy, kMaxJsonBody},
+      Operation{"list_tokens", "GET", "/api/v1/tokens", kInstaller, Lane::kWork},
+      Operation{"add_token", "POST", "/api/v1/tokens", kInstaller, Lane::kWork, kMaxJsonBody, true},
+      Operation{"remove_token", "DELETE", "/api/v1/tokens/{token}", kInstaller, Lane::kWork, kMaxJsonBody},
+      Operation{"list_tours", "GET", "/api/v1/tours", kViewerOrRobot, Lane::kWork},
+      Operation{"add_tour", "POST", "/api/v1/tours", kInstallerOrRobot, Lane::kWork, kMaxJsonBody},
+      Operation{"get_tour", "GET", "/api/v1/tours/{tour}", kViewerOrRobot, Lane::kWork},
+      Operation{"put_image", "PUT", "/api/v1/tours/{tour}/images/{n}", kInstallerOrRobot, Lane::kHeavy, kMaxImageBody},
+      Operation{"get_image", "GET", "/api/v1/tours/{tour}/images/{n}", kViewerOrRobot, Lane::kWork},
+      Operation{"put_sweep", "PUT", "/api/v1/tours/{tour}/images/{n}/sweep", kInstallerOrRobot, Lane::kWork,
+                kMaxJsonBody},
+      Operation{"put_marks", "PUT", "/api/v1/tours/{tour}/marks", kInstallerOrRobot, Lane::kWork, kMaxJsonBody},
+      Operation{"complete_tour", "POST", "/api/v1/tours/{tour}/complete", kInstallerOrRobot, Lane::kWork, kMaxJsonBody},
+      Operation{"list_maps", "GET", "/api/v1/maps", kViewer, Lane::kWork, kMaxJsonBody},
+      Operation{"add_map", "POST", "/api/v1/maps", kInstaller, Lane::kWork, kMaxJsonBody},
+      Operation{"get_map", "GET", "/api/v1/maps/{map}", kViewer, Lane::kWork, kMaxJsonBody},
+      Operation{"remove_map", "DELETE", "/api/v1/maps/{map}", kInstaller, Lane::kWork, kMaxJsonBody},
+      Operation{"rebuild_map", "POST", "/api/v1/maps/{map}/builds", kInstaller, Lane::kWork, kMaxJsonBody},
+      Operation{"set_refine_mode", "PUT", "/api/v1/maps/{map}/refine", kInstaller, Lane::kWork, kMaxJsonBody},
+      Operation{"get_graph", "GET", "/api/v1/maps/{map}/graph", kViewer, Lane::kWork, kMaxJsonBody},
+      Operation{"get_place_thumbnail", "GET", "/api/v1/maps/{map}/places/{place}/thumbnail", kViewer, Lane::kWork,
+                kMaxJsonBody},
+      Operation{"get_image_thumbnail", "GET", "/api/v1/maps/{map}/images/{tour}/{file}/thumbnail", kViewer, Lane::kWork,
+                kMaxJsonBody},
+      Operation{"edit_map", "POST", "/api/v1/maps/{map}/edits", kInstaller, Lane::kWork, kMaxJsonBody},
+      Operation{"get_history", "GET", "/api/v1/maps/{map}/history", kViewer, Lane::kWork, kMaxJsonBody},
+      Operation{"undo_edit", "POST", "/api/v1/maps/{map}/undo", kInstaller, Lane::kWork, kMaxJsonBody},
+      Operation{"export_map", "GET", "/api/v1/maps/{map}/export", kViewer, Lane::kWork, kMaxJsonBody},
+      Operation{"import_map", "POST", "/api/v1/maps/import", kInstaller, Lane::kHeavy, kMaxMapBody},
+      Operation{"localise", "POST", "/api/v1/maps/{map}/localise", kViewer, Lane::kHeavy, kMaxImageBody},
+      Operation{"get_route", "GET", "/api/v1/maps/{map}/route", kViewer, Lane::kWork, kMaxJsonBody},
+      Operation{"get_job", "GET", "/api/v1/jobs/{job}", kViewer, Lane::kWork},
+      Operation{"take_job", "POST", "/api/v1/jobs/{job}/take", kInstaller, Lane::kWork, kMaxJsonBody},
+      Operation{"cancel_job", "POST", "/api/v1/jobs/{job}/cancel", kInstaller, Lane::kWork, kMaxJsonBody},
+      Operation{"list_robots", "GET", "/api/v1/robots", kViewer, Lane::kWork, kMaxJsonBody},
+      Operation{"add_robot", "POST", "/api/v1/robots", kInstaller, Lane::kWork, kMaxJsonBody, true},
+      Operation{"get_robot", "GET", "/api/v1/robots/{robot}", kViewer, Lane::kWork, kMaxJsonBody},
+      Operation{"set_robot_map", "PUT", "/api/v1/robots/{robot}/map", kInstaller, Lane::kWork, kMaxJsonBody},
+      Operation{"take_lease", "POST", "/api/v1/robots/{robot}/lease", kRider, Lane::kWork, kMaxJsonBody, true},
+      Operation{"keep_lease", "PUT", "/api/v1/robots/{robot}/lease", kRider, Lane::kWork, kMaxJsonBody, true},
+      Operation{"release_lease", "DELETE", "/api/v1/robots/{robot}/lease", kRider, Lane::kWork, kMaxJsonBody},
+      Operation{"list_missions", "GET", "/api/v1/robots/{robot}/missions", kViewer, Lane::kWork, kMaxJsonBody},
+      Operation{"start_mission", "POST", "/api/v1/robots/{robot}/missions", kRider, Lane::kWork, kMaxJsonBody},
+      Operation{"get_mission", "GET", "/api/v1/robots/{robot}/missions/{mission}", kViewer, Lane::kWork, kMaxJsonBody},
+      Operation{"answer_question", "POST", "/api/v1/robots/{robot}/missions/{mission}/answer", kRider, Lane::kWork,
+                kMaxJsonBody},
+      Operation{"stop_robot", "POST", "/api/v1/robots/{robot}/stop", kViewer, Lane::kNow, 4096},
+      Operation{"get_frame", "GET", "/api/v1/robots/{robot}/frame", kViewer, Lane::kWork, kMaxJsonBody},
+      Operation{"open_link", "GET", "/api/v1/robots/{robot}/link", kRobot, Lane::kWork},
+      Operation{"open_events", "GET", "/api/v1/events", kViewer, Lane::kWork},
+      Operation{"healthz", "GET", "/healthz", kAnyone, Lane::kNow},
+      Operation{"readyz", "GET", "/readyz", kAnyone, Lane::kWork},
+      Operation{"metrics", "GET", "/metrics", kAnyone, Lane::kWork},
+      Operation{"api_docs", "GET", "/api/docs", kAnyone, Lane::kWork},
+  };
+}();
+
+/// The operation of that id. An id that the table lacks does not compile.
+consteval Operation operation(std::string_view id) {
+  for (const Operation& one : kOperations) {
+    if (one.id == id) return one;
+  }
+  throw std::logic_error("no such operation");
+}
+
+}  // namespace homeward::server
