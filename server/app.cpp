@@ -113,7 +113,8 @@ struct App::Parts {
       // Finished ones from long ago are history, and drives that taught nothing are no news.
       std::vector<wire::JobView> told;
       for (const wire::JobView& job : *all) {
-        const bool no_news = job.kind == "refine" && job.state == wire::JobState::kDone && job.notes.empty();
+        const bool no_news =
+            job.kind == wire::JobKind::kRefine && job.state == wire::JobState::kDone && job.notes.empty();
         if (!no_news) told.push_back(job);
       }
       const std::size_t first = told.size() > 50 ? told.size() - 50 : 0;

@@ -116,9 +116,15 @@ void get_places(SQLite::Database& database, ContentDigest& digest, map::Topologi
   }
 }
 
+map::Decider decider(const std::string& name, const std::string& where) {
+  const auto known = map::kDeciderNames.find(name);
+  if (!known) refuse("Neither the method nor a person is said to have decided.", where);
+  return *known;
+}
+
 /// Files of version 2 do not say where lengths come from: metres where every image has odometry, else images.
 map::LengthSource old_length_source(const map::TopologicalMap& map, const map::Edge& edge) {
-  if (edge.by == "person") return map::LengthSource::kUnknown;
+  if (edge.by == map::Decider::kPerson) return map::LengthSource::kUnknown;
   const bool metric = std::all_of(map.images.begin(), map.images.end(),
                                   [](const map::MapImage& image) { return image.odometry.has_value(); });
   return metric ? map::LengthSource::kOdometry : map::LengthSource::kTourImages;
@@ -144,7 +150,7 @@ void get_edges(SQLite::Database& database, ContentDigest& digest, map::Topologic
     edge.confidence = select.column(5).getDouble();
     edge.weak = select.column(6).getInt() != 0;
     edge.blocked = select.column(7).getInt() != 0;
-    edge.by = select.column(8).getString();
+    edge.by = decider(select.column(8).getString(), "edges");
     if (!tells_source) {
       edge.length_from = old_length_source(map, edge);
     } else {
@@ -211,7 +217,7 @@ void get_hypotheses(SQLite::Database& database, ContentDigest& digest, map::Topo
       refuse("A hypothesis has an unknown decision.", "hypotheses");
     }
     hypothesis.decision = static_cast<map::Decision>(decision);
-    hypothesis.by = select.column(12).getString();
+    hypothesis.by = decider(select.column(12).getString(), "hypotheses");
     map.hypotheses.push_back(std::move(hypothesis));
   }
 }

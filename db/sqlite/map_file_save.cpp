@@ -129,7 +129,7 @@ void put_edges(SQLite::Database& database, const map::TopologicalMap& map) {
     insert.bind(7, edge.confidence);
     insert.bind(8, edge.weak ? 1 : 0);
     insert.bind(9, edge.blocked ? 1 : 0);
-    insert.bind(10, edge.by);
+    insert.bind(10, std::string(map::kDeciderNames.name(edge.by)));
     insert.bind(11, static_cast<int>(edge.length_from));
     insert.bind(12, edge.inliers);
     insert.bind(13, edge.shortcut ? 1 : 0);
@@ -173,7 +173,7 @@ void put_hypotheses(SQLite::Database& database, const map::TopologicalMap& map) 
       insert.bind(index++, value);
     }
     insert.bind(13, static_cast<int>(hypothesis.decision));
-    insert.bind(14, hypothesis.by);
+    insert.bind(14, std::string(map::kDeciderNames.name(hypothesis.by)));
     insert.exec();
     insert.reset();
   }

@@ -28,7 +28,9 @@ std::string ids_text(const std::vector<Name>& ids) {
 wire::JobView job_of(SQLite::Statement& row) {
   wire::JobView job;
   job.id = JobId(text(row, 0));
-  job.kind = text(row, 1);
+  const std::optional<wire::JobKind> kind = wire::kJobKindNames.find(text(row, 1));
+  if (!kind) refuse(ErrorCode::kCorruptFile, "The database holds a job of an unknown kind.", "jobs/" + job.id.str());
+  job.kind = *kind;
   job.map = MapId(text(row, 2));
   const std::optional<wire::JobState> state = wire::job_state(text(row, 3));
   if (!state) refuse(ErrorCode::kCorruptFile, "The database holds an unknown state.", "jobs/" + job.id.str());
@@ -80,10 +82,10 @@ Result<wire::JobView> SqliteStore::add_job(wire::JobView job) {
     }
     if (job.id.empty()) job.id = JobId(random_id());
     const ErrorColumns error = error_columns(job);
-    execute(database, "INSERT INTO jobs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", job.id, job.kind,
-            job.map, std::string(wire::job_state_name(job.state)), job.stage, job.share, error.code, error.message,
-            error.where, job.created_us, job.skipped, notes_text(job), job.gained, job.taken, ids_text(job.tours),
-            ids_text(job.drives));
+    execute(database, "INSERT INTO jobs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", job.id,
+            std::string(wire::kJobKindNames.name(job.kind)), job.map, std::string(wire::job_state_name(job.state)),
+            job.stage, job.share, error.code, error.message, error.where, job.created_us, job.skipped, notes_text(job),
+            job.gained, job.taken, ids_text(job.tours), ids_text(job.drives));
     return job;
   });
 }

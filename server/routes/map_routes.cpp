@@ -15,6 +15,7 @@ namespace homeward::server {
 namespace {
 
 using nlohmann::json;
+using wire::JobKind;
 
 MapId map_in(const Request& request) { return MapId(request.parameter("map")); }
 
@@ -59,13 +60,13 @@ Response build_again(BuildJobs& jobs, const Request& request) {
   const auto body = json_body(request);
   if (!body) return not_json(body.error());
   wire::ObjectReader reader(*body, "body");
-  const std::string kind = reader.has("kind") ? reader.choice("kind", {"build", "add", "refine"}) : "build";
+  const JobKind kind = reader.has("kind") ? reader.choice("kind", wire::kJobKindNames) : JobKind::kBuild;
   const std::vector<TourId> tours = reader.has("tours") ? tours_in(reader) : std::vector<TourId>();
-  if (kind == "build" && !tours.empty()) reader.problem("tours", "A build is from the tours that the map has.");
-  if (kind != "build" && tours.empty()) reader.problem("tours", "Name at least one tour to learn from.");
+  if (kind == JobKind::kBuild && !tours.empty()) reader.problem("tours", "A build is from the tours that the map has.");
+  if (kind != JobKind::kBuild && tours.empty()) reader.problem("tours", "Name at least one tour to learn from.");
   if (const Status status = reader.finish(); !status) return problem_of(status);
   const MapId map = map_in(request);
-  const auto job = kind == "build" ? jobs.rebuild(map) : jobs.learn_from(map, kind, tours);
+  const auto job = kind == JobKind::kBuild ? jobs.rebuild(map) : jobs.learn_from(map, kind, tours);
   return job ? json_response(202, {{"job", wire::job_to_json(*job)}}) : problem_of(job);
 }
 

@@ -198,7 +198,7 @@ void BuildJobs::run(wire::JobView job, const std::stop_token& stop) {
   tell(job);
   Result<wire::JobState> result = fail(ErrorCode::kInternal, "The job did not run.", "jobs/" + job.id.str());
   try {
-    result = job.kind == "build" ? build(job, stop) : learn(job, stop);
+    result = job.kind == wire::JobKind::kBuild ? build(job, stop) : learn(job, stop);
   } catch (const std::exception& exception) {
     result = fail(ErrorCode::kInternal, std::string("The job failed: ") + exception.what(), "jobs/" + job.id.str());
   }

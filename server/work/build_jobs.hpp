@@ -35,9 +35,9 @@ class BuildJobs {
   Result<NewMap> add_map(const std::string& name, const std::vector<TourId>& tours);
   /// Errors: kNotFound, kConflict (a job of the map is under way, or its pictures are not here), kOverloaded.
   Result<wire::JobView> rebuild(const MapId& map);
-  /// `kind`: "add" or "refine", by tours. Errors: kNotFound (map or tour), kConflict (not built yet, a job of the map
+  /// `kind`: kAdd or kRefine, by tours. Errors: kNotFound (map or tour), kConflict (not built yet, a job of the map
   /// is under way, a tour is not complete or in the map already, or the cameras differ), kOverloaded.
-  Result<wire::JobView> learn_from(const MapId& map, const std::string& kind, const std::vector<TourId>& tours);
+  Result<wire::JobView> learn_from(const MapId& map, wire::JobKind kind, const std::vector<TourId>& tours);
   /// Keeps what a mission saw, unless the map is set not to learn by itself, and sets its job to work.
   void add_drive(const db::Drive& drive);
   /// The map is to have what the job offers. Errors: kNotFound, kConflict (it offers nothing), kOverloaded.
@@ -58,7 +58,9 @@ class BuildJobs {
   Result<wire::JobState> add_tours(wire::JobView& job, const std::stop_token& stop);
   Result<wire::JobState> refine_by_tours(wire::JobView& job, const std::stop_token& stop);
   Result<wire::JobState> refine_by_drives(wire::JobView& job, const std::stop_token& stop);
-  static bool learns_from_drives(const wire::JobView& job) { return job.kind == "refine" && job.tours.empty(); }
+  static bool learns_from_drives(const wire::JobView& job) {
+    return job.kind == wire::JobKind::kRefine && job.tours.empty();
+  }
   void look_for_drives(const MapId& map);
   bool forget_drives_of(const wire::JobView& job);
   Result<wire::JobState> keep_learnt(wire::JobView& job, const map::TopologicalMap& map,

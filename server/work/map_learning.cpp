@@ -67,13 +67,12 @@ Result<std::vector<pipeline::DriveSight>> sights_of(db::Store& store, const std:
 
 }  // namespace
 
-Result<wire::JobView> BuildJobs::learn_from(const MapId& map, const std::string& kind,
-                                            const std::vector<TourId>& tours) {
+Result<wire::JobView> BuildJobs::learn_from(const MapId& map, wire::JobKind kind, const std::vector<TourId>& tours) {
   const auto record = store_.map(map);
   if (!record) return pass_on(record);
   if (record->revision == 0) return fail(ErrorCode::kConflict, "The map has not been built yet.", where_of(map));
   std::vector<TourId> of_one_camera = tours;
-  if (kind == "add") {
+  if (kind == wire::JobKind::kAdd) {
     for (const TourId& tour : tours) {
       if (std::find(record->tours.begin(), record->tours.end(), tour) != record->tours.end()) {
         return fail(ErrorCode::kConflict, "The map has this tour already.", "tours/" + tour.str());
@@ -92,9 +91,9 @@ Result<wire::JobView> BuildJobs::learn_from(const MapId& map, const std::string&
 
 Result<wire::JobState> BuildJobs::learn(wire::JobView& job, const std::stop_token& stop) {
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-    auto result = job.kind == "add"         ? add_tours(job, stop)
-                  : learns_from_drives(job) ? refine_by_drives(job, stop)
-                                            : refine_by_tours(job, stop);
+    auto result = job.kind == wire::JobKind::kAdd ? add_tours(job, stop)
+                  : learns_from_drives(job)       ? refine_by_drives(job, stop)
+                                                  : refine_by_tours(job, stop);
     if (result || result.error().code != ErrorCode::kStaleRevision) return result;
     spdlog::info("job {}: map {} was changed meanwhile; once more", job.id.str(), job.map.str());
   }
@@ -192,7 +191,7 @@ Result<wire::JobState> BuildJobs::keep_learnt(wire::JobView& job, const map::Top
   after.state = wire::JobState::kDone;
   after.share = 1.0;
   db::AlongWithContents along{{}, job.drives, after};
-  if (job.kind == "add") along.new_tours = job.tours;
+  if (job.kind == wire::JobKind::kAdd) along.new_tours = job.tours;
   const auto kept = maps_.keep_learnt(job.map, map, thumbnails, revision, along);
   if (!kept) return pass_on(kept);
   return wire::JobState::kDone;
@@ -214,7 +213,7 @@ void BuildJobs::look_for_drives(const MapId& map) {
   const auto jobs = store_.jobs();
   if (!drives || !jobs) return;
   wire::JobView job;
-  job.kind = "refine";
+  job.kind = wire::JobKind::kRefine;
   job.map = map;
   for (const wire::JobView& known : *jobs) {
     if (!learns_from_drives(known) || known.map != map) continue;

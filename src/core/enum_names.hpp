@@ -26,6 +26,9 @@ class EnumNames {
     return std::nullopt;
   }
 
+  /// All texts, in the order of the values.
+  [[nodiscard]] constexpr const std::array<std::string_view, kCount>& all() const { return names_; }
+
  private:
   std::array<std::string_view, kCount> names_;
 };

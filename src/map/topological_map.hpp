@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "camera/camera_config.hpp"
+#include "core/enum_names.hpp"
 #include "core/ids.hpp"
 #include "core/pose2.hpp"
 #include "core/time.hpp"
@@ -38,6 +39,11 @@ enum class LengthSource {
   kTourImages,  // how many pictures the tour took for it
 };
 
+/// Who made an edge, or decided on a hypothesis.
+enum class Decider { kMethod, kPerson };
+
+inline constexpr EnumNames<Decider, 2> kDeciderNames({"method", "person"});
+
 /// A drivable transition seen on a tour or added by a person.
 struct Edge {
   PlaceId from;
@@ -46,12 +52,12 @@ struct Edge {
   std::optional<double> turn_rad;     // prototype heading of `to` minus that of `from`
   double length_m = 1.0;              // rough; how rough, `length_from` says
   LengthSource length_from = LengthSource::kUnknown;
-  double confidence = 0.0;    // that the bearing is right within 15 degrees
-  int inliers = 0;            // features that both prototypes see and that one motion explains
-  bool weak = false;          // homing along it is likely to fail
-  bool blocked = false;       // by a person or because driving failed
-  std::string by = "method";  // "method" or "person"
-  bool shortcut = false;      // no tour drove it: an accepted Shortcut
+  double confidence = 0.0;  // that the bearing is right within 15 degrees
+  int inliers = 0;          // features that both prototypes see and that one motion explains
+  bool weak = false;        // homing along it is likely to fail
+  bool blocked = false;     // by a person or because driving failed
+  Decider by = Decider::kMethod;
+  bool shortcut = false;  // no tour drove it: an accepted Shortcut
 };
 
 enum class ShortcutState { kProposed, kAccepted, kRejected };
@@ -92,7 +98,7 @@ struct Hypothesis {
   double support = 0.0;
   double plausibility = 1.0;
   Decision decision = Decision::kUndecided;
-  std::string by = "method";  // "method" or "person"
+  Decider by = Decider::kMethod;
 };
 
 /// What a person picks and what arrival is measured to. Docking heading = the heading of `image`.

@@ -81,7 +81,7 @@ std::vector<std::size_t> worst_stretch(const WayWithLoops& closed, std::span<con
     for (const auto& stretch : {on_a, on_b}) {
       std::vector<std::size_t> of_stretch;
       for (std::size_t t = 0; t < closed.ties.size(); ++t) {
-        if (hypotheses[closed.hypothesis_of[t]].by != "method") continue;
+        if (hypotheses[closed.hypothesis_of[t]].by != map::Decider::kMethod) continue;
         if (within(closed.ties[t].a, stretch) || within(closed.ties[t].b, stretch)) of_stretch.push_back(t);
       }
       const std::vector<ClosedWay::Without> without = closed.way.without(of_stretch);

@@ -105,7 +105,7 @@ Status take_out(Place& place, const std::vector<ImageId>& images) {
   return {};
 }
 
-void join_both_ways(TopologicalMap& map, const PlaceId& a, const PlaceId& b, const std::string& by) {
+void join_both_ways(TopologicalMap& map, const PlaceId& a, const PlaceId& b, map::Decider by) {
   for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
     if (map::find_edge(map, from, to) != nullptr) continue;
     map::Edge edge;
@@ -145,7 +145,8 @@ Status split(TopologicalMap& map, const ImageId& image_a, const std::vector<Imag
     for (const int next : {at - 1, at + 1}) {
       if (next < 0 || next >= static_cast<int>(map.images.size())) continue;
       const Place* neighbour = map::find_place_of(map, map.images[static_cast<std::size_t>(next)].id);
-      if (neighbour != nullptr && neighbour->id != fresh_id) join_both_ways(map, fresh_id, neighbour->id, "person");
+      if (neighbour != nullptr && neighbour->id != fresh_id)
+        join_both_ways(map, fresh_id, neighbour->id, map::Decider::kPerson);
     }
   }
   if (map::find_edge(map, old_id, fresh_id) == nullptr) tidy_edges(map);
@@ -205,7 +206,7 @@ tl::unexpected<Error> no_edge(const EdgeEnds& ends) {
 Status add_edge(TopologicalMap& map, const Edit& edit) {
   const auto ends = edge_ends(map, edit);
   if (!ends) return pass_on(ends);
-  join_both_ways(map, ends->from, ends->to, "person");
+  join_both_ways(map, ends->from, ends->to, map::Decider::kPerson);
   return {};
 }
 
@@ -278,7 +279,7 @@ Status decide(TopologicalMap& map, const Edit& edit) {
     if (const Status parted = split(map, staying, leaving); !parted) return parted;
   }
   found->decision = accept ? map::Decision::kAccepted : map::Decision::kRejected;
-  found->by = "person";
+  found->by = map::Decider::kPerson;
   return {};
 }
 
@@ -347,7 +348,7 @@ Status undo_add_edge(TopologicalMap& map, const Edit& undone) {
   std::erase_if(map.edges, [&](const map::Edge& edge) {
     const bool these =
         (edge.from == ends->from && edge.to == ends->to) || (edge.from == ends->to && edge.to == ends->from);
-    return these && edge.by == "person" && !edge.shortcut;
+    return these && edge.by == map::Decider::kPerson && !edge.shortcut;
   });
   return {};
 }

@@ -159,7 +159,7 @@ void collect_evidence(std::span<LoopHypothesis> hypotheses, std::span<const Subc
       if (!(weight > 0.0)) continue;
       hypothesis.after = combine(hypothesis.after, evidence(neighbour.similarity, weight * neighbour.reliability));
     }
-    if (hypothesis.by != "method") continue;
+    if (hypothesis.by != map::Decider::kMethod) continue;
     hypothesis.decision = excluded ? map::Decision::kRejected : decide(hypothesis.after, config);
     // Where looks cannot be trusted, many of them that agree cannot either: what deceives one deceives its neighbours.
     const bool looks_alone = hypothesis.reliability < config.least_reliability;
@@ -179,8 +179,8 @@ std::vector<int> merge_accepted(int subclusters, std::span<LoopHypothesis> hypot
   }
   // A person's word first, then by support; equal support keeps the order of the list.
   std::ranges::stable_sort(accepted, [](const LoopHypothesis* x, const LoopHypothesis* y) {
-    const bool x_by_person = x->by != "method";
-    const bool y_by_person = y->by != "method";
+    const bool x_by_person = x->by != map::Decider::kMethod;
+    const bool y_by_person = y->by != map::Decider::kMethod;
     if (x_by_person != y_by_person) return x_by_person;
     if (x->across != y->across) return y->across;
     return support(x->after) > support(y->after);

@@ -31,7 +31,7 @@ struct LoopHypothesis {
   map::Masses before;
   map::Masses after;
   map::Decision decision = map::Decision::kUndecided;
-  std::string by = "method";
+  map::Decider by = map::Decider::kMethod;
   bool across = false;  // the two lie in different clusters
   bool meets = true;    // some picture of one shares as many features with one of the other as pictures of one spot do
   // It was accepted until the other loops that were closed excluded it. `before` then tells what spoke for it,

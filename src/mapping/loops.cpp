@@ -123,7 +123,7 @@ void apply_decisions(std::vector<LoopHypothesis>& hypotheses, std::span<const Su
                              (holds(hypothesis.a, edit.image_b) && holds(hypothesis.b, edit.image_a));
       if (!concerned) continue;
       hypothesis.decision = edit.text == "accept" ? map::Decision::kAccepted : map::Decision::kRejected;
-      hypothesis.by = "person";
+      hypothesis.by = map::Decider::kPerson;
     }
   }
 }
@@ -273,7 +273,7 @@ bool Judgement::reconsider(std::vector<LoopHypothesis>& hypotheses, Witnesses& w
     if (!more) continue;
     news = news || evidence.verdict != way[h].verdict || evidence.sharpness > way[h].sharpness + kNews;
     way[h] = evidence;
-    if (evidence.verdict == TrackVerdict::kContradicts && hypothesis.by == "method" &&
+    if (evidence.verdict == TrackVerdict::kContradicts && hypothesis.by == map::Decider::kMethod &&
         hypothesis.decision == map::Decision::kAccepted) {
       exclude(hypothesis);
     }

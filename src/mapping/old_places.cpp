@@ -25,7 +25,7 @@ double reliability_of_looks(const map::TopologicalMap& old, const HypothesisConf
   double agreed = 0.0;
   double contradicted = 0.0;
   for (const map::Hypothesis& hypothesis : old.hypotheses) {
-    const bool taken_back = hypothesis.by == "method" && hypothesis.decision == map::Decision::kRejected &&
+    const bool taken_back = hypothesis.by == map::Decider::kMethod && hypothesis.decision == map::Decision::kRejected &&
                             hypothesis.masses_after.is_false > config.contradicting_way_mass - kRounding;
     if (taken_back || hypothesis.masses_before.is_false > config.contradicting_way_mass - kRounding) {
       contradicted += hypothesis.similarity;

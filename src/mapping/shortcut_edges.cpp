@@ -36,7 +36,7 @@ map::Edge edge_of(const Shortcut& shortcut, const PlaceId& from, const PlaceId& 
   edge.length_from = map::LengthSource::kOdometry;
   edge.confidence = shortcut.confidence;
   edge.inliers = shortcut.inliers;
-  edge.by = "person";
+  edge.by = map::Decider::kPerson;
   edge.shortcut = true;
   return edge;
 }

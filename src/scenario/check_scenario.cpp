@@ -113,7 +113,7 @@ class Checker {
   /// Where the robot will be is not known; that there is no spot far enough from any other may be.
   void check_kidnapping(const std::string& where, const std::vector<wire::ScenarioFault>& faults) {
     for (std::size_t i = 0; i < faults.size(); ++i) {
-      if (faults[i].kind == "kidnapped" && is_tour_small())
+      if (faults[i].kind == wire::FaultKind::kKidnapped && is_tour_small())
         add(where + ".faults[" + std::to_string(i) + "]",
             "the tour goes nowhere that is 4 m from all else to put a kidnapped robot");
     }

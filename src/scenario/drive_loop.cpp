@@ -11,6 +11,8 @@
 namespace homeward::scenario {
 namespace {
 
+using wire::FaultKind;
+
 constexpr double kCycle_s = 0.1;
 constexpr double kLongest_s = 600.0;
 constexpr driving::Milliseconds kPermit_ms = 1500;
@@ -44,7 +46,7 @@ Status DriveLoop::run(wire::MissionOrder order, std::vector<Pose2> way) {
   halted_ = false;
   const double began_s = elapsed_s();
   while (elapsed_s() < kLongest_s && !is_ended_) {
-    if (elapsed_s() > began_s) hear_the_house(!on("link_lost"));
+    if (elapsed_s() > began_s) hear_the_house(!on(FaultKind::kLinkLost));
     if (const Status cycled = cycle(); !cycled) return cycled;
     if (state_.drive != wire::DriveState::kDriving && !moves(robot_)) break;
   }
@@ -60,7 +62,7 @@ Status DriveLoop::watch() {
   const double now_s = elapsed_s();
   const double until_s = std::max(now_s + kWatch_s, std::min(faults_.ends_s(now_s) + 1.0, now_s + kLongestWatch_s));
   while (elapsed_s() < until_s) {
-    hear_the_house(!on("link_lost"));
+    hear_the_house(!on(FaultKind::kLinkLost));
     if (const Status cycled = cycle(); !cycled) return cycled;
   }
   close_stop();
@@ -71,7 +73,7 @@ Result<std::optional<DrivenPicture>> DriveLoop::look_again() {
   constexpr int kCycles = 3;
   newest_.reset();
   for (int cycle_number = 0; cycle_number < kCycles; ++cycle_number) {
-    hear_the_house(!on("link_lost"));
+    hear_the_house(!on(FaultKind::kLinkLost));
     if (const Status cycled = cycle(); !cycled) return pass_on(cycled);
   }
   return newest_;
@@ -83,7 +85,7 @@ void DriveLoop::hear_the_house(bool link_up) {
   if (elapsed_s() - heard_s_ <= kHeardWithin_s)
     messages_.emplace_back(wire::Permit{order_.mission, {order_.order.epoch, ++order_.order.seq}, kPermit_ms});
   answer_question();
-  if (!on("stop")) return;
+  if (!on(FaultKind::kStop)) return;
   messages_.emplace_back(wire::StopOrder{"s1", order_.order.epoch, "Stopped by hand.", "test"});
   stopped_by_hand_ = true;
 }
@@ -99,11 +101,11 @@ void DriveLoop::answer_question() {
 }
 
 Status DriveLoop::cycle() {
-  const bool frozen = on("agent_frozen");
-  const bool link_up = !on("link_lost");
+  const bool frozen = on(FaultKind::kAgentFrozen);
+  const bool link_up = !on(FaultKind::kLinkLost);
   place_boxes();
   if (const Status kidnapped = kidnap(); !kidnapped) return kidnapped;
-  robot_.slip(faults_.share("wheel_slip", elapsed_s()));
+  robot_.slip(faults_.share(FaultKind::kWheelSlip, elapsed_s()));
   if (!frozen) {
     const bool was_driving = state_.drive == wire::DriveState::kDriving;
     const auto outputs = step_once(link_up);
@@ -130,9 +132,9 @@ Result<driving::Outputs> DriveLoop::step_once(bool link_up) {
   inputs.link_up = link_up;
   inputs.messages = std::exchange(messages_, {});
   recording::PictureBytes bytes;
-  if (!on("camera_frozen")) {
+  if (!on(FaultKind::kCameraFrozen)) {
     Image picture = robot_.picture();
-    if (on("camera_occluded")) occlude(picture, faults_.share("camera_occluded", elapsed_s()));
+    if (on(FaultKind::kCameraOccluded)) occlude(picture, faults_.share(FaultKind::kCameraOccluded, elapsed_s()));
     constexpr driving::Milliseconds kKeepEvery_ms = 1000;
     constexpr std::size_t kKept = 6;
     newest_ = DrivenPicture{picture, inputs.odometry};
@@ -152,7 +154,7 @@ Result<driving::Outputs> DriveLoop::step_once(bool link_up) {
     messages_.emplace_back(believes_(*inputs.picture->appearance, inputs.odometry,
                                      drives ? driving::stated_estimate(state_, config_) : std::nullopt));
   }
-  if (!on("scan_lost")) inputs.scan = {now_ms_, robot_.sweep()};
+  if (!on(FaultKind::kScanLost)) inputs.scan = {now_ms_, robot_.sweep()};
   const bool looks = inputs.picture.has_value() && state_.drive == wire::DriveState::kDriving;
   driving::Outputs outputs = recorder_ != nullptr ? recorder_->step(state_, inputs, bytes, now_ms_)
                                                   : driving::step(state_, inputs, config_, now_ms_);
@@ -167,7 +169,7 @@ void DriveLoop::place_boxes() {
   std::erase_if(boxes_, [&](const auto& box) { return t_s >= all[box.first].at_s + all[box.first].for_s; });
   bool changed = boxes_.size() != before;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].kind != "obstacle" || box_done_[i] || t_s < all[i].at_s) continue;
+    if (all[i].kind != FaultKind::kObstacle || box_done_[i] || t_s < all[i].at_s) continue;
     box_done_[i] = true;
     std::vector<Eigen::Vector2d> ahead_m;
     for (auto next = static_cast<std::size_t>(state_.follow.index); next < way_.size(); ++next) {
@@ -188,7 +190,7 @@ void DriveLoop::place_boxes() {
 Status DriveLoop::kidnap() {
   const std::vector<wire::ScenarioFault>& all = faults_.all();
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const bool is_due = all[i].kind == "kidnapped" && !lift_done_[i] && elapsed_s() >= all[i].at_s;
+    const bool is_due = all[i].kind == FaultKind::kKidnapped && !lift_done_[i] && elapsed_s() >= all[i].at_s;
     if (!is_due || !elsewhere_ || state_.drive != wire::DriveState::kDriving) continue;
     lift_done_[i] = true;
     const auto spot = elsewhere_();

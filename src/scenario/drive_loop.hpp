@@ -88,7 +88,7 @@ class DriveLoop {
   void compare_with_belief();
   void move(bool frozen);
   void close_stop();
-  [[nodiscard]] bool on(const char* kind) const { return faults_.active(kind, elapsed_s()); }
+  [[nodiscard]] bool on(wire::FaultKind kind) const { return faults_.active(kind, elapsed_s()); }
   [[nodiscard]] CycleTrace trace(const driving::Outputs& outputs) const;
   [[nodiscard]] std::optional<double> estimate_error_m() const;
 

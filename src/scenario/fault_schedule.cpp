@@ -13,11 +13,11 @@ bool is_active(const wire::ScenarioFault& fault, double t_s) {
 
 }  // namespace
 
-bool FaultSchedule::active(const char* kind, double t_s) const {
+bool FaultSchedule::active(wire::FaultKind kind, double t_s) const {
   return std::ranges::any_of(faults_, [&](const auto& fault) { return fault.kind == kind && is_active(fault, t_s); });
 }
 
-double FaultSchedule::share(const char* kind, double t_s) const {
+double FaultSchedule::share(wire::FaultKind kind, double t_s) const {
   double share = 0.0;
   for (const wire::ScenarioFault& fault : faults_) {
     if (fault.kind == kind && is_active(fault, t_s)) share = std::max(share, fault.share);

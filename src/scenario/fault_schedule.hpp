@@ -17,9 +17,9 @@ class FaultSchedule {
  public:
   explicit FaultSchedule(std::vector<wire::ScenarioFault> faults) : faults_(std::move(faults)) {}
 
-  [[nodiscard]] bool active(const char* kind, double t_s) const;
+  [[nodiscard]] bool active(wire::FaultKind kind, double t_s) const;
   /// The largest share of the active faults of a kind; 0 when there is none.
-  [[nodiscard]] double share(const char* kind, double t_s) const;
+  [[nodiscard]] double share(wire::FaultKind kind, double t_s) const;
   /// When the latest fault of those that are on at `t_s`, or were half a second ago, began.
   [[nodiscard]] std::optional<double> began_s(double t_s) const;
   /// When the last of the faults that have begun by `t_s` ends; 0 when there is none.

@@ -90,7 +90,7 @@ json hypothesis_to_json(const map::Hypothesis& hypothesis) {
           {"support", hypothesis.support},
           {"plausibility", hypothesis.plausibility},
           {"decision", decision_name(hypothesis.decision)},
-          {"by", hypothesis.by}};
+          {"by", map::kDeciderNames.name(hypothesis.by)}};
 }
 
 json inspect_to_json(const map::TopologicalMap& map, std::int64_t bytes) {

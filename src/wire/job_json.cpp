@@ -1,30 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/job_json.hpp"
 
-#include <algorithm>
-#include <array>
-
 #include "wire/json_write.hpp"
 #include "wire/problem_json.hpp"
 
 namespace homeward::wire {
 namespace {
 
-constexpr std::array<std::string_view, 6> kJobStates = {"queued", "running", "offered", "done", "failed", "cancelled"};
+constexpr EnumNames<JobState, 6> kJobStates({"queued", "running", "offered", "done", "failed", "cancelled"});
 
 }  // namespace
 
-std::string_view job_state_name(JobState state) { return kJobStates[static_cast<std::size_t>(state)]; }
+std::string_view job_state_name(JobState state) { return kJobStates.name(state); }
 
-std::optional<JobState> job_state(std::string_view name) {
-  const auto found = std::find(kJobStates.begin(), kJobStates.end(), name);
-  if (found == kJobStates.end()) return std::nullopt;
-  return static_cast<JobState>(found - kJobStates.begin());
-}
+std::optional<JobState> job_state(std::string_view name) { return kJobStates.find(name); }
 
 nlohmann::json job_to_json(const JobView& job) {
   nlohmann::json value = {{"id", job.id.str()},
-                          {"kind", job.kind},
+                          {"kind", kJobKindNames.name(job.kind)},
                           {"map", job.map.str()},
                           {"state", job_state_name(job.state)},
                           {"progress", {{"stage", job.stage}, {"share", finite_or_null(job.share)}}},

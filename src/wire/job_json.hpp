@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/enum_names.hpp"
 #include "core/ids.hpp"
 #include "core/result.hpp"
 #include "core/time.hpp"
@@ -21,10 +22,15 @@ enum class JobState { kQueued, kRunning, kOffered, kDone, kFailed, kCancelled };
 std::string_view job_state_name(JobState state);
 std::optional<JobState> job_state(std::string_view name);
 
+/// What a job does with a map: build it from its tours, add tours to it, or give its places new appearances.
+enum class JobKind { kBuild, kAdd, kRefine };
+
+inline constexpr EnumNames<JobKind, 3> kJobKindNames({"build", "add", "refine"});
+
 /// Work that the server does in the background (proto/schemas/job.schema.json).
 struct JobView {
   JobId id;
-  std::string kind = "build";  // or "add", "refine"
+  JobKind kind = JobKind::kBuild;
   MapId map;
   JobState state = JobState::kQueued;
   std::string stage;   // what it is doing, for people

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/enum_names.hpp"
 #include "core/result.hpp"
 
 namespace homeward::wire {
@@ -37,6 +38,11 @@ class ObjectReader {
   bool boolean(const std::string& key);
   std::string text(const std::string& key, std::size_t max_bytes = kMaxTextBytes);
   std::string choice(const std::string& key, const std::vector<std::string>& choices);
+  /// The same for the texts of an enumeration.
+  template <class Enum, std::size_t kCount>
+  Enum choice(const std::string& key, const EnumNames<Enum, kCount>& names) {
+    return names.find(choice(key, std::vector<std::string>(names.all().begin(), names.all().end()))).value();
+  }
   std::vector<double> numbers(const std::string& key, std::size_t count);
   /// The items of an array of at most `max_items`.
   std::vector<nlohmann::json> array(const std::string& key, std::size_t max_items = kMaxArrayItems);

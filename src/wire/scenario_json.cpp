@@ -22,14 +22,13 @@ std::string light_of(ObjectReader& reader) {
 ScenarioFault read_fault(ObjectReader& outer, const json& value, const std::string& path) {
   ObjectReader reader(value, path);
   ScenarioFault fault;
-  fault.kind = reader.choice("kind", {"camera_occluded", "camera_frozen", "scan_lost", "link_lost", "stop",
-                                      "agent_frozen", "wheel_slip", "obstacle", "kidnapped"});
-  const bool slips = fault.kind == "wheel_slip";
+  fault.kind = reader.choice("kind", kFaultKindNames);
+  const bool slips = fault.kind == FaultKind::kWheelSlip;
   if (slips) fault.share = kUsualSlip;
   fault.at_s = reader.number("at_s", 0.0, 1e5);
   if (reader.has("for_s")) fault.for_s = reader.number("for_s", 0.0, 1e5);
   if (reader.has("share")) fault.share = reader.number("share", 0.0, slips ? kMostSlip : 1.0);
-  if (fault.kind == "kidnapped") fault.for_s = 0.0;  // lifted and put down in a moment
+  if (fault.kind == FaultKind::kKidnapped) fault.for_s = 0.0;  // lifted and put down in a moment
   outer.close(reader);
   return fault;
 }

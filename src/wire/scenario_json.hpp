@@ -8,14 +8,31 @@
 #include <vector>
 
 #include "camera/camera_config.hpp"
+#include "core/enum_names.hpp"
 #include "core/result.hpp"
 
 namespace homeward::wire {
 
+/// What can go wrong during a mission.
+enum class FaultKind {
+  kCameraOccluded,
+  kCameraFrozen,
+  kScanLost,
+  kLinkLost,
+  kStop,
+  kAgentFrozen,
+  kWheelSlip,
+  kObstacle,
+  kKidnapped,
+};
+
+inline constexpr EnumNames<FaultKind, 9> kFaultKindNames({"camera_occluded", "camera_frozen", "scan_lost", "link_lost",
+                                                          "stop", "agent_frozen", "wheel_slip", "obstacle",
+                                                          "kidnapped"});
+
 /// Something that goes wrong during a mission, for a while.
 struct ScenarioFault {
-  std::string kind;  // "camera_occluded", "camera_frozen", "scan_lost", "link_lost", "stop", "agent_frozen",
-                     // "wheel_slip", "obstacle", "kidnapped"
+  FaultKind kind = FaultKind::kCameraOccluded;
   double at_s = 0.0;
   double for_s = std::numeric_limits<double>::infinity();
   double share = 1.0;  // of the picture that is covered, of the way that is not made

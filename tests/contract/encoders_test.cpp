@@ -100,8 +100,8 @@ TEST(Encoders, TellEverythingOfAMap) {
 }
 
 TEST(Encoders, WriteEventsThatTheSchemaAccepts) {
-  JobView job{JobId("j1"), "build", MapId("house"),       JobState::kFailed, "features", 0.5, {},
-              12,          2,       {"2 of 40 pictures."}};
+  JobView job{JobId("j1"), JobKind::kBuild,      MapId("house"), JobState::kFailed, "features", 0.5, {}, 12,
+              2,           {"2 of 40 pictures."}};
   job.error = Error{ErrorCode::kTooFewFeatures, "The pictures are black.", "t1"};
   const MapInfoView map{MapId("house"), "House", MapState::kBuilding, 0, 0, 3, {TourId("t1")}, {}};
   RobotView unseen;
@@ -121,13 +121,13 @@ TEST(Encoders, NameEveryStateAsTheSchemasDo) {
     EXPECT_THAT(schemas().problems("mission", mission_to_json(mission)), IsEmpty());
     EXPECT_EQ(mission_state(mission_state_name(mission.state)), mission.state);
   }
-  JobView job{JobId("j1"), "build", MapId("house"), JobState::kQueued, "", 0.0, {}, 12, 0, {}};
+  JobView job{JobId("j1"), JobKind::kBuild, MapId("house"), JobState::kQueued, "", 0.0, {}, 12, 0, {}};
   for (int state = 0; state <= static_cast<int>(JobState::kCancelled); ++state) {
     job.state = static_cast<JobState>(state);
     EXPECT_THAT(schemas().problems("job", job_to_json(job)), IsEmpty());
     EXPECT_EQ(job_state(job_state_name(job.state)), job.state);
   }
-  for (const char* kind : {"build", "add", "refine"}) {
+  for (const JobKind kind : {JobKind::kBuild, JobKind::kAdd, JobKind::kRefine}) {
     job.kind = kind;
     EXPECT_THAT(schemas().problems("job", job_to_json(job)), IsEmpty());
   }

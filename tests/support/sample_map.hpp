@@ -55,10 +55,10 @@ inline map::TopologicalMap sample_map() {
   };
   map.places = {place("p1", 0, {0, 1}), place("p2", 2, {2})};
   map.places[1].label = "kitchen";
-  map.edges = {
-      {PlaceId("p1"), PlaceId("p2"), 0.5, -0.25, 1.5, map::LengthSource::kOdometry, 0.9, 64, false, false, "method"},
-      {PlaceId("p2"), PlaceId("p1"), std::nullopt, std::nullopt, 1.5, map::LengthSource::kUnknown, 0.1, 0, true, true,
-       "person"}};
+  map.edges = {{PlaceId("p1"), PlaceId("p2"), 0.5, -0.25, 1.5, map::LengthSource::kOdometry, 0.9, 64, false, false,
+                map::Decider::kMethod},
+               {PlaceId("p2"), PlaceId("p1"), std::nullopt, std::nullopt, 1.5, map::LengthSource::kUnknown, 0.1, 0,
+                true, true, map::Decider::kPerson}};
   map::Hypothesis hypothesis;
   hypothesis.prototype_a = map.images[0].id;
   hypothesis.prototype_b = map.images[2].id;

@@ -44,7 +44,7 @@ std::string obstacle(const BuiltMap& built, int index) {
 std::string reason(const BuiltMap& built, const ReportFacts& facts, int index) {
   const map::Hypothesis& h = built.map.hypotheses[at(index)];
   const mapping::HypothesisConfig& config = built.notes.mapping.config.hypotheses;
-  if (h.by != "method") return "A person decided this.";
+  if (h.by != map::Decider::kMethod) return "A person decided this.";
   const auto way = way_of(built, index);
   const std::vector<char>& taken_back = built.notes.mapping.taken_back;
   if (taken_back.size() == built.map.hypotheses.size() && taken_back[at(index)] != 0) {
@@ -113,7 +113,7 @@ std::string card(const BuiltMap& built, const ReportFacts& facts, int index, con
          reason(built, facts, index) + "</p>\n<p class=\"soft\">Similarity " + number(h.similarity, 2) + " · support " +
          number(h.support, 2) + " · plausibility " + number(h.plausibility, 2) +
          " · way driven: " + way_text(way_of(built, index)) + " · decided by " +
-         (h.by == "method" ? "the method" : "a person") + " · " + agreement + ".</p>\n</article>\n";
+         (h.by == map::Decider::kMethod ? "the method" : "a person") + " · " + agreement + ".</p>\n</article>\n";
 }
 
 std::string row(const BuiltMap& built, int index, const std::string& ends) {
@@ -124,7 +124,8 @@ std::string row(const BuiltMap& built, int index, const std::string& ends) {
   return "<tr><td>" + badge(h.decision) + "</td><td class=\"name\">" + ends + "</td><td class=\"n\">" +
          masses(h.masses_before) + "</td><td class=\"n\">" + masses(h.masses_after) + "</td><td class=\"n\">" +
          number(h.support, 2) + "</td><td class=\"n\">" + number(h.plausibility, 2) + "</td><td>" +
-         way_text(way_of(built, index)) + "</td><td>" + (h.by == "method" ? "method" : "person") + "</td></tr>\n";
+         way_text(way_of(built, index)) + "</td><td>" + (h.by == map::Decider::kMethod ? "method" : "person") +
+         "</td></tr>\n";
 }
 
 }  // namespace

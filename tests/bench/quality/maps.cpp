@@ -278,7 +278,7 @@ void explain(const fs::path& folder, const SeenTour& tour, const mapping::NotedM
     hypotheses << a << ',' << b << ',' << static_cast<int>(made.notes.way[i]) << ','
                << distance_m(tour.truth[a], tour.truth[b]) << ',' << h.similarity << ',' << h.masses_before.is_true
                << ',' << h.masses_before.is_false << ',' << h.masses_after.is_true << ',' << h.masses_after.is_false
-               << ',' << static_cast<int>(h.decision) << ',' << h.by << '\n';
+               << ',' << static_cast<int>(h.decision) << ',' << map::kDeciderNames.name(h.by) << '\n';
   }
 }
 

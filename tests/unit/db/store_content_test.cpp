@@ -251,7 +251,7 @@ TEST_F(StoreContent, ContentsToursDrivesAndJobChangeTogetherOrNotAtAll) {
   ASSERT_TRUE(store().add_drive(drive_on(id, "m1", 1)));
   ASSERT_TRUE(store().add_drive(drive_on(id, "m2", 2)));
   wire::JobView job;
-  job.kind = "add";
+  job.kind = wire::JobKind::kAdd;
   job.map = id;
   job.tours = {second};
   job = *store().add_job(job);

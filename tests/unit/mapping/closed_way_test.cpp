@@ -239,9 +239,9 @@ TEST(TakeBack, WhatFitsStays) {
 
 TEST(TakeBack, NotWhatAPersonDecided) {
   Loops loops(8);
-  for (const std::size_t h : loops.false_ones) loops.hypotheses[h].by = "person";
+  for (const std::size_t h : loops.false_ones) loops.hypotheses[h].by = map::Decider::kPerson;
   for (const std::size_t h : take_back(loops.hypotheses, loops.parts, loops.tour.pairs, loops.tour.track(0.35), {})) {
-    EXPECT_EQ(loops.hypotheses[h].by, "method");
+    EXPECT_EQ(loops.hypotheses[h].by, map::Decider::kMethod);
   }
 }
 

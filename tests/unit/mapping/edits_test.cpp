@@ -124,7 +124,7 @@ TEST(Edits, EdgesComeGoAndAreBlocked) {
   auto map = three_places();
   ASSERT_TRUE(apply_edit(map, make(EditKind::kAddEdge, 0, 5)));
   EXPECT_TRUE(joined(map, "p1", "p3"));
-  EXPECT_EQ(map.edges.back().by, "person");
+  EXPECT_EQ(map.edges.back().by, map::Decider::kPerson);
   ASSERT_TRUE(undo_last_edit(map));
   EXPECT_EQ(map::find_edge(map, PlaceId("p1"), PlaceId("p3")), nullptr);
   ASSERT_TRUE(apply_edit(map, make(EditKind::kBlockEdge, 0, 3, "true")));

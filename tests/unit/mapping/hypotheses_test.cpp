@@ -142,12 +142,12 @@ TEST(Hypotheses, APersonsDecisionIsKept) {
   const auto parts = singles({{0, 0}, {10, 0}});
   auto hypotheses = formulate_hypotheses(parts, [](int, int) { return 0.0; }, {});
   hypotheses[0].decision = map::Decision::kAccepted;
-  hypotheses[0].by = "person";
+  hypotheses[0].by = map::Decider::kPerson;
   collect_evidence(hypotheses, parts, positions(11), {});
   EXPECT_EQ(hypotheses[0].decision, map::Decision::kAccepted);
 }
 
-LoopHypothesis decided(int a, int b, map::Decision decision, double is_true, const std::string& by = "method") {
+LoopHypothesis decided(int a, int b, map::Decision decision, double is_true, map::Decider by = map::Decider::kMethod) {
   LoopHypothesis hypothesis;
   hypothesis.a = a;
   hypothesis.b = b;
@@ -171,8 +171,8 @@ TEST(MergeAccepted, ARejectedPairIsNotJoinedThroughAThird) {
                                             decided(1, 2, map::Decision::kAccepted, 0.95)};
   EXPECT_EQ(merge_accepted(3, hypotheses, never), (std::vector<int>{0, 1, 1}));
   EXPECT_EQ(hypotheses[0].decision, map::Decision::kUndecided);
-  hypotheses = {decided(0, 1, map::Decision::kAccepted, 0.85, "anna"), decided(0, 2, map::Decision::kRejected, 0.0),
-                decided(1, 2, map::Decision::kAccepted, 0.95)};
+  hypotheses = {decided(0, 1, map::Decision::kAccepted, 0.85, map::Decider::kPerson),
+                decided(0, 2, map::Decision::kRejected, 0.0), decided(1, 2, map::Decision::kAccepted, 0.95)};
   EXPECT_EQ(merge_accepted(3, hypotheses, never), (std::vector<int>{0, 0, 1}));  // a person's word goes first
 }
 

@@ -89,7 +89,7 @@ TEST(WeighWay, AgreementAddsMassAndKeepsTheWordOfAPerson) {
       hypotheses, [](int, int) { return kAgreeing; }, config);
   EXPECT_GT(support(hypotheses[0].before), alone + 0.2);
   hypotheses[0].decision = map::Decision::kAccepted;
-  hypotheses[0].by = "person";
+  hypotheses[0].by = map::Decider::kPerson;
   weigh_way(
       hypotheses, [](int, int) { return kExcluding; }, config);
   collect_evidence(hypotheses, parts, line(41), config);

@@ -196,7 +196,7 @@ TEST(CloseLoops, WhatLaterLoopsExcludeIsTakenBackAndSaysSo) {
     if (made.notes.taken_back[h] == 0) continue;
     ++taken_back;
     EXPECT_EQ(hypothesis.decision, map::Decision::kRejected);
-    EXPECT_EQ(hypothesis.by, "method");
+    EXPECT_EQ(hypothesis.by, map::Decider::kMethod);
     EXPECT_GT(hypothesis.masses_before.is_true, 0.4);  // why it was believed
     EXPECT_GT(hypothesis.masses_after.is_false, 0.9);
     EXPECT_LT(hypothesis.plausibility, 0.1);

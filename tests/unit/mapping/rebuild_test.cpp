@@ -175,7 +175,7 @@ TEST_F(Rebuild, DecisionsOnHypothesesHold) {
   const auto kept =
       std::ranges::find_if(again.hypotheses, [&](const auto& h) { return h.prototype_a == a && h.prototype_b == b; });
   ASSERT_NE(kept, again.hypotheses.end());
-  EXPECT_EQ(kept->by, "person");
+  EXPECT_EQ(kept->by, map::Decider::kPerson);
   EXPECT_EQ(kept->decision, map::Decision::kRejected);
 }
 

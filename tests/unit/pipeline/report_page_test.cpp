@@ -108,11 +108,11 @@ TEST(ReportPage, AHypothesisHasItsMassesItsDecisionAndWhy) {
   map.map.hypotheses[0].decision = map::Decision::kRejected;
   map.notes.mapping.way[0] = mapping::TrackVerdict::kContradicts;
   EXPECT_THAT(page_of(map), HasSubstr("the way driven between them leads elsewhere: two places."));
-  map.map.hypotheses[0].by = "person";
+  map.map.hypotheses[0].by = map::Decider::kPerson;
   page = page_of(map);
   EXPECT_THAT(page, HasSubstr("A person decided this."));
   EXPECT_THAT(page, HasSubstr("decided by a person"));
-  map.map.hypotheses[0].by = "method";
+  map.map.hypotheses[0].by = map::Decider::kMethod;
   map.map.hypotheses[0].decision = map::Decision::kUndecided;
   map.map.hypotheses[0].support = 0.3;
   map.notes.mapping.way.clear();

@@ -166,13 +166,13 @@ TEST(CheckScenario, KnowsThatFurnitureOfAMeshCannotBeMoved) {
 
 TEST(CheckScenario, KnowsThatASmallTourHasNoOtherSpotForAKidnappedRobot) {
   EXPECT_THAT(problems_when([](auto& scenario) {
-                scenario.missions[0].faults = {{"stop", 9.0}, {"kidnapped", 5.0}};
+                scenario.missions[0].faults = {{wire::FaultKind::kStop, 9.0}, {wire::FaultKind::kKidnapped, 5.0}};
               }),
               ElementsAre(HasSubstr("missions[0].faults[1]: the tour goes nowhere")));
   wire::ScenarioFile house = there_and_back();
   house.tour_rooms = {"hall", "kitchen"};
   house.missions = {random_missions(1)};
-  house.missions[0].faults = {{"kidnapped", 5.0}};
+  house.missions[0].faults = {{wire::FaultKind::kKidnapped, 5.0}};
   EXPECT_THAT(problems(house, sim::generate_house(1)), IsEmpty());
 }
 

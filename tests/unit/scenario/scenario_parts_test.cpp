@@ -54,17 +54,19 @@ INSTANTIATE_TEST_SUITE_P(Robots, StartingPose, ::testing::Bool(),
                          [](const auto& instance) { return instance.param ? "chair" : "disc"; });
 
 TEST(FaultSchedule, KnowsWhatIsOn) {
-  const FaultSchedule faults({{"link_lost", 2.0, 3.0, 1.0}, {"camera_occluded", 4.0, 1.0, 0.3}, {"obstacle", 9.0}});
-  EXPECT_FALSE(faults.active("link_lost", 1.9));
-  EXPECT_TRUE(faults.active("link_lost", 2.0));
-  EXPECT_FALSE(faults.active("link_lost", 5.0));
-  EXPECT_DOUBLE_EQ(faults.share("camera_occluded", 4.5), 0.3);
-  EXPECT_DOUBLE_EQ(faults.share("camera_occluded", 5.5), 0.0);
+  const FaultSchedule faults({{wire::FaultKind::kLinkLost, 2.0, 3.0, 1.0},
+                              {wire::FaultKind::kCameraOccluded, 4.0, 1.0, 0.3},
+                              {wire::FaultKind::kObstacle, 9.0}});
+  EXPECT_FALSE(faults.active(wire::FaultKind::kLinkLost, 1.9));
+  EXPECT_TRUE(faults.active(wire::FaultKind::kLinkLost, 2.0));
+  EXPECT_FALSE(faults.active(wire::FaultKind::kLinkLost, 5.0));
+  EXPECT_DOUBLE_EQ(faults.share(wire::FaultKind::kCameraOccluded, 4.5), 0.3);
+  EXPECT_DOUBLE_EQ(faults.share(wire::FaultKind::kCameraOccluded, 5.5), 0.0);
   EXPECT_EQ(faults.began_s(1.0), std::nullopt);
   EXPECT_EQ(faults.began_s(3.0), 2.0);
   EXPECT_EQ(faults.began_s(4.2), 4.0);
   EXPECT_EQ(faults.began_s(8.0), std::nullopt) << "long over";
-  EXPECT_TRUE(faults.active("obstacle", 1e6)) << "without an end it stays";
+  EXPECT_TRUE(faults.active(wire::FaultKind::kObstacle, 1e6)) << "without an end it stays";
   EXPECT_DOUBLE_EQ(faults.ends_s(4.0), 5.0);
 }
 

@@ -277,7 +277,7 @@ TEST_F(LearningTest, MissionsThatArrivedAreLookedThrough) {
     with_store([&](db::Store& store) {
       const auto all = store.jobs();
       for (const wire::JobView& job : *all) {
-        if (job.kind == "refine") found.push_back(job);
+        if (job.kind == wire::JobKind::kRefine) found.push_back(job);
       }
     });
     connect();
