@@ -18,7 +18,7 @@ namespace homeward::db {
 
 /// What a recording holds for the whole of a mission. Texts named json are the business of who records.
 struct RecordingHeader {
-  std::string agent;  // "homeward-agent/0.1.0"
+  std::string agent;  // "homeward-agent/" and its version
   TimeUs started_us = 0;
   std::string mission;
   std::string label;              // of the destination, for people

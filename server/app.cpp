@@ -6,6 +6,7 @@
 #include <fstream>
 #include <thread>
 
+#include "core/version.hpp"
 #include "db/secrets.hpp"
 #include "server/auth/passwords.hpp"
 #include "server/front/app_front.hpp"
@@ -26,7 +27,6 @@ constexpr std::size_t kRequestQueue = 256;
 constexpr std::size_t kHeavyQueue = 64;
 constexpr std::size_t kJournalQueue = 100'000;
 constexpr int kTickMs = 50;
-const char* const kBuild = "homeward-server/0.1.0";
 
 int threads_of(const AppConfig& config) {
   if (config.threads > 0) return config.threads;
@@ -107,7 +107,7 @@ struct App::Parts {
 
   wire::Snapshot snapshot() {
     wire::Snapshot snapshot;
-    snapshot.build = kBuild;
+    snapshot.build = name_with_version("homeward-server");
     snapshot.robots = driving.list();
     if (const auto all = store->jobs()) {
       // Finished ones from long ago are history, and drives that taught nothing are no news.

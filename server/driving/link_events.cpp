@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/version.hpp"
 #include "server/driving/driving.hpp"
 #include "wire/camera_json.hpp"
 
@@ -12,7 +13,6 @@ namespace {
 constexpr std::int64_t kFramePeriodMs = 200;
 constexpr std::chrono::seconds kTrackingKept{60};  // a robot that was gone for longer may have been carried anywhere
 const char* const kLooksWhereItIs = " I look where I am.";
-const char* const kServerName = "homeward-server/0.1.0";
 
 }  // namespace
 
@@ -77,7 +77,7 @@ void Driving::welcome(const Unit& unit, const std::shared_ptr<AgentLink>& link) 
     unit->seq = 0;
   }
   unit->welcomed = true;
-  link->send(wire::Welcome{kServerName, unit->id, unit->epoch, kFramePeriodMs});
+  link->send(wire::Welcome{name_with_version("homeward-server"), unit->id, unit->epoch, kFramePeriodMs});
   tell(*unit);
 }
 

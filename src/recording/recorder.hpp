@@ -21,7 +21,7 @@ class Recorder {
  public:
   /// What all recordings of one robot have in common.
   struct Robot {
-    std::string agent;  // "homeward-agent/0.1.0"
+    std::string agent;  // "homeward-agent/" and its version
     camera::CameraConfig camera;
     features::FeatureConfig features;
     driving::DrivingConfig driving;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/angles.hpp"
+#include "core/version.hpp"
 #include "driving/estimated_position.hpp"
 #include "recording/recorder.hpp"
 #include "scenario/drive_loop.hpp"
@@ -144,8 +145,8 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
     config.feature_config_id = taught.map->feature_config_id;
     std::unique_ptr<recording::Recorder> recorder;
     if (record) {
-      const recording::Recorder::Robot recorded{"homeward simulate/0.1.0", taught.camera, taught.map->feature_config,
-                                                config};
+      const recording::Recorder::Robot recorded{name_with_version("homeward simulate"), taught.camera,
+                                                taught.map->feature_config, config};
       auto created = recording::Recorder::create(*record, recorded, [&](const std::string& what) {
         if (listener.told) listener.told(what);
       });

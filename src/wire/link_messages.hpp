@@ -36,7 +36,7 @@ struct Order {
 inline constexpr double kMostRadius_m = 3.0;
 
 struct Hello {
-  std::string agent;  // "homeward-agent/0.1.0"
+  std::string agent;  // "homeward-agent/" and its version
   std::string robot_name;
   std::string session;  // random for each start of the process
   camera::CameraConfig camera;

@@ -14,6 +14,7 @@
 #include "agent/link/link_client.hpp"
 #include "agent/run/looker.hpp"
 #include "agent/run/real_time.hpp"
+#include "core/version.hpp"
 #include "driving/stated.hpp"
 #include "driving/step.hpp"
 #include "pipeline/eye.hpp"
@@ -25,7 +26,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kCycle = std::chrono::milliseconds(40);
 constexpr driving::Milliseconds kStatusPeriod_ms = 250;
-constexpr const char* kAgent = "homeward-agent/0.1.0";
+constexpr const char* kProgram = "homeward-agent";
 
 /// Goes on while the machine sleeps, unlike the steady clock: one that wakes up knows that its permit has run out.
 driving::Milliseconds now_ms() {
@@ -113,7 +114,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
   }
 
   wire::Hello hello;
-  hello.agent = kAgent;
+  hello.agent = name_with_version(kProgram);
   hello.robot_name = options.robot_name;
   hello.session = random_session();
   hello.camera = driver.camera();
@@ -127,8 +128,8 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
   });
   std::unique_ptr<recording::Recorder> recorder;
   if (options.record) {
-    auto created =
-        recording::Recorder::create(*options.record, {kAgent, driver.camera(), features, config}, options.told);
+    auto created = recording::Recorder::create(
+        *options.record, {name_with_version(kProgram), driver.camera(), features, config}, options.told);
     if (!created) return pass_on(created);
     recorder = std::move(*created);
   }
