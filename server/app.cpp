@@ -69,26 +69,26 @@ std::vector<std::string> problems(const AppConfig& config) {
 }
 
 struct App::Parts {
-  Parts(const AppConfig& config, std::unique_ptr<db::Store> opened)
+  Parts(const AppConfig& config, std::unique_ptr<db::Store> opened, const Clock& clock)
       : store(std::move(opened)),
         workers(kRequestWorkers, kRequestQueue),
         heavy(threads_of(config), kHeavyQueue),
         journal(1, kJournalQueue),
         access(config.allowed_hosts),
         files(config.web),
-        authenticator(*store),
-        idempotency(*store),
-        tours(*store),
-        maps(*store, events),
-        driving(*store, maps, events, heavy, journal, config.longest_mission_s),
-        jobs(*store, maps, events, threads_of(config)),
-        front({router, access, files, authenticator, idempotency, metrics, workers, heavy}) {
+        authenticator(*store, clock),
+        idempotency(*store, clock),
+        tours(*store, clock),
+        maps(*store, events, clock),
+        driving(*store, maps, events, heavy, journal, clock, config.longest_mission_s),
+        jobs(*store, maps, events, clock, threads_of(config)),
+        front({router, access, files, authenticator, idempotency, metrics, workers, heavy, clock}) {
     driving.when_arrived([this](const db::Drive& drive) { jobs.add_drive(drive); });
-    add_account_routes(router, authenticator, *store);
+    add_account_routes(router, authenticator, *store, clock);
     add_tour_routes(router, tours, *store);
     add_map_routes(router, maps, jobs, *store);
     add_job_routes(router, jobs);
-    add_robot_routes(router, driving, *store);
+    add_robot_routes(router, driving, *store, clock);
     add_socket_routes(router, driving, events, [this] { return snapshot(); });
     add_operation_routes(router, metrics, *store);
     metrics.gauge("homeward_robots_online", "Robots with a link", [this] { return double(driving.online()); });
@@ -164,19 +164,19 @@ struct App::Parts {
 App::App() = default;
 App::~App() = default;
 
-Result<std::unique_ptr<App>> App::start(const AppConfig& config) {
+Result<std::unique_ptr<App>> App::start(const AppConfig& config, const Clock& clock) {
   auto store = db::open_sqlite_store(config.data);
   if (!store) return pass_on(store);
   hash_of_nobody();  // the first login must not take longer than others
   std::unique_ptr<App> app(new App());
-  app->parts_ = std::make_unique<Parts>(config, std::move(*store));
+  app->parts_ = std::make_unique<Parts>(config, std::move(*store), clock);
   Parts& parts = *app->parts_;
   if (const Status status = parts.driving.load(); !status) return pass_on(status);
   auto http = HttpServer::start(config.address, config.port, parts.front);
   if (!http) return pass_on(http);
   parts.http = std::move(*http);
   if (const Status status = parts.offer_setup(config); !status) return pass_on(status);
-  parts.http->every(kTickMs, [&parts] { parts.driving.tick(std::chrono::steady_clock::now()); });
+  parts.http->every(kTickMs, [&parts, &clock] { parts.driving.tick(clock.steady()); });
   return app;
 }
 

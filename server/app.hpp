@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/result.hpp"
+#include "server/time/clock.hpp"
 
 namespace homeward::server {
 
@@ -30,8 +31,8 @@ class Router;
 /// The whole server: store, services, pools and front, wired together.
 class App {
  public:
-  /// Errors: those of the store and of listening.
-  static Result<std::unique_ptr<App>> start(const AppConfig& config);
+  /// `clock` has to outlive it. Errors: those of the store and of listening.
+  static Result<std::unique_ptr<App>> start(const AppConfig& config, const Clock& clock = system_clock());
   ~App();
   App(const App&) = delete;
   App& operator=(const App&) = delete;

@@ -7,8 +7,6 @@
 namespace homeward::server {
 namespace {
 
-using std::chrono::steady_clock;
-
 constexpr std::chrono::seconds kRememberFor{20};
 constexpr TimeUs kSessionUs = 30LL * 24 * 3600 * 1'000'000;
 constexpr std::size_t kMostRemembered = 1000;
@@ -44,11 +42,6 @@ tl::unexpected<Error> wait_first(int seconds) {
 
 }  // namespace
 
-TimeUs wall_clock_us() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
 Status check_new_account(const std::string& name, const std::string& password) {
   if (name.empty() || name.size() > 200) {
     return fail(ErrorCode::kInvalidInput, "A name has 1 to 200 bytes.", "name");
@@ -64,7 +57,7 @@ std::optional<Caller> Authenticator::identify_at_once(const Request& request) {
   if (!secret) return std::nullopt;
   const std::scoped_lock lock(mutex_);
   const auto found = remembered_.find(key_of(*secret));
-  if (found == remembered_.end() || found->second.until < steady_clock::now()) return std::nullopt;
+  if (found == remembered_.end() || found->second.until < clock_.steady()) return std::nullopt;
   return found->second.caller;
 }
 
@@ -76,7 +69,7 @@ Result<std::optional<Caller>> Authenticator::identify(const Request& request) {
   caller.by_cookie = secret->by_cookie;
   const std::string hash = db::secret_hash(secret->text);
   if (secret->by_cookie) {
-    const auto session = store_.session_by_hash(hash, wall_clock_us());
+    const auto session = store_.session_by_hash(hash, clock_.wall_us());
     if (!session) return pass_on(session);
     // A browser with an old cookie is a stranger, not an attacker: it must still be able to sign in.
     if (!*session) return std::optional<Caller>();
@@ -87,7 +80,7 @@ Result<std::optional<Caller>> Authenticator::identify(const Request& request) {
     caller.name = (*user)->name;
     caller.role = (*user)->role;
   } else {
-    const auto token = store_.token_by_hash(hash, wall_clock_us());
+    const auto token = store_.token_by_hash(hash, clock_.wall_us());
     if (!token) return pass_on(token);
     if (!*token)
       return fail(ErrorCode::kUnauthenticated, "This token is not known, or it was revoked.", "Authorization");
@@ -98,12 +91,12 @@ Result<std::optional<Caller>> Authenticator::identify(const Request& request) {
   }
   const std::scoped_lock lock(mutex_);
   if (remembered_.size() >= kMostRemembered) remembered_.clear();
-  remembered_[key_of(*secret)] = {caller, steady_clock::now() + kRememberFor};
+  remembered_[key_of(*secret)] = {caller, clock_.steady() + kRememberFor};
   return std::optional<Caller>(caller);
 }
 
 int Authenticator::seconds_to_wait(const std::string& name, const std::string& remote) {
-  return failures_.seconds_to_wait(failure_key(name, remote), steady_clock::now());
+  return failures_.seconds_to_wait(failure_key(name, remote), clock_.steady());
 }
 
 Result<Authenticator::SignedIn> Authenticator::log_in(const std::string& name, const std::string& password,
@@ -114,7 +107,7 @@ Result<Authenticator::SignedIn> Authenticator::log_in(const std::string& name, c
   const bool right = password_matches(*user ? (*user)->password_hash : hash_of_nobody(), password);
   const std::string key = failure_key(name, remote);
   if (!*user || !right) {
-    failures_.failed(key, steady_clock::now());
+    failures_.failed(key, clock_.steady());
     return fail(ErrorCode::kUnauthenticated, "The name or the password is wrong.", "login");
   }
   failures_.succeeded(key);
@@ -124,16 +117,16 @@ Result<Authenticator::SignedIn> Authenticator::log_in(const std::string& name, c
 Result<Authenticator::SignedIn> Authenticator::set_up(const std::string& token, const std::string& name,
                                                       const std::string& password, const std::string& remote) {
   const std::string key = failure_key("set-up", remote);
-  if (const int wait = failures_.seconds_to_wait(key, steady_clock::now()); wait > 0) return wait_first(wait);
+  if (const int wait = failures_.seconds_to_wait(key, clock_.steady()); wait > 0) return wait_first(wait);
   if (const Status status = check_new_account(name, password); !status) return pass_on(status);
   db::User admin;
   admin.name = name;
   admin.role = wire::Role::kAdmin;
   admin.password_hash = hash_of_password(password);
-  admin.created_us = wall_clock_us();
+  admin.created_us = clock_.wall_us();
   const auto user = store_.finish_setup(db::secret_hash(token), admin);
   if (!user) {
-    if (user.error().code == ErrorCode::kForbidden) failures_.failed(key, steady_clock::now());
+    if (user.error().code == ErrorCode::kForbidden) failures_.failed(key, clock_.steady());
     return pass_on(user);
   }
   failures_.succeeded(key);
@@ -145,7 +138,7 @@ Result<Authenticator::SignedIn> Authenticator::begin_session(db::User user) {
   db::Session session;
   session.hash = db::secret_hash(result.secret);
   session.user = result.user.id;
-  session.created_us = wall_clock_us();
+  session.created_us = clock_.wall_us();
   session.expires_us = session.created_us + kSessionUs;
   if (const auto added = store_.add_session(session); !added) return pass_on(added);
   return result;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -10,6 +9,7 @@
 #include "db/store.hpp"
 #include "server/auth/failure_counter.hpp"
 #include "server/http/message.hpp"
+#include "server/time/clock.hpp"
 
 namespace homeward::server {
 
@@ -19,7 +19,7 @@ inline constexpr std::string_view kSessionCookie = "homeward_session";
 /// need not wait for the disk.
 class Authenticator {
  public:
-  explicit Authenticator(db::Store& store) : store_(store) {}
+  Authenticator(db::Store& store, const Clock& clock) : store_(store), clock_(clock) {}
 
   /// The caller of a request; nothing when it brings no secret. Errors: kUnauthenticated (a wrong or old secret).
   Result<std::optional<Caller>> identify(const Request& request);
@@ -46,9 +46,10 @@ class Authenticator {
 
   struct Remembered {
     Caller caller;
-    std::chrono::steady_clock::time_point until;
+    SteadyTime until;
   };
   db::Store& store_;
+  const Clock& clock_;
   FailureCounter failures_;
   std::mutex mutex_;
   std::map<std::string, Remembered> remembered_;  // by the hash of the secret
@@ -56,8 +57,5 @@ class Authenticator {
 
 /// What a name and a password must be like. Errors: kInvalidInput.
 Status check_new_account(const std::string& name, const std::string& password);
-
-/// Now, as it is written to files and messages.
-TimeUs wall_clock_us();
 
 }  // namespace homeward::server

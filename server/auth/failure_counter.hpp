@@ -6,29 +6,30 @@
 #include <mutex>
 #include <string>
 
+#include "server/time/clock.hpp"
+
 namespace homeward::server {
 
 /// Slows down the guessing of passwords: after `most` failures in a row a key has to wait. The clock is handed in.
 class FailureCounter {
  public:
-  using Time = std::chrono::steady_clock::time_point;
   explicit FailureCounter(int most = 5, std::chrono::seconds wait = std::chrono::seconds(60))
       : most_(most), wait_(wait) {}
 
   /// Seconds to wait before the next try; 0 when it may come now.
-  int seconds_to_wait(const std::string& key, Time now) {
+  int seconds_to_wait(const std::string& key, SteadyTime now) {
     const std::scoped_lock lock(mutex_);
     const auto found = entries_.find(key);
     if (found == entries_.end() || found->second.failures < most_) return 0;
     const auto left = found->second.last + wait_ - now;
-    if (left <= Time::duration::zero()) {
+    if (left <= SteadyTime::duration::zero()) {
       entries_.erase(found);
       return 0;
     }
     return static_cast<int>(std::chrono::ceil<std::chrono::seconds>(left).count());
   }
 
-  void failed(const std::string& key, Time now) {
+  void failed(const std::string& key, SteadyTime now) {
     const std::scoped_lock lock(mutex_);
     // Names that nobody has must not fill the memory.
     if (entries_.size() >= kMostKeys) {
@@ -49,7 +50,7 @@ class FailureCounter {
   static constexpr std::size_t kMostKeys = 10'000;
   struct Entry {
     int failures = 0;
-    Time last;
+    SteadyTime last;
   };
   int most_;
   std::chrono::seconds wait_;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "db/store.hpp"
+#include "server/time/clock.hpp"
 
 namespace homeward::server {
 
@@ -14,7 +15,7 @@ struct NewToken {
   std::string secret;
 };
 /// Adds a token to the store; `robot`: that it speaks for, of role robot. Errors: those of the store.
-Result<NewToken> make_token(db::Store& store, const std::string& name, wire::Role role,
+Result<NewToken> make_token(db::Store& store, const Clock& clock, const std::string& name, wire::Role role,
                             const std::optional<RobotId>& robot);
 
 }  // namespace homeward::server

@@ -42,14 +42,14 @@ void AgentLink::close(std::uint16_t code, const std::string& reason) {
 }
 
 void AgentLink::on_open(const std::shared_ptr<Socket>& socket) {
-  last_heard_ = std::chrono::steady_clock::now();
+  last_heard_ = clock_.steady();
   const std::scoped_lock lock(mutex_);
   socket_ = socket;
 }
 
 void AgentLink::on_message(std::span<const std::uint8_t> bytes, bool text) {
   if (broken_) return;
-  last_heard_ = std::chrono::steady_clock::now();
+  last_heard_ = clock_.steady();
   const auto refuse = [&](const std::string& code, const std::string& message) {
     broken_ = true;
     send(wire::LinkError{code, message}, true);

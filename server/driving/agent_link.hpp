@@ -2,11 +2,11 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <deque>
 #include <memory>
 #include <mutex>
 
+#include "server/time/clock.hpp"
 #include "server/ws/socket.hpp"
 #include "wire/link_messages.hpp"
 
@@ -25,16 +25,15 @@ class LinkListener {
 /// The connection to one robot: CBOR messages both ways. A stop overtakes everything that waits to be sent.
 class AgentLink : public SocketHandler, public std::enable_shared_from_this<AgentLink> {
  public:
-  using Time = std::chrono::steady_clock::time_point;
-
-  AgentLink(LinkListener& listener, RobotId robot) : listener_(listener), robot_(std::move(robot)) {}
+  AgentLink(LinkListener& listener, RobotId robot, const Clock& clock)
+      : listener_(listener), robot_(std::move(robot)), clock_(clock), last_heard_(clock.steady()) {}
 
   /// From any thread. `first`: before all that waits.
   void send(const wire::ServerMessage& message, bool first = false);
   void close(std::uint16_t code, const std::string& reason);
   [[nodiscard]] const RobotId& robot() const { return robot_; }
   /// When the last message came in, or the link was opened.
-  [[nodiscard]] Time last_heard() const { return last_heard_.load(); }
+  [[nodiscard]] SteadyTime last_heard() const { return last_heard_.load(); }
 
   void on_open(const std::shared_ptr<Socket>& socket) override;
   void on_message(std::span<const std::uint8_t> bytes, bool text) override;
@@ -47,7 +46,8 @@ class AgentLink : public SocketHandler, public std::enable_shared_from_this<Agen
 
   LinkListener& listener_;
   RobotId robot_;
-  std::atomic<Time> last_heard_{std::chrono::steady_clock::now()};
+  const Clock& clock_;
+  std::atomic<SteadyTime> last_heard_;
   bool greeted_ = false;  // socket thread alone
   bool broken_ = false;   // socket thread alone
   std::mutex mutex_;

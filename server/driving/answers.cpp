@@ -12,8 +12,7 @@ Result<wire::MissionView> Driving::answer(const RobotId& id, const MissionId& mi
   if (!found) return pass_on(found);
   RobotUnit& unit = **found;
   const std::scoped_lock lock(unit.mutex);
-  if (const Status lease = unit.holds_lease(given.lease_id, std::chrono::steady_clock::now()); !lease)
-    return pass_on(lease);
+  if (const Status lease = unit.holds_lease(given.lease_id, clock_.steady()); !lease) return pass_on(lease);
   const std::string where = "robots/" + id.str() + "/missions/" + mission_id.str();
   if (!unit.online()) return fail(ErrorCode::kRobotOffline, "The robot is not connected.", where);
   if (unit.answered == given.question && unit.mission && unit.mission->id == mission_id)

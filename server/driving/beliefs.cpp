@@ -3,7 +3,6 @@
 
 #include "imageio/decode.hpp"
 #include "planning/detour.hpp"
-#include "server/auth/authenticator.hpp"
 #include "server/driving/driving.hpp"
 #include "server/services/belief_view.hpp"
 #include "wire/appearance_blob.hpp"
@@ -49,7 +48,7 @@ void Driving::go_on_after_looking(const Unit& found) {
   constexpr int kLooks = 4;
   RobotUnit& unit = *found;
   if (!unit.under_way || !unit.looks_since) return;
-  const auto now = std::chrono::steady_clock::now();
+  const auto now = clock_.steady();
   const std::chrono::duration<double> stands_for = now - *unit.looks_since;
   if (unit.lifted && stands_for.count() < planning::kStandsAfterLift_s) {
     unit.restart_tracking = true;  // what is seen in somebody's hands counts nothing
@@ -66,7 +65,7 @@ void Driving::hand_over_sights(RobotUnit& unit) {
   spdlog::debug("robot {} hands over {} sights", unit.id.str(), sights->size());
   if (sights->empty() || !keep_drive_ || !unit.tracking || unit.tracking->map_id != unit.mission->map) return;
   db::Drive drive{
-      unit.mission->id, unit.mission->map, unit.tracking->tracker.map().feature_config_id, wall_clock_us(), {}};
+      unit.mission->id, unit.mission->map, unit.tracking->tracker.map().feature_config_id, clock_.wall_us(), {}};
   // Left out when the journal is full: another drive will come.
   static_cast<void>(journal_.try_run([this, drive = std::move(drive), sights]() mutable {
     for (const pipeline::DriveSight& sight : *sights) {
@@ -78,7 +77,7 @@ void Driving::hand_over_sights(RobotUnit& unit) {
 }
 
 void Driving::look(const Unit& unit) {
-  const auto began = std::chrono::steady_clock::now();
+  const auto began = clock_.steady();
   std::shared_ptr<const wire::Frame> frame;
   std::shared_ptr<Tracking> tracking;
   std::optional<MapId> map;
@@ -116,7 +115,7 @@ void Driving::look(const Unit& unit) {
       sure = pipeline::sure_place(*belief, {});
       near_share = belief->near_share;
       wire::BeliefView view = view_of(*belief);
-      view.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
+      view.ms = std::chrono::duration<double, std::milli>(clock_.steady() - began).count();
       view.t_us = frame->t_us;
       return view;
     };
@@ -135,7 +134,7 @@ void Driving::look(const Unit& unit) {
     if (seen) {
       unit->belief = *seen;
       unit->near_share = near_share;
-      unit->belief_at = std::chrono::steady_clock::now();
+      unit->belief_at = clock_.steady();
       if (unit->under_way && unit->sights.due(frame->t_us))
         unit->sights.add(frame->t_us, sure, tracking->tracker.seen());
       link->send(wire::BeliefReport{frame->seq, seen->place, seen->probability.value_or(0.0), seen->lost});

@@ -29,7 +29,7 @@ Result<planning::Detour> second_look_at(const map::TopologicalMap& map, const pl
 
 bool Driving::begin_detour(const Unit& found, const std::string& reason) {
   RobotUnit& unit = *found;
-  const auto now = std::chrono::steady_clock::now();
+  const auto now = clock_.steady();
   if (!may_go_on(unit, now)) return false;
   const bool astray = unit.status && unit.status->astray;
   const Start start = *unit.known_start(now);
@@ -123,7 +123,7 @@ void Driving::send_detour(const Unit& found, const MissionId& mission, const std
   if (!unit.looking_for_detour || unit.detour_number != number || !unit.mission || unit.mission->id != mission)
     return;  // a person was faster, or it was lifted
   unit.looking_for_detour = false;
-  const auto now = std::chrono::steady_clock::now();
+  const auto now = clock_.steady();
   if (!planned || !may_go_on(unit, now) || unit.map != planned->mission.map) {
     if (unit.under_way) {
       const std::string why = planned ? "" : " " + planned.error().message;

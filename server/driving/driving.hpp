@@ -10,6 +10,7 @@
 #include "server/driving/robot_unit.hpp"
 #include "server/http/message.hpp"
 #include "server/services/maps.hpp"
+#include "server/time/clock.hpp"
 #include "server/work/work_pool.hpp"
 #include "server/ws/event_hub.hpp"
 
@@ -21,13 +22,14 @@ class Driving : public LinkListener {
  public:
   /// `heavy` looks at pictures, `journal` (one worker) writes to the store what need not be waited for.
   /// `longest_mission_s`: 0 for planning::longest_mission_s of its way.
-  Driving(db::Store& store, MapService& maps, EventHub& events, WorkPool& heavy, WorkPool& journal,
+  Driving(db::Store& store, MapService& maps, EventHub& events, WorkPool& heavy, WorkPool& journal, const Clock& clock,
           int longest_mission_s)
       : store_(store),
         maps_(maps),
         events_(events),
         heavy_(heavy),
         journal_(journal),
+        clock_(clock),
         longest_mission_s_(longest_mission_s) {}
 
   /// `keep` is called on the journal with what each mission saw that arrived; set before the first robot connects.
@@ -127,6 +129,7 @@ class Driving : public LinkListener {
   EventHub& events_;
   WorkPool& heavy_;
   WorkPool& journal_;
+  const Clock& clock_;
   const int longest_mission_s_;
   std::function<void(const db::Drive&)> keep_drive_;
   std::mutex mutex_;  // of units_; never taken while a unit is locked

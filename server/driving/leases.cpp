@@ -37,13 +37,13 @@ Result<wire::LeaseView> Driving::take_lease(const RobotId& id, const Caller& cal
   };
   {
     const std::scoped_lock lock(unit.mutex);
-    if (const auto early = refused_or_extended(std::chrono::steady_clock::now())) return *early;
+    if (const auto early = refused_or_extended(clock_.steady())) return *early;
   }
   // A hand-over begins a new epoch, which must be on disk before anybody hears of it.
   const auto epoch = store_.next_epoch(id);
   if (!epoch) return pass_on(epoch);
   const std::scoped_lock lock(unit.mutex);
-  const auto now = std::chrono::steady_clock::now();
+  const auto now = clock_.steady();
   if (const auto late = refused_or_extended(now)) return *late;
   if (unit.under_way) stop_robot(unit, "", caller.name + " has taken over", caller.name);
   if (*epoch > unit.epoch) {
@@ -60,7 +60,7 @@ Result<wire::LeaseView> Driving::keep_lease(const RobotId& id, const std::string
   if (!found) return pass_on(found);
   RobotUnit& unit = **found;
   const std::scoped_lock lock(unit.mutex);
-  const auto now = std::chrono::steady_clock::now();
+  const auto now = clock_.steady();
   if (!lease_lives(unit, now) || unit.lease->id != lease_id) return tl::unexpected<Error>(not_yours(unit));
   unit.lease->expires = now + kLeaseFor;
   return lease_view(unit, now);
@@ -71,7 +71,7 @@ Status Driving::release_lease(const RobotId& id, const std::string& lease_id) {
   if (!found) return pass_on(found);
   RobotUnit& unit = **found;
   const std::scoped_lock lock(unit.mutex);
-  if (!lease_lives(unit, std::chrono::steady_clock::now()) || unit.lease->id != lease_id) {
+  if (!lease_lives(unit, clock_.steady()) || unit.lease->id != lease_id) {
     return tl::unexpected<Error>(not_yours(unit));
   }
   if (unit.under_way) stop_robot(unit, "", "the driver gave the robot back", unit.lease->holder);

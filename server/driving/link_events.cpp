@@ -16,7 +16,9 @@ const char* const kLooksWhereItIs = " I look where I am.";
 
 }  // namespace
 
-std::shared_ptr<SocketHandler> Driving::open_link(const RobotId& id) { return std::make_shared<AgentLink>(*this, id); }
+std::shared_ptr<SocketHandler> Driving::open_link(const RobotId& id) {
+  return std::make_shared<AgentLink>(*this, id, clock_);
+}
 
 void Driving::heard(const std::shared_ptr<AgentLink>& link, wire::AgentMessage message) {
   const auto found = find(link->robot());
@@ -46,7 +48,7 @@ void Driving::heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& li
     spdlog::info("robot {} connected: {}", unit->id.str(), hello.agent);
     // A robot that soon comes back with the same camera goes on from where it was; a program that was started anew
     // counts its odometry from somewhere else.
-    const bool soon = unit->gone_at && std::chrono::steady_clock::now() - *unit->gone_at < kTrackingKept;
+    const bool soon = unit->gone_at && clock_.steady() - *unit->gone_at < kTrackingKept;
     const bool same_camera = wire::camera_to_json(unit->hello.camera) == wire::camera_to_json(hello.camera);
     if (!(unit->link || soon) || !same_camera) unit->restart_tracking = true;
     if (unit->hello.session != hello.session) {
@@ -83,7 +85,7 @@ void Driving::welcome(const Unit& unit, const std::shared_ptr<AgentLink>& link) 
 
 void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
   RobotUnit& unit = *found;
-  unit.status_at = std::chrono::steady_clock::now();
+  unit.status_at = clock_.steady();
   unit.status = std::move(status);
   const wire::AgentStatus& now = *unit.status;
   const bool lifted = now.displaced > unit.displaced;
@@ -178,7 +180,7 @@ void Driving::closed(const std::shared_ptr<AgentLink>& link) {
   unit.status.reset();
   unit.belief.reset();
   unit.waiting_frame.reset();
-  unit.gone_at = std::chrono::steady_clock::now();
+  unit.gone_at = clock_.steady();
   tell(unit);
 }
 

@@ -8,7 +8,6 @@
 #include "planning/detour.hpp"
 #include "planning/route.hpp"
 #include "planning/surroundings.hpp"
-#include "server/auth/authenticator.hpp"
 #include "server/driving/driving.hpp"
 #include "wire/mission_order.hpp"
 
@@ -56,7 +55,7 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
   std::vector<PlaceId> likely;
   {
     const std::scoped_lock lock(unit->mutex);
-    const Status status = may_start(*unit, request.lease_id, std::chrono::steady_clock::now());
+    const Status status = may_start(*unit, request.lease_id, clock_.steady());
     if (!status) return pass_on(status);
     map_id = *unit->map;
     start = unit->likeliest();
@@ -95,7 +94,7 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
   plan.mission.map = map_id;
   plan.mission.revision = map.revision;
   plan.mission.path = route->places;
-  plan.mission.created_us = wall_clock_us();
+  plan.mission.created_us = clock_.wall_us();
   plan.mission.by = request.by;
   plan.order.mission = plan.mission.id;
   plan.order.map = map_id;
@@ -121,7 +120,7 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
   wire::MissionView mission = *added;
 
   const std::scoped_lock lock(unit.mutex);
-  const auto now = std::chrono::steady_clock::now();
+  const auto now = clock_.steady();
   Status status = may_start(unit, request.lease_id, now);
   if (status && unit.map != mission.map) {
     status = fail(ErrorCode::kConflict, "The robot was given another map just now.", where_of(unit));

@@ -13,11 +13,10 @@
 #include "planning/route.hpp"
 #include "server/driving/agent_link.hpp"
 #include "server/driving/drive_sights.hpp"
+#include "server/time/clock.hpp"
 #include "wire/robot_json.hpp"
 
 namespace homeward::server {
-
-using SteadyTime = std::chrono::steady_clock::time_point;
 
 constexpr std::chrono::seconds kBeliefFresh{5};  // an older belief is none
 constexpr std::int64_t kPermitMs = 1500;

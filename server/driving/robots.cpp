@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <spdlog/spdlog.h>
 
-#include "server/auth/authenticator.hpp"
 #include "server/driving/driving.hpp"
 
 namespace homeward::server {
@@ -74,12 +73,12 @@ wire::LeaseView Driving::lease_view(const RobotUnit& unit, SteadyTime now) const
   return {unit.lease->id, unit.lease->holder, unit.epoch, milliseconds_between(now, unit.lease->expires)};
 }
 
-void Driving::tell(const RobotUnit& unit) { events_.publish(view(unit, std::chrono::steady_clock::now())); }
+void Driving::tell(const RobotUnit& unit) { events_.publish(view(unit, clock_.steady())); }
 
 Result<wire::RobotView> Driving::add(const std::string& name) {
   db::RobotRecord record;
   record.name = name;
-  record.created_us = wall_clock_us();
+  record.created_us = clock_.wall_us();
   const auto added = store_.add_robot(record);
   if (!added) return pass_on(added);
   auto unit = std::make_shared<RobotUnit>(added->id);
@@ -91,14 +90,14 @@ Result<wire::RobotView> Driving::add(const std::string& name) {
   }
   const std::scoped_lock lock(unit->mutex);
   tell(*unit);
-  return view(*unit, std::chrono::steady_clock::now());
+  return view(*unit, clock_.steady());
 }
 
 std::vector<wire::RobotView> Driving::list() {
   std::vector<wire::RobotView> views;
   for (const Unit& unit : units()) {
     const std::scoped_lock lock(unit->mutex);
-    views.push_back(view(*unit, std::chrono::steady_clock::now()));
+    views.push_back(view(*unit, clock_.steady()));
   }
   return views;
 }
@@ -107,7 +106,7 @@ Result<wire::RobotView> Driving::get(const RobotId& id) {
   const auto unit = find(id);
   if (!unit) return pass_on(unit);
   const std::scoped_lock lock((*unit)->mutex);
-  return view(**unit, std::chrono::steady_clock::now());
+  return view(**unit, clock_.steady());
 }
 
 Result<wire::RobotView> Driving::set_map(const RobotId& id, const std::optional<MapId>& map) {
@@ -129,7 +128,7 @@ Result<wire::RobotView> Driving::set_map(const RobotId& id, const std::optional<
     robot.restart_tracking = true;
   }
   tell(robot);
-  return view(robot, std::chrono::steady_clock::now());
+  return view(robot, clock_.steady());
 }
 
 Result<std::vector<std::uint8_t>> Driving::frame(const RobotId& id) {

@@ -8,8 +8,6 @@
 namespace homeward::server {
 namespace {
 
-using std::chrono::steady_clock;
-
 bool changes_something(const Request& request) {
   return request.method != "GET" && request.method != "HEAD" && request.method != "OPTIONS";
 }
@@ -109,7 +107,7 @@ std::optional<Response> AppFront::refusal(const Request& request, const AllowedR
 }
 
 Response AppFront::checked(Request& request, const Route& route, const std::optional<Caller>& caller) {
-  const auto began = steady_clock::now();
+  const auto began = parts_.clock.steady();
   const auto run = [&]() -> Response {
     if (auto refused = refusal(request, route.operation.roles, caller)) return *refused;
     const bool by_token = caller && !caller->by_cookie;
@@ -132,7 +130,7 @@ Response AppFront::checked(Request& request, const Route& route, const std::opti
   } catch (const std::exception& exception) {
     response = broken(exception.what());
   }
-  const double seconds = std::chrono::duration<double>(steady_clock::now() - began).count();
+  const double seconds = std::chrono::duration<double>(parts_.clock.steady() - began).count();
   parts_.metrics.answered(request.method, std::string(route.operation.pattern), response.status, seconds);
   spdlog::debug("{} {} {} by {} in {:.1f} ms", request.method, route.operation.pattern, response.status,
                 caller ? caller->id : "nobody", seconds * 1e3);

@@ -8,6 +8,7 @@
 #include "server/http/metrics.hpp"
 #include "server/http/router.hpp"
 #include "server/http/static_files.hpp"
+#include "server/time/clock.hpp"
 #include "server/work/work_pool.hpp"
 
 namespace homeward::server {
@@ -22,6 +23,7 @@ struct FrontParts {
   Metrics& metrics;
   WorkPool& workers;
   WorkPool& heavy;
+  const Clock& clock;
 };
 
 /// Checks who asks, from where and for what, and hands the request to its handler in the right lane.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/front/idempotency.hpp"
 
-#include "server/auth/authenticator.hpp"
-
 namespace homeward::server {
 
 Response Idempotency::run(Request& request, bool secret, const std::function<Response(Request&)>& handler) {
@@ -22,7 +20,7 @@ Response Idempotency::run(Request& request, bool secret, const std::function<Res
     running_.erase(name);
     return response;
   };
-  const auto kept = store_.answer(key, wall_clock_us());
+  const auto kept = store_.answer(key, clock_.wall_us());
   if (!kept) return done(problem_of(kept));
   if (*kept) {
     Response again;
@@ -40,7 +38,7 @@ Response Idempotency::run(Request& request, bool secret, const std::function<Res
     throw;
   }
   if (!secret && response.status >= 200 && response.status < 300) {
-    if (const Status status = store_.keep_answer(key, {response.status, response.body}, wall_clock_us()); !status) {
+    if (const Status status = store_.keep_answer(key, {response.status, response.body}, clock_.wall_us()); !status) {
       return done(problem_of(status));
     }
   }

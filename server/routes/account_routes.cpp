@@ -54,7 +54,7 @@ Response set_up(Authenticator& authenticator, const Request& request) {
   return signed_in(201, *result);
 }
 
-Response add_user(db::Store& store, const Request& request) {
+Response add_user(db::Store& store, const Clock& clock, const Request& request) {
   const auto body = json_body(request);
   if (!body) return not_json(body.error());
   wire::ObjectReader reader(*body, "body");
@@ -66,7 +66,7 @@ Response add_user(db::Store& store, const Request& request) {
   if (const Status status = check_new_account(user.name, password); !status) return problem_of(status);
   user.role = wire::role(role).value();
   user.password_hash = hash_of_password(password);
-  user.created_us = wall_clock_us();
+  user.created_us = clock.wall_us();
   const auto added = store.add_user(user);
   if (!added) return problem_of(added);
   return json_response(201, {{"user", user_to_json(*added)}});
@@ -94,7 +94,7 @@ Response list_tokens(db::Store& store) {
   return json_response(200, {{"tokens", list}});
 }
 
-Response add_token(db::Store& store, const Request& request) {
+Response add_token(db::Store& store, const Clock& clock, const Request& request) {
   const auto body = json_body(request);
   if (!body) return not_json(body.error());
   wire::ObjectReader reader(*body, "body");
@@ -116,7 +116,7 @@ Response add_token(db::Store& store, const Request& request) {
     id = RobotId(*robot);
     if (const auto known = store.robot(*id); !known) return problem_of(known);
   }
-  const auto token = make_token(store, name, role, id);
+  const auto token = make_token(store, clock, name, role, id);
   if (!token) return problem_of(token);
   return json_response(201, {{"id", token->id}, {"token", token->secret}});
 }
@@ -144,9 +144,10 @@ Response setup_needed(db::Store& store) {
 
 }  // namespace
 
-void add_account_routes(Router& router, Authenticator& authenticator, db::Store& store) {
+void add_account_routes(Router& router, Authenticator& authenticator, db::Store& store, const Clock& clock) {
   Authenticator* auth = &authenticator;
   db::Store* db = &store;
+  const Clock* time = &clock;
   router.add({operation("get_setup"), [db](Request&) { return setup_needed(*db); }});
   router.add({operation("set_up"), [auth](Request& request) { return set_up(*auth, request); }});
   router.add({operation("log_in"), [auth](Request& request) { return log_in(*auth, request); }});
@@ -165,9 +166,9 @@ void add_account_routes(Router& router, Authenticator& authenticator, db::Store&
                     {{"user", {{"id", caller.id}, {"name", caller.name}, {"role", wire::role_name(caller.role)}}}});
               }});
   router.add({operation("list_users"), [db](Request&) { return list_users(*db); }});
-  router.add({operation("add_user"), [db](Request& request) { return add_user(*db, request); }});
+  router.add({operation("add_user"), [db, time](Request& request) { return add_user(*db, *time, request); }});
   router.add({operation("list_tokens"), [db](Request&) { return list_tokens(*db); }});
-  router.add({operation("add_token"), [db](Request& request) { return add_token(*db, request); }});
+  router.add({operation("add_token"), [db, time](Request& request) { return add_token(*db, *time, request); }});
   router.add({operation("remove_token"), [auth, db](Request& request) { return remove_token(*auth, *db, request); }});
 }
 

@@ -3,10 +3,11 @@
 
 #include "server/driving/driving.hpp"
 #include "server/http/router.hpp"
+#include "server/time/clock.hpp"
 
 namespace homeward::server {
 
 /// robots, leases, missions, stop, frames.
-void add_robot_routes(Router& router, Driving& driving, db::Store& store);
+void add_robot_routes(Router& router, Driving& driving, db::Store& store, const Clock& clock);
 
 }  // namespace homeward::server

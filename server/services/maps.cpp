@@ -10,7 +10,6 @@
 #include "mapping/edits.hpp"
 #include "pipeline/belief_tracker.hpp"
 #include "pipeline/thumbnail.hpp"
-#include "server/auth/authenticator.hpp"
 #include "server/services/belief_view.hpp"
 
 namespace homeward::server {
@@ -101,7 +100,7 @@ Result<std::int64_t> MapService::edit(const MapId& id, std::int64_t revision,
                         std::string(wire::edit_kind_name(kind)) + ".",
                     where);
       }
-      const auto lasting = wire::edit_for_map(edits[i], map, by, wall_clock_us());
+      const auto lasting = wire::edit_for_map(edits[i], map, by, clock_.wall_us());
       if (!lasting) return fail(lasting.error().code, lasting.error().message, where);
       if (const Status status = mapping::apply_edit(map, *lasting); !status) {
         return fail(status.error().code, status.error().message, where);
@@ -171,7 +170,7 @@ Result<std::vector<std::uint8_t>> MapService::thumbnail(const MapId& id, const I
 }
 
 Result<wire::BeliefView> MapService::localise(const MapId& id, std::span<const std::uint8_t> picture) {
-  const auto began = std::chrono::steady_clock::now();
+  const auto began = clock_.steady();
   const auto loaded = load(id);
   if (!loaded) return pass_on(loaded);
   const auto image = imageio::decode(picture, "body");
@@ -181,7 +180,7 @@ Result<wire::BeliefView> MapService::localise(const MapId& id, std::span<const s
   const auto belief = tracker->update(*image);
   if (!belief) return pass_on(belief);
   wire::BeliefView view = view_of(*belief);
-  view.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
+  view.ms = std::chrono::duration<double, std::milli>(clock_.steady() - began).count();
   return view;
 }
 
@@ -189,7 +188,7 @@ Result<db::MapRecord> MapService::import(const std::string& name, std::span<cons
   db::MapRecord record;
   record.name = name;
   record.state = wire::MapState::kReady;
-  record.created_us = wall_clock_us();
+  record.created_us = clock_.wall_us();
   auto imported = store_.import_map(record, file);
   if (imported) tell(*imported);
   return imported;

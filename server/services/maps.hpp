@@ -8,6 +8,7 @@
 
 #include "db/store.hpp"
 #include "map/metric_layout.hpp"
+#include "server/time/clock.hpp"
 #include "server/ws/event_hub.hpp"
 #include "wire/belief_json.hpp"
 #include "wire/edit_json.hpp"
@@ -25,7 +26,7 @@ wire::MapInfoView view_of(const db::MapRecord& record);
 /// The maps that the server owns: loading, editing, asking.
 class MapService {
  public:
-  MapService(db::Store& store, EventHub& events) : store_(store), events_(events) {}
+  MapService(db::Store& store, EventHub& events, const Clock& clock) : store_(store), events_(events), clock_(clock) {}
 
   /// The present revision; kept in memory while it is used. Errors: kNotFound, kConflict (not built yet).
   Result<LoadedMap> load(const MapId& id);
@@ -63,6 +64,7 @@ class MapService {
   };
   db::Store& store_;
   EventHub& events_;
+  const Clock& clock_;
   std::mutex loading_;   // one load at a time
   std::mutex changing_;  // one edit or new build at a time
   std::mutex mutex_;     // of cache_

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "imageio/decode.hpp"
-#include "server/auth/authenticator.hpp"
 #include "wire/camera_json.hpp"
 
 namespace homeward::server {
@@ -75,7 +74,7 @@ Result<wire::TourView> TourService::add(const std::string& name, const camera::C
   db::Tour tour;
   tour.name = name;
   tour.camera = wire::camera_to_json(camera).dump();
-  tour.created_us = wall_clock_us();
+  tour.created_us = clock_.wall_us();
   const auto added = store_.add_tour(tour);
   if (!added) return pass_on(added);
   return view_of(*added);

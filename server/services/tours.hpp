@@ -5,6 +5,7 @@
 
 #include "core/tour.hpp"
 #include "db/store.hpp"
+#include "server/time/clock.hpp"
 
 namespace homeward::server {
 
@@ -28,7 +29,7 @@ struct ImageReceipt {
 /// Guided tours on the server: what a person or robot uploads, checked before it is kept.
 class TourService {
  public:
-  explicit TourService(db::Store& store) : store_(store) {}
+  TourService(db::Store& store, const Clock& clock) : store_(store), clock_(clock) {}
 
   Result<wire::TourView> add(const std::string& name, const camera::CameraConfig& camera);
   Result<std::vector<wire::TourView>> list();
@@ -46,6 +47,7 @@ class TourService {
 
  private:
   db::Store& store_;
+  const Clock& clock_;
 };
 
 /// A complete tour of the store as the pipeline reads it. Image ids are "tour id/file".

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/build_map.hpp"
-#include "server/auth/authenticator.hpp"
 #include "server/services/tours.hpp"
 #include "server/work/stored_tours.hpp"
 
@@ -20,8 +19,8 @@ constexpr std::chrono::milliseconds kTellEvery{250};
 
 }  // namespace
 
-BuildJobs::BuildJobs(db::Store& store, MapService& maps, EventHub& events, int threads)
-    : store_(store), maps_(maps), events_(events), threads_(threads) {
+BuildJobs::BuildJobs(db::Store& store, MapService& maps, EventHub& events, const Clock& clock, int threads)
+    : store_(store), maps_(maps), events_(events), clock_(clock), threads_(threads) {
   if (const auto unfinished = store_.unfinished_jobs()) {
     queue_.assign(unfinished->begin(), unfinished->end());
   } else {
@@ -64,7 +63,7 @@ Result<BuildJobs::NewMap> BuildJobs::add_map(const std::string& name, const std:
   db::MapRecord record;
   record.name = name;
   record.tours = tours;
-  record.created_us = wall_clock_us();
+  record.created_us = clock_.wall_us();
   const auto map = store_.add_map(record);
   if (!map) return pass_on(map);
   maps_.tell(*map);
@@ -115,7 +114,7 @@ Result<wire::JobView> BuildJobs::queue_locked(wire::JobView job) {
   job.state = wire::JobState::kQueued;
   job.share = 0.0;
   if (job.id.empty()) {
-    job.created_us = wall_clock_us();
+    job.created_us = clock_.wall_us();
     auto added = store_.add_job(job);
     if (!added) return added;
     job = std::move(*added);
@@ -247,16 +246,15 @@ Result<wire::JobState> BuildJobs::build(wire::JobView& job, const std::stop_toke
 }
 
 pipeline::ProgressSink BuildJobs::progress_of(wire::JobView& job) {
-  return
-      [this, &job, told = std::chrono::steady_clock::now() - kTellEvery](const pipeline::BuildProgress& now) mutable {
-        const auto time = std::chrono::steady_clock::now();
-        const bool next_stage = now.stage != job.stage;
-        if (!next_stage && time - told < kTellEvery) return;
-        told = time;
-        job.stage = now.stage;
-        job.share = kBuildShare * std::clamp(now.share, 0.0, 1.0);
-        tell(job);
-      };
+  return [this, &job, told = clock_.steady() - kTellEvery](const pipeline::BuildProgress& now) mutable {
+    const auto time = clock_.steady();
+    const bool next_stage = now.stage != job.stage;
+    if (!next_stage && time - told < kTellEvery) return;
+    told = time;
+    job.stage = now.stage;
+    job.share = kBuildShare * std::clamp(now.share, 0.0, 1.0);
+    tell(job);
+  };
 }
 
 void BuildJobs::finish(wire::JobView& job, const Result<wire::JobState>& result) {

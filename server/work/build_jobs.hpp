@@ -11,6 +11,7 @@
 #include "db/store.hpp"
 #include "pipeline/build_map.hpp"
 #include "server/services/maps.hpp"
+#include "server/time/clock.hpp"
 #include "server/ws/event_hub.hpp"
 
 namespace homeward::server {
@@ -21,7 +22,7 @@ namespace homeward::server {
 /// is set so. There is one of them for each map; a new drive sets it to work again.
 class BuildJobs {
  public:
-  BuildJobs(db::Store& store, MapService& maps, EventHub& events, int threads);
+  BuildJobs(db::Store& store, MapService& maps, EventHub& events, const Clock& clock, int threads);
   /// Ends the running build; its job stays unfinished and is taken up at the next start.
   ~BuildJobs();
   BuildJobs(const BuildJobs&) = delete;
@@ -75,6 +76,7 @@ class BuildJobs {
   db::Store& store_;
   MapService& maps_;
   EventHub& events_;
+  const Clock& clock_;
   int threads_;
   std::mutex mutex_;
   std::condition_variable_any ready_;

@@ -101,7 +101,7 @@ Result<wire::JobState> BuildJobs::learn(wire::JobView& job, const std::stop_toke
 }
 
 Result<wire::JobState> BuildJobs::add_tours(wire::JobView& job, const std::stop_token& stop) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = clock_.steady();
   const auto record = store_.map(job.map);
   if (!record) return pass_on(record);
   const auto tours = open_tours(store_, job.tours);
@@ -112,7 +112,7 @@ Result<wire::JobState> BuildJobs::add_tours(wire::JobView& job, const std::stop_
                                    progress_of(job), stop);
   if (!added) return pass_on(added);
   map::TopologicalMap& map = added->grown.map;
-  map.build_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  map.build_seconds += std::chrono::duration<double>(clock_.steady() - begin).count();
   db::Thumbnails thumbnails = (*loaded)->thumbnails;
   if (const Status made = add_thumbnails(map, *tours, stop, thumbnails); !made) return pass_on(made);
   job.skipped = static_cast<std::int64_t>(added->skipped.size());

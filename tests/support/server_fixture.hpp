@@ -11,6 +11,7 @@
 #include "imageio/decode.hpp"
 #include "server/app.hpp"
 #include "support/http_client.hpp"
+#include "support/moved_clock.hpp"
 #include "wire/camera_json.hpp"
 
 namespace homeward::testing {
@@ -71,7 +72,7 @@ class ServerTest : public ::testing::Test {
     std::filesystem::remove_all(config.data);
   }
   void start() {
-    auto started = server::App::start(config);
+    auto started = server::App::start(config, clock);
     ASSERT_TRUE(started) << started.error().message;
     app = std::move(*started);
     const std::string cookie = admin ? admin->cookie : "";
@@ -132,6 +133,7 @@ class ServerTest : public ::testing::Test {
     return begun.json().at("map").at("id");
   }
 
+  MovedClock clock;
   server::AppConfig config;
   std::unique_ptr<server::App> app;
   std::optional<HttpClient> admin;

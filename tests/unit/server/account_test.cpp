@@ -32,6 +32,9 @@ TEST_F(AccountTest, FiveFailuresThenWait) {
   EXPECT_GE(std::stoi(sixth.headers.at("retry-after")), 1);
   EXPECT_EQ(client.post("/api/v1/login", {{"name", "nobody"}, {"password", "wrong"}}).status, 401)
       << "another name is another counter";
+  clock.pass(std::chrono::seconds(std::stoi(sixth.headers.at("retry-after")) + 1));
+  EXPECT_EQ(client.post("/api/v1/login", {{"name", "anna"}, {"password", "correct horse"}}).status, 200)
+      << "whoever has waited may try again";
 }
 
 TEST_F(AccountTest, TheCookieIsOutOfReachOfScripts) {
@@ -43,6 +46,13 @@ TEST_F(AccountTest, TheCookieIsOutOfReachOfScripts) {
   const std::string cookie = client.cookie;
   EXPECT_EQ(client.post("/api/v1/logout").status, 204);
   EXPECT_EQ(client.get("/api/v1/me", {{"Cookie", cookie}}).status, 401) << "signed out means gone on the server too";
+}
+
+TEST_F(AccountTest, ASessionEndsAfterThirtyDays) {
+  clock.pass(std::chrono::hours(29 * 24));
+  EXPECT_EQ(admin->get("/api/v1/me").status, 200);
+  clock.pass(std::chrono::hours(2 * 24));
+  EXPECT_EQ(admin->get("/api/v1/me").status, 401);
 }
 
 TEST_F(AccountTest, RolesBoundWhatIsAllowed) {
@@ -80,6 +90,10 @@ TEST_F(AccountTest, TheSameKeyGetsTheSameAnswer) {
   EXPECT_EQ(second.status, 201);
   EXPECT_EQ(first.body, second.body);
   EXPECT_EQ(admin->post("/api/v1/users", body, {{"Idempotency-Key", "k2"}}).status, 409);
+  clock.pass(std::chrono::hours(23));
+  EXPECT_EQ(admin->post("/api/v1/users", body, key).body, first.body);
+  clock.pass(std::chrono::hours(2));
+  EXPECT_EQ(admin->post("/api/v1/users", body, key).status, 409) << "a day later the key is forgotten";
 }
 
 }  // namespace

@@ -38,6 +38,20 @@ TEST_F(DrivingTest, OneDrivesAndTheOthersAreTold) {
   EXPECT_EQ(admin->post("/api/v1/robots/none/lease").status, 404);
 }
 
+TEST_F(DrivingTest, ALeaseThatNobodyKeepsRunsOut) {
+  add_robot();
+  testing::HttpClient rider = signed_in("rita", "rider");
+  const std::string lease = rider.post(root + "/lease").json().at("lease").at("id");
+  clock.pass(std::chrono::seconds(6));
+  EXPECT_EQ(rider.put(root + "/lease", {{"lease_id", lease}}).status, 200);
+  clock.pass(std::chrono::seconds(6));
+  EXPECT_EQ(admin->post(root + "/lease").code(), "lease_held") << "it was kept";
+  clock.pass(std::chrono::seconds(5));
+  EXPECT_EQ(rider.put(root + "/lease", {{"lease_id", lease}}).code(), "lease_held") << "it is over";
+  EXPECT_TRUE(admin->get(root).json().at("lease").is_null());
+  EXPECT_EQ(admin->post(root + "/lease").status, 200) << "and anybody may take it";
+}
+
 TEST_F(DrivingTest, ARobotThatComesBackGoesOnFromWhereItWas) {
   add_robot();
   put_on_map();
