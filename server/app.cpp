@@ -18,6 +18,7 @@
 #include "server/routes/socket_routes.hpp"
 #include "server/routes/tour_routes.hpp"
 #include "server/work/build_jobs.hpp"
+#include "wire/drive_terms.hpp"
 
 namespace homeward::server {
 namespace {
@@ -26,7 +27,6 @@ constexpr int kRequestWorkers = 4;
 constexpr std::size_t kRequestQueue = 256;
 constexpr std::size_t kHeavyQueue = 64;
 constexpr std::size_t kJournalQueue = 100'000;
-constexpr int kTickMs = 50;
 
 int threads_of(const AppConfig& config) {
   if (config.threads > 0) return config.threads;
@@ -176,7 +176,7 @@ Result<std::unique_ptr<App>> App::start(const AppConfig& config, const Clock& cl
   if (!http) return pass_on(http);
   parts.http = std::move(*http);
   if (const Status status = parts.offer_setup(config); !status) return pass_on(status);
-  parts.http->every(kTickMs, [&parts, &clock] { parts.driving.tick(clock.steady()); });
+  parts.http->every(static_cast<int>(wire::kPermitEvery_ms), [&parts, &clock] { parts.driving.tick(clock.steady()); });
   return app;
 }
 

@@ -8,6 +8,7 @@
 #include "planning/second_look.hpp"
 #include "planning/surroundings.hpp"
 #include "server/driving/driving.hpp"
+#include "wire/drive_terms.hpp"
 #include "wire/mission_order.hpp"
 
 namespace homeward::server {
@@ -112,7 +113,7 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   plan.mission.arrival_probability.reset();
   plan.order.mission = mission;
   plan.order.map = plan.mission.map;
-  plan.order.valid_for_ms = kPermitMs;
+  plan.order.valid_for_ms = wire::kPermitValid_ms;
   return plan;
 }
 
@@ -140,7 +141,7 @@ void Driving::send_detour(const Unit& found, const MissionId& mission, const std
   planned->mission.epoch = unit.epoch;
   planned->mission.seq = ++unit.seq;
   planned->order.order = {unit.epoch, unit.seq};
-  planned->order.speed_limit_mps = std::min(kTopSpeedMps, unit.hello.max_speed_mps);
+  planned->order.speed_limit_mps = std::min(wire::kServerSpeedLimit_mps, unit.hello.max_speed_mps);
   unit.mission = planned->mission;
   unit.mission_at = now;
   // Another way may be far longer; there are three at most.

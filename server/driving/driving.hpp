@@ -36,7 +36,7 @@ class Driving : public LinkListener {
   void when_arrived(std::function<void(const db::Drive&)> keep) { keep_drive_ = std::move(keep); }
   /// Reads the robots of the store. Errors: those of the store.
   Status load();
-  /// Every 50 ms, on the socket thread: permits, leases that end, agents that fell silent.
+  /// Every wire::kPermitEvery_ms, on the socket thread: permits, leases that end, agents that fell silent.
   void tick(SteadyTime now);
 
   // Robots. Errors: kNotFound.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "db/secrets.hpp"
 #include "server/driving/driving.hpp"
+#include "wire/drive_terms.hpp"
 
 namespace homeward::server {
 namespace {
 
-constexpr std::chrono::seconds kLeaseFor{10};
+constexpr std::chrono::milliseconds kLeaseFor{wire::kLease_ms};
 
 Error held_by(const RobotUnit& unit) {
   return {ErrorCode::kLeaseHeld, unit.lease->holder + " is driving.", "robots/" + unit.id.str() + "/lease"};

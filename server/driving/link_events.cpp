@@ -6,11 +6,11 @@
 #include "core/version.hpp"
 #include "server/driving/driving.hpp"
 #include "wire/camera_json.hpp"
+#include "wire/drive_terms.hpp"
 
 namespace homeward::server {
 namespace {
 
-constexpr std::int64_t kFramePeriodMs = 200;
 constexpr std::chrono::seconds kTrackingKept{60};  // a robot that was gone for longer may have been carried anywhere
 const char* const kLooksWhereItIs = " I look where I am.";
 
@@ -79,7 +79,7 @@ void Driving::welcome(const Unit& unit, const std::shared_ptr<AgentLink>& link) 
     unit->seq = 0;
   }
   unit->welcomed = true;
-  link->send(wire::Welcome{name_with_version("homeward-server"), unit->id, unit->epoch, kFramePeriodMs});
+  link->send(wire::Welcome{name_with_version("homeward-server"), unit->id, unit->epoch, wire::kFrameEvery_ms});
   tell(*unit);
 }
 

@@ -9,14 +9,14 @@
 #include "planning/route.hpp"
 #include "planning/surroundings.hpp"
 #include "server/driving/driving.hpp"
+#include "wire/drive_terms.hpp"
 #include "wire/mission_order.hpp"
 
 namespace homeward::server {
 namespace {
 
-// A permit goes only to an agent that was heard within this time; it tells its status four times a second.
-constexpr std::chrono::milliseconds kHeardWithin{1000};
-constexpr std::chrono::seconds kSilentTooLong{4};
+constexpr std::chrono::milliseconds kHeardWithin{wire::kHeardWithin_ms};
+constexpr std::chrono::milliseconds kSilentTooLong{wire::kLinkSilence_ms};
 constexpr std::chrono::seconds kTakeUpWithin{10};
 constexpr std::chrono::seconds kLooksWithin{15};  // where a robot stands that was lifted, or lost
 
@@ -98,7 +98,7 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
   plan.mission.by = request.by;
   plan.order.mission = plan.mission.id;
   plan.order.map = map_id;
-  plan.order.valid_for_ms = kPermitMs;
+  plan.order.valid_for_ms = wire::kPermitValid_ms;
   plan.length_m = route->length_m;
   return plan;
 }
@@ -135,7 +135,7 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
   mission.epoch = unit.epoch;
   mission.seq = ++unit.seq;
   planned->order.order = {unit.epoch, unit.seq};
-  planned->order.speed_limit_mps = std::min(kTopSpeedMps, unit.hello.max_speed_mps);
+  planned->order.speed_limit_mps = std::min(wire::kServerSpeedLimit_mps, unit.hello.max_speed_mps);
   unit.mission = mission;
   unit.under_way = true;
   unit.closed.clear();
@@ -240,7 +240,7 @@ void Driving::tick(SteadyTime now) {
     }
     if (silent <= kHeardWithin) {
       ++unit.seq;
-      unit.link->send(wire::Permit{unit.mission->id, {unit.epoch, unit.seq}, kPermitMs});
+      unit.link->send(wire::Permit{unit.mission->id, {unit.epoch, unit.seq}, wire::kPermitValid_ms});
     }
   }
 }

@@ -19,9 +19,6 @@
 namespace homeward::server {
 
 constexpr std::chrono::seconds kBeliefFresh{5};  // an older belief is none
-constexpr std::int64_t kPermitMs = 1500;
-// So slow that braking at 1 m/s^2 ends within half a second of a link that falls silent.
-constexpr double kTopSpeedMps = 0.4;
 
 /// What a mission says while its robot has yet to find out where it is.
 constexpr const char* kLooksAroundFirst = "The robot is not sure where it is; it looks around first.";

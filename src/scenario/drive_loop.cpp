@@ -7,16 +7,15 @@
 #include "driving/estimated_position.hpp"
 #include "driving/stated.hpp"
 #include "recording/recorder.hpp"
+#include "wire/drive_terms.hpp"
 
 namespace homeward::scenario {
 namespace {
 
 using wire::FaultKind;
 
-constexpr double kCycle_s = 0.1;
 constexpr double kLongest_s = 600.0;
-constexpr driving::Milliseconds kPermit_ms = 1500;
-constexpr double kHeardWithin_s = 1.0;  // the house permits no robot that was silent for longer
+constexpr double kHeardWithin_s = wire::kHeardWithin_ms / 1000.0;
 constexpr double kCommandLife_s = 0.1;  // the base's own watch over its commands, as of the simulator's driver
 
 bool moves(const SimulatedRobot& robot) {
@@ -83,7 +82,8 @@ Result<std::optional<DrivenPicture>> DriveLoop::look_again() {
 void DriveLoop::hear_the_house(bool link_up) {
   if (!link_up) return;
   if (elapsed_s() - heard_s_ <= kHeardWithin_s)
-    messages_.emplace_back(wire::Permit{order_.mission, {order_.order.epoch, ++order_.order.seq}, kPermit_ms});
+    messages_.emplace_back(
+        wire::Permit{order_.mission, {order_.order.epoch, ++order_.order.seq}, wire::kPermitValid_ms});
   answer_question();
   if (!on(FaultKind::kStop)) return;
   messages_.emplace_back(wire::StopOrder{"s1", order_.order.epoch, "Stopped by hand.", "test"});
@@ -232,17 +232,17 @@ void DriveLoop::move(bool frozen) {
   const bool must_rest = halted_;
   bool moved = false;
   for (int part = 0; part < kParts; ++part) {
-    const double at_s = elapsed_s() + kCycle_s * part / kParts;
+    const double at_s = elapsed_s() + wire::kScenarioCycle_s * part / kParts;
     if (frozen && at_s - commanded_s_ >= kCommandLife_s) robot_.command({});
-    robot_.advance(kCycle_s / kParts);
+    robot_.advance(wire::kScenarioCycle_s / kParts);
     if (!moves(robot_)) continue;
     moved = true;
-    stands_since_s_ = at_s + kCycle_s / kParts;
+    stands_since_s_ = at_s + wire::kScenarioCycle_s / kParts;
   }
   if (must_rest && moved) ++moved_after_stop_;
   // The base has stopped by itself: that, too, only an order may end.
   if (frozen && !moved && elapsed_s() - commanded_s_ >= kCommandLife_s) halted_ = true;
-  now_ms_ += static_cast<driving::Milliseconds>(1000.0 * kCycle_s);
+  now_ms_ += static_cast<driving::Milliseconds>(1000.0 * wire::kScenarioCycle_s);
 }
 
 /// How long after the fault the wheels stood, for the latest stop.

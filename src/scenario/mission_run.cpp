@@ -17,11 +17,10 @@
 #include "sim/floor.hpp"
 #include "sim/moved_furniture.hpp"
 #include "sim/tour_path.hpp"
+#include "wire/drive_terms.hpp"
 
 namespace homeward::scenario {
 namespace {
-
-constexpr double kCycle_s = 0.1;
 
 const map::Destination* destination_named(const map::TopologicalMap& map, const std::string& label) {
   const auto found = std::find_if(map.destinations.begin(), map.destinations.end(),
@@ -39,7 +38,7 @@ MissionResult result_of(DriveLoop& drive) {
   }
   result.stops = drive.stops();
   result.duration_s = ended_s;
-  result.vectors_per_s = drive.vectors() / std::max(kCycle_s, ended_s);
+  result.vectors_per_s = drive.vectors() / std::max(wire::kScenarioCycle_s, ended_s);
   result.moved_after_stop = drive.moved_after_stop();
   result.kidnapped_at_s = drive.kidnapped_at_s();
   result.told_after_s = drive.told_after_s();

@@ -7,12 +7,11 @@
 #include "planning/detour.hpp"
 #include "planning/second_look.hpp"
 #include "planning/surroundings.hpp"
+#include "wire/drive_terms.hpp"
 
 namespace homeward::scenario {
 namespace {
 
-constexpr double kSpeedLimit_mps = 0.45;
-constexpr driving::Milliseconds kPermit_ms = 1500;
 constexpr std::int64_t kOrderStep = 1'000'000;  // permits count on from their order
 
 std::optional<PlaceId> place_of(const localisation::Belief& belief) {
@@ -69,8 +68,8 @@ Result<wire::MissionOrder> House::order_from(const PlaceId& place, bool second_l
   order.mission = MissionId("simulated");
   order.order = {1, ++orders_ * kOrderStep};
   order.map = MapId("taught");
-  order.valid_for_ms = kPermit_ms;
-  order.speed_limit_mps = kSpeedLimit_mps;
+  order.valid_for_ms = wire::kPermitValid_ms;
+  order.speed_limit_mps = wire::kScenarioSpeedLimit_mps;
   return order;
 }
 

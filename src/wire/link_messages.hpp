@@ -15,6 +15,7 @@
 #include "core/pose2.hpp"
 #include "core/result.hpp"
 #include "core/time.hpp"
+#include "wire/drive_terms.hpp"
 
 namespace homeward::wire {
 
@@ -117,7 +118,7 @@ struct Welcome {
   std::string server;
   RobotId robot;
   std::int64_t epoch = 0;
-  std::int64_t frame_period_ms = 200;
+  std::int64_t frame_period_ms = kFrameEvery_ms;
 };
 
 /// The way from one place of a path to the next, as the map knows it; what is unknown is nothing.

@@ -19,13 +19,13 @@
 #include "driving/step.hpp"
 #include "pipeline/eye.hpp"
 #include "recording/recorder.hpp"
+#include "wire/drive_terms.hpp"
 
 namespace homeward::agent {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto kCycle = std::chrono::milliseconds(40);
-constexpr driving::Milliseconds kStatusPeriod_ms = 250;
+constexpr auto kCycle = std::chrono::milliseconds(wire::kAgentCycle_ms);
 constexpr const char* kProgram = "homeward-agent";
 
 /// Goes on while the machine sleeps, unlike the steady clock: one that wakes up knows that its permit has run out.
@@ -183,7 +183,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
     told_state = state.drive;
     const bool asks = driving::open_question(state, config, reading.t_ms).has_value();
     const bool asks_anew = asks != std::exchange(told_question, asks);
-    if (changed || asks_anew || now - status_ms >= kStatusPeriod_ms) {
+    if (changed || asks_anew || now - status_ms >= wire::kStatusEvery_ms) {
       status_ms = now;
       link.send(status_of(state, config, reading, ++status_seq));
     }

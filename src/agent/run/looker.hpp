@@ -12,6 +12,7 @@
 #include "driving/step.hpp"
 #include "pipeline/eye.hpp"
 #include "recording/look.hpp"
+#include "wire/drive_terms.hpp"
 
 namespace homeward::agent {
 
@@ -51,7 +52,7 @@ class Looker {
   std::function<void(const recording::CameraPicture&)> show_;
   std::atomic<bool> looking_{false};
   std::atomic<bool> features_wanted_{true};
-  std::atomic<driving::Milliseconds> show_period_ms_{200};
+  std::atomic<driving::Milliseconds> show_period_ms_{wire::kFrameEvery_ms};
   std::mutex mutex_;
   std::optional<LookedAt> newest_;
   std::optional<Error> trouble_;
