@@ -14,44 +14,6 @@ using testing::DrivingTest;
 using testing::FakeAgent;
 using testing::SocketClient;
 
-TEST_F(DrivingTest, OneDrivesAndTheOthersAreTold) {
-  add_robot();
-  testing::HttpClient rider = signed_in("rita", "rider");
-  testing::HttpClient viewer = signed_in("vera", "viewer");
-  const Answer taken = rider.post(root + "/lease");
-  ASSERT_EQ(taken.status, 200) << taken.body;
-  const std::string lease = taken.json().at("lease").at("id");
-  const Answer held = admin->post(root + "/lease");
-  EXPECT_EQ(held.status, 409);
-  EXPECT_EQ(held.code(), "lease_held");
-  EXPECT_NE(held.json().at("detail").get<std::string>().find("rita"), std::string::npos);
-  EXPECT_EQ(rider.post(root + "/lease").json().at("lease").at("id"), lease) << "the same person after a reload";
-  EXPECT_EQ(admin->get(root).json().at("lease").at("holder"), "rita");
-  EXPECT_FALSE(admin->get(root).json().at("lease").contains("id")) << "the id proves the right";
-  EXPECT_EQ(rider.put(root + "/lease", {{"lease_id", lease}}).status, 200);
-  const json over = admin->post(root + "/lease", {{"take_over", true}}).json().at("lease");
-  EXPECT_GT(over.at("epoch").get<int>(), taken.json().at("lease").at("epoch").get<int>());
-  EXPECT_EQ(rider.put(root + "/lease", {{"lease_id", lease}}).code(), "lease_held");
-  EXPECT_EQ(admin->send("DELETE", root + "/lease", json({{"lease_id", over.at("id")}}).dump()).status, 204);
-  EXPECT_TRUE(admin->get(root).json().at("lease").is_null());
-  EXPECT_EQ(viewer.post(root + "/lease").status, 403);
-  EXPECT_EQ(admin->post("/api/v1/robots/none/lease").status, 404);
-}
-
-TEST_F(DrivingTest, ALeaseThatNobodyKeepsRunsOut) {
-  add_robot();
-  testing::HttpClient rider = signed_in("rita", "rider");
-  const std::string lease = rider.post(root + "/lease").json().at("lease").at("id");
-  clock.pass(std::chrono::seconds(6));
-  EXPECT_EQ(rider.put(root + "/lease", {{"lease_id", lease}}).status, 200);
-  clock.pass(std::chrono::seconds(6));
-  EXPECT_EQ(admin->post(root + "/lease").code(), "lease_held") << "it was kept";
-  clock.pass(std::chrono::seconds(5));
-  EXPECT_EQ(rider.put(root + "/lease", {{"lease_id", lease}}).code(), "lease_held") << "it is over";
-  EXPECT_TRUE(admin->get(root).json().at("lease").is_null());
-  EXPECT_EQ(admin->post(root + "/lease").status, 200) << "and anybody may take it";
-}
-
 TEST_F(DrivingTest, ARobotThatComesBackGoesOnFromWhereItWas) {
   add_robot();
   put_on_map();
@@ -64,21 +26,6 @@ TEST_F(DrivingTest, ARobotThatComesBackGoesOnFromWhereItWas) {
     ASSERT_TRUE(agent.await<wire::BeliefReport>());
     EXPECT_EQ(admin->get(root).json().at("belief").at("updates"), updates);
   }
-}
-
-TEST_F(DrivingTest, NoMissionWithoutLeaseOrRobot) {
-  add_robot();
-  EXPECT_EQ(admin->post(root + "/missions", {{"lease_id", "x"}, {"place", "p1"}}).code(), "lease_held");
-  const std::string lease = take_lease(*admin);
-  const Answer offline = admin->post(root + "/missions", {{"lease_id", lease}, {"place", "p1"}});
-  EXPECT_EQ(offline.status, 409);
-  EXPECT_EQ(offline.code(), "robot_offline");
-  EXPECT_EQ(admin->post(root + "/missions", {{"lease_id", lease}}).status, 422);
-  testing::HttpClient viewer = signed_in("vera", "viewer");
-  EXPECT_EQ(viewer.post(root + "/stop").status, 202) << "anyone may stop";
-  EXPECT_EQ(viewer.get(root + "/frame").status, 404);
-  testing::HttpClient stranger(app->port());
-  EXPECT_EQ(stranger.post(root + "/stop").status, 401);
 }
 
 TEST_F(DrivingTest, OnlyTheRobotsOwnTokenOpensItsLink) {
@@ -396,24 +343,6 @@ TEST_F(DrivingTest, AMissionThatLastsTooLongIsStopped) {
   wait_for_state(sent.json(), "driving");
   ASSERT_TRUE(agent.await<wire::StopOrder>(milliseconds(4000)));
   EXPECT_EQ(wait_for_state(sent.json(), "stopped").at("reason"), "the mission has lasted too long");
-}
-
-TEST_F(DrivingTest, WithoutALeaseNoOtherWayIsDriven) {
-  add_robot();
-  put_on_map();
-  FakeAgent agent;
-  ASSERT_EQ(agent.connect(app->port(), robot, token), 101);
-  const std::string lease = take_lease(*admin);
-  find_itself(agent);
-  const Answer sent = send_home(lease);
-  const auto order = agent.await<wire::MissionOrder>();
-  ASSERT_TRUE(order);
-  agent.status(wire::DriveState::kDriving, order, 1);
-  wait_for_state(sent.json(), "driving");
-  EXPECT_EQ(admin->send("DELETE", root + "/lease", json({{"lease_id", lease}}).dump()).status, 204);
-  agent.status(wire::DriveState::kFailed, order, 1);
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(600)));
-  EXPECT_EQ(mission_now(sent.json()).at("state"), "stopped");
 }
 
 TEST_F(DrivingTest, DashboardsHearEverythingInOrder) {
