@@ -4,6 +4,9 @@ option(HOMEWARD_ASAN "Address and undefined behaviour sanitizers" OFF)
 option(HOMEWARD_TSAN "Thread sanitizer" OFF)
 option(HOMEWARD_TIDY "Run clang-tidy on every source" OFF)
 option(HOMEWARD_NATIVE "Use the instructions of this machine's processor" OFF)
+set(HOMEWARD_TEST_BATCH
+    4
+    CACHE STRING "How many files of tests are compiled as one")
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
@@ -16,16 +19,33 @@ if(CCACHE_PROGRAM)
       ${CCACHE_PROGRAM})
 endif()
 
-# Each test is a program of its own: with the usual linker, linking them takes minutes.
+# With the usual linker, linking all the programs takes minutes.
 find_program(MOLD_PROGRAM mold)
 if(MOLD_PROGRAM)
   add_link_options(-fuse-ld=mold)
 endif()
 
-add_library(homeward_options INTERFACE)
-target_compile_features(homeward_options INTERFACE cxx_std_20)
+# Modules that the thread sanitizer does not watch. They compute from what they are given, start no thread, lock nothing
+# and keep nothing that two threads could meet in (contract/unwatched holds that), and they take most of the time of every
+# picture. A race on what they are given is seen where their callers touch it too. They are compiled just as in a release,
+# so the compiler cache finds what was compiled for one in the other.
+set(homeward_unwatched
+    core
+    geometry
+    camera
+    calibration
+    imageio
+    features
+    tracking
+    matching
+    homing)
+
+# homeward_unwatched_options: all that every source is compiled with; homeward_options: and the thread sanitizer, for all
+# but the modules above.
+add_library(homeward_unwatched_options INTERFACE)
+target_compile_features(homeward_unwatched_options INTERFACE cxx_std_20)
 target_compile_options(
-  homeward_options
+  homeward_unwatched_options
   INTERFACE -Wall
             -Wextra
             -Wpedantic
@@ -38,26 +58,30 @@ target_compile_options(
             $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-maybe-uninitialized>
             -fno-math-errno
             -ffp-contract=off)
-target_compile_definitions(homeward_options INTERFACE BOOST_ASIO_SEPARATE_COMPILATION
-                                                      BOOST_BEAST_SEPARATE_COMPILATION)
-target_include_directories(homeward_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+target_compile_definitions(homeward_unwatched_options INTERFACE BOOST_ASIO_SEPARATE_COMPILATION
+                                                                BOOST_BEAST_SEPARATE_COMPILATION)
+target_include_directories(homeward_unwatched_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
 if(HOMEWARD_NATIVE)
-  target_compile_options(homeward_options INTERFACE -march=native)
+  target_compile_options(homeward_unwatched_options INTERFACE -march=native)
 endif()
 if(HOMEWARD_ASAN)
-  target_compile_options(homeward_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
-                                                    -fno-omit-frame-pointer)
-  target_link_options(homeward_options INTERFACE -fsanitize=address,undefined)
+  target_compile_options(homeward_unwatched_options INTERFACE -fsanitize=address,undefined
+                                                              -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(homeward_unwatched_options INTERFACE -fsanitize=address,undefined)
   # Eigen allocates in another way under the sanitizer; what OpenGV's library allocated has to be freed as it was.
-  target_compile_definitions(homeward_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
+  target_compile_definitions(homeward_unwatched_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
+add_library(homeward_options INTERFACE)
+target_link_libraries(homeward_options INTERFACE homeward_unwatched_options)
 if(HOMEWARD_TSAN)
-  # GCC warns that atomic_thread_fence is not modelled; Asio uses it.
-  target_compile_options(homeward_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer -Wno-tsan)
+  # Little optimised, with line numbers and assertions. GCC warns that atomic_thread_fence is not modelled; Asio uses it.
+  set(homeward_watched_flags -O1 -g1 -UNDEBUG -fsanitize=thread -fno-omit-frame-pointer -Wno-tsan)
+  target_compile_options(homeward_options INTERFACE ${homeward_watched_flags})
   target_link_options(homeward_options INTERFACE -fsanitize=thread)
 endif()
 
-# Headers that nearly every source reads, compiled once; and once with what every test reads besides.
+# Headers that nearly every source reads, compiled once; once for the thread sanitizer, and once with what every test
+# reads besides.
 file(WRITE ${PROJECT_BINARY_DIR}/pch.cpp "// only a carrier of the precompiled header\n")
 set(homeward_common_headers
   <algorithm>
@@ -78,8 +102,13 @@ set(homeward_common_headers
   <Eigen/Core>
   <Eigen/Geometry>)
 add_library(homeward_pch OBJECT ${PROJECT_BINARY_DIR}/pch.cpp)
-target_link_libraries(homeward_pch PRIVATE homeward_options Eigen3::Eigen Threads::Threads)
+target_link_libraries(homeward_pch PRIVATE homeward_unwatched_options Eigen3::Eigen Threads::Threads)
 target_precompile_headers(homeward_pch PRIVATE ${homeward_common_headers})
+if(HOMEWARD_TSAN)
+  add_library(homeward_watched_pch OBJECT ${PROJECT_BINARY_DIR}/pch.cpp)
+  target_link_libraries(homeward_watched_pch PRIVATE homeward_options Eigen3::Eigen Threads::Threads)
+  target_precompile_headers(homeward_watched_pch PRIVATE ${homeward_common_headers})
+endif()
 if(HOMEWARD_TESTS)
   add_library(homeward_test_pch OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/pch.cpp)
   target_link_libraries(homeward_test_pch PRIVATE homeward_options Eigen3::Eigen Threads::Threads GTest::gtest
@@ -89,11 +118,19 @@ if(HOMEWARD_TESTS)
 endif()
 
 function(_homeward_finish target)
-  cmake_parse_arguments(ARG "" "HEADERS" "" ${ARGN})
+  cmake_parse_arguments(ARG "UNWATCHED" "HEADERS" "" ${ARGN})
+  if(ARG_UNWATCHED)
+    target_link_libraries(${target} PRIVATE homeward_unwatched_options)
+  else()
+    target_link_libraries(${target} PRIVATE homeward_options)
+  endif()
+  target_link_libraries(${target} PRIVATE Eigen3::Eigen Threads::Threads)
   if(NOT ARG_HEADERS)
     set(ARG_HEADERS homeward_pch)
+    if(HOMEWARD_TSAN AND NOT ARG_UNWATCHED)
+      set(ARG_HEADERS homeward_watched_pch)
+    endif()
   endif()
-  target_link_libraries(${target} PRIVATE homeward_options Eigen3::Eigen Threads::Threads)
   target_precompile_headers(${target} REUSE_FROM ${ARG_HEADERS})
   if(HOMEWARD_TIDY)
     set_target_properties(${target} PROPERTIES CXX_CLANG_TIDY ${PROJECT_SOURCE_DIR}/cmake/tidy.sh)
@@ -108,7 +145,11 @@ function(homeward_add_library name)
     add_library(homeward_${name} STATIC ${ARG_SOURCES})
     target_include_directories(homeward_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
     target_link_libraries(homeward_${name} PUBLIC Eigen3::Eigen ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-    _homeward_finish(homeward_${name})
+    if(name IN_LIST homeward_unwatched)
+      _homeward_finish(homeward_${name} UNWATCHED)
+    else()
+      _homeward_finish(homeward_${name})
+    endif()
   else()
     add_library(homeward_${name} INTERFACE)
     target_include_directories(homeward_${name} INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
@@ -117,12 +158,11 @@ function(homeward_add_library name)
   add_library(homeward::${name} ALIAS homeward_${name})
 endfunction()
 
-# homeward_without_thread_sanitizer(kernel.cpp ...): sources of this folder that only compute from what they are given,
-# share nothing, and take most of the time of every picture: watching each of their reads makes the server's tests
-# four times slower. A race on what they are given is seen only where their callers touch it too.
-function(homeward_without_thread_sanitizer)
+# homeward_watch(retrieval_index.cpp ...): sources of an unwatched module that the thread sanitizer watches all the same.
+function(homeward_watch)
   if(HOMEWARD_TSAN)
-    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -fno-sanitize=thread SKIP_PRECOMPILE_HEADERS ON)
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${homeward_watched_flags}"
+                                                   SKIP_PRECOMPILE_HEADERS ON)
   endif()
 endfunction()
 
@@ -135,9 +175,8 @@ function(homeward_add_program name)
   _homeward_finish(${name})
 endfunction()
 
-# What the sanitizer builds need: all unit tests, or the server's alone.
+# Every program of unit tests.
 add_custom_target(unit_tests)
-add_custom_target(server_tests)
 
 # homeward_add_test_support(http SOURCES a.cpp ... LINK targets): a library that several test programs share, target
 # homeward_test_<name>: what is dear to compile is compiled once.
@@ -150,28 +189,80 @@ function(homeward_add_test_support name)
   _homeward_finish(${target})
 endfunction()
 
-# homeward_add_test(camera/mirror SOURCES mirror_test.cpp LINK targets [LABELS unit]): a GoogleTest program that is one
-# ctest entry named "camera/mirror".
-function(homeward_add_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
-  string(REPLACE "/" "_" target "test_${name}")
-  add_executable(${target} ${ARG_SOURCES})
-  target_link_libraries(${target} PRIVATE ${ARG_LINK} homeward_test_folders GTest::gtest GTest::gmock GTest::gtest_main)
-  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  _homeward_finish(${target} HEADERS homeward_test_pch)
-  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-  add_test(NAME ${name} COMMAND ${target})
+# Gives in `result` what to compile for the files a_test.cpp ... of this folder: sources that include HOMEWARD_TEST_BATCH of
+# them each. Not CMake's own UNITY_BUILD: its sources name files by where they lie on this machine, so the compiler cache
+# would find none of them in another folder.
+function(_homeward_test_batches result target)
+  set(files ${ARGN})
+  list(TRANSFORM files APPEND _test.cpp)
+  if(HOMEWARD_TEST_BATCH LESS 2)
+    set(${result} ${files} PARENT_SCOPE)
+    return()
+  endif()
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
+  set(sources "")
+  set(begin 0)
+  list(LENGTH files count)
+  while(begin LESS count)
+    list(SUBLIST files ${begin} ${HOMEWARD_TEST_BATCH} batch)
+    list(TRANSFORM batch REPLACE "(.+)" "#include \"${folder}/\\1\"\n")
+    string(JOIN "" text ${batch})
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}_${begin}.cpp)
+    file(CONFIGURE OUTPUT ${source} CONTENT "${text}" @ONLY)
+    list(APPEND sources ${source})
+    math(EXPR begin "${begin} + ${HOMEWARD_TEST_BATCH}")
+  endwhile()
+  set(${result} ${sources} PARENT_SCOPE)
+endfunction()
+
+# homeward_add_tests(mapping FILES edges loops+closed_loops LINK targets [SLOW loops] [LABELS unit] [TIMEOUT seconds]
+#                    [SOURCES helper.cpp]): the GoogleTest program mapping_tests of this folder's edges_test.cpp,
+# loops_test.cpp and closed_loops_test.cpp. Each of FILES is a ctest entry that runs that file's tests alone, here
+# mapping/edges and mapping/loops, which runs two files. Unit tests that are not SLOW also have the label "fast".
+function(homeward_add_tests module)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "FILES;LINK;SLOW;LABELS;SOURCES" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+  set(target ${module}_tests)
+  string(REPLACE "+" ";" files "${ARG_FILES}")
+  foreach(slow IN LISTS ARG_SLOW)
+    if(NOT slow IN_LIST files)
+      message(FATAL_ERROR "${target}: SLOW names ${slow}, which is not among its FILES")
+    endif()
+  endforeach()
+
+  file(GLOB tests_here RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  foreach(test IN LISTS tests_here)
+    string(REPLACE "_test.cpp" "" test ${test})
+    if(NOT test IN_LIST files)
+      message(FATAL_ERROR "${target}: ${test}_test.cpp is not among its FILES")
+    endif()
+  endforeach()
+
+  _homeward_test_batches(batches ${target} ${files})
+  add_executable(${target} ${batches} ${ARG_SOURCES})
+  target_link_libraries(${target} PRIVATE ${ARG_LINK} homeward_test_folders homeward_test_main GTest::gtest
+                                          GTest::gmock)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  _homeward_finish(${target} HEADERS homeward_test_pch)
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   if("unit" IN_LIST ARG_LABELS)
     add_dependencies(unit_tests ${target})
   endif()
-  if(name MATCHES "^server/")
-    add_dependencies(server_tests ${target})
-  endif()
+
+  foreach(entry IN LISTS ARG_FILES)
+    string(REPLACE "+" ";" files ${entry})
+    list(GET files 0 name)
+    set(labels ${ARG_LABELS})
+    if("unit" IN_LIST labels AND NOT name IN_LIST ARG_SLOW)
+      list(APPEND labels fast)
+    endif()
+    list(TRANSFORM files REPLACE "(.+)" "--file=\\1_test.cpp")
+    add_test(NAME ${module}/${name} COMMAND ${target} ${files})
+    set_tests_properties(${module}/${name} PROPERTIES LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT})
+  endforeach()
 endfunction()

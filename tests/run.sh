@@ -1,29 +1,36 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything and runs every test, from nothing, on Debian 12 (as root or with sudo).
-# Usage: tests/run.sh [--quick]      --quick leaves the sanitizer builds out
+# With an option less than that: see usage().
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-quick=0
-for argument in "$@"; do
-  case "$argument" in
-    --quick) quick=1 ;;
-    *) echo "tests/run.sh: unknown argument '$argument' (known: --quick)" >&2; exit 2 ;;
-  esac
-done
+usage() {
+  cat <<'TEXT'
+usage: tests/run.sh [OPTION]
+  without   everything, from nothing: packages, format, dashboard, sanitizer builds, all tests
+  --quick   the same without the sanitizer builds
+  --changed builds and runs the tests of the modules that differ from origin/main and of those that depend on them,
+            and of the contract (tests/changed.py); in build/release, installs and checks nothing else
+  --fast    builds and runs the unit tests labelled "fast"; in build/release, installs and checks nothing else
+  --help    says this
+TEXT
+}
+
+what=all
+if [ $# -gt 1 ]; then
+  echo "tests/run.sh: one option at a time" >&2
+  usage >&2
+  exit 2
+fi
+case "${1:-}" in
+  "") ;;
+  --quick | --changed | --fast) what="${1#--}" ;;
+  --help) usage; exit 0 ;;
+  *) echo "tests/run.sh: unknown argument '$1'" >&2; usage >&2; exit 2 ;;
+esac
 
 say() { printf '\n== %s (%s)\n' "$1" "$(date +%H:%M:%S)"; }
 jobs="$(nproc)"
-
-say "Packages"
-deploy/install-deps.sh
-
-say "Format"
-git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run -Werror \
-  || { echo "Mend with: git ls-files '*.cpp' '*.hpp' | xargs clang-format -i" >&2; exit 1; }
-
-say "Dashboard"
-web/build.sh --check
 
 configure() {  # configure PRESET [OPTION...]
   local preset="$1"; shift
@@ -36,7 +43,35 @@ build() {  # build PRESET [TARGET...]
 }
 mkdir -p build
 
-if [ "$quick" -eq 0 ]; then
+if [ "$what" = fast ]; then
+  say "Fast unit tests"
+  configure release
+  build release unit_tests
+  ctest --preset release -L '^fast$' -j "$jobs" --no-tests=error
+  exit
+fi
+
+if [ "$what" = changed ]; then
+  folders="$(tests/changed.py)"
+  say "Tests of: ${folders//$'\n'/ }"
+  configure release
+  mapfile -t programs <<<"$folders"
+  build release "${programs[@]/%/_tests}"
+  ctest --preset release -R "^(${folders//$'\n'/|})/" -L 'unit|contract' -j "$jobs" --no-tests=error
+  exit
+fi
+
+say "Packages"
+deploy/install-deps.sh
+
+say "Format"
+git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run -Werror \
+  || { echo "Mend with: git ls-files '*.cpp' '*.hpp' | xargs clang-format -i" >&2; exit 1; }
+
+say "Dashboard"
+web/build.sh --check
+
+if [ "$what" = all ]; then
   say "Server tests under the thread sanitizer"
   configure tsan
   build tsan server_tests

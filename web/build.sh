@@ -19,5 +19,10 @@ if [ ! -e node_modules/.package-lock.json ] || [ package-lock.json -nt node_modu
   touch node_modules/.package-lock.json
 fi
 
-if [ "$check" -eq 1 ]; then npm run --silent check; fi
-npm run --silent build
+# The check makes the types and checks the program as the build does.
+if [ "$check" -eq 1 ]; then
+  npm run --silent check
+  npm run --silent bundle
+else
+  npm run --silent build
+fi

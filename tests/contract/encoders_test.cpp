@@ -17,7 +17,7 @@
 #include "wire/route_json.hpp"
 #include "wire/tour_json.hpp"
 
-namespace homeward::wire {
+namespace homeward::wire::encoders_test {
 namespace {
 
 using homeward::testing::sample_map;
@@ -219,4 +219,4 @@ TEST(RevisionTag, IsReadBackWithAndWithoutQuotes) {
 }
 
 }  // namespace
-}  // namespace homeward::wire
+}  // namespace homeward::wire::encoders_test

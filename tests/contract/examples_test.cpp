@@ -9,7 +9,7 @@
 #include "contract/schema_library.hpp"
 #include "support/folders.hpp"
 
-namespace homeward::testing {
+namespace homeward::testing::examples_test {
 namespace {
 
 using ::testing::IsEmpty;
@@ -106,4 +106,4 @@ TEST(SchemaLibrary, NoticesAnExampleThatBreaksItsSchema) {
 }
 
 }  // namespace
-}  // namespace homeward::testing
+}  // namespace homeward::testing::examples_test

@@ -10,7 +10,7 @@
 #include <sstream>
 #include "support/folders.hpp"
 
-namespace homeward::testing {
+namespace homeward::testing::include_arrows_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -120,4 +120,4 @@ TEST(IncludeArrows, RefuseModulesThatNobodyKnowsAndBareNames) {
 }
 
 }  // namespace
-}  // namespace homeward::testing
+}  // namespace homeward::testing::include_arrows_test

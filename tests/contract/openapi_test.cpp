@@ -12,7 +12,7 @@
 #include "support/folders.hpp"
 #include "wire/error_table.hpp"
 
-namespace homeward::testing {
+namespace homeward::testing::openapi_test {
 namespace {
 
 using nlohmann::json;
@@ -221,4 +221,4 @@ TEST(Yaml, RefusesWhatItDoesNotUnderstand) {
 }
 
 }  // namespace
-}  // namespace homeward::testing
+}  // namespace homeward::testing::openapi_test

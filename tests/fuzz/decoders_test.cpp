@@ -10,7 +10,7 @@
 #include "wire/appearance_blob.hpp"
 #include "wire/link_messages.hpp"
 
-namespace homeward {
+namespace homeward::decoders_test {
 namespace {
 
 using testing::Bytes;
@@ -205,4 +205,4 @@ TEST(FuzzDecoders, CborThatNestsOrBoasts) {
 }
 
 }  // namespace
-}  // namespace homeward
+}  // namespace homeward::decoders_test

@@ -7,7 +7,7 @@
 #include "support/sample_map.hpp"
 #include "support/scratch_folder.hpp"
 
-namespace homeward {
+namespace homeward::map_file_test {
 namespace {
 
 using testing::Bytes;
@@ -57,4 +57,4 @@ TEST(FuzzMapFile, StartsOfAMapAreRefused) {
 }
 
 }  // namespace
-}  // namespace homeward
+}  // namespace homeward::map_file_test

@@ -7,7 +7,7 @@
 #include "support/sample_recording.hpp"
 #include "support/scratch_folder.hpp"
 
-namespace homeward {
+namespace homeward::recording_test {
 namespace {
 
 using testing::Bytes;
@@ -64,4 +64,4 @@ TEST(FuzzRecording, IsReadToItsEndOrRefused) {
 }
 
 }  // namespace
-}  // namespace homeward
+}  // namespace homeward::recording_test

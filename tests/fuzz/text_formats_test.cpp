@@ -20,7 +20,7 @@
 #include "wire/scenario_json.hpp"
 #include "wire/world_json.hpp"
 
-namespace homeward {
+namespace homeward::text_formats_test {
 namespace {
 
 using testing::Mutator;
@@ -171,4 +171,4 @@ TEST(FuzzTexts, TourFolder) {
 }
 
 }  // namespace
-}  // namespace homeward
+}  // namespace homeward::text_formats_test

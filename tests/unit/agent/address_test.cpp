@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace homeward::agent {
+namespace homeward::agent::address_test {
 namespace {
 
 TEST(ParseAddress, TakesSchemeHostAndPort) {
@@ -49,4 +49,4 @@ TEST(ParseAddress, RefusesTheRestAndNamesIt) {
 }
 
 }  // namespace
-}  // namespace homeward::agent
+}  // namespace homeward::agent::address_test

@@ -14,7 +14,7 @@
 #include "support/scratch_folder.hpp"
 #include "wire/camera_json.hpp"
 
-namespace homeward::agent {
+namespace homeward::agent::camera_drivers_test {
 namespace {
 
 using homeward::testing::ScratchFolder;
@@ -162,4 +162,4 @@ TEST(V4l2Devices, ThatAreNoneAreRefused) {
 }
 
 }  // namespace
-}  // namespace homeward::agent
+}  // namespace homeward::agent::camera_drivers_test

@@ -10,7 +10,7 @@
 
 #include "support/scratch_folder.hpp"
 
-namespace homeward::agent {
+namespace homeward::agent::joystick_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -187,4 +187,4 @@ TEST_F(JoystickTest, OneThatIsNotThereAtTheStartIsAnError) {
 }
 
 }  // namespace
-}  // namespace homeward::agent
+}  // namespace homeward::agent::joystick_test

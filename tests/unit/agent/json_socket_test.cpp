@@ -14,7 +14,7 @@
 
 #include "support/rosbridge_server.hpp"
 
-namespace homeward::agent {
+namespace homeward::agent::json_socket_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -86,4 +86,4 @@ TEST_F(StalledSocketTest, SaysLateWhatIsRightHoweverLate) {
 }
 
 }  // namespace
-}  // namespace homeward::agent
+}  // namespace homeward::agent::json_socket_test

@@ -10,7 +10,7 @@
 #include "fuzz/mutate.hpp"
 #include "support/sample_rosbridge.hpp"
 
-namespace homeward::agent {
+namespace homeward::agent::ros_messages_test {
 namespace {
 
 using namespace homeward::testing;  // NOLINT(google-build-using-namespace): the sample messages
@@ -269,4 +269,4 @@ TEST(OdometryTracks, TellWhereTheRobotWas) {
 }
 
 }  // namespace
-}  // namespace homeward::agent
+}  // namespace homeward::agent::ros_messages_test

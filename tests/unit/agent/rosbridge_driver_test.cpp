@@ -3,7 +3,7 @@
 
 #include "unit/agent/rosbridge_fixture.hpp"
 
-namespace homeward::agent {
+namespace homeward::agent::rosbridge_driver_test {
 namespace {
 
 TEST_F(RosbridgeDriverTest, TellsWhatTheRobotSenses) {
@@ -243,4 +243,4 @@ TEST(RosbridgeFiles, AreRefusedWithWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace homeward::agent
+}  // namespace homeward::agent::rosbridge_driver_test

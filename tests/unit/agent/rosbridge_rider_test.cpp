@@ -3,7 +3,7 @@
 
 #include "unit/agent/rosbridge_fixture.hpp"
 
-namespace homeward::agent {
+namespace homeward::agent::rosbridge_rider_test {
 namespace {
 
 class RiderOnABridge : public RosbridgeDriverTest {
@@ -76,4 +76,4 @@ TEST_F(RiderWhomTheBaseObeys, WantsNoMotionOfTheAgent) {
 }
 
 }  // namespace
-}  // namespace homeward::agent
+}  // namespace homeward::agent::rosbridge_rider_test

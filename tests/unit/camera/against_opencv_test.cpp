@@ -7,7 +7,7 @@
 
 #include "camera/models.hpp"
 
-namespace homeward::camera {
+namespace homeward::camera::against_opencv_test {
 namespace {
 
 constexpr int kDirections = 2000;
@@ -82,4 +82,4 @@ TEST(AgainstOpenCv, UnifiedModelProjectsTheSame) {
 }
 
 }  // namespace
-}  // namespace homeward::camera
+}  // namespace homeward::camera::against_opencv_test

@@ -6,7 +6,7 @@
 #include "support/board_scene.hpp"
 #include "support/sample_cameras.hpp"
 
-namespace homeward::camera {
+namespace homeward::camera::board_test {
 namespace {
 
 using homeward::testing::corners_of;
@@ -70,4 +70,4 @@ TEST(FindBoard, ABoardThatIsNotThereIsAnError) {
 }
 
 }  // namespace
-}  // namespace homeward::camera
+}  // namespace homeward::camera::board_test

@@ -10,7 +10,7 @@
 #include "files/read_file.hpp"
 #include "support/folders.hpp"
 
-namespace homeward::camera {
+namespace homeward::camera::calibrate_real_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -113,4 +113,4 @@ TEST_F(RealMirrors, CornersLieWhereTheToolboxHasThem) {
 }
 
 }  // namespace
-}  // namespace homeward::camera
+}  // namespace homeward::camera::calibrate_real_test

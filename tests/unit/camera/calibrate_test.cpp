@@ -8,7 +8,7 @@
 #include "support/board_scene.hpp"
 #include "support/sample_cameras.hpp"
 
-namespace homeward::camera {
+namespace homeward::camera::calibrate_test {
 namespace {
 
 using homeward::testing::add_noise;
@@ -218,4 +218,4 @@ TEST(Calibrate, RefusesWhatCannotBeCalibrated) {
 }
 
 }  // namespace
-}  // namespace homeward::camera
+}  // namespace homeward::camera::calibrate_test

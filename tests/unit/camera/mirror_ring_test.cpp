@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace homeward::camera {
+namespace homeward::camera::mirror_ring_test {
 namespace {
 
 struct Drawn {
@@ -105,4 +105,4 @@ TEST(MirrorRing, WithoutAMirrorIsAnError) {
 }
 
 }  // namespace
-}  // namespace homeward::camera
+}  // namespace homeward::camera::mirror_ring_test

@@ -8,7 +8,7 @@
 #include "core/angles.hpp"
 #include "support/sample_cameras.hpp"
 
-namespace homeward::camera {
+namespace homeward::camera::models_test {
 namespace {
 
 using homeward::testing::fisheye_camera;
@@ -279,4 +279,4 @@ TEST(CameraProblems, AllAreToldAtOnce) {
 }
 
 }  // namespace
-}  // namespace homeward::camera
+}  // namespace homeward::camera::models_test

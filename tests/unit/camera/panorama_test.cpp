@@ -6,7 +6,7 @@
 #include "core/angles.hpp"
 #include "support/sample_cameras.hpp"
 
-namespace homeward::camera {
+namespace homeward::camera::panorama_test {
 namespace {
 
 using homeward::testing::mirror_camera;
@@ -147,4 +147,4 @@ TEST(PanoramaUnwrapper, AGreyPictureGivesThreeEqualBands) {
 }
 
 }  // namespace
-}  // namespace homeward::camera
+}  // namespace homeward::camera::panorama_test

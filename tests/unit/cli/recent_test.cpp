@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace homeward::cli {
+namespace homeward::cli::recent_test {
 namespace {
 
 /// Makes texts of file names and notes each time it does.
@@ -61,4 +61,4 @@ TEST(Recent, WhatCannotBeMadeIsToldAndNotKept) {
 }
 
 }  // namespace
-}  // namespace homeward::cli
+}  // namespace homeward::cli::recent_test

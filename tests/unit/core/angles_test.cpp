@@ -9,7 +9,7 @@
 
 #include "core/pose2.hpp"
 
-namespace homeward {
+namespace homeward::angles_test {
 namespace {
 
 TEST(Angles, WrapIntoHalfOpenCircle) {
@@ -64,4 +64,4 @@ TEST(Pose2, InverseUndoesATransform) {
 }
 
 }  // namespace
-}  // namespace homeward
+}  // namespace homeward::angles_test

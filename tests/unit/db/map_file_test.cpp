@@ -15,7 +15,7 @@
 #include "support/sample_map.hpp"
 #include "wire/appearance_blob.hpp"
 
-namespace homeward::db {
+namespace homeward::db::map_file_test {
 namespace {
 
 using homeward::testing::sample_map;
@@ -343,4 +343,4 @@ TEST_F(MapFile, ManyWritersAtOnceLeaveOneWholeMap) {
 }
 
 }  // namespace
-}  // namespace homeward::db
+}  // namespace homeward::db::map_file_test

@@ -13,7 +13,7 @@
 #include "support/sample_recording.hpp"
 #include "support/scratch_folder.hpp"
 
-namespace homeward::db {
+namespace homeward::db::recording_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -301,4 +301,4 @@ TEST_F(RecordingFile, TellsAPictureThatWasLeftOutFromOneThatLacks) {
 }
 
 }  // namespace
-}  // namespace homeward::db
+}  // namespace homeward::db::recording_test

@@ -9,7 +9,7 @@
 #include "support/sample_map.hpp"
 #include "unit/db/store_fixture.hpp"
 
-namespace homeward::db {
+namespace homeward::db::store_content_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -304,4 +304,4 @@ TEST_F(StoreContent, AnswersAreKeptForADay) {
 }
 
 }  // namespace
-}  // namespace homeward::db
+}  // namespace homeward::db::store_content_test

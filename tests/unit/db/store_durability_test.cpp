@@ -9,7 +9,7 @@
 #include "support/folders.hpp"
 #include "unit/db/store_fixture.hpp"
 
-namespace homeward::db {
+namespace homeward::db::store_durability_test {
 namespace {
 
 class StoreDurability : public StoreTest {
@@ -201,4 +201,4 @@ TEST_F(StoreDurability, EpochsOfARobotThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace homeward::db
+}  // namespace homeward::db::store_durability_test

@@ -4,7 +4,7 @@
 #include "db/secrets.hpp"
 #include "unit/db/store_fixture.hpp"
 
-namespace homeward::db {
+namespace homeward::db::store_people_test {
 namespace {
 
 class StorePeople : public StoreTest {};
@@ -105,4 +105,4 @@ TEST(Secrets, AreRandomUrlSafeAndHashedAsBlake2b) {
 }
 
 }  // namespace
-}  // namespace homeward::db
+}  // namespace homeward::db::store_people_test

@@ -4,7 +4,7 @@
 #include "driving/stated.hpp"
 #include "unit/driving/step_fixture.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::asking_test {
 namespace {
 
 using wire::DriveState;
@@ -330,4 +330,4 @@ TEST_F(AskingTest, QuestionsCountOnOverMissions) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::asking_test

@@ -8,7 +8,7 @@
 
 #include "core/pose2.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::body_test {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
@@ -246,4 +246,4 @@ TEST(LooksBehind, NotByAHandfulOfRays) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::body_test

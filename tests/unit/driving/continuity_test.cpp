@@ -7,7 +7,7 @@
 
 #include "support/landmarks.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::continuity_test {
 namespace {
 
 using homeward::testing::Landmarks;
@@ -140,4 +140,4 @@ TEST(Continuity, KnowsNoUsualShareAtFirst) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::continuity_test

@@ -5,7 +5,7 @@
 
 #include "support/landmarks.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::estimated_position_test {
 namespace {
 
 /// Views that are 2.5 m apart, the last two beside the path.
@@ -135,4 +135,4 @@ TEST_F(EstimatedPositionTest, WithoutAMapNineTenthsAreEnoughToArrive) {
 TEST_F(EstimatedPositionTest, OfNoPictureYetItTellsOfNoPlace) { EXPECT_TRUE(possible_places(state_, path_).empty()); }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::estimated_position_test

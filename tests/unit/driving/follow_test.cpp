@@ -6,7 +6,7 @@
 #include "support/far_seen.hpp"
 #include "support/landmarks.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::follow_test {
 namespace {
 
 using homeward::testing::FarSeen;
@@ -359,4 +359,4 @@ TEST(SeeWays, ASweepIsOfWhereOdometrySaysThatTheRobotIsByThen) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::follow_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace homeward::driving {
+namespace homeward::driving::give_way_test {
 namespace {
 
 /// A robot on a straight way along x that drives wherever it is told to, without things to heed.
@@ -210,4 +210,4 @@ TEST_F(GiveWayTest, FromSomebodyItBacksOffMoreThanThreeTimesAndFartherEachTime) 
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::give_way_test

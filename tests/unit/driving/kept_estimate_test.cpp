@@ -5,7 +5,7 @@
 
 #include "support/landmarks.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::kept_estimate_test {
 namespace {
 
 constexpr std::int64_t kLives_ms = 10'000;
@@ -93,4 +93,4 @@ TEST_F(KeptEstimateTest, OneViewWithoutAMapKeepsNothing) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::kept_estimate_test

@@ -12,7 +12,7 @@
 #include "core/pose2.hpp"
 #include "driving/steering.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::lattice_test {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
@@ -247,4 +247,4 @@ TEST(LongPlan, IsGivenUpWhenSomethingStandsInIt) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::lattice_test

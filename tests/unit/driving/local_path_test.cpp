@@ -7,7 +7,7 @@
 
 #include "core/angles.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::local_path_test {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
@@ -93,4 +93,4 @@ TEST(LocalWay, KeepsToTheMiddleOfADoor) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::local_path_test

@@ -8,7 +8,7 @@
 
 #include "core/angles.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::look_around_test {
 namespace {
 
 /// What a sweep hits in a corridor of this width along the odometry's x axis, open to +x and closed at `end_m`.
@@ -57,4 +57,4 @@ TEST(LookAround, GivesUpWhenItHasDrivenFarEnough) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::look_around_test

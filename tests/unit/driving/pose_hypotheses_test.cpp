@@ -8,7 +8,7 @@
 
 #include "core/angles.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::pose_hypotheses_test {
 namespace {
 
 /// What a robot at `map_from_robot` truly sees of a view, well recognised.
@@ -399,4 +399,4 @@ TEST(PoseHypotheses, AWordOfAPlaceThatNobodyThoughtOfMakesItLessSure) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::pose_hypotheses_test

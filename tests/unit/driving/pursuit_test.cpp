@@ -9,7 +9,7 @@
 
 #include "core/pose2.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::pursuit_test {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
@@ -79,4 +79,4 @@ TEST(Pursuit, LeavesAWayWithLittleRoomToTheSearch) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::pursuit_test

@@ -5,7 +5,7 @@
 
 #include "unit/driving/step_fixture.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::rider_test {
 namespace {
 
 using wire::DriveState;
@@ -155,4 +155,4 @@ TEST_F(RiderTest, AHandThatTheBaseObeysByItselfEndsTheMissionAndMovesNothing) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::rider_test

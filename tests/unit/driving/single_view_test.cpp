@@ -6,7 +6,7 @@
 #include "support/far_seen.hpp"
 #include "support/landmarks.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::single_view_test {
 namespace {
 
 using homeward::testing::FarSeen;
@@ -187,4 +187,4 @@ TEST(SingleView, AHandfulOfFeaturesDoesNotTurnAKnownViewRound) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::single_view_test

@@ -8,7 +8,7 @@
 
 #include "core/angles.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::sonar_map_test {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
@@ -85,4 +85,4 @@ TEST(SonarMap, KeepsItsNoseBeforeWhatIsTooNearToMeasure) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::sonar_map_test

@@ -3,7 +3,7 @@
 
 #include "unit/driving/step_fixture.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::stated_test {
 namespace {
 
 using wire::DriveState;
@@ -61,4 +61,4 @@ TEST_F(StepTest, OfOneViewWithoutAMapItStatesNoProbability) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::stated_test

@@ -9,7 +9,7 @@
 
 #include "core/angles.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::steady_sweep_test {
 namespace {
 
 constexpr int kRays = 360;
@@ -96,4 +96,4 @@ TEST(SteadySweep, RaysThatSeeNothingStaySo) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::steady_sweep_test

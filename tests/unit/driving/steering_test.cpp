@@ -12,7 +12,7 @@
 #include "core/pose2.hpp"
 #include "driving/local_path.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::steering_test {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
@@ -142,4 +142,4 @@ TEST(Steering, WhoeverStandsInACorridorIsWaitedForAndNoWayBehindItsWallsTried) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::steering_test

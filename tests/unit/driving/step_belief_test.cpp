@@ -7,7 +7,7 @@
 #include "driving/step.hpp"
 #include "unit/driving/step_fixture.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::step_belief_test {
 namespace {
 
 using wire::DriveState;
@@ -169,4 +169,4 @@ TEST_F(StepTest, OnceItKnowsWhereItIsItLooksAroundAgainBeforeItGoesOnByTheLikeli
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::step_belief_test

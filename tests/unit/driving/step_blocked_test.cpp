@@ -4,7 +4,7 @@
 #include "driving/step.hpp"
 #include "unit/driving/step_fixture.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::step_blocked_test {
 namespace {
 
 using wire::DriveState;
@@ -236,4 +236,4 @@ TEST_F(StepTest, DrivesNeverBackwardsWhereTheRangeSensorDoesNotLookBehind) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::step_blocked_test

@@ -6,7 +6,7 @@
 #include "driving/step.hpp"
 #include "unit/driving/step_fixture.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::step_lifted_test {
 namespace {
 
 using wire::DriveState;
@@ -93,4 +93,4 @@ TEST_F(StepTest, WhoeverStandsBeforeTheCameraHasNotLiftedIt) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::step_lifted_test

@@ -5,7 +5,7 @@
 
 #include "unit/driving/step_fixture.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::step_test {
 namespace {
 
 using wire::DriveState;
@@ -411,4 +411,4 @@ TEST_F(StepTest, IsTheSameForTheSameInputs) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::step_test

@@ -10,7 +10,7 @@
 
 #include "core/angles.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::sweep_continuity_test {
 namespace {
 
 /// A robot that is swept ten times a second in a room of 8 by 3 m with two posts, or in one that looks nearly the same,
@@ -166,4 +166,4 @@ TEST(Contradiction, OfSweepsThatMetNothingThereIsNone) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::sweep_continuity_test

@@ -8,7 +8,7 @@
 #include "driving/scan.hpp"
 #include "support/walled_floor.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::tour_ways_test {
 namespace {
 
 using homeward::testing::sweep_at;
@@ -119,4 +119,4 @@ TEST(WeighByWays, WhereEveryHypothesisIsBarredItIsMoreProbablyElsewhere) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::tour_ways_test

@@ -5,7 +5,7 @@
 
 #include "core/angles.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::turn_rate_test {
 namespace {
 
 TEST(TurnRate, IsTheTurnOverTheTimeBetweenHeadings) {
@@ -49,4 +49,4 @@ TEST(TurnRate, IsUnknownAfterAGapOrAClockThatWentBack) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::turn_rate_test

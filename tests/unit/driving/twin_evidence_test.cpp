@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace homeward::driving {
+namespace homeward::driving::twin_evidence_test {
 namespace {
 
 RecognitionRecord of_pictures(int pictures, double log_share, double variance) {
@@ -96,4 +96,4 @@ TEST(TwinEvidence, NothingIsImpossible) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::twin_evidence_test

@@ -5,7 +5,7 @@
 
 #include "core/angles.hpp"
 
-namespace homeward::driving {
+namespace homeward::driving::view_track_test {
 namespace {
 
 const Eigen::Vector2d kView(2.0, 1.0);
@@ -74,4 +74,4 @@ TEST(ViewTrack, DoubtGrowsWithTheWayDriven) {
 }
 
 }  // namespace
-}  // namespace homeward::driving
+}  // namespace homeward::driving::view_track_test

@@ -7,7 +7,7 @@
 
 #include "support/clustered_features.hpp"
 
-namespace homeward::features {
+namespace homeward::features::aggregate_test {
 namespace {
 
 using homeward::testing::clustered_features;
@@ -138,4 +138,4 @@ TEST(Aggregate, PicturesThatShareFeaturesAreNearer) {
 }
 
 }  // namespace
-}  // namespace homeward::features
+}  // namespace homeward::features::aggregate_test

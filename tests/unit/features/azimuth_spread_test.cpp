@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace homeward::features {
+namespace homeward::features::azimuth_spread_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -28,4 +28,4 @@ TEST(AzimuthSpread, NeverGivesMoreThanThereAreNorThanTheBudget) {
 }
 
 }  // namespace
-}  // namespace homeward::features
+}  // namespace homeward::features::azimuth_spread_test

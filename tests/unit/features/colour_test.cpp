@@ -6,7 +6,7 @@
 #include "core/angles.hpp"
 #include "support/painted_room.hpp"
 
-namespace homeward::features {
+namespace homeward::features::colour_test {
 namespace {
 
 TEST(ColourMoments, AreTheMomentsOfTheValidPixels) {
@@ -170,4 +170,4 @@ TEST(ColoursAgree, UnlessABandDiffersTooMuchAndAlwaysWithoutColour) {
 }
 
 }  // namespace
-}  // namespace homeward::features
+}  // namespace homeward::features::colour_test

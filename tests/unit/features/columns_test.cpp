@@ -11,7 +11,7 @@
 #include "features/extract.hpp"
 #include "support/painted_room.hpp"
 
-namespace homeward::features {
+namespace homeward::features::columns_test {
 namespace {
 
 using homeward::testing::painted_panorama;
@@ -256,4 +256,4 @@ TEST(Columns, ExtractGivesThemWhenAskedTo) {
 }
 
 }  // namespace
-}  // namespace homeward::features
+}  // namespace homeward::features::columns_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace homeward::features {
+namespace homeward::features::descriptor_code_test {
 namespace {
 
 using Descriptor = std::array<float, 128>;
@@ -105,4 +105,4 @@ TEST(DescriptorCode, BytesAreTheCoefficientsRounded) {
 }
 
 }  // namespace
-}  // namespace homeward::features
+}  // namespace homeward::features::descriptor_code_test

@@ -12,7 +12,7 @@
 #include "features/descriptor_code.hpp"
 #include "support/painted_room.hpp"
 
-namespace homeward::features {
+namespace homeward::features::extract_test {
 namespace {
 
 using homeward::testing::painted_panorama;
@@ -242,4 +242,4 @@ TEST(FeatureConfigId, DiffersWhereverFeaturesDo) {
 }
 
 }  // namespace
-}  // namespace homeward::features
+}  // namespace homeward::features::extract_test

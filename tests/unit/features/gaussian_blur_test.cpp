@@ -8,7 +8,7 @@
 
 #include "features/extremum_rows.hpp"
 
-namespace homeward::features {
+namespace homeward::features::gaussian_blur_test {
 namespace {
 
 cv::Mat noise(int rows, int columns, unsigned seed) {
@@ -85,4 +85,4 @@ TEST(ExtremumRows, DifferencesAreOfNeighbours) {
 }
 
 }  // namespace
-}  // namespace homeward::features
+}  // namespace homeward::features::gaussian_blur_test

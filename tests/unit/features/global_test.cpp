@@ -6,7 +6,7 @@
 #include "core/angles.hpp"
 #include "support/painted_room.hpp"
 
-namespace homeward::features {
+namespace homeward::features::global_test {
 namespace {
 
 using homeward::testing::painted_panorama;
@@ -163,4 +163,4 @@ TEST(GlobalDescriptor, ADarkPictureThatShowsSomethingIsDescribed) {
 }
 
 }  // namespace
-}  // namespace homeward::features
+}  // namespace homeward::features::global_test

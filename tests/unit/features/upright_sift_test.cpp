@@ -7,7 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace homeward::features {
+namespace homeward::features::upright_sift_test {
 namespace {
 
 /// Grey with Gaussian blobs on it.
@@ -118,4 +118,4 @@ TEST(UprightSift, PointsAtThePicturesRimCanBeDescribed) {
 }
 
 }  // namespace
-}  // namespace homeward::features
+}  // namespace homeward::features::upright_sift_test

@@ -10,7 +10,7 @@
 #include "files/write_file.hpp"
 #include "support/scratch_folder.hpp"
 
-namespace homeward::files {
+namespace homeward::files::files_test {
 namespace {
 
 using homeward::testing::ScratchFolder;
@@ -128,4 +128,4 @@ TEST(ReadPicture, NamesTheFile) {
 }
 
 }  // namespace
-}  // namespace homeward::files
+}  // namespace homeward::files::files_test

@@ -6,7 +6,7 @@
 #include "imageio/decode.hpp"
 #include "support/scratch_folder.hpp"
 
-namespace homeward::files {
+namespace homeward::files::tour_folder_test {
 namespace {
 
 using homeward::testing::ScratchFolder;
@@ -195,4 +195,4 @@ TEST(TourFolder, SaysWhenThereIsNothing) {
 }
 
 }  // namespace
-}  // namespace homeward::files
+}  // namespace homeward::files::tour_folder_test

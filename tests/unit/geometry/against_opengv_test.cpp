@@ -8,7 +8,7 @@
 #include "geometry/planar_motion.hpp"
 #include "support/planar_scene.hpp"
 
-namespace homeward::geometry {
+namespace homeward::geometry::against_opengv_test {
 namespace {
 
 using RelativePoseProblem = opengv::sac_problems::relative_pose::CentralRelativePoseSacProblem;
@@ -86,4 +86,4 @@ TEST(AgainstOpenGv, SteweniusFivePointFindsTheSameMotion) { agree(RelativePosePr
 TEST(AgainstOpenGv, NisterFivePointFindsTheSameMotion) { agree(RelativePoseProblem::NISTER, 0.25); }
 
 }  // namespace
-}  // namespace homeward::geometry
+}  // namespace homeward::geometry::against_opengv_test

@@ -7,7 +7,7 @@
 
 #include "support/planar_scene.hpp"
 
-namespace homeward::geometry {
+namespace homeward::geometry::general_motion_test {
 namespace {
 
 using homeward::testing::planar_scene;
@@ -75,4 +75,4 @@ TEST(GeneralMotion, IsTheSameForTheSameSeed) {
 }
 
 }  // namespace
-}  // namespace homeward::geometry
+}  // namespace homeward::geometry::general_motion_test

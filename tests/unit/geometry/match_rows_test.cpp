@@ -11,7 +11,7 @@
 #include "core/angles.hpp"
 #include "geometry/tilted_motion.hpp"
 
-namespace homeward::geometry {
+namespace homeward::geometry::match_rows_test {
 namespace {
 
 const TiltedMotion kMotion{{0.7, -0.4}, 0.02, 0.03, -0.01};
@@ -130,4 +130,4 @@ TEST(NormalEquations, AreSumsOfOuterProducts) {
 }
 
 }  // namespace
-}  // namespace homeward::geometry
+}  // namespace homeward::geometry::match_rows_test

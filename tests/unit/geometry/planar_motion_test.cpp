@@ -8,7 +8,7 @@
 
 #include "support/planar_scene.hpp"
 
-namespace homeward::geometry {
+namespace homeward::geometry::planar_motion_test {
 namespace {
 
 using homeward::testing::planar_scene;
@@ -278,4 +278,4 @@ TEST(PlanarEstimate, EqualLooksChangeNothing) {
 }
 
 }  // namespace
-}  // namespace homeward::geometry
+}  // namespace homeward::geometry::planar_motion_test

@@ -5,7 +5,7 @@
 
 #include "support/planar_scene.hpp"
 
-namespace homeward::geometry {
+namespace homeward::geometry::repetition_test {
 namespace {
 
 using homeward::testing::planar_scene;
@@ -79,4 +79,4 @@ TEST(Repetition, AloneIsLittleEvidence) {
 }
 
 }  // namespace
-}  // namespace homeward::geometry
+}  // namespace homeward::geometry::repetition_test

@@ -6,7 +6,7 @@
 #include "core/angles.hpp"
 #include "support/planar_scene.hpp"
 
-namespace homeward::geometry {
+namespace homeward::geometry::tilted_motion_test {
 namespace {
 
 using homeward::testing::planar_scene;
@@ -69,4 +69,4 @@ TEST(PlanarEstimate, ACameraThatIsTiltedByADegreeMostlyKeepsItsDirectionAndItsMa
 }
 
 }  // namespace
-}  // namespace homeward::geometry
+}  // namespace homeward::geometry::tilted_motion_test

@@ -8,7 +8,7 @@
 #include "core/angles.hpp"
 #include "support/feature_cloud.hpp"
 
-namespace homeward::homing {
+namespace homeward::homing::floor_pose_test {
 namespace {
 
 using testing::bearing_of;
@@ -81,4 +81,4 @@ TEST(FloorPose, TwoSightingsAreTooFew) {
 }
 
 }  // namespace
-}  // namespace homeward::homing
+}  // namespace homeward::homing::floor_pose_test

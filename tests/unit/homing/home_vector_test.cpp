@@ -7,7 +7,7 @@
 #include "support/painted_room.hpp"
 #include "support/sample_map.hpp"
 
-namespace homeward::homing {
+namespace homeward::homing::home_vector_test {
 namespace {
 
 features::Appearance seen_from(const Pose2& pose) {
@@ -104,4 +104,4 @@ TEST(HomeVector, AnUncertainOneIsTheSameWhereOneIsSureAndAHintOfLittleConfidence
 }
 
 }  // namespace
-}  // namespace homeward::homing
+}  // namespace homeward::homing::home_vector_test

@@ -7,7 +7,7 @@
 
 #include "support/feature_cloud.hpp"
 
-namespace homeward::homing {
+namespace homeward::homing::local_map_test {
 namespace {
 
 /// The target at the origin of a room of features.
@@ -163,4 +163,4 @@ TEST(LocalMap, SameSightingsSameMap) {
 }
 
 }  // namespace
-}  // namespace homeward::homing
+}  // namespace homeward::homing::local_map_test

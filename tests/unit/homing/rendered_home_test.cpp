@@ -14,7 +14,7 @@
 #include "support/folders.hpp"
 #include "wire/camera_json.hpp"
 
-namespace homeward::homing {
+namespace homeward::homing::rendered_home_test {
 namespace {
 
 const std::filesystem::path kTour = testing::shared_folder() / "data" / "sim" / "home" / "train";
@@ -120,4 +120,4 @@ TEST_F(RenderedHome, DrivingStraightAheadTheWorldFlowsFromAheadToBehind) {
 }
 
 }  // namespace
-}  // namespace homeward::homing
+}  // namespace homeward::homing::rendered_home_test

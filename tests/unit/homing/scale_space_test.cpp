@@ -6,7 +6,7 @@
 #include "features/extract.hpp"
 #include "support/painted_room.hpp"
 
-namespace homeward::homing {
+namespace homeward::homing::scale_space_test {
 namespace {
 
 features::Appearance seen_from(const Pose2& pose) { return features::extract(testing::painted_panorama({}, pose), {}); }
@@ -42,4 +42,4 @@ TEST(ScaleSpace, AnEmptyPictureIsRefused) {
 }
 
 }  // namespace
-}  // namespace homeward::homing
+}  // namespace homeward::homing::scale_space_test

@@ -6,7 +6,7 @@
 #include "core/angles.hpp"
 #include "support/painted_room.hpp"
 
-namespace homeward::homing {
+namespace homeward::homing::visual_compass_test {
 namespace {
 
 using testing::painted_panorama;
@@ -65,4 +65,4 @@ TEST(VisualCompass, PicturesWithoutDirectionAreRefused) {
 }
 
 }  // namespace
-}  // namespace homeward::homing
+}  // namespace homeward::homing::visual_compass_test

@@ -8,7 +8,7 @@
 #include "features/extract.hpp"
 #include "support/painted_room.hpp"
 
-namespace homeward::homing {
+namespace homeward::homing::visual_homing_test {
 namespace {
 
 struct Seen {
@@ -159,4 +159,4 @@ TEST(VisualHoming, CopiesGoTheirOwnWays) {
 }
 
 }  // namespace
-}  // namespace homeward::homing
+}  // namespace homeward::homing::visual_homing_test

@@ -7,7 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 
-namespace homeward::imageio {
+namespace homeward::imageio::decode_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -256,4 +256,4 @@ TEST(ShrinkToFit, KeepsProportionsAndNeverEnlarges) {
 }
 
 }  // namespace
-}  // namespace homeward::imageio
+}  // namespace homeward::imageio::decode_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace homeward::localisation {
+namespace homeward::localisation::calibration_test {
 namespace {
 
 TEST(Calibration, RisesWithTheBeliefAndStaysAProbability) {
@@ -59,4 +59,4 @@ TEST(Calibration, NeverFallsWithTheBelief) {
 }
 
 }  // namespace
-}  // namespace homeward::localisation
+}  // namespace homeward::localisation::calibration_test

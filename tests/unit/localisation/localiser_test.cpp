@@ -13,7 +13,7 @@
 #include "support/planar_scene.hpp"
 #include "support/sample_map.hpp"
 
-namespace homeward::localisation {
+namespace homeward::localisation::localiser_test {
 namespace {
 
 constexpr int kPlaces = 10;
@@ -411,4 +411,4 @@ TEST(Localiser, AnEmptyMapIsLost) {
 }
 
 }  // namespace
-}  // namespace homeward::localisation
+}  // namespace homeward::localisation::localiser_test

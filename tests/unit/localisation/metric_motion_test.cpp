@@ -7,7 +7,7 @@
 
 #include "support/ascii_map.hpp"
 
-namespace homeward::localisation {
+namespace homeward::localisation::metric_motion_test {
 namespace {
 
 /// A drawing whose units are metres of odometry.
@@ -121,4 +121,4 @@ TEST(MetricMotion, SearchesNoFurtherOnALargeMap) {
 }
 
 }  // namespace
-}  // namespace homeward::localisation
+}  // namespace homeward::localisation::metric_motion_test

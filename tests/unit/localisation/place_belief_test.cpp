@@ -7,7 +7,7 @@
 
 #include "support/ascii_map.hpp"
 
-namespace homeward::localisation {
+namespace homeward::localisation::place_belief_test {
 namespace {
 
 constexpr double kFloor = 1e-4;
@@ -218,4 +218,4 @@ TEST(PlaceBelief, AMapWithoutPlacesIsElsewhere) {
 }
 
 }  // namespace
-}  // namespace homeward::localisation
+}  // namespace homeward::localisation::place_belief_test

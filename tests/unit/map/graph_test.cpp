@@ -6,7 +6,7 @@
 #include "map/lookup.hpp"
 #include "support/ascii_map.hpp"
 
-namespace homeward::map {
+namespace homeward::map::graph_test {
 namespace {
 
 constexpr const char* kTwoFloors = R"(
@@ -66,4 +66,4 @@ TEST(Lookup, FindsThePlaceOfAnImage) {
 }
 
 }  // namespace
-}  // namespace homeward::map
+}  // namespace homeward::map::graph_test

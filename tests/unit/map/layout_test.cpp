@@ -8,7 +8,7 @@
 #include "map/lookup.hpp"
 #include "support/ascii_map.hpp"
 
-namespace homeward::map {
+namespace homeward::map::layout_test {
 namespace {
 
 double apart(const std::vector<Eigen::Vector2d>& at, std::size_t a, std::size_t b) { return (at[a] - at[b]).norm(); }
@@ -76,4 +76,4 @@ TEST(Layout, IsEmptyForAnEmptyMapAndInsideForOnePlace) {
 }
 
 }  // namespace
-}  // namespace homeward::map
+}  // namespace homeward::map::layout_test

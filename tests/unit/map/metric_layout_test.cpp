@@ -12,7 +12,7 @@
 #include "core/angles.hpp"
 #include "support/ascii_map.hpp"
 
-namespace homeward::map {
+namespace homeward::map::metric_layout_test {
 namespace {
 
 constexpr double kStep_m = 0.5;     // between pictures
@@ -277,4 +277,4 @@ TEST(MetricLayout, PassesOverEdgesOfPlacesThatAreGone) {
 }
 
 }  // namespace
-}  // namespace homeward::map
+}  // namespace homeward::map::metric_layout_test

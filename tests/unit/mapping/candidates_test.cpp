@@ -9,7 +9,7 @@
 
 #include "support/sample_map.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::candidates_test {
 namespace {
 
 constexpr int kFeatures = 40;
@@ -204,4 +204,4 @@ TEST(SecondCandidates, AreTheBestSupportedFew) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::candidates_test

@@ -10,7 +10,7 @@
 #include "core/angles.hpp"
 #include "mapping/closed_loops.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::closed_way_test {
 namespace {
 
 /// A corridor of `length` steps driven there and back `times` times; lengths of the pictures alone, odd lanes 0.3 steps
@@ -259,4 +259,4 @@ TEST(CloseWay, RunsAreGroups) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::closed_way_test

@@ -10,7 +10,7 @@
 
 #include "mapping/subclusters.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::clustering_test {
 namespace {
 
 using Matrix = std::vector<std::vector<float>>;
@@ -221,4 +221,4 @@ TEST(Medoid, IsNearestToTheOthersByTheMedian) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::clustering_test

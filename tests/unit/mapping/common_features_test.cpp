@@ -8,7 +8,7 @@
 
 #include "support/sample_map.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::common_features_test {
 namespace {
 
 using ::testing::Each;
@@ -101,4 +101,4 @@ TEST(CommonFeatures, AreNotKnownWhereNothingIsFar) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::common_features_test

@@ -10,7 +10,7 @@
 #include "support/planar_scene.hpp"
 #include "support/sample_map.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::compare_all_test {
 namespace {
 
 /// Views of one cloud of points on a way, with descriptors that tell the points apart.
@@ -108,4 +108,4 @@ TEST(ParallelFor, PassesAnExceptionOn) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::compare_all_test

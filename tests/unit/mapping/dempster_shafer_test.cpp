@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace homeward::mapping {
+namespace homeward::mapping::dempster_shafer_test {
 namespace {
 
 map::Masses random_masses(std::mt19937_64& random) {
@@ -82,4 +82,4 @@ TEST(Evidence, SharesItsWeightBySimilarity) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::dempster_shafer_test

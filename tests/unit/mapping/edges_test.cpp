@@ -8,7 +8,7 @@
 #include "mapping/extra_places.hpp"
 #include "support/corridor_tour.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::edges_test {
 namespace {
 
 using homeward::testing::corridor_tour;
@@ -246,4 +246,4 @@ TEST(ExtraPlaces, MendAWholeMap) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::edges_test

@@ -6,7 +6,7 @@
 #include "map/lookup.hpp"
 #include "support/corridor_tour.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::edits_test {
 namespace {
 
 using map::EditKind;
@@ -168,4 +168,4 @@ TEST(Edits, WhatCannotBeIsRefusedAndChangesNothing) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::edits_test

@@ -13,7 +13,7 @@
 #include "mapping/edits.hpp"
 #include "support/corridor_tour.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::grow_test {
 namespace {
 
 using homeward::testing::corridor_tour;
@@ -383,4 +383,4 @@ TEST_F(Grow, ImagesAreAddedOnce) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::grow_test

@@ -8,7 +8,7 @@
 #include "mapping/dempster_shafer.hpp"
 #include "mapping/similarity.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::hypotheses_test {
 namespace {
 
 /// Subclusters of one image each, at these images, in these clusters.
@@ -196,4 +196,4 @@ TEST(UsualDistances, AreAnEmpiricalDistribution) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::hypotheses_test

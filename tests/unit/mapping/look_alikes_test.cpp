@@ -8,7 +8,7 @@
 #include "mapping/hypotheses.hpp"
 #include "mapping/map_builder.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::look_alikes_test {
 namespace {
 
 constexpr WayEvidence kAgreeing{TrackVerdict::kAgrees, 0.9};
@@ -200,4 +200,4 @@ INSTANTIATE_TEST_SUITE_P(Tours, LookAlikeRooms, ::testing::Values(true, false), 
 });
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::look_alikes_test

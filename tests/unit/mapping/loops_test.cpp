@@ -11,7 +11,7 @@
 #include "mapping/grow.hpp"
 #include "support/corridor_tour.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::loops_test {
 namespace {
 
 using homeward::testing::corridor_tour;
@@ -230,4 +230,4 @@ TEST(CloseLoops, GrowingTakesBackWhatTheNewToursLoopsExclude) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::loops_test

@@ -9,7 +9,7 @@
 #include "map/lookup.hpp"
 #include "support/corridor_tour.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::map_builder_test {
 namespace {
 
 using homeward::testing::corridor_tour;
@@ -188,4 +188,4 @@ TEST(PairTable, ARelationFromTheOtherSideIsItsInverse) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::map_builder_test

@@ -7,7 +7,7 @@
 
 #include "support/sample_map.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::old_places_test {
 namespace {
 
 constexpr double kStep_m = 0.4;
@@ -161,4 +161,4 @@ TEST(OldPlaces, WhatWasTakenBackInTheOldMapCountsAgainstLooks) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::old_places_test

@@ -6,7 +6,7 @@
 #include <map>
 #include <random>
 
-namespace homeward::mapping {
+namespace homeward::mapping::pair_table_test {
 namespace {
 
 TEST(PairTable, HoldsWhatWasSetInAnyOrder) {
@@ -50,4 +50,4 @@ TEST(PairTable, ManyImagesTakeNoMemoryUntilPairsAreSet) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::pair_table_test

@@ -8,7 +8,7 @@
 #include "mapping/map_builder.hpp"
 #include "support/corridor_tour.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::rebuild_test {
 namespace {
 
 using homeward::testing::corridor_tour;
@@ -198,4 +198,4 @@ TEST_F(Rebuild, AnUndoneEditIsNotReplayed) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::rebuild_test

@@ -7,7 +7,7 @@
 #include "support/sample_map.hpp"
 #include "wire/appearance_blob.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::refine_test {
 namespace {
 
 constexpr std::int64_t kPlenty = 100'000'000;
@@ -151,4 +151,4 @@ TEST(Thinned, KeepsTheFirstAndItsBytesAreThoseOfTheFile) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::refine_test

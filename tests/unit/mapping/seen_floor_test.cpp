@@ -5,7 +5,7 @@
 
 #include "support/walled_floor.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::seen_floor_test {
 namespace {
 
 using testing::sweep_at;
@@ -106,4 +106,4 @@ TEST(SeenFloor, SweepsAgreeWhereTheLayoutIsRight) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::seen_floor_test

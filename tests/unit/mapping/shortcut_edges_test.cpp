@@ -7,7 +7,7 @@
 #include "mapping/edits.hpp"
 #include "support/horseshoe.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::shortcut_edges_test {
 namespace {
 
 using map::EditKind;
@@ -166,4 +166,4 @@ TEST(ShortcutEdges, GivesWayToAnEdgeThatATourDrove) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::shortcut_edges_test

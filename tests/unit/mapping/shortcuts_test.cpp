@@ -8,7 +8,7 @@
 #include "mapping/shortcut_edges.hpp"
 #include "support/horseshoe.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::shortcuts_test {
 namespace {
 
 using testing::Horseshoe;
@@ -132,4 +132,4 @@ TEST(Shortcuts, ABlockedEdgeIsNoReasonForOne) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::shortcuts_test

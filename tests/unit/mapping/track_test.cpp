@@ -7,7 +7,7 @@
 
 #include "core/angles.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::track_test {
 namespace {
 
 /// A drive with what pictures and odometry tell of it: both exact unless a test spoils one.
@@ -180,4 +180,4 @@ TEST(TourTrack, WithoutOdometryAndParallaxItKnowsNothing) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::track_test

@@ -5,7 +5,7 @@
 
 #include "core/angles.hpp"
 
-namespace homeward::mapping {
+namespace homeward::mapping::two_ways_test {
 namespace {
 
 /// A straight drive with odometry, 0.4 m a step.
@@ -118,4 +118,4 @@ TEST(MeetingTrust, WhatIsTooNearOrTooFarSaysNothing) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping
+}  // namespace homeward::mapping::two_ways_test

@@ -8,7 +8,7 @@
 
 #include "core/angles.hpp"
 
-namespace homeward::matching {
+namespace homeward::matching::confidence_test {
 namespace {
 
 using geometry::Correspondence;
@@ -121,4 +121,4 @@ TEST(Confidence, IsAProbabilityWhateverTheSigns) {
 }
 
 }  // namespace
-}  // namespace homeward::matching
+}  // namespace homeward::matching::confidence_test

@@ -6,7 +6,7 @@
 
 #include "matching/confidence.hpp"
 
-namespace homeward::matching {
+namespace homeward::matching::distinctiveness_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -80,4 +80,4 @@ TEST(DistinctShare, LowersTheConfidenceAndNeverRaisesIt) {
 }
 
 }  // namespace
-}  // namespace homeward::matching
+}  // namespace homeward::matching::distinctiveness_test

@@ -9,7 +9,7 @@
 #include "features/columns.hpp"
 #include "geometry/planar_motion.hpp"
 
-namespace homeward::matching {
+namespace homeward::matching::match_columns_test {
 namespace {
 
 features::FeatureSet empty_set(int count) {
@@ -149,4 +149,4 @@ TEST(MatchColumns, TheCorrespondenceOfAMatchFitsTheMotion) {
 }
 
 }  // namespace
-}  // namespace homeward::matching
+}  // namespace homeward::matching::match_columns_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace homeward::matching {
+namespace homeward::matching::match_odds_test {
 namespace {
 
 double odds(double ratio, FeatureKind kind) { return odds_of({0, 0, kind, static_cast<float>(ratio)}); }
@@ -30,4 +30,4 @@ TEST(MatchOdds, OfAColumnSayLessThanOfASiftFeature) {
 }
 
 }  // namespace
-}  // namespace homeward::matching
+}  // namespace homeward::matching::match_odds_test

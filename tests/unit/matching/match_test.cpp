@@ -5,7 +5,7 @@
 
 #include "support/sample_map.hpp"
 
-namespace homeward::matching {
+namespace homeward::matching::match_test {
 namespace {
 
 /// Features with the given descriptors (padded with zeros) and no colour.
@@ -117,4 +117,4 @@ TEST(Match, FindsAllOfAShuffledCopyAndIsTheSameFromTheOtherSide) {
 }
 
 }  // namespace
-}  // namespace homeward::matching
+}  // namespace homeward::matching::match_test

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace homeward::matching {
+namespace homeward::matching::nearest_test {
 namespace {
 
 ByteDescriptors random_descriptors(int count, int length, int levels, std::uint64_t seed) {
@@ -59,4 +59,4 @@ TEST(Nearest, OneTargetHasNoSecond) {
 }
 
 }  // namespace
-}  // namespace homeward::matching
+}  // namespace homeward::matching::nearest_test

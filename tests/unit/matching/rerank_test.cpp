@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace homeward::matching {
+namespace homeward::matching::rerank_test {
 namespace {
 
 constexpr int kLength = 32;
@@ -102,4 +102,4 @@ TEST(Rerank, NothingToCompareGivesZeros) {
 }
 
 }  // namespace
-}  // namespace homeward::matching
+}  // namespace homeward::matching::rerank_test

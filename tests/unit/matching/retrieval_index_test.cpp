@@ -6,7 +6,7 @@
 #include "matching/place_code.hpp"
 #include "support/clustered_features.hpp"
 
-namespace homeward::matching {
+namespace homeward::matching::retrieval_index_test {
 namespace {
 
 using features::FeatureSet;
@@ -252,4 +252,4 @@ TEST(RetrievalIndex, FlippedBytesNeverHarm) {
 }
 
 }  // namespace
-}  // namespace homeward::matching
+}  // namespace homeward::matching::retrieval_index_test

@@ -8,7 +8,7 @@
 #include "support/planar_scene.hpp"
 #include "support/sample_map.hpp"
 
-namespace homeward::matching {
+namespace homeward::matching::visual_distance_test {
 namespace {
 
 using homeward::testing::painted_panorama;
@@ -148,4 +148,4 @@ TEST(VisualDistance, IsNearlySymmetricAndTheSameForTheSameSeed) {
 }
 
 }  // namespace
-}  // namespace homeward::matching
+}  // namespace homeward::matching::visual_distance_test

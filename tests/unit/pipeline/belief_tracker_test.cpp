@@ -7,7 +7,7 @@
 #include "pipeline/build_map.hpp"
 #include "support/painted_tour.hpp"
 
-namespace homeward::pipeline {
+namespace homeward::pipeline::belief_tracker_test {
 namespace {
 
 using homeward::testing::MemoryTour;
@@ -95,4 +95,4 @@ TEST_F(Tracker, AnotherCameraMayFollowTheSameMap) {
 }
 
 }  // namespace
-}  // namespace homeward::pipeline
+}  // namespace homeward::pipeline::belief_tracker_test

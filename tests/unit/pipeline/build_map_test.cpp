@@ -8,7 +8,7 @@
 #include "features/appearance.hpp"
 #include "support/painted_tour.hpp"
 
-namespace homeward::pipeline {
+namespace homeward::pipeline::build_map_test {
 namespace {
 
 using homeward::testing::drive;
@@ -260,4 +260,4 @@ TEST(BuildMap, WrongMarksDoubleImagesAndBadCamerasAreRefused) {
 }
 
 }  // namespace
-}  // namespace homeward::pipeline
+}  // namespace homeward::pipeline::build_map_test

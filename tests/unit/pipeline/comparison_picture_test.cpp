@@ -8,7 +8,7 @@
 #include "pipeline/eye.hpp"
 #include "support/painted_tour.hpp"
 
-namespace homeward::pipeline {
+namespace homeward::pipeline::comparison_picture_test {
 namespace {
 
 /// Pixels of about this colour.
@@ -109,4 +109,4 @@ TEST_F(ComparisonPicture, CutsOffWhatNeitherViewShows) {
 }
 
 }  // namespace
-}  // namespace homeward::pipeline
+}  // namespace homeward::pipeline::comparison_picture_test

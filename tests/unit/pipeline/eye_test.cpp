@@ -13,7 +13,7 @@
 #include "support/painted_room.hpp"
 #include "support/sample_cameras.hpp"
 
-namespace homeward::pipeline {
+namespace homeward::pipeline::eye_test {
 namespace {
 
 Eye eye_of(const camera::CameraConfig& config) {
@@ -135,4 +135,4 @@ TEST_F(MirrorEye, EmptyTinyAndBrokenPicturesAreNamed) {
 }
 
 }  // namespace
-}  // namespace homeward::pipeline
+}  // namespace homeward::pipeline::eye_test

@@ -7,7 +7,7 @@
 #include "pipeline/refine_map.hpp"
 #include "support/painted_tour.hpp"
 
-namespace homeward::pipeline {
+namespace homeward::pipeline::grow_map_test {
 namespace {
 
 using homeward::testing::drive;
@@ -190,4 +190,4 @@ TEST(RefineMap, NothingIsLearntFromElsewhere) {
 }
 
 }  // namespace
-}  // namespace homeward::pipeline
+}  // namespace homeward::pipeline::grow_map_test

@@ -7,7 +7,7 @@
 #include "support/ascii_map.hpp"
 #include "support/sample_map.hpp"
 
-namespace homeward::pipeline {
+namespace homeward::pipeline::learn_calibration_test {
 namespace {
 
 constexpr int kPlaces = 8;
@@ -114,4 +114,4 @@ TEST(LearnCalibration, CanBeCancelled) {
 }
 
 }  // namespace
-}  // namespace homeward::pipeline
+}  // namespace homeward::pipeline::learn_calibration_test

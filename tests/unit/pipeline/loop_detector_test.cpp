@@ -7,7 +7,7 @@
 
 #include "support/landmarks.hpp"
 
-namespace homeward::pipeline {
+namespace homeward::pipeline::loop_detector_test {
 namespace {
 
 constexpr int kGap = 8;
@@ -181,4 +181,4 @@ TEST(LoopDetector, FeaturesOfOneLengthOnly) {
 }
 
 }  // namespace
-}  // namespace homeward::pipeline
+}  // namespace homeward::pipeline::loop_detector_test

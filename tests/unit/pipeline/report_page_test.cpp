@@ -8,7 +8,7 @@
 #include "support/painted_tour.hpp"
 #include "support/well_formed.hpp"
 
-namespace homeward::pipeline {
+namespace homeward::pipeline::report_page_test {
 namespace {
 
 using homeward::testing::drive;
@@ -244,4 +244,4 @@ TEST(ReportHtml, TheCheckOfTagsFindsWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace homeward::pipeline
+}  // namespace homeward::pipeline::report_page_test

@@ -9,7 +9,7 @@
 #include "support/painted_room.hpp"
 #include "support/sample_cameras.hpp"
 
-namespace homeward::pipeline {
+namespace homeward::pipeline::row_localisation_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -102,4 +102,4 @@ TEST_F(LocaliseRows, NamesTheRowAndPictureThatIsNoGood) {
 }
 
 }  // namespace
-}  // namespace homeward::pipeline
+}  // namespace homeward::pipeline::row_localisation_test

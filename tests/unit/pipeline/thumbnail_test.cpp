@@ -6,7 +6,7 @@
 #include "imageio/decode.hpp"
 #include "support/painted_tour.hpp"
 
-namespace homeward::pipeline {
+namespace homeward::pipeline::thumbnail_test {
 namespace {
 
 class Thumbnail : public ::testing::Test {
@@ -39,4 +39,4 @@ TEST_F(Thumbnail, APictureOfAnotherSizeIsAnErrorThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace homeward::pipeline
+}  // namespace homeward::pipeline::thumbnail_test

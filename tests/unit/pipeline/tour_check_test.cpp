@@ -11,7 +11,7 @@
 #include "pipeline/picture_frame.hpp"
 #include "support/sample_cameras.hpp"
 
-namespace homeward::pipeline {
+namespace homeward::pipeline::tour_check_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -218,4 +218,4 @@ TEST(OneCamera, ADarkRoomIsNoOtherCamera) {
 }
 
 }  // namespace
-}  // namespace homeward::pipeline
+}  // namespace homeward::pipeline::tour_check_test

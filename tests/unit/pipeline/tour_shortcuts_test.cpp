@@ -7,7 +7,7 @@
 
 #include "support/horseshoe.hpp"
 
-namespace homeward::pipeline {
+namespace homeward::pipeline::tour_shortcuts_test {
 namespace {
 
 /// The tour that made the horseshoe, without its pictures.
@@ -49,4 +49,4 @@ TEST(TourShortcuts, ComeFromTheSweepsOfTours) {
 }
 
 }  // namespace
-}  // namespace homeward::pipeline
+}  // namespace homeward::pipeline::tour_shortcuts_test

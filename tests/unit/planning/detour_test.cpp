@@ -5,7 +5,7 @@
 
 #include "support/ascii_map.hpp"
 
-namespace homeward::planning {
+namespace homeward::planning::detour_test {
 namespace {
 
 using Ways = std::vector<Way>;
@@ -121,4 +121,4 @@ TEST(LongestMission, IsTenMinutesAndMoreForLongWays) {
 }
 
 }  // namespace
-}  // namespace homeward::planning
+}  // namespace homeward::planning::detour_test

@@ -10,7 +10,7 @@
 #include "map/lookup.hpp"
 #include "support/ascii_map.hpp"
 
-namespace homeward::planning {
+namespace homeward::planning::route_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -268,4 +268,4 @@ TEST(PlanRoute, NamesAPlaceThatDoesNotExist) {
 }
 
 }  // namespace
-}  // namespace homeward::planning
+}  // namespace homeward::planning::route_test

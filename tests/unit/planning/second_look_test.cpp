@@ -5,7 +5,7 @@
 
 #include "support/ascii_map.hpp"
 
-namespace homeward::planning {
+namespace homeward::planning::second_look_test {
 namespace {
 
 using homeward::testing::ascii_map;
@@ -95,4 +95,4 @@ TEST(SecondLook, SumsWhatBothHalvesCost) {
 }
 
 }  // namespace
-}  // namespace homeward::planning
+}  // namespace homeward::planning::second_look_test

@@ -9,7 +9,7 @@
 #include "support/ascii_map.hpp"
 #include "support/landmarks.hpp"
 
-namespace homeward::planning {
+namespace homeward::planning::surroundings_test {
 namespace {
 
 using homeward::testing::spelled;
@@ -172,4 +172,4 @@ TEST(Surroundings, AreTheSameForTheSameMapAndRoute) {
 }
 
 }  // namespace
-}  // namespace homeward::planning
+}  // namespace homeward::planning::surroundings_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace homeward::recording {
+namespace homeward::recording::memory_json_test {
 namespace {
 
 TEST(MemoryJson, KeepsWhatOutlivesTheBeginningOfAMission) {
@@ -110,4 +110,4 @@ TEST(MemoryJson, OfNothingKeptNothingComesBack) {
 }
 
 }  // namespace
-}  // namespace homeward::recording
+}  // namespace homeward::recording::memory_json_test

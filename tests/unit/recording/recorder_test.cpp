@@ -7,7 +7,7 @@
 #include "recording/replay.hpp"
 #include "unit/recording/recorded_drive.hpp"
 
-namespace homeward::recording {
+namespace homeward::recording::recorder_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -173,4 +173,4 @@ TEST_F(RecorderTest, RefusesLimitsThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace homeward::recording
+}  // namespace homeward::recording::recorder_test

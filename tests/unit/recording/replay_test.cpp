@@ -6,7 +6,7 @@
 #include "recording/export.hpp"
 #include "unit/recording/recorded_drive.hpp"
 
-namespace homeward::recording {
+namespace homeward::recording::replay_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -204,4 +204,4 @@ TEST_F(Replay, WritesARecordingOutAsATour) {
 }
 
 }  // namespace
-}  // namespace homeward::recording
+}  // namespace homeward::recording::replay_test

@@ -7,7 +7,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
-namespace homeward::recording {
+namespace homeward::recording::settings_json_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -52,4 +52,4 @@ TEST(SettingsJson, RefuseWhatTheyDoNotKnow) {
 }
 
 }  // namespace
-}  // namespace homeward::recording
+}  // namespace homeward::recording::settings_json_test

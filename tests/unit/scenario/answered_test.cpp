@@ -9,7 +9,7 @@
 #include "sim/generate/worlds.hpp"
 #include "wire/appearance_blob.hpp"
 
-namespace homeward::scenario {
+namespace homeward::scenario::answered_test {
 namespace {
 
 /// A drive of 1.2 m along the corridor of the generated offices, in light that costs nothing, to a destination that the
@@ -92,4 +92,4 @@ TEST_F(Answered, SomebodyAnswersTwoSecondsAfterItAsks) {
 }
 
 }  // namespace
-}  // namespace homeward::scenario
+}  // namespace homeward::scenario::answered_test

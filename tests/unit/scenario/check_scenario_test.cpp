@@ -9,7 +9,7 @@
 #include "sim/generate/worlds.hpp"
 #include "support/box_world.hpp"
 
-namespace homeward::scenario {
+namespace homeward::scenario::check_scenario_test {
 namespace {
 
 using homeward::testing::box_world;
@@ -218,4 +218,4 @@ TEST(MissionPlans, AreDrawnFromTheDestinationsInAnyOrder) {
 }
 
 }  // namespace
-}  // namespace homeward::scenario
+}  // namespace homeward::scenario::check_scenario_test

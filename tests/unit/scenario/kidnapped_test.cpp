@@ -14,7 +14,7 @@
 #include "sim/generate/worlds.hpp"
 #include "wire/appearance_blob.hpp"
 
-namespace homeward::scenario {
+namespace homeward::scenario::kidnapped_test {
 namespace {
 
 /// The generated offices, eight that look alike along a corridor, in light that costs nothing, and places of them.
@@ -171,4 +171,4 @@ TEST_F(Kidnapped, NotWhereThereIsNoOtherSpot) {
 }
 
 }  // namespace
-}  // namespace homeward::scenario
+}  // namespace homeward::scenario::kidnapped_test

@@ -11,7 +11,7 @@
 #include "sim/generate/worlds.hpp"
 #include "sim/moved_furniture.hpp"
 
-namespace homeward::scenario {
+namespace homeward::scenario::scenario_parts_test {
 namespace {
 
 class StartingPose : public ::testing::TestWithParam<bool> {
@@ -153,4 +153,4 @@ TEST_F(SimulatedDrive, ABoxIsSeenMeasuredAndInTheWay) {
 }
 
 }  // namespace
-}  // namespace homeward::scenario
+}  // namespace homeward::scenario::scenario_parts_test

@@ -8,7 +8,7 @@
 #include "sim/generate/builder.hpp"
 #include "sim/laser.hpp"
 
-namespace homeward::scenario {
+namespace homeward::scenario::simulated_robot_test {
 namespace {
 
 TEST(SafetyScanner, SeesATableTopAtAnyHeightThatABodyCanTouch) {
@@ -30,4 +30,4 @@ TEST(SafetyScanner, SeesATableTopAtAnyHeightThatABodyCanTouch) {
 TEST(SafetyRing, HearsAsHighUpAsTheScannerSees) { EXPECT_EQ(safety_ring().heights_m, safety_scanner().heights_m); }
 
 }  // namespace
-}  // namespace homeward::scenario
+}  // namespace homeward::scenario::simulated_robot_test

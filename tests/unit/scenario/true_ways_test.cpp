@@ -6,7 +6,7 @@
 #include "support/ascii_map.hpp"
 #include "support/box_world.hpp"
 
-namespace homeward::scenario {
+namespace homeward::scenario::true_ways_test {
 namespace {
 
 /// A round of four places, 2 m apart; the way straight from A to C is a shortcut.
@@ -67,4 +67,4 @@ TEST(TrueWays, TellWhetherABodyGetsAlongStraight) {
 }
 
 }  // namespace
-}  // namespace homeward::scenario
+}  // namespace homeward::scenario::true_ways_test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/server_fixture.hpp"
 
-namespace homeward::server {
+namespace homeward::server::account_test {
 namespace {
 
 using testing::Answer;
@@ -97,4 +97,4 @@ TEST_F(AccountTest, TheSameKeyGetsTheSameAnswer) {
 }
 
 }  // namespace
-}  // namespace homeward::server
+}  // namespace homeward::server::account_test

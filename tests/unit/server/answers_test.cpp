@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/driving_fixture.hpp"
 
-namespace homeward::server {
+namespace homeward::server::answers_test {
 namespace {
 
 using nlohmann::json;
@@ -127,4 +127,4 @@ TEST_F(AnswersTest, AfterANoItGoesOnAsAfterAnyDriveThatFailed) {
 }
 
 }  // namespace
-}  // namespace homeward::server
+}  // namespace homeward::server::answers_test

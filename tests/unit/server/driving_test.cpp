@@ -3,7 +3,7 @@
 
 #include "support/driving_fixture.hpp"
 
-namespace homeward::server {
+namespace homeward::server::driving_test {
 namespace {
 
 using nlohmann::json;
@@ -381,4 +381,4 @@ TEST_F(DrivingTest, DashboardsHearEverythingInOrder) {
 }
 
 }  // namespace
-}  // namespace homeward::server
+}  // namespace homeward::server::driving_test

@@ -5,7 +5,7 @@
 #include "server/http/router.hpp"
 #include "support/server_fixture.hpp"
 
-namespace homeward::server {
+namespace homeward::server::front_test {
 namespace {
 
 TEST(Router, FindsByMethodAndPathAndDecodesParameters) {
@@ -136,4 +136,4 @@ TEST_F(FrontTest, ServesTheDashboardAndNothingBesideIt) {
 }
 
 }  // namespace
-}  // namespace homeward::server
+}  // namespace homeward::server::front_test

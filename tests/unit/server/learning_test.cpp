@@ -15,7 +15,7 @@
 #define HOMEWARD_NOT_UNDER_THREAD_SANITIZER() static_cast<void>(0)
 #endif
 
-namespace homeward::server {
+namespace homeward::server::learning_test {
 namespace {
 
 using nlohmann::json;
@@ -402,4 +402,4 @@ TEST_F(LearningTest, DrivesThatDoNotFitTheMapAnyMoreChangeNothing) {
 }
 
 }  // namespace
-}  // namespace homeward::server
+}  // namespace homeward::server::learning_test

@@ -3,7 +3,7 @@
 
 #include "support/driving_fixture.hpp"
 
-namespace homeward::server {
+namespace homeward::server::lost_test {
 namespace {
 
 using nlohmann::json;
@@ -266,4 +266,4 @@ TEST_F(LostTest, ARobotThatWasMovedWithoutItsWheelsIsNotTakenToBeWhereItWas) {
 }
 
 }  // namespace
-}  // namespace homeward::server
+}  // namespace homeward::server::lost_test

@@ -4,7 +4,7 @@
 #include "server/services/tours.hpp"
 #include "support/server_fixture.hpp"
 
-namespace homeward::server {
+namespace homeward::server::tour_test {
 namespace {
 
 using nlohmann::json;
@@ -241,4 +241,4 @@ TEST_F(TourTest, ABuildIsCancelledOrOutlivesARestart) {
 }
 
 }  // namespace
-}  // namespace homeward::server
+}  // namespace homeward::server::tour_test

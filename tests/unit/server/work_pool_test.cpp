@@ -7,7 +7,7 @@
 #include <future>
 #include <thread>
 
-namespace homeward::server {
+namespace homeward::server::work_pool_test {
 namespace {
 
 /// A task that runs until it is let go, and tells when it has begun.
@@ -70,4 +70,4 @@ TEST(WorkPool, StopEndsTheRunningTaskInOrderAndDropsWhatWaits) {
 }
 
 }  // namespace
-}  // namespace homeward::server
+}  // namespace homeward::server::work_pool_test

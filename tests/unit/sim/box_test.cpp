@@ -6,7 +6,7 @@
 #include "core/angles.hpp"
 #include "sim/floor.hpp"
 
-namespace homeward::sim {
+namespace homeward::sim::box_test {
 namespace {
 
 TEST(Box, IsMetWhereItsNearestFaceStands) {
@@ -40,4 +40,4 @@ TEST(Box, IsSeenFromAbove) {
 }
 
 }  // namespace
-}  // namespace homeward::sim
+}  // namespace homeward::sim::box_test

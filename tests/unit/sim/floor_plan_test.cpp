@@ -8,7 +8,7 @@
 #include "core/angles.hpp"
 #include "sim/generate/builder.hpp"
 
-namespace homeward::sim {
+namespace homeward::sim::floor_plan_test {
 namespace {
 
 constexpr double kFar_m = 5.0;
@@ -85,4 +85,4 @@ TEST(FloorPlan, HoldsBoxesInsideAndOutsideItsWalls) {
 }
 
 }  // namespace
-}  // namespace homeward::sim
+}  // namespace homeward::sim::floor_plan_test

@@ -5,7 +5,7 @@
 
 #include "support/box_world.hpp"
 
-namespace homeward::sim {
+namespace homeward::sim::floor_test {
 namespace {
 
 FloorGrid random_grid(int width, int height, double share, std::uint64_t seed) {
@@ -126,4 +126,4 @@ TEST(RandomFreePoint, IsAlwaysFree) {
 }
 
 }  // namespace
-}  // namespace homeward::sim
+}  // namespace homeward::sim::floor_test

@@ -8,7 +8,7 @@
 
 #include "sim/floor.hpp"
 
-namespace homeward::sim {
+namespace homeward::sim::laboratory_test {
 namespace {
 
 LaboratoryState arranged(std::uint64_t arrangement) {
@@ -94,4 +94,4 @@ TEST(Laboratory, DaylightComesThroughTheWindowsAlone) {
 }
 
 }  // namespace
-}  // namespace homeward::sim
+}  // namespace homeward::sim::laboratory_test

@@ -5,7 +5,7 @@
 
 #include "support/box_world.hpp"
 
-namespace homeward::sim {
+namespace homeward::sim::laser_test {
 namespace {
 
 constexpr double kNoNoise_m = 1e-9;
@@ -86,4 +86,4 @@ TEST(Laser, ItsNoiseHasTheStatedSpreadAndComesFromTheSeed) {
 }
 
 }  // namespace
-}  // namespace homeward::sim
+}  // namespace homeward::sim::laser_test

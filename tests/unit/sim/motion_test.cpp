@@ -6,7 +6,7 @@
 #include "sim/floor.hpp"
 #include "support/box_world.hpp"
 
-namespace homeward::sim {
+namespace homeward::sim::motion_test {
 namespace {
 
 constexpr double kTick_s = 0.05;
@@ -286,4 +286,4 @@ TEST(Walkers, GetPastARobotThatHasComeNearerThanTheyLike) {
 }
 
 }  // namespace
-}  // namespace homeward::sim
+}  // namespace homeward::sim::motion_test

@@ -8,7 +8,7 @@
 #include "sim/floor.hpp"
 #include "sim/generate/worlds.hpp"
 
-namespace homeward::sim {
+namespace homeward::sim::moved_furniture_test {
 namespace {
 
 Eigen::Vector2d shift_of(const World& before, const World& after, const Furniture& piece) {
@@ -74,4 +74,4 @@ TEST(MovedFurniture, IsRefusedWhereNobodySaidWhatIsFurniture) {
 }
 
 }  // namespace
-}  // namespace homeward::sim
+}  // namespace homeward::sim::moved_furniture_test

@@ -6,7 +6,7 @@
 #include "support/box_world.hpp"
 #include "support/sample_cameras.hpp"
 
-namespace homeward::sim {
+namespace homeward::sim::renderer_test {
 namespace {
 
 std::shared_ptr<const camera::Camera> made(const camera::CameraConfig& config) {
@@ -202,4 +202,4 @@ TEST(Tessellate, KeepsTheSurfaceInSmallerPieces) {
 }
 
 }  // namespace
-}  // namespace homeward::sim
+}  // namespace homeward::sim::renderer_test

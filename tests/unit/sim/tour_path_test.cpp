@@ -6,7 +6,7 @@
 #include "sim/floor.hpp"
 #include "support/box_world.hpp"
 
-namespace homeward::sim {
+namespace homeward::sim::tour_path_test {
 namespace {
 
 TEST(PlanTour, StepsEvenlyOverTheFloorFromRoomToRoom) {
@@ -98,4 +98,4 @@ TEST(AllRooms, OfFewRoomsThereIsNothingToComeBackTo) {
 }
 
 }  // namespace
-}  // namespace homeward::sim
+}  // namespace homeward::sim::tour_path_test

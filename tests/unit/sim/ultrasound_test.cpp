@@ -8,7 +8,7 @@
 #include "sim/renderer.hpp"
 #include "support/box_world.hpp"
 
-namespace homeward::sim {
+namespace homeward::sim::ultrasound_test {
 namespace {
 
 UltrasoundConfig quiet() {
@@ -57,4 +57,4 @@ TEST(Ultrasound, HearsPeopleAndNothingBeyondItsReach) {
 }
 
 }  // namespace
-}  // namespace homeward::sim
+}  // namespace homeward::sim::ultrasound_test

@@ -13,7 +13,7 @@
 #include "sim/renderer.hpp"
 #include "support/sample_cameras.hpp"
 
-namespace homeward::sim {
+namespace homeward::sim::wards_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -212,4 +212,4 @@ TEST(Wards, PatternsRepeatEveryTwoToFiveMetresAndRunOn) {
 }
 
 }  // namespace
-}  // namespace homeward::sim
+}  // namespace homeward::sim::wards_test

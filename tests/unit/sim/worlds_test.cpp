@@ -9,7 +9,7 @@
 
 #include "sim/floor.hpp"
 
-namespace homeward::sim {
+namespace homeward::sim::worlds_test {
 namespace {
 
 void expect_sound(const World& world) {
@@ -147,4 +147,4 @@ TEST(House, HasNarrowDoorsWhereTheyAreWanted) {
 }
 
 }  // namespace
-}  // namespace homeward::sim
+}  // namespace homeward::sim::worlds_test

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace homeward::tracking {
+namespace homeward::tracking::intensity_test {
 namespace {
 
 TEST(Intensity, SharesSumToOne) {
@@ -44,4 +44,4 @@ TEST(Intensity, AnEmptyPatchHasNothingInCommonWithAnything) {
 }
 
 }  // namespace
-}  // namespace homeward::tracking
+}  // namespace homeward::tracking::intensity_test

@@ -6,7 +6,7 @@
 #include "core/angles.hpp"
 #include "support/painted_room.hpp"
 
-namespace homeward::tracking {
+namespace homeward::tracking::tracking_frame_test {
 namespace {
 
 using testing::painted_panorama;
@@ -143,4 +143,4 @@ TEST(TrackingFrame, NoPictureHasNoValue) {
 }
 
 }  // namespace
-}  // namespace homeward::tracking
+}  // namespace homeward::tracking::tracking_frame_test

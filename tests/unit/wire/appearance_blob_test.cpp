@@ -5,7 +5,7 @@
 
 #include "support/sample_map.hpp"
 
-namespace homeward::wire {
+namespace homeward::wire::appearance_blob_test {
 namespace {
 
 using homeward::testing::random_appearance;
@@ -82,4 +82,4 @@ TEST(AppearanceBlob, RefusesOtherVersionsAndAHugeCountWithoutReservingMemory) {
 }
 
 }  // namespace
-}  // namespace homeward::wire
+}  // namespace homeward::wire::appearance_blob_test

@@ -7,7 +7,7 @@
 
 #include "support/sample_cameras.hpp"
 
-namespace homeward::wire {
+namespace homeward::wire::camera_json_test {
 namespace {
 
 using nlohmann::json;
@@ -133,4 +133,4 @@ TEST(CameraJson, NoJsonIsSaid) {
 }
 
 }  // namespace
-}  // namespace homeward::wire
+}  // namespace homeward::wire::camera_json_test

@@ -7,7 +7,7 @@
 
 #include "support/sample_map.hpp"
 
-namespace homeward::wire {
+namespace homeward::wire::edit_json_test {
 namespace {
 
 using homeward::testing::sample_map;
@@ -91,4 +91,4 @@ TEST(EditJson, LogsEditsWithNullForNoSecondImage) {
 }
 
 }  // namespace
-}  // namespace homeward::wire
+}  // namespace homeward::wire::edit_json_test

@@ -9,7 +9,7 @@
 #include "wire/json_reader.hpp"
 #include "wire/problem_json.hpp"
 
-namespace homeward::wire {
+namespace homeward::wire::error_table_test {
 namespace {
 
 using ::testing::MatchesRegex;
@@ -68,4 +68,4 @@ TEST(Problem, MustNameOneErrorOnly) {
 }
 
 }  // namespace
-}  // namespace homeward::wire
+}  // namespace homeward::wire::error_table_test

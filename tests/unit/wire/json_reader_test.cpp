@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-namespace homeward::wire {
+namespace homeward::wire::json_reader_test {
 namespace {
 
 using nlohmann::json;
@@ -164,4 +164,4 @@ TEST(ParseJson, SizeAndDepthAreLimited) {
 }
 
 }  // namespace
-}  // namespace homeward::wire
+}  // namespace homeward::wire::json_reader_test

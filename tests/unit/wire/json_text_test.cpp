@@ -5,7 +5,7 @@
 #include "wire/problem_json.hpp"
 #include "wire/tour_json.hpp"
 
-namespace homeward::wire {
+namespace homeward::wire::json_text_test {
 namespace {
 
 /// Whether the error can go out as a problem document: all its text must be UTF-8.
@@ -61,4 +61,4 @@ TEST(Marks, RefuseTheSamePictureTwiceAndEmptyLabels) {
 }
 
 }  // namespace
-}  // namespace homeward::wire
+}  // namespace homeward::wire::json_text_test

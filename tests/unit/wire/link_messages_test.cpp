@@ -9,7 +9,7 @@
 
 #include "support/sample_map.hpp"
 
-namespace homeward::wire {
+namespace homeward::wire::link_messages_test {
 namespace {
 
 using nlohmann::json;
@@ -336,4 +336,4 @@ TEST(LinkMessages, SurviveChangedBytes) {
 }
 
 }  // namespace
-}  // namespace homeward::wire
+}  // namespace homeward::wire::link_messages_test

@@ -7,7 +7,7 @@
 #include "support/sample_map.hpp"
 #include "wire/appearance_blob.hpp"
 
-namespace homeward::wire {
+namespace homeward::wire::mission_order_test {
 namespace {
 
 /// A corridor of four places with one beside it, each of which looks its own way, and a picture of its own at D.
@@ -200,4 +200,4 @@ TEST(AddSurroundings, OfTheLayoutOfAMapGoesOverTheLink) {
 }
 
 }  // namespace
-}  // namespace homeward::wire
+}  // namespace homeward::wire::mission_order_test
