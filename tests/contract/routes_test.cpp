@@ -13,7 +13,7 @@
 #include "server/http/router.hpp"
 #include "support/folders.hpp"
 
-namespace homeward::testing {
+namespace homeward::testing::routes_test {
 namespace {
 
 /// "get_map: GET /api/v1/maps/{map} for viewer" of every operation that the contract promises.
@@ -74,4 +74,4 @@ TEST(Routes, SayWhichAnswersHoldASecret) {
 }
 
 }  // namespace
-}  // namespace homeward::testing
+}  // namespace homeward::testing::routes_test

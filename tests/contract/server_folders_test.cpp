@@ -10,7 +10,7 @@
 
 #include "support/folders.hpp"
 
-namespace homeward::testing {
+namespace homeward::testing::server_folders_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,4 +53,4 @@ TEST(ServerFolders, IncludeOnlyWhatStandsBelowThem) {
 }
 
 }  // namespace
-}  // namespace homeward::testing
+}  // namespace homeward::testing::server_folders_test

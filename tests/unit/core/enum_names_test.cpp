@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace homeward {
+namespace homeward::enum_names_test {
 namespace {
 
 enum class Colour { kRed, kGreen };
@@ -23,4 +23,4 @@ TEST(EnumNames, KnowNoOtherTexts) {
 }
 
 }  // namespace
-}  // namespace homeward
+}  // namespace homeward::enum_names_test

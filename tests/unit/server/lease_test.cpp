@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/driving_fixture.hpp"
 
-namespace homeward::server {
+namespace homeward::server::lease_test {
 namespace {
 
 using nlohmann::json;
@@ -84,4 +84,4 @@ TEST_F(LeaseTest, WithoutALeaseNoOtherWayIsDriven) {
 }
 
 }  // namespace
-}  // namespace homeward::server
+}  // namespace homeward::server::lease_test
