@@ -54,7 +54,7 @@ struct Kept {
 features::FeatureSet first_of(const features::FeatureSet& all, int count) {
   const int rows = std::min(count, all.size());
   return {all.bearings.topRows(rows), all.scales_rad.head(rows), all.descriptors.topRows(rows),
-          all.colours.topRows(rows)};
+          all.colours.topRows(rows), {}};
 }
 
 Numbers sift_numbers(const Numbers& descriptors, int length) {
