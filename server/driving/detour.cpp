@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-
 #include "map/lookup.hpp"
 #include "planning/detour.hpp"
 #include "planning/second_look.hpp"
@@ -96,11 +94,10 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
       second_look_m ? second_look_at(map, asked, *second_look_m) : planning::plan_detour(map, asked, !fails_again);
   if (!detour) return pass_on(detour);
   const std::vector<PlaceId>& places = detour->route.places;
-  const auto destination = std::ranges::find_if(map.destinations, [&](const map::Destination& candidate) {
-    return plan.mission.destination && candidate.id == *plan.mission.destination;
-  });
-  plan.order = destination != map.destinations.end() ? wire::order_for_route(map, places, *destination)
-                                                     : wire::order_for_route(map, places);
+  const map::Destination* destination =
+      plan.mission.destination ? map::find_destination(map, *plan.mission.destination) : nullptr;
+  plan.order =
+      destination != nullptr ? wire::order_for_route(map, places, *destination) : wire::order_for_route(map, places);
   const auto layout = maps_.layout(*loaded);
   wire::add_surroundings(map, *layout, planning::surroundings(map, places, likely, *layout), plan.order);
   for (const planning::Way& way : asked.closed) wire::leave_out_way(way.from, way.to, plan.order);

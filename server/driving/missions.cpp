@@ -68,9 +68,7 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
   plan.mission.place = request.place;
   const map::Destination* destination = nullptr;
   if (request.destination) {
-    for (const map::Destination& candidate : map.destinations) {
-      if (candidate.id == *request.destination) destination = &candidate;
-    }
+    destination = map::find_destination(map, *request.destination);
     if (destination == nullptr) {
       return fail(ErrorCode::kUnknownPlace, "The map has no destination " + request.destination->str() + ".",
                   "maps/" + map_id.str());

@@ -3,6 +3,8 @@
 
 #include "server/routes/operations.hpp"
 
+#include "core/markup.hpp"
+
 namespace homeward::server {
 namespace {
 
@@ -12,26 +14,6 @@ Response text_response(int status, const std::string& type, std::string text) {
   response.headers["content-type"] = type;
   response.body = std::move(text);
   return response;
-}
-
-std::string html_escaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '&':
-        escaped += "&amp;";
-        break;
-      default:
-        escaped.push_back(c);
-    }
-  }
-  return escaped;
 }
 
 }  // namespace
@@ -51,7 +33,7 @@ void add_operation_routes(Router& router, Metrics& metrics, db::Store& store) {
                                      "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\">"
                                      "<title>Homeward: the REST interface</title></head><body>"
                                      "<h1>The REST interface</h1><pre>" +
-                                         html_escaped(openapi_text()) + "</pre></body></html>");
+                                         escape_html(openapi_text()) + "</pre></body></html>");
               }});
 }
 

@@ -6,6 +6,7 @@
 
 #include "camera/calibrate_fit.hpp"
 #include "core/angles.hpp"
+#include "core/median.hpp"
 
 namespace homeward::camera {
 namespace {
@@ -22,12 +23,6 @@ std::string shown(double value, int digits) {
   std::string text(32, '\0');
   text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%.*f", digits, value)));
   return text;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 /// Turns the picture over: (x, y, z) becomes (x, -y, z), and so do the distortion's terms.

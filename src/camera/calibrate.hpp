@@ -5,19 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "camera/board.hpp"
+#include "camera/calibration_input.hpp"
 #include "camera/camera_config.hpp"
 #include "core/result.hpp"
 
 namespace homeward::camera {
-
-enum class CalibratedModel { kMei, kFisheye, kPinhole };
-
-/// One picture of the board: the corners as `find_board` gives them.
-struct BoardView {
-  std::string name;
-  std::vector<Eigen::Vector2d> corners_px;
-};
 
 /// A view that served: what the calibrated camera predicts for each corner.
 struct UsedView {
@@ -45,14 +37,6 @@ struct CalibrationResult {
   std::vector<LeftOutView> left_out;
   std::vector<ParameterDeviation> parameters;
   std::vector<std::string> warnings;  // sentences: why these views may not determine the model
-};
-
-/// What is known of the camera beforehand.
-struct CalibrationInput {
-  CalibratedModel model = CalibratedModel::kMei;
-  bool mirror = false;  // the unified model of a mirror: fy_px comes out negative (see `Mei`); flat boards cannot tell
-  BoardGeometry board;
-  CameraConfig camera;  // picture size and mounting; its model is not looked at
 };
 
 /// Intrinsics from views of a board. Starts from OpenCV's closed forms (Zhang 2000 for the pinhole, Kannala & Brandt

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "camera/models.hpp"
+#include "core/median.hpp"
 
 namespace homeward::camera {
 namespace {
@@ -352,10 +353,9 @@ std::optional<CameraModel> first_guess(const CalibrationInput& input, const std:
       const auto predicted = predict(model, *pose, board_m);
       if (predicted) residuals_px.back() = (*predicted - stacked(view.corners_px)).norm();
     }
-    const auto middle = residuals_px.begin() + static_cast<std::ptrdiff_t>(residuals_px.size() / 2);
-    std::ranges::nth_element(residuals_px, middle);
-    if (*middle < best_px) {
-      best_px = *middle;
+    const double usual_px = median(std::move(residuals_px));
+    if (usual_px < best_px) {
+      best_px = usual_px;
       best = model;
     }
   }

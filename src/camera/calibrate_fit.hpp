@@ -4,9 +4,10 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "camera/calibrate.hpp"
+#include "camera/calibration_input.hpp"
 
 namespace homeward::camera {
 

@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/median.hpp"
+
 namespace homeward::camera {
 namespace {
 
@@ -199,12 +201,6 @@ struct Circle {
   double centre_deviation_px = 0.0;
   double share = 0.0;
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// One robust step of the circle towards its points; false when they do not hold it.
 bool improve(const Rim& rim, Circle& circle) {

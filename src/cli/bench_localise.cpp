@@ -6,7 +6,7 @@
 
 #include "cli/bench.hpp"
 #include "sim/generate/laboratory.hpp"
-#include "sim/generate/painting.hpp"
+#include "sim/random.hpp"
 #include "sim/renderer.hpp"
 
 namespace homeward::cli {

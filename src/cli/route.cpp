@@ -10,6 +10,7 @@
 #include "cli/command.hpp"
 #include "db/map_file.hpp"
 #include "map/lookup.hpp"
+#include "planning/no_route.hpp"
 #include "wire/route_json.hpp"
 
 namespace homeward::cli {

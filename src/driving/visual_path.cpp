@@ -5,13 +5,12 @@
 #include <cmath>
 #include <string>
 
+#include "core/index.hpp"
 #include "homing/home_vector.hpp"
 #include "homing/visual_homing.hpp"
 
 namespace homeward::driving {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// What two views say of each other, where an edge does not.
 wire::PathEdge seen_edge(const features::Appearance& from, const features::Appearance& to, wire::PathEdge edge) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -39,6 +40,11 @@ struct FeatureSet {
 
   [[nodiscard]] int size() const { return static_cast<int>(bearings.rows()); }
 };
+
+/// Where a feature lies about the vertical, counter-clockwise from forward, (-pi, pi].
+inline double azimuth_rad(const FeatureSet& set, int index) {
+  return std::atan2(static_cast<double>(set.bearings(index, 1)), static_cast<double>(set.bearings(index, 0)));
+}
 
 /// What is kept of one picture: enough to recognise it and to home to it; its pixels are never needed again.
 struct Appearance {

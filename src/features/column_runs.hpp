@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "features/columns.hpp"
+#include "features/column_segment.hpp"
 
 namespace homeward::features {
 

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstddef>
 
+#include "core/processor.hpp"
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -81,15 +83,6 @@ __attribute__((target("avx2"))) void find_candidates_avx2(const RowBand& band, i
 }
 
 #endif
-
-[[maybe_unused]] bool has_avx2() {
-#if defined(__x86_64__)
-  static const bool has = __builtin_cpu_supports("avx2") != 0;
-  return has;
-#else
-  return false;
-#endif
-}
 
 }  // namespace
 

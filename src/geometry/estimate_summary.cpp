@@ -4,9 +4,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/angles.hpp"
+#include "core/median.hpp"
 #include "geometry/direction_sign.hpp"
+#include "geometry/tilted_refinement.hpp"
 
 namespace homeward::geometry {
 namespace {
@@ -21,9 +24,7 @@ double median_parallax_rad(const TiltedMotion& motion, std::span<const Correspon
     const Eigen::Vector3d target_in_current = turn * c.target;
     parallaxes_rad.push_back(std::atan2(c.current.cross(target_in_current).norm(), c.current.dot(target_in_current)));
   }
-  const auto middle = parallaxes_rad.begin() + static_cast<std::ptrdiff_t>(parallaxes_rad.size() / 2);
-  std::nth_element(parallaxes_rad.begin(), middle, parallaxes_rad.end());
-  return *middle;
+  return median(std::move(parallaxes_rad));
 }
 
 }  // namespace

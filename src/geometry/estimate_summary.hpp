@@ -4,8 +4,10 @@
 #include <functional>
 #include <span>
 
+#include "core/result.hpp"
+#include "geometry/correspondence.hpp"
 #include "geometry/motion_fit.hpp"
-#include "geometry/planar_motion.hpp"
+#include "geometry/planar_estimate.hpp"
 
 namespace homeward::geometry {
 

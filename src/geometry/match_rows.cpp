@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/angles.hpp"
+#include "core/processor.hpp"
 #include "geometry/tilted_motion.hpp"
 
 // Every loop below is written once and compiled twice, for processors with AVX2 and for others. Nothing in them
@@ -286,15 +287,6 @@ HOMEWARD_WITH_AVX2 void judge_avx2(const Rows& r, const GazeNumbers& g, const Se
   judge_loop(r, g, s, s.share, s.belief, s.gain, s.pull, s.telling);
 }
 #endif
-
-[[maybe_unused]] bool has_avx2() {
-#if defined(__x86_64__)
-  static const bool has = __builtin_cpu_supports("avx2") != 0;
-  return has;
-#else
-  return false;
-#endif
-}
 
 Rows pointers(const std::array<std::vector<double>, 9>& rows, std::size_t count) {
   return {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data(), rows[4].data(),

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/planar_motion.hpp"
+#include "geometry/correspondence.hpp"
 
 namespace homeward::geometry {
 

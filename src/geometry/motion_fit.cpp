@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/angles.hpp"
+#include "geometry/tilted_refinement.hpp"
 
 namespace homeward::geometry {
 namespace {
@@ -118,11 +119,6 @@ void step(const FitConfig& config, const NormalEquations& normal, MotionFit& fit
 }
 
 }  // namespace
-
-MotionFit fit_motion(std::span<const Correspondence> correspondences, const TiltedMotion& start,
-                     const FitConfig& config) {
-  return fit_motion(MatchRows(correspondences), start, config);
-}
 
 MotionFit fit_motion(const MatchRows& matches, const TiltedMotion& start, const FitConfig& config) {
   thread_local Room room;

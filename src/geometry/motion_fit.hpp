@@ -2,9 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
 #include <vector>
 
+#include "geometry/match_rows.hpp"
+#include "geometry/tilt_prior.hpp"
 #include "geometry/tilted_motion.hpp"
 
 namespace homeward::geometry {
@@ -36,7 +37,5 @@ struct MotionFit {
 /// ones for each match: Tordoff & Murray, Guided-MLESAC, 2005). The direction may come out
 /// reversed: that with more matches in front is taken.
 MotionFit fit_motion(const MatchRows& matches, const TiltedMotion& start, const FitConfig& config);
-MotionFit fit_motion(std::span<const Correspondence> correspondences, const TiltedMotion& start,
-                     const FitConfig& config);
 
 }  // namespace homeward::geometry

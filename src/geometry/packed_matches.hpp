@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "geometry/planar_motion.hpp"
+#include "geometry/correspondence.hpp"
+#include "geometry/relative_pose.hpp"
 
 namespace homeward::geometry {
 

@@ -3,15 +3,19 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "core/angles.hpp"
 #include "geometry/estimate_summary.hpp"
 #include "geometry/motion_fit.hpp"
 #include "geometry/packed_matches.hpp"
+#include "geometry/planar_solver.hpp"
 #include "geometry/repetition.hpp"
+#include "geometry/tilted_refinement.hpp"
 
 namespace homeward::geometry {
 namespace {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "geometry/planar_solver.hpp"
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "core/angles.hpp"
-#include "geometry/planar_motion.hpp"
 
 namespace homeward::geometry {
 namespace {

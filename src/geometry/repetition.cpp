@@ -4,7 +4,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
+
+#include "core/median.hpp"
 
 namespace homeward::geometry {
 
@@ -27,9 +30,7 @@ SharedView shared_view(std::span<const Correspondence> correspondences, const Mo
   }
   view.agreeing /= std::max(1.0, static_cast<double>(correspondences.size()));
   if (heights.empty()) return view;
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  view.height = *middle;
+  view.height = median(std::move(heights));
   return view;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/pose2.hpp"
-#include "homing/local_map.hpp"
+#include "homing/local_map_config.hpp"
 
 namespace homeward::homing {
 

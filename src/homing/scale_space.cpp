@@ -6,28 +6,11 @@
 #include <string>
 
 #include "core/angles.hpp"
+#include "core/median.hpp"
 #include "matching/match.hpp"
 
 namespace homeward::homing {
 namespace {
-
-double azimuth_rad(const features::FeatureSet& set, int index) {
-  return std::atan2(static_cast<double>(set.bearings(index, 1)), static_cast<double>(set.bearings(index, 0)));
-}
-
-/// The angle to which the others are nearest, in sum, on the circle.
-double circular_median(const std::vector<double>& angles_rad) {
-  double best_rad = 0.0;
-  double least = 1e300;
-  for (const double candidate : angles_rad) {
-    double sum = 0.0;
-    for (const double angle : angles_rad) sum += std::abs(wrap_angle(angle - candidate));
-    if (sum >= least) continue;
-    least = sum;
-    best_rad = candidate;
-  }
-  return best_rad;
-}
 
 /// How sure a direction is, by how much the features agree on it: rises with the length of their mean. Not calibrated.
 double probability(double agreement) { return 1.0 / (1.0 + std::exp(-(6.0 * agreement - 3.6))); }
@@ -68,8 +51,7 @@ Result<HomeVector> scale_space_vector(const features::Appearance& current, const
   std::vector<double> parallax_rad;
   parallax_rad.reserve(turns_rad.size());
   for (const double turn : turns_rad) parallax_rad.push_back(std::abs(wrap_angle(turn - vector.turn_rad)));
-  std::ranges::nth_element(parallax_rad, parallax_rad.begin() + static_cast<std::ptrdiff_t>(parallax_rad.size() / 2));
-  vector.median_parallax_rad = parallax_rad[parallax_rad.size() / 2];
+  vector.median_parallax_rad = median(std::move(parallax_rad));
   vector.matches = static_cast<int>(matches.size());
   vector.inliers = changed;
   vector.confidence = probability(std::hypot(sine, cosine) / changed);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/angles.hpp"
+#include "core/median.hpp"
 
 namespace homeward::homing {
 namespace {
@@ -105,9 +106,7 @@ Result<CompassReading> visual_compass(const camera::Panorama& current, const cam
   // What is to the left of the present heading stands further right when the robot is turned to it.
   reading.turn_rad = wrap_angle(2.0 * kPi * (shift + between) / here.columns);
   reading.residual = *least;
-  std::vector<double> sorted = differences;
-  std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
-  reading.sharpness = std::clamp(1.0 - *least / std::max(1e-9, sorted[sorted.size() / 2]), 0.0, 1.0);
+  reading.sharpness = std::clamp(1.0 - *least / std::max(1e-9, median(differences)), 0.0, 1.0);
   return reading;
 }
 

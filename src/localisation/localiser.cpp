@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/index.hpp"
 #include "localisation/calibration.hpp"
 #include "localisation/candidates.hpp"
 #include "localisation/metric_motion.hpp"
@@ -22,8 +23,6 @@ constexpr std::size_t kReported = 5;
 constexpr std::uint64_t kSeed = 1;
 // The robot may be driven faster than on the tour, or send fewer pictures.
 constexpr double kFasterThanTour = 2.0;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Each place's neighbours, edges taken in both directions.
 std::vector<std::vector<int>> neighbours_of(const map::PlaceGraph& graph) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <queue>
 
+#include "core/index.hpp"
+
 namespace homeward::localisation {
 namespace {
 
@@ -20,8 +22,6 @@ constexpr double kLeastExtent_m = 0.3;
 constexpr double kSureSigmas = 3.0;  // a drive that misses every way by more has none on the map
 constexpr double kLongest_m = 20.0;
 constexpr std::size_t kMostReached = 256;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Standard deviation of an edge's length, as a share of it.
 double length_sigma(map::LengthSource from) {

@@ -23,10 +23,9 @@ int root_of(std::vector<int>& parents, int node) {
 PlaceGraph::PlaceGraph(const TopologicalMap& map) : outgoing_(map.places.size()) {
   const auto index = place_indices(map);
   for (std::size_t i = 0; i < map.edges.size(); ++i) {
-    const auto from = index.find(map.edges[i].from);
-    const auto to = index.find(map.edges[i].to);
-    if (from == index.end() || to == index.end()) continue;
-    outgoing_[static_cast<std::size_t>(from->second)].push_back({to->second, static_cast<int>(i)});
+    const auto ends = ends_of(map.edges[i], index);
+    if (!ends) continue;
+    outgoing_[static_cast<std::size_t>(ends->from)].push_back({ends->to, static_cast<int>(i)});
   }
 }
 

@@ -30,19 +30,13 @@ struct Drawing {
   std::vector<Eigen::Vector2d> positions_m;
 };
 
-std::string tour_of(const ImageId& image) {
-  const std::string& text = image.str();
-  const std::size_t slash = text.rfind('/');
-  return slash == std::string::npos ? std::string() : text.substr(0, slash);
-}
-
 std::optional<Pose2> pose_by_odometry(const TopologicalMap& map, const std::unordered_map<ImageId, int>& images,
                                       const Place& from, const Place& to) {
   const auto a = images.find(from.prototype);
   const auto b = images.find(to.prototype);
   if (a == images.end() || b == images.end()) return std::nullopt;
   if (std::abs(a->second - b->second) > kOdometryReachImages) return std::nullopt;
-  if (tour_of(from.prototype) != tour_of(to.prototype)) return std::nullopt;
+  if (tour_name(from.prototype) != tour_name(to.prototype)) return std::nullopt;
   const auto& at_a = map.images[static_cast<std::size_t>(a->second)].odometry;
   const auto& at_b = map.images[static_cast<std::size_t>(b->second)].odometry;
   if (!at_a || !at_b) return std::nullopt;
@@ -54,12 +48,11 @@ std::vector<Constraint> constraints_of(const TopologicalMap& map) {
   const auto images = image_indices(map);
   std::vector<Constraint> constraints;
   for (const Edge& edge : map.edges) {
-    const auto from = places.find(edge.from);
-    const auto to = places.find(edge.to);
-    if (from == places.end() || to == places.end() || from->second == to->second) continue;
-    Constraint constraint{from->second, to->second, std::nullopt, std::clamp(edge.length_m, 0.05, 1e3)};
-    constraint.from_to = pose_by_odometry(map, images, map.places[static_cast<std::size_t>(from->second)],
-                                          map.places[static_cast<std::size_t>(to->second)]);
+    const auto ends = ends_of(edge, places);
+    if (!ends || ends->from == ends->to) continue;
+    Constraint constraint{ends->from, ends->to, std::nullopt, std::clamp(edge.length_m, 0.05, 1e3)};
+    constraint.from_to = pose_by_odometry(map, images, map.places[static_cast<std::size_t>(ends->from)],
+                                          map.places[static_cast<std::size_t>(ends->to)]);
     if (!constraint.from_to && edge.bearing_rad && edge.turn_rad && !edge.weak) {
       constraint.from_to = Pose2{constraint.length_m * std::cos(*edge.bearing_rad),
                                  constraint.length_m * std::sin(*edge.bearing_rad), *edge.turn_rad};

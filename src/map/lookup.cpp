@@ -24,6 +24,11 @@ Place* find_place_of(TopologicalMap& map, const ImageId& image) {
   return const_cast<Place*>(find_place_of(std::as_const(map), image));
 }
 
+const Destination* find_destination(const TopologicalMap& map, const DestinationId& id) {
+  const auto found = std::ranges::find(map.destinations, id, &Destination::id);
+  return found == map.destinations.end() ? nullptr : &*found;
+}
+
 const Edge* find_edge(const TopologicalMap& map, const PlaceId& from, const PlaceId& to) {
   const auto found =
       std::ranges::find_if(map.edges, [&](const Edge& edge) { return edge.from == from && edge.to == to; });
@@ -32,6 +37,19 @@ const Edge* find_edge(const TopologicalMap& map, const PlaceId& from, const Plac
 
 Edge* find_edge(TopologicalMap& map, const PlaceId& from, const PlaceId& to) {
   return const_cast<Edge*>(find_edge(std::as_const(map), from, to));
+}
+
+std::string tour_name(const ImageId& image) {
+  const std::string& text = image.str();
+  const std::size_t slash = text.rfind('/');
+  return slash == std::string::npos ? std::string() : text.substr(0, slash);
+}
+
+std::optional<EdgeEnds> ends_of(const Edge& edge, const std::unordered_map<PlaceId, int>& places) {
+  const auto from = places.find(edge.from);
+  const auto to = places.find(edge.to);
+  if (from == places.end() || to == places.end()) return std::nullopt;
+  return EdgeEnds{from->second, to->second};
 }
 
 std::unordered_map<PlaceId, int> place_indices(const TopologicalMap& map) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <unordered_map>
 
 #include "core/ids.hpp"
@@ -17,9 +18,24 @@ Place* find_place(TopologicalMap& map, const PlaceId& id);
 const Place* find_place_of(const TopologicalMap& map, const ImageId& image);
 Place* find_place_of(TopologicalMap& map, const ImageId& image);
 
+/// The destination with this id, or null.
+const Destination* find_destination(const TopologicalMap& map, const DestinationId& id);
+
 /// The directed edge between two places, or null.
 const Edge* find_edge(const TopologicalMap& map, const PlaceId& from, const PlaceId& to);
 Edge* find_edge(TopologicalMap& map, const PlaceId& from, const PlaceId& to);
+
+/// The tour of an image "tour/file"; empty where it has none.
+std::string tour_name(const ImageId& image);
+
+/// Where an edge begins and ends: indices into map.places.
+struct EdgeEnds {
+  int from = 0;
+  int to = 0;
+};
+
+/// The ends of an edge among these places (see place_indices); nothing where one of them is not among them.
+std::optional<EdgeEnds> ends_of(const Edge& edge, const std::unordered_map<PlaceId, int>& places);
 
 /// Index into map.places of each id.
 std::unordered_map<PlaceId, int> place_indices(const TopologicalMap& map);

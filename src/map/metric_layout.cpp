@@ -77,12 +77,6 @@ class Numbers {
   std::vector<ImageId> images_;
 };
 
-std::string tour_of(const ImageId& image) {
-  const std::string& text = image.str();
-  const std::size_t slash = text.rfind('/');
-  return slash == std::string::npos ? std::string() : text.substr(0, slash);
-}
-
 Link link_of(int a, int b, const Pose2& a_from_b) {
   Link link;
   link.a = a;
@@ -96,7 +90,7 @@ void add_odometry(const TopologicalMap& map, Numbers& numbers, std::vector<Link>
   for (std::size_t i = 1; i < map.images.size(); ++i) {
     const MapImage& before = map.images[i - 1];
     const MapImage& after = map.images[i];
-    if (!before.odometry || !after.odometry || tour_of(before.id) != tour_of(after.id)) continue;
+    if (!before.odometry || !after.odometry || tour_name(before.id) != tour_name(after.id)) continue;
     Link link = link_of(numbers.of(before.id), numbers.of(after.id), inverse(*before.odometry) * *after.odometry);
     const double length_m = std::hypot(link.a_from_b.x_m, link.a_from_b.y_m);
     link.along_m = 0.01 + 0.03 * length_m;
@@ -119,9 +113,8 @@ void add_edges(const TopologicalMap& map, Numbers& numbers, std::vector<Link>& l
   for (const Edge& edge : map.edges) {
     if (edge.shortcut) continue;  // what it says, it has from a layout
     if (!edge.bearing_rad && !told.insert(std::minmax(edge.from, edge.to)).second) continue;
-    const auto from = places.find(edge.from);
-    const auto to = places.find(edge.to);
-    if (from == places.end() || to == places.end() || from->second == to->second) continue;
+    const auto ends = ends_of(edge, places);
+    if (!ends || ends->from == ends->to) continue;
     double length_m = edge.length_m;
     if (edge.length_from == LengthSource::kTourImages) length_m *= kMetresPerImage;
     if (edge.length_from == LengthSource::kUnknown) length_m = kUnknownLength_m;
@@ -129,8 +122,8 @@ void add_edges(const TopologicalMap& map, Numbers& numbers, std::vector<Link>& l
     const bool seen = edge.bearing_rad && edge.turn_rad && !edge.weak;
     const double bearing_rad = edge.bearing_rad.value_or(0.0);
     Link link =
-        link_of(numbers.of(map.places[static_cast<std::size_t>(from->second)].prototype),
-                numbers.of(map.places[static_cast<std::size_t>(to->second)].prototype),
+        link_of(numbers.of(map.places[static_cast<std::size_t>(ends->from)].prototype),
+                numbers.of(map.places[static_cast<std::size_t>(ends->to)].prototype),
                 {length_m * std::cos(bearing_rad), length_m * std::sin(bearing_rad), edge.turn_rad.value_or(0.0)});
     // The length of an edge is that of the way, along which prototypes lie somewhere in their places.
     link.along_m = metric ? 0.3 * length_m + 0.1 : 0.5 * length_m + 0.2;

@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "core/index.hpp"
+#include "core/median.hpp"
 #include "features/aggregate.hpp"
 #include "features/colour.hpp"
 #include "mapping/parallel.hpp"
@@ -16,8 +18,6 @@
 
 namespace homeward::mapping {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 double moment_distance(const features::Appearance& a, const features::Appearance& b) {
   return features::colour_moment_distance(a.colour_moments, b.colour_moments);
@@ -78,11 +78,7 @@ std::vector<std::vector<int>> near_images(const PairTable& table, std::span<cons
     if (tour_of[at(i)] == tour_of[at(i - config.around)]) usual.push_back(table.distance(i - config.around, i));
   }
   float limit = std::numeric_limits<float>::max();
-  if (!usual.empty()) {
-    const auto middle = usual.begin() + static_cast<std::ptrdiff_t>(usual.size() / 2);
-    std::ranges::nth_element(usual, middle);
-    limit = std::min(limit, *middle);
-  }
+  if (!usual.empty()) limit = std::min(limit, median(std::move(usual)));
   std::vector<std::vector<int>> near(at(table.images()));
   for (int a = 0; a < table.images(); ++a) {
     for (const int b : table.partners(a)) {

@@ -6,10 +6,11 @@
 #include <numeric>
 #include <utility>
 
+#include "core/index.hpp"
+#include "core/median.hpp"
+
 namespace homeward::mapping {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The run that each tie belongs to, numbered by first tie: ties not more than `reach` images apart, over both passes,
 /// and about as far on one pass as on the other, whichever way it was driven.
@@ -93,10 +94,9 @@ std::vector<std::size_t> worst_stretch(const WayWithLoops& closed, std::span<con
         if (without[i].miss_sigmas > sure_sigmas) missing.push_back(of_stretch[i]);
       }
       if (misses.empty()) continue;
-      const auto middle = misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2);
-      std::nth_element(misses.begin(), middle, misses.end());
-      if (*middle <= worst_miss) continue;
-      worst_miss = *middle;
+      const double usual_miss = median(std::move(misses));
+      if (usual_miss <= worst_miss) continue;
+      worst_miss = usual_miss;
       worst = missing;
     }
     begin = end;

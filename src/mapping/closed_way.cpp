@@ -208,17 +208,4 @@ std::vector<ClosedWay::Without> ClosedWay::without(std::span<const std::size_t> 
   return result;
 }
 
-std::vector<ClosedWay::Without> ClosedWay::without_own_group() const {
-  const std::vector<LoopTie>& ties = parts_->ties;
-  std::vector<Without> result;
-  for (std::size_t begin = 0; begin < ties.size();) {
-    std::vector<std::size_t> group;
-    for (std::size_t t = begin; t < ties.size() && ties[t].group == ties[begin].group; ++t) group.push_back(t);
-    begin += group.size();
-    const std::vector<Without> of_group = without(group);
-    result.insert(result.end(), of_group.begin(), of_group.end());
-  }
-  return result;
-}
-
 }  // namespace homeward::mapping

@@ -45,9 +45,6 @@ class ClosedWay {
   };
   [[nodiscard]] std::vector<Without> without(std::span<const std::size_t> ties) const;
 
-  /// What the way and the loops of all other groups say about each tie, in the order of the ties.
-  [[nodiscard]] std::vector<Without> without_own_group() const;
-
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;

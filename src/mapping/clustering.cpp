@@ -7,10 +7,10 @@
 #include <limits>
 #include <numeric>
 
+#include "core/index.hpp"
+
 namespace homeward::mapping {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Where in an ascending list the item is or would be.
 template <typename List>
@@ -127,16 +127,6 @@ std::vector<int> complete_linkage(NearLists near, float threshold) {
     chain.resize(chain.size() - 2);
   }
   return numbered(std::move(merged_into));
-}
-
-std::vector<int> complete_linkage(int items, const DistanceFunction& distance, float threshold) {
-  NearLists near(at(items));
-  for (int b = 0; b < items; ++b) {
-    for (int a = 0; a < items; ++a) {
-      if (a != b) near[at(b)].push_back({a, distance(std::min(a, b), std::max(a, b))});
-    }
-  }
-  return complete_linkage(std::move(near), threshold);
 }
 
 }  // namespace homeward::mapping

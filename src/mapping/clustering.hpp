@@ -25,7 +25,4 @@ using NearLists = std::vector<std::vector<Near>>;
 /// recent advances in hierarchical clustering (1983).
 std::vector<int> complete_linkage(NearLists near, float threshold);
 
-/// The same where every pair of `items` items has a distance.
-std::vector<int> complete_linkage(int items, const DistanceFunction& distance, float threshold);
-
 }  // namespace homeward::mapping

@@ -12,15 +12,15 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/index.hpp"
 #include "features/aggregate.hpp"
+#include "map/lookup.hpp"
 #include "mapping/parallel.hpp"
 #include "matching/distinctiveness.hpp"
 #include "matching/retrieval_index.hpp"
 
 namespace homeward::mapping {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Places with their neighbours either way.
 class Ways {
@@ -183,10 +183,10 @@ bool count_common_features(map::TopologicalMap& map, const CommonFeaturesConfig&
       return;
     }
     const map::Destination& destination = map.destinations[i - places];
-    const auto place = std::ranges::find(map.places, destination.place, &map::Place::id);
-    if (place == map.places.end()) return;
+    const map::Place* place = map::find_place(map, destination.place);
+    if (place == nullptr) return;
     of_destinations[i - places] =
-        common.frequency(destination.appearance.sift, static_cast<int>(place - map.places.begin()));
+        common.frequency(destination.appearance.sift, static_cast<int>(place - map.places.data()));
   };
   if (!parallel_for(places + map.destinations.size(), threads, count, {}, stop)) return false;
   for (std::size_t p = 0; p < places; ++p) {

@@ -2,6 +2,7 @@
 #include "mapping/compare_all.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "mapping/parallel.hpp"
@@ -32,6 +33,14 @@ PairRelation relate(const features::Appearance& a, const features::Appearance& b
 Result<PairTable> compare_all(std::span<const features::Appearance> appearances, std::span<const int> tour_of,
                               const CompareConfig& config, std::uint64_t seed, int threads,
                               const std::function<void(double)>& progress, const std::stop_token& stop) {
+  return compare_chosen(appearances, tour_of, config, seed, threads, progress, stop,
+                        [](PairLists pairs) { return pairs; });
+}
+
+Result<PairTable> compare_chosen(std::span<const features::Appearance> appearances, std::span<const int> tour_of,
+                                 const CompareConfig& config, std::uint64_t seed, int threads,
+                                 const std::function<void(double)>& progress, const std::stop_token& stop,
+                                 const PairFilter& chosen) {
   const std::size_t images = appearances.size();
   PairTable table(static_cast<int>(images));
   /// False if it was cancelled.
@@ -57,10 +66,11 @@ Result<PairTable> compare_all(std::span<const features::Appearance> appearances,
     return true;
   };
   const auto cancelled = [] { return fail(ErrorCode::kCancelled, "The build was cancelled."); };
-  const auto first = first_candidates(appearances, tour_of, config.candidates, seed, threads, stop);
-  if (!first) return pass_on(first);
-  if (!compare(*first, 0.0, kFirstRoundShare)) return cancelled();
-  const PairLists second = second_candidates(table, *first, tour_of, config.candidates);
+  auto candidates = first_candidates(appearances, tour_of, config.candidates, seed, threads, stop);
+  if (!candidates) return pass_on(candidates);
+  const PairLists first = chosen(std::move(*candidates));
+  if (!compare(first, 0.0, kFirstRoundShare)) return cancelled();
+  const PairLists second = chosen(second_candidates(table, first, tour_of, config.candidates));
   if (!compare(second, kFirstRoundShare, 1.0 - kFirstRoundShare)) return cancelled();
   return table;
 }

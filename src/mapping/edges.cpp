@@ -6,13 +6,14 @@
 #include <map>
 #include <unordered_map>
 
+#include "core/index.hpp"
+#include "core/median.hpp"
+
 namespace homeward::mapping {
 namespace {
 
 constexpr double kGuidePace_mps = 0.5;  // of people who show a chair around; what time alone makes lengths from
 constexpr double kLongestPause = 3.0;   // median steps; more time between two images was spent standing
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 struct Length {
   double length_m = 0.0;
@@ -28,9 +29,7 @@ class TourClock {
       if (const auto step = step_s(i)) steps.push_back(*step);
     }
     if (steps.empty()) return;
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::ranges::nth_element(steps, middle);
-    longest_step_s_ = kLongestPause * *middle;
+    longest_step_s_ = kLongestPause * median(std::move(steps));
   }
 
   /// Seconds from image a to a later image b; nothing where an image between has no time.

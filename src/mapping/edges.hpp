@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "map/topological_map.hpp"
-#include "mapping/map_builder.hpp"
+#include "mapping/mapping_config.hpp"
+#include "mapping/mapping_input.hpp"
 #include "mapping/sights.hpp"
+#include "mapping/tour_path.hpp"
 #include "mapping/track.hpp"
 
 namespace homeward::mapping {

@@ -7,13 +7,14 @@
 #include <map>
 #include <tuple>
 
+#include "core/index.hpp"
+#include "mapping/new_places.hpp"
+
 namespace homeward::mapping {
 namespace {
 
 constexpr int kMostCandidates = 12;  // images tried between two prototypes, evenly spread where there are more
 constexpr int kMostDrives = 3;       // drives along one edge that are tried
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Images that may stand between two prototypes, and how well they do.
 struct Chain {
@@ -92,11 +93,7 @@ std::vector<int> free_images(const Drive& drive, const std::vector<char>& pinned
 int add_places(const MappingInput& input, const Chain& chain, std::vector<map::Place>& places) {
   const int first_new = static_cast<int>(places.size());
   for (const int prototype : chain.images) {
-    map::Place place;
-    place.id = PlaceId("new" + std::to_string(places.size()));
-    place.prototype = input.images[at(prototype)].id;
-    place.appearances.push_back(input.appearances[at(prototype)]);
-    places.push_back(std::move(place));
+    places.push_back(new_place(input, prototype, places.size()));
   }
   return first_new;
 }
@@ -126,6 +123,13 @@ void draw_in(const MappingInput& input, const Drive& drive, const std::vector<in
 }
 
 }  // namespace
+
+std::vector<int> pinned_images(const MappingInput& input, std::span<const Subcluster> parts) {
+  std::vector<int> pinned;
+  for (const MarkedImage& mark : input.marks) pinned.push_back(mark.image);
+  for (const Subcluster& part : parts) pinned.push_back(part.prototype);
+  return pinned;
+}
 
 ExtraPlaces insert_extra_places(const MappingInput& input, const MappingConfig& config, std::span<const int> pinned,
                                 Sights& sights, std::vector<map::Place>& places, std::vector<int>& place_of_image,

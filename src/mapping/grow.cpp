@@ -5,20 +5,22 @@
 #include <set>
 #include <string>
 
+#include "core/index.hpp"
 #include "map/lookup.hpp"
-#include "mapping/dempster_shafer.hpp"
 #include "mapping/edges.hpp"
 #include "mapping/extra_places.hpp"
 #include "mapping/growth_statistics.hpp"
+#include "mapping/hypotheses.hpp"
 #include "mapping/loops.hpp"
+#include "mapping/new_places.hpp"
 #include "mapping/old_places.hpp"
 #include "mapping/shortcut_edges.hpp"
+#include "mapping/sights.hpp"
 #include "mapping/subclusters.hpp"
+#include "mapping/tour_path.hpp"
 
 namespace homeward::mapping {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The work on one growth, step by step.
 class Growth {
@@ -34,10 +36,9 @@ class Growth {
                std::span(input.appearances).first(at(input.new_images)), input.marks, &pairs},
         path_(fresh_),
         track_(input.images, input.tour_of, pairs, path_.metric(), extent(), config.track),
-        labels_(input.images.size(), nullptr),
+        labels_(labels_by_image(all_)),
         old_places_(old, input, pairs, path_.metric(), config),
         sights_(all_) {
-    for (const MarkedImage& mark : input.marks) labels_[at(mark.image)] = &mark.label;
     for (int i = input.new_images; i < static_cast<int>(input.images.size()); ++i) {
       const std::string& label = old.places[at(input.anchored(i))].label;
       if (!label.empty()) labels_[at(i)] = &label;
@@ -101,7 +102,7 @@ class Growth {
       int& place = place_of_group[group];
       if (place < 0) {
         place = static_cast<int>(places_.size());
-        places_.push_back(new_place(images[group]));
+        places_.push_back(new_place(all_, images[group], labels_, places_.size()));
       }
       for (const int image : images[group]) place_of_image_[at(image)] = place;
     }
@@ -112,9 +113,7 @@ class Growth {
 
   /// New images as places of their own where an edge that the new tours make would be weak.
   void put_in_extra_places() {
-    std::vector<int> pinned;
-    for (const MarkedImage& mark : input_.marks) pinned.push_back(mark.image);
-    for (const Subcluster& part : loops_.parts) pinned.push_back(part.prototype);
+    const std::vector<int> pinned = pinned_images(all_, loops_.parts);
     insert_extra_places(all_, config_, pinned, sights_, places_, place_of_image_, [this](int a, int b) {
       return settled_.contains({places_[at(a)].id, places_[at(b)].id});
     });
@@ -143,25 +142,9 @@ class Growth {
     }
   }
 
-  [[nodiscard]] int marked_image(const std::vector<int>& images) const {
-    const auto found = std::ranges::find_if(images, [&](int image) { return labels_[at(image)] != nullptr; });
-    return found == images.end() ? -1 : *found;
-  }
-
-  [[nodiscard]] map::Place new_place(const std::vector<int>& images) const {
-    const int marked = marked_image(images);
-    const int prototype = marked >= 0 ? marked : medoid(images, [this](int a, int b) { return pairs_.distance(a, b); });
-    map::Place place;
-    place.id = PlaceId("new" + std::to_string(places_.size()));
-    if (marked >= 0) place.label = *labels_[at(marked)];
-    place.prototype = input_.images[at(prototype)].id;
-    place.appearances.push_back(input_.appearances[at(prototype)]);
-    return place;
-  }
-
   void join(map::Place& place, const std::vector<int>& images) const {
     for (const int image : images) place.members.push_back(input_.images[at(image)].id);
-    const int marked = marked_image(images);
+    const int marked = first_labelled(images, labels_);
     if (place.label.empty() && marked >= 0) place.label = *labels_[at(marked)];
   }
 
@@ -207,17 +190,9 @@ class Growth {
       // The older image first.
       const int first = is_old(hypothesis.b) ? hypothesis.b : hypothesis.a;
       const int second = is_old(hypothesis.b) ? hypothesis.a : hypothesis.b;
-      map::Hypothesis kept;
-      kept.prototype_a = input_.images[at(loops_.parts[at(first)].prototype)].id;
-      kept.prototype_b = input_.images[at(loops_.parts[at(second)].prototype)].id;
-      kept.similarity = hypothesis.similarity;
-      kept.masses_before = hypothesis.before;
-      kept.masses_after = hypothesis.after;
-      kept.support = support(hypothesis.after);
-      kept.plausibility = plausibility(hypothesis.after);
-      kept.decision = hypothesis.decision;
-      kept.by = hypothesis.by;
-      grown.map.hypotheses.push_back(std::move(kept));
+      grown.map.hypotheses.push_back(kept_hypothesis(hypothesis,
+                                                     input_.images[at(loops_.parts[at(first)].prototype)].id,
+                                                     input_.images[at(loops_.parts[at(second)].prototype)].id));
     }
     grown.added.hypotheses = static_cast<int>(loops_.hypotheses.size());
   }
@@ -230,7 +205,7 @@ class Growth {
   MappingInput fresh_;  // new images alone
   TourPath path_;
   TourTrack track_;
-  std::vector<const std::string*> labels_;  // of each image; null: none
+  ImageLabels labels_;
   OldPlaces old_places_;
   Sights sights_;
   ClosedLoops loops_;

@@ -3,7 +3,7 @@
 
 #include "map/topological_map.hpp"
 #include "mapping/growth_input.hpp"
-#include "mapping/map_builder.hpp"
+#include "mapping/mapping_config.hpp"
 #include "mapping/pair_table.hpp"
 
 namespace homeward::mapping {

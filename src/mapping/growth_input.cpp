@@ -7,12 +7,9 @@
 
 #include "map/lookup.hpp"
 #include "mapping/candidates.hpp"
-#include "mapping/parallel.hpp"
 
 namespace homeward::mapping {
 namespace {
-
-constexpr double kFirstRoundShare = 0.75;  // of the work, roughly
 
 /// Pairs of anchors say nothing new: the map has decided what they are.
 PairLists without_anchor_pairs(PairLists pairs, const GrowthInput& input) {
@@ -62,38 +59,8 @@ Result<GrowthInput> growth_input(const map::TopologicalMap& old, NewTours tours)
 Result<PairTable> compare_with_map(const GrowthInput& input, const CompareConfig& config, std::uint64_t seed,
                                    int threads, const std::function<void(double)>& progress,
                                    const std::stop_token& stop) {
-  const std::size_t images = input.images.size();
-  PairTable table(static_cast<int>(images));
-  /// False if it was cancelled.
-  const auto compare = [&](const PairLists& pairs, double share_before, double share) {
-    std::vector<std::vector<PairRelation>> relations(images);
-    const auto compare_image = [&](std::size_t b) {
-      for (std::size_t i = 0; i < pairs[b].size() && !stop.stop_requested(); ++i) {
-        const auto a = static_cast<std::size_t>(pairs[b][i]);
-        relations[b].push_back(
-            relate(input.appearances[a], input.appearances[b], config.verify, seed + a * images + b));
-      }
-    };
-    const auto report = [&](std::size_t done) {
-      if (progress) progress(share_before + share * static_cast<double>(done) / static_cast<double>(images));
-    };
-    if (!parallel_for(images, threads, compare_image, report, stop) || stop.stop_requested()) return false;
-    for (std::size_t b = 0; b < images; ++b) {
-      for (std::size_t i = 0; i < pairs[b].size(); ++i) {
-        if (relations[b][i].verified()) table.set(pairs[b][i], static_cast<int>(b), relations[b][i]);
-      }
-    }
-    return true;
-  };
-  const auto cancelled = [] { return fail(ErrorCode::kCancelled, "The build was cancelled."); };
-  auto first = first_candidates(input.appearances, input.tour_of, config.candidates, seed, threads, stop);
-  if (!first) return pass_on(first);
-  const PairLists compared = without_anchor_pairs(std::move(*first), input);
-  if (!compare(compared, 0.0, kFirstRoundShare)) return cancelled();
-  const PairLists second =
-      without_anchor_pairs(second_candidates(table, compared, input.tour_of, config.candidates), input);
-  if (!compare(second, kFirstRoundShare, 1.0 - kFirstRoundShare)) return cancelled();
-  return table;
+  return compare_chosen(input.appearances, input.tour_of, config, seed, threads, progress, stop,
+                        [&](PairLists pairs) { return without_anchor_pairs(std::move(pairs), input); });
 }
 
 }  // namespace homeward::mapping

@@ -11,7 +11,7 @@
 #include "features/appearance.hpp"
 #include "map/topological_map.hpp"
 #include "mapping/compare_all.hpp"
-#include "mapping/map_builder.hpp"
+#include "mapping/mapping_input.hpp"
 #include "mapping/pair_table.hpp"
 
 namespace homeward::mapping {

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <vector>
 
+#include "core/index.hpp"
 #include "map/parts.hpp"
 
 namespace homeward::mapping {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Two means of so many numbers each as one.
 double joint(double before, double count_before, double now, double count_now) {

@@ -84,6 +84,21 @@ class HypothesisGrid {
 
 }  // namespace
 
+map::Hypothesis kept_hypothesis(const LoopHypothesis& hypothesis, const ImageId& prototype_a,
+                                const ImageId& prototype_b) {
+  map::Hypothesis kept;
+  kept.prototype_a = prototype_a;
+  kept.prototype_b = prototype_b;
+  kept.similarity = hypothesis.similarity;
+  kept.masses_before = hypothesis.before;
+  kept.masses_after = hypothesis.after;
+  kept.support = support(hypothesis.after);
+  kept.plausibility = plausibility(hypothesis.after);
+  kept.decision = hypothesis.decision;
+  kept.by = hypothesis.by;
+  return kept;
+}
+
 std::vector<LoopHypothesis> formulate_hypotheses(std::span<const Subcluster> subclusters,
                                                  const SimilarityFunction& similarity, const HypothesisConfig& config) {
   std::map<int, std::vector<int>> by_cluster;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/ids.hpp"
 #include "map/topological_map.hpp"
 #include "mapping/subclusters.hpp"
 #include "mapping/track.hpp"
@@ -40,6 +41,10 @@ struct LoopHypothesis {
   WayEvidence way;
   double reliability = 1.0;  // how far looks can be trusted here: the visual masses are discounted by it
 };
+
+/// The hypothesis as a map keeps it, which knows images instead of subclusters: those that stand for a and for b.
+map::Hypothesis kept_hypothesis(const LoopHypothesis& hypothesis, const ImageId& prototype_a,
+                                const ImageId& prototype_b);
 
 /// What the way driven says of two subclusters, by their indices.
 using WayFunction = std::function<WayEvidence(int, int)>;

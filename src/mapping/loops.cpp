@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "core/index.hpp"
 #include "mapping/closed_loops.hpp"
 #include "mapping/dempster_shafer.hpp"
 
@@ -15,12 +16,10 @@ namespace {
 
 constexpr double kToursApartImages = 1e6;  // so far apart along the way are images of different tours
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 /// D, but infinite between two images that carry different marks (each stands for a place of its own), that have hardly
 /// anything in common, or that the way driven keeps apart. Valid as long as its parameters are.
-DistanceFunction clustering_distance(const MappingInput& input, const MappingConfig& config,
-                                     const std::vector<const std::string*>& labels, const TourTrack& track) {
+DistanceFunction clustering_distance(const MappingInput& input, const MappingConfig& config, const ImageLabels& labels,
+                                     const TourTrack& track) {
   return [&input, &config, &labels, &track](int a, int b) {
     const bool marks_differ = labels[at(a)] != nullptr && labels[at(b)] != nullptr && *labels[at(a)] != *labels[at(b)];
     const PairRelation relation = a == b ? PairRelation{0.0F, 1, 1.0F} : input.pairs->relation(a, b);
@@ -342,8 +341,8 @@ std::vector<int> Judgement::decide(std::vector<LoopHypothesis>& hypotheses) cons
 }  // namespace
 
 ClosedLoops close_loops(const MappingInput& input, const MappingConfig& config, const TourTrack& track,
-                        const std::vector<const std::string*>& labels, float threshold,
-                        const map::TopologicalMap* previous, const OldPlaces* old) {
+                        const ImageLabels& labels, float threshold, const map::TopologicalMap* previous,
+                        const OldPlaces* old) {
   const DistanceFunction distance = clustering_distance(input, config, labels, track);
   const SamePlaceScale scale = same_place_scale(input, track, config.sources.beside);
   ClosedLoops result;

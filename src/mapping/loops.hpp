@@ -6,7 +6,9 @@
 
 #include "mapping/clustering.hpp"
 #include "mapping/hypotheses.hpp"
-#include "mapping/map_builder.hpp"
+#include "mapping/mapping_config.hpp"
+#include "mapping/mapping_input.hpp"
+#include "mapping/new_places.hpp"
 #include "mapping/old_places.hpp"
 #include "mapping/similarity.hpp"
 #include "mapping/subclusters.hpp"
@@ -29,7 +31,7 @@ struct ClosedLoops {
 /// Goedemé 2006 §3.3-3.6; what stands beside it, the way driven above all, is ours:
 /// docs/experiments/sources_of_evidence.md.
 ClosedLoops close_loops(const MappingInput& input, const MappingConfig& config, const TourTrack& track,
-                        const std::vector<const std::string*>& labels, float threshold,
-                        const map::TopologicalMap* previous, const OldPlaces* old = nullptr);
+                        const ImageLabels& labels, float threshold, const map::TopologicalMap* previous,
+                        const OldPlaces* old = nullptr);
 
 }  // namespace homeward::mapping

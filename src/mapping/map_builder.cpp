@@ -3,40 +3,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <set>
 
+#include "core/index.hpp"
 #include "map/graph.hpp"
 #include "map/lookup.hpp"
-#include "mapping/clustering.hpp"
-#include "mapping/dempster_shafer.hpp"
 #include "mapping/edges.hpp"
 #include "mapping/edits.hpp"
 #include "mapping/extra_places.hpp"
+#include "mapping/hypotheses.hpp"
 #include "mapping/identity.hpp"
 #include "mapping/loops.hpp"
+#include "mapping/new_places.hpp"
 #include "mapping/shortcut_edges.hpp"
 #include "mapping/similarity.hpp"
 #include "mapping/subclusters.hpp"
+#include "mapping/tour_path.hpp"
 
 namespace homeward::mapping {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-/// Labels of marks by image; images without one have none.
-std::vector<const std::string*> labels_by_image(const MappingInput& input) {
-  std::vector<const std::string*> labels(input.images.size(), nullptr);
-  for (const MarkedImage& mark : input.marks) labels[at(mark.image)] = &mark.label;
-  return labels;
-}
-
-/// Places from subclusters: members, prototype (a marked image if there is one, else the new medoid), appearance,
-/// label.
+/// Places from subclusters, with their members.
 std::vector<map::Place> form_places(const MappingInput& input, std::span<const Subcluster> subclusters,
-                                    std::span<const int> place_of_subcluster,
-                                    const std::vector<const std::string*>& labels) {
+                                    std::span<const int> place_of_subcluster, const ImageLabels& labels) {
   const int count = place_of_subcluster.empty() ? 0 : *std::ranges::max_element(place_of_subcluster) + 1;
   std::vector<std::vector<int>> images(at(count));
   for (std::size_t s = 0; s < subclusters.size(); ++s) {
@@ -45,15 +34,8 @@ std::vector<map::Place> form_places(const MappingInput& input, std::span<const S
   }
   std::vector<map::Place> places;
   for (const std::vector<int>& members : images) {
-    const auto marked = std::ranges::find_if(members, [&](int image) { return labels[at(image)] != nullptr; });
-    const int prototype =
-        marked != members.end() ? *marked : medoid(members, [&](int a, int b) { return input.pairs->distance(a, b); });
-    map::Place place;
-    place.id = PlaceId("new" + std::to_string(places.size()));
-    if (marked != members.end()) place.label = *labels[at(*marked)];
-    place.prototype = input.images[at(prototype)].id;
+    map::Place place = new_place(input, members, labels, places.size());
     for (const int image : members) place.members.push_back(input.images[at(image)].id);
-    place.appearances.push_back(input.appearances[at(prototype)]);
     places.push_back(std::move(place));
   }
   return places;
@@ -110,60 +92,6 @@ map::MotionStatistics measure_statistics(const MappingInput& input, const map::T
 
 }  // namespace
 
-TourPath::TourPath(const MappingInput& input) : along_(input.images.size(), 0.0) {
-  metric_ = std::ranges::all_of(input.images, [](const map::MapImage& image) { return image.odometry.has_value(); });
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < along_.size(); ++i) {
-    double step = 1.0;
-    if (metric_) {
-      const Pose2& a = *input.images[i - 1].odometry;
-      const Pose2& b = *input.images[i].odometry;
-      step = std::hypot(b.x_m - a.x_m, b.y_m - a.y_m);
-    }
-    along_[i] = along_[i - 1] + step;
-    steps.push_back(step);
-  }
-  if (steps.empty()) return;
-  std::ranges::sort(steps);
-  step_ = std::max(steps[steps.size() / 2], 1e-3);
-}
-
-double TourPath::length(int a, int b) const { return std::abs(along_[at(b)] - along_[at(a)]); }
-
-float place_distance_threshold(const MappingInput& input, const TourPath& path, const MappingConfig& config) {
-  const double extent = path.metric() ? config.place_extent_m : config.place_extent_images;
-  const double step = path.metric() ? path.step() : 1.0;
-  // The median over the tour of D at one extent; where half of these pairs have nothing in common, at a shorter one.
-  for (double wanted = extent; wanted > 0.5 * step; wanted -= step) {
-    std::vector<float> distances;
-    for (int i = 0; i < static_cast<int>(input.images.size()); ++i) {
-      int j = i;
-      while (j + 1 < static_cast<int>(input.images.size()) && input.tour_of[at(j + 1)] == input.tour_of[at(i)] &&
-             path.length(i, j) < wanted - 0.5 * step) {
-        ++j;
-      }
-      if (j > i && path.length(i, j) >= wanted - 0.5 * step) distances.push_back(input.pairs->distance(i, j));
-    }
-    if (distances.empty()) continue;
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    if (std::isfinite(*middle)) return *middle;
-  }
-  return 0.0F;
-}
-
-UsualDistances usual_distances(const MappingInput& input, const TourPath& path, const MappingConfig& config) {
-  const double extent = path.metric() ? config.place_extent_m : config.place_extent_images;
-  std::vector<float> distances;
-  for (int i = 0; i < static_cast<int>(input.images.size()); ++i) {
-    for (int j = i + 1; j < static_cast<int>(input.images.size()); ++j) {
-      if (input.tour_of[at(i)] != input.tour_of[at(j)] || path.length(i, j) > extent * (1.0 + 1e-9)) break;
-      distances.push_back(input.pairs->distance(i, j));
-    }
-  }
-  return UsualDistances(std::move(distances));
-}
-
 map::TopologicalMap make_map(const MappingInput& input, const MappingConfig& config,
                              const map::TopologicalMap* previous) {
   return make_noted_map(input, config, previous).map;
@@ -172,7 +100,7 @@ map::TopologicalMap make_map(const MappingInput& input, const MappingConfig& con
 NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, const map::TopologicalMap* previous) {
   const int images = static_cast<int>(input.images.size());
   const TourPath path(input);
-  const std::vector<const std::string*> labels = labels_by_image(input);
+  const ImageLabels labels = labels_by_image(input);
   const TourTrack track(input.images, input.tour_of, *input.pairs, path.metric(),
                         path.metric() ? config.place_extent_m : config.place_extent_images, config.track);
   const float threshold = place_distance_threshold(input, path, config);
@@ -187,11 +115,9 @@ NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, 
   map::TopologicalMap map;
   map.images.assign(input.images.begin(), input.images.end());
   map.places = form_places(input, parts, place_of_part, labels);
-  std::vector<int> pinned;
-  for (const MarkedImage& mark : input.marks) pinned.push_back(mark.image);
-  for (const Subcluster& part : parts) pinned.push_back(part.prototype);
   Sights sights(input);
-  const ExtraPlaces extra = insert_extra_places(input, config, pinned, sights, map.places, place_of_image);
+  const ExtraPlaces extra =
+      insert_extra_places(input, config, pinned_images(input, parts), sights, map.places, place_of_image);
   map.edges = form_edges(input, path, track, config, map.places, place_of_image, sights);
   map.destinations = form_destinations(input, map.places, place_of_image);
   MappingNotes notes{config, threshold, cluster_of, {}, {}, {}, {}, {}, extra.weak_before, extra.weak_after};
@@ -201,17 +127,8 @@ NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, 
     notes.taken_back.push_back(hypothesis.taken_back ? 1 : 0);
     notes.meets.push_back(hypothesis.meets ? 1 : 0);
     notes.reliability.push_back(hypothesis.reliability);
-    map::Hypothesis kept;
-    kept.prototype_a = input.images[at(parts[at(hypothesis.a)].prototype)].id;
-    kept.prototype_b = input.images[at(parts[at(hypothesis.b)].prototype)].id;
-    kept.similarity = hypothesis.similarity;
-    kept.masses_before = hypothesis.before;
-    kept.masses_after = hypothesis.after;
-    kept.support = support(hypothesis.after);
-    kept.plausibility = plausibility(hypothesis.after);
-    kept.decision = hypothesis.decision;
-    kept.by = hypothesis.by;
-    map.hypotheses.push_back(std::move(kept));
+    map.hypotheses.push_back(kept_hypothesis(hypothesis, input.images[at(parts[at(hypothesis.a)].prototype)].id,
+                                             input.images[at(parts[at(hypothesis.b)].prototype)].id));
   }
   map.motion = measure_statistics(input, map, place_of_image, usual);
   // Edits first: the places that a person made keep their ids like all others.

@@ -6,6 +6,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "core/index.hpp"
 #include "map/lookup.hpp"
 #include "map/parts.hpp"
 
@@ -15,8 +16,6 @@ namespace {
 constexpr double kToursApartImages = 1e6;  // so far apart along the way are images of different tours
 constexpr int kReach = 60;                 // new images; claims further apart say nothing about each other
 constexpr double kBorneOut = 3.0;          // as many others make a claim sure, or exclude it
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// How far looks were right in the old map where the way could tell, as weigh_way() has it: its hypotheses keep that in
 /// their masses before neighbours spoke.
@@ -55,15 +54,14 @@ std::vector<LoopTie> ties_of_edges(const map::TopologicalMap& old, const TourTra
   const auto place_of = map::place_indices(old);
   std::vector<LoopTie> ties;
   for (const map::Edge& edge : old.edges) {
-    const auto from = place_of.find(edge.from);
-    const auto to = place_of.find(edge.to);
-    if (from == place_of.end() || to == place_of.end() || from->second > to->second) continue;  // each once
+    const auto ends = map::ends_of(edge, place_of);
+    if (!ends || ends->from > ends->to) continue;  // each once
     if (!edge.bearing_rad || !edge.turn_rad || edge.confidence < kLeastConfidence ||
         edge.inliers < config.fewest_inliers || edge.length_from != map::LengthSource::kOdometry) {
       continue;
     }
-    const auto a = image_of.find(old.places[at(from->second)].prototype);
-    const auto b = image_of.find(old.places[at(to->second)].prototype);
+    const auto a = image_of.find(old.places[at(ends->from)].prototype);
+    const auto b = image_of.find(old.places[at(ends->to)].prototype);
     if (a == image_of.end() || b == image_of.end() || !way.joined(a->second, b->second)) continue;
     LoopTie tie;
     tie.a = a->second;
@@ -115,11 +113,10 @@ OldPlaces::OldPlaces(const map::TopologicalMap& old, const GrowthInput& input, c
   }
   const auto place_of = map::place_indices(old);
   for (const map::Edge& edge : old.edges) {
-    const auto from = place_of.find(edge.from);
-    const auto to = place_of.find(edge.to);
-    if (from == place_of.end() || to == place_of.end()) continue;
-    adjoining_[at(from->second)].push_back(to->second);
-    adjoining_[at(to->second)].push_back(from->second);
+    const auto ends = map::ends_of(edge, place_of);
+    if (!ends) continue;
+    adjoining_[at(ends->from)].push_back(ends->to);
+    adjoining_[at(ends->to)].push_back(ends->from);
   }
   for (std::vector<int>& places : adjoining_) {
     std::ranges::sort(places);

@@ -7,6 +7,7 @@
 
 #include "mapping/closed_way.hpp"
 #include "mapping/growth_input.hpp"
+#include "mapping/mapping_config.hpp"
 #include "mapping/two_ways.hpp"
 
 namespace homeward::mapping {

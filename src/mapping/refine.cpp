@@ -6,14 +6,13 @@
 #include <set>
 #include <utility>
 
+#include "core/index.hpp"
 #include "map/lookup.hpp"
 #include "mapping/parallel.hpp"
 #include "matching/visual_distance.hpp"
 
 namespace homeward::mapping {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// One step of a place's refinement.
 struct Step {

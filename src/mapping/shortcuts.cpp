@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/angles.hpp"
+#include "core/index.hpp"
 #include "map/lookup.hpp"
 #include "map/metric_layout.hpp"
 #include "mapping/compare_all.hpp"
@@ -20,8 +21,6 @@ namespace homeward::mapping {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The places of a map where the layout has their prototypes, joined by its edges.
 class Ways {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "mapping/map_builder.hpp"
+#include "mapping/mapping_input.hpp"
 
 namespace homeward::mapping {
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <tuple>
 
+#include "core/median.hpp"
+
 namespace homeward::mapping {
 
 int medoid(std::span<const int> items, const DistanceFunction& distance) {
@@ -21,9 +23,8 @@ int medoid(std::span<const int> items, const DistanceFunction& distance) {
       finite_sum += std::isfinite(distances.back()) ? static_cast<double>(distances.back()) : 1e6;
     }
     if (distances.empty()) return candidate;
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    const auto score = std::tuple(*middle, finite_sum / static_cast<double>(distances.size()));
+    const double mean = finite_sum / static_cast<double>(distances.size());
+    const auto score = std::tuple(median(std::move(distances)), mean);
     if (score < best_score) {
       best_score = score;
       best = candidate;

@@ -6,11 +6,10 @@
 #include <limits>
 
 #include "core/angles.hpp"
+#include "core/index.hpp"
 
 namespace homeward::mapping {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 double quantile(std::vector<double>& values, double q) {
   if (values.empty()) return 0.0;

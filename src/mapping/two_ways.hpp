@@ -44,12 +44,4 @@ using WayBetween = std::function<TrackPrediction(int, int)>;
 std::vector<MeetingTrust> meeting_trust(std::span<const Meeting> meetings, const WayBetween& new_way,
                                         const WayBetween& old_way, double place_extent_m, int reach);
 
-/// The same with the ways as they were driven, without their loops.
-inline std::vector<MeetingTrust> meeting_trust(std::span<const Meeting> meetings, const TourTrack& new_way,
-                                               const TourTrack& old_way, double place_extent_m, int reach) {
-  return meeting_trust(
-      meetings, [&](int a, int b) { return new_way.predict(a, b); },
-      [&](int a, int b) { return old_way.predict(a, b); }, place_extent_m, reach);
-}
-
 }  // namespace homeward::mapping

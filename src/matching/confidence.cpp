@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/angles.hpp"
+#include "geometry/planar_solver.hpp"
 #include "matching/distinctiveness.hpp"
 
 namespace homeward::matching {

@@ -4,7 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "geometry/planar_motion.hpp"
+#include "geometry/correspondence.hpp"
+#include "geometry/planar_estimate.hpp"
 #include "matching/match.hpp"
 
 namespace homeward::matching {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "core/processor.hpp"
 #include "features/colour.hpp"
 #include "features/columns.hpp"
 
@@ -194,7 +195,7 @@ __attribute__((target("avx2"))) Nearest compare_avx2(const Asked& asked, float s
 
 Nearest compare(const Asked& asked, float slack2, float bound2, Targets& targets) {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return compare_avx2(asked, slack2, bound2, targets);
+  if (has_avx2()) return compare_avx2(asked, slack2, bound2, targets);
 #endif
   return compare_plain(asked, slack2, bound2, targets);
 }

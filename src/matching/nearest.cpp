@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/processor.hpp"
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -298,7 +300,7 @@ NearestNeighbours find_nearest_portable(const ByteDescriptors& current, const By
 
 NearestNeighbours find_nearest_avx2(const ByteDescriptors& current, const ByteDescriptors& target) {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return compare_avx2(current, target);
+  if (has_avx2()) return compare_avx2(current, target);
 #endif
   return find_nearest_portable(current, target);
 }

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <random>
 
+#include "core/processor.hpp"
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -94,8 +96,7 @@ std::vector<std::int8_t> PlaceCoder::encode(const Eigen::VectorXf& vector) const
 
 std::int32_t dot(const std::int8_t* a, const std::int8_t* b, std::size_t length) {
 #if defined(__x86_64__)
-  static const bool fast = __builtin_cpu_supports("avx2") != 0;
-  if (fast) return dot_avx2(a, b, length);
+  if (has_avx2()) return dot_avx2(a, b, length);
 #endif
   return dot_portable(a, b, length);
 }

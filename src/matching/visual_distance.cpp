@@ -7,13 +7,6 @@
 #include "core/angles.hpp"
 
 namespace homeward::matching {
-namespace {
-
-double azimuth_rad(const features::FeatureSet& set, int index) {
-  return std::atan2(static_cast<double>(set.bearings(index, 1)), static_cast<double>(set.bearings(index, 0)));
-}
-
-}  // namespace
 
 PairComparison compare(const features::Appearance& a, const features::Appearance& b, const VerifyConfig& config,
                        std::uint64_t seed) {

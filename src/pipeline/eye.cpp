@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/angles.hpp"
+#include "core/median.hpp"
 #include "features/descriptor_code.hpp"
 #include "features/extract.hpp"
 
@@ -83,10 +84,9 @@ int suited_width_px(const camera::Camera& camera, int usual_px) {
     before = here;
   }
   if (per_rad.empty() || per_rad.size() > kAzimuths / 2) return usual_px;
-  std::ranges::nth_element(per_rad, per_rad.begin() + static_cast<std::ptrdiff_t>(per_rad.size() / 2));
   constexpr double kNarrowest_px = 1024.0;  // finer than a coarse picture's own: small blobs are found as well
   constexpr double kWidest_px = 4096.0;
-  const double width_px = 2.0 * kPi * per_rad[per_rad.size() / 2];
+  const double width_px = 2.0 * kPi * median(std::move(per_rad));
   constexpr double kMultiple = 64.0;
   return static_cast<int>(std::round(std::clamp(width_px, kNarrowest_px, kWidest_px) / kMultiple) * kMultiple);
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/index.hpp"
 #include "localisation/calibration.hpp"
 #include "localisation/localiser.hpp"
 #include "map/graph.hpp"
@@ -17,8 +18,6 @@ namespace {
 
 constexpr std::size_t kRunLength = 3;
 constexpr std::size_t kMostRuns = 100;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The place of each image; -1 for one that a person took out, -2 for prototypes, which the map has by heart.
 constexpr int kPrototype = -2;

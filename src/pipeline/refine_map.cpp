@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "core/index.hpp"
 #include "localisation/localiser.hpp"
 #include "map/graph.hpp"
 #include "map/lookup.hpp"
@@ -66,8 +67,6 @@ class Closeness {
   }
 
  private:
-  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
   [[nodiscard]] mapping::PairRelation relate(const features::Appearance& a, const features::Appearance& b) const {
     constexpr std::uint64_t kSeed = 1;
     return mapping::relate(a, b, options_.refine.verify, kSeed);

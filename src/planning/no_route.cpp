@@ -6,13 +6,12 @@
 #include <limits>
 #include <optional>
 
+#include "core/index.hpp"
 #include "map/graph.hpp"
 #include "map/lookup.hpp"
 
 namespace homeward::planning {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// A way between neighbours that could be driven if what stands against it did not.
 struct Wish {
@@ -34,18 +33,17 @@ std::vector<std::vector<Wish>> wishes(const map::TopologicalMap& map, const Rout
     }
   };
   for (const map::Edge& edge : map.edges) {
-    const auto from = index.find(edge.from);
-    const auto to = index.find(edge.to);
-    if (from == index.end() || to == index.end()) continue;
-    Wish wish{to->second, std::nullopt};
+    const auto ends = map::ends_of(edge, index);
+    if (!ends) continue;
+    Wish wish{ends->to, std::nullopt};
     if (std::ranges::find(request.closed, Way{edge.from, edge.to}) != request.closed.end()) {
       wish.obstacle = ObstacleKind::kClosed;
     }
     if (edge.blocked) wish.obstacle = ObstacleKind::kBlocked;
-    add(from->second, wish);
+    add(ends->from, wish);
     const bool known_back =
-        std::ranges::find(leaving[at(to->second)], from->second, &Wish::to) != leaving[at(to->second)].end();
-    if (!known_back) add(to->second, {from->second, ObstacleKind::kOneWay});
+        std::ranges::find(leaving[at(ends->to)], ends->from, &Wish::to) != leaving[at(ends->to)].end();
+    if (!known_back) add(ends->to, {ends->from, ObstacleKind::kOneWay});
   }
   return leaving;
 }

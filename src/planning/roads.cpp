@@ -10,12 +10,11 @@
 #include <unordered_map>
 
 #include "core/angles.hpp"
+#include "core/index.hpp"
 #include "map/lookup.hpp"
 
 namespace homeward::planning {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// From the end of one edge to the end of the next.
 struct Step {
@@ -52,11 +51,10 @@ Roads::Roads(const map::TopologicalMap& map, const RouteRequest& request)
   const auto index = map::place_indices(map);
   for (std::size_t i = 0; i < map.edges.size(); ++i) {
     const map::Edge& edge = map.edges[i];
-    const auto from = index.find(edge.from);
-    const auto to = index.find(edge.to);
-    if (edge.blocked || from == index.end() || to == index.end()) continue;
-    ends_[i] = {from->second, to->second};
-    leaving_[at(from->second)].push_back(static_cast<int>(i));
+    const auto ends = map::ends_of(edge, index);
+    if (edge.blocked || !ends) continue;
+    ends_[i] = {ends->from, ends->to};
+    leaving_[at(ends->from)].push_back(static_cast<int>(i));
   }
 }
 

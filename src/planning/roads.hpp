@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "planning/route.hpp"
+#include "map/topological_map.hpp"
+#include "planning/route_request.hpp"
 
 namespace homeward::planning {
 

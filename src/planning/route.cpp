@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "core/index.hpp"
 #include "map/lookup.hpp"
 #include "planning/no_route.hpp"
 #include "planning/roads.hpp"
@@ -13,8 +14,6 @@ namespace homeward::planning {
 namespace {
 
 constexpr int kMostRoutes = 100;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// A request in indices.
 struct Task {

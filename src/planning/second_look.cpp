@@ -6,13 +6,12 @@
 #include <limits>
 #include <queue>
 
+#include "core/index.hpp"
 #include "map/graph.hpp"
 #include "map/lookup.hpp"
 
 namespace homeward::planning {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The other places and how far they are along edges, nearest first (Dijkstra 1959).
 std::vector<std::pair<double, int>> by_distance(const map::TopologicalMap& map, const RouteRequest& request, int from) {

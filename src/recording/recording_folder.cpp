@@ -6,8 +6,6 @@
 #include <ctime>
 #include <vector>
 
-#include "recording/recording_thread.hpp"
-
 namespace homeward::recording {
 namespace {
 

@@ -10,6 +10,9 @@
 
 namespace homeward::recording {
 
+/// What names of recordings end in.
+inline constexpr const char* kRecordingExtension = ".hwrec";
+
 /// Removes the oldest recordings of a folder until all of them take at most `most_bytes`; nothing else is touched.
 /// `told`: hears of each.
 void make_room(const std::filesystem::path& folder, std::int64_t most_bytes,

@@ -17,8 +17,6 @@
 
 namespace homeward::recording {
 
-inline constexpr const char* kRecordingExtension = ".hwrec";
-
 struct RecordingOptions {
   std::filesystem::path folder;
   std::int64_t limit_bytes = std::int64_t{512} << 20;          // of one recording

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sim/generate/painting.hpp"
+#include "sim/random.hpp"
 
 namespace homeward::scenario {
 

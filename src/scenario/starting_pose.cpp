@@ -3,7 +3,7 @@
 
 #include "core/angles.hpp"
 #include "sim/floor.hpp"
-#include "sim/generate/painting.hpp"
+#include "sim/random.hpp"
 
 namespace homeward::scenario {
 

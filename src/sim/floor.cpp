@@ -6,6 +6,8 @@
 #include <limits>
 #include <queue>
 
+#include "sim/triangles.hpp"
+
 namespace homeward::sim {
 namespace {
 
@@ -92,8 +94,7 @@ FloorGrid occupied_cells(const Scene& scene, double resolution_m, double lowest_
   constexpr double kMargin_m = 0.5;
   FloorGrid grid;
   grid.resolution_m = resolution_m;
-  const Eigen::Vector2d least_m = scene.vertices_m.leftCols<2>().colwise().minCoeff().transpose().cast<double>();
-  const Eigen::Vector2d most_m = scene.vertices_m.leftCols<2>().colwise().maxCoeff().transpose().cast<double>();
+  const auto [least_m, most_m] = floor_extent(scene);
   grid.origin_m = least_m.array() - kMargin_m;
   grid.width = static_cast<int>(std::ceil((most_m.x() - least_m.x() + 2.0 * kMargin_m) / resolution_m));
   grid.height = static_cast<int>(std::ceil((most_m.y() - least_m.y() + 2.0 * kMargin_m) / resolution_m));
@@ -107,9 +108,7 @@ void mark_triangles(FloorGrid& grid, const Scene& scene, Eigen::Index first, Eig
   // Points on every triangle, closer than half a cell, mark their cells.
   const double step_m = 0.45 * grid.resolution_m;
   for (Eigen::Index t = first; t < first + count; ++t) {
-    const Eigen::Vector3d a = scene.vertices_m.row(scene.triangles(t, 0)).transpose().cast<double>();
-    const Eigen::Vector3d b = scene.vertices_m.row(scene.triangles(t, 1)).transpose().cast<double>();
-    const Eigen::Vector3d c = scene.vertices_m.row(scene.triangles(t, 2)).transpose().cast<double>();
+    const auto [a, b, c] = corners_m(scene, t);
     if (std::max({a.z(), b.z(), c.z()}) < lowest_m || std::min({a.z(), b.z(), c.z()}) > highest_m) continue;
     const int along_ab = std::max(1, static_cast<int>(std::ceil((b - a).norm() / step_m)));
     const int along_ac = std::max(1, static_cast<int>(std::ceil((c - a).norm() / step_m)));

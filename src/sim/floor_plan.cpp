@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "sim/triangles.hpp"
+
 namespace homeward::sim {
 namespace {
 
@@ -46,17 +48,14 @@ FloorPlan::FloorPlan(const Scene& scene, double lowest_m, double highest_m) {
     tiles_.resize(1);
     return;
   }
-  const Eigen::Vector2d least_m = scene.vertices_m.leftCols<2>().colwise().minCoeff().transpose().cast<double>();
-  const Eigen::Vector2d most_m = scene.vertices_m.leftCols<2>().colwise().maxCoeff().transpose().cast<double>();
+  const auto [least_m, most_m] = floor_extent(scene);
   origin_m_ = least_m;
   columns_ = static_cast<int>((most_m.x() - least_m.x()) / kTile_m) + 1;
   rows_ = static_cast<int>((most_m.y() - least_m.y()) / kTile_m) + 1;
   tiles_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t) {
-    std::vector<Eigen::Vector3d> polygon;
-    for (Eigen::Index corner = 0; corner < 3; ++corner) {
-      polygon.emplace_back(scene.vertices_m.row(scene.triangles(t, corner)).transpose().cast<double>());
-    }
+    const std::array<Eigen::Vector3d, 3> corners = corners_m(scene, t);
+    std::vector<Eigen::Vector3d> polygon(corners.begin(), corners.end());
     polygon = cut(cut(polygon, lowest_m, 1.0), highest_m, -1.0);
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       add_edge(polygon[i].head<2>(), polygon[(i + 1) % polygon.size()].head<2>());

@@ -5,10 +5,13 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <array>
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "sim/triangles.hpp"
 
 namespace homeward::sim {
 namespace {
@@ -73,43 +76,29 @@ class Collector {
     for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], world_from_node);
   }
 
-  [[nodiscard]] Scene scene() const {
-    Scene scene;
-    const auto count = static_cast<Eigen::Index>(vertices_m_.size());
-    scene.vertices_m.resize(count, 3);
-    scene.texture_uv.resize(count, 2);
-    scene.triangles.resize(count / 3, 3);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      scene.vertices_m.row(i) = vertices_m_[static_cast<std::size_t>(i)];
-      scene.texture_uv.row(i) = uv_[static_cast<std::size_t>(i)];
-      scene.triangles(i / 3, i % 3) = static_cast<std::int32_t>(i);
-    }
-    scene.triangle_materials = materials_;
-    return scene;
-  }
+  Scene take() { return triangles_.take(); }
 
  private:
   void add(const aiMesh& mesh, const aiMatrix4x4& world_from_mesh) {
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
       if (face.mNumIndices != 3) continue;
+      std::array<Corner, 3> corners;
       for (unsigned k = 0; k < 3; ++k) {
         const unsigned index = face.mIndices[k];
         const aiVector3D p = world_from_mesh * mesh.mVertices[index];
-        vertices_m_.emplace_back(up_ == MeshUp::kY ? Eigen::Vector3f(p.x, -p.z, p.y) : Eigen::Vector3f(p.x, p.y, p.z));
+        corners[k].position_m = up_ == MeshUp::kY ? Eigen::Vector3f(p.x, -p.z, p.y) : Eigen::Vector3f(p.x, p.y, p.z);
         const aiVector3D uv = mesh.HasTextureCoords(0) ? mesh.mTextureCoords[0][index] : aiVector3D();
         // assimp counts v upwards.
-        uv_.emplace_back(uv.x, 1.0F - uv.y);
+        corners[k].uv = {uv.x, 1.0F - uv.y};
       }
-      materials_.push_back(static_cast<int>(mesh.mMaterialIndex));
+      triangles_.add(corners, static_cast<int>(mesh.mMaterialIndex));
     }
   }
 
   const aiScene& source_;
   MeshUp up_;
-  std::vector<Eigen::Vector3f> vertices_m_;
-  std::vector<Eigen::Vector2f> uv_;
-  std::vector<int> materials_;
+  LooseTriangles triangles_;
 };
 
 }  // namespace
@@ -125,7 +114,7 @@ Result<Scene> import_mesh(std::span<const std::uint8_t> bytes, const std::string
   }
   Collector collector(*source, up);
   collector.visit(*source->mRootNode, aiMatrix4x4());
-  Scene scene = collector.scene();
+  Scene scene = collector.take();
   if (scene.triangles.rows() == 0) return fail(ErrorCode::kEmptyInput, "The mesh has no triangle.", where);
   scene.materials = materials_of(*source);
   for (unsigned i = 0; i < source->mNumTextures; ++i) scene.textures.push_back(decode_texture(*source->mTextures[i]));

@@ -7,7 +7,8 @@
 
 #include "core/angles.hpp"
 #include "sim/floor.hpp"
-#include "sim/generate/painting.hpp"
+#include "sim/random.hpp"
+#include "sim/triangles.hpp"
 
 namespace homeward::sim {
 namespace {
@@ -78,8 +79,7 @@ class Mover {
   [[nodiscard]] Area area_of(const Furniture& piece) const {
     Area area;
     for (Eigen::Index t = piece.first; t < piece.first + piece.count; ++t) {
-      for (Eigen::Index k = 0; k < 3; ++k)
-        area.hold(world_.scene.vertices_m.row(world_.scene.triangles(t, k)).head<2>().transpose().cast<double>());
+      for (const Eigen::Vector3d& corner_m : corners_m(world_.scene, t)) area.hold(corner_m.head<2>());
     }
     return area;
   }

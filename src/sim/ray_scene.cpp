@@ -6,6 +6,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "sim/triangles.hpp"
+
 namespace homeward::sim {
 
 struct RayScene::Embree {
@@ -116,13 +118,7 @@ bool RayScene::blocked(const Eigen::Vector3f& from_m, const Eigen::Vector3f& to_
 
 namespace {
 
-struct Corner {
-  Eigen::Vector3f position_m;
-  Eigen::Vector2f uv;
-};
-
-void split(const std::array<Corner, 3>& corners, int material, float max_edge2, int depth,
-           std::vector<std::array<Corner, 3>>& triangles, std::vector<int>& materials) {
+void split(const std::array<Corner, 3>& corners, int material, float max_edge2, int depth, LooseTriangles& triangles) {
   std::size_t longest = 0;
   float longest2 = 0.0F;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -133,47 +129,34 @@ void split(const std::array<Corner, 3>& corners, int material, float max_edge2, 
     }
   }
   if (longest2 <= max_edge2 || depth == 0) {
-    triangles.push_back(corners);
-    materials.push_back(material);
+    triangles.add(corners, material);
     return;
   }
   const Corner& a = corners[longest];
   const Corner& b = corners[(longest + 1) % 3];
   const Corner& c = corners[(longest + 2) % 3];
   const Corner middle{0.5F * (a.position_m + b.position_m), 0.5F * (a.uv + b.uv)};
-  split({a, middle, c}, material, max_edge2, depth - 1, triangles, materials);
-  split({middle, b, c}, material, max_edge2, depth - 1, triangles, materials);
+  split({a, middle, c}, material, max_edge2, depth - 1, triangles);
+  split({middle, b, c}, material, max_edge2, depth - 1, triangles);
 }
 
 }  // namespace
 
 Scene tessellate(const Scene& scene, float max_edge_m) {
   constexpr int kMaxDepth = 16;
-  std::vector<std::array<Corner, 3>> triangles;
-  Scene fine;
-  fine.materials = scene.materials;
-  fine.textures = scene.textures;
+  LooseTriangles triangles;
   for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t) {
     std::array<Corner, 3> corners;
     for (Eigen::Index k = 0; k < 3; ++k) {
       const Eigen::Index vertex = scene.triangles(t, k);
       corners[static_cast<std::size_t>(k)] = {scene.vertices_m.row(vertex), scene.texture_uv.row(vertex)};
     }
-    split(corners, scene.triangle_materials[static_cast<std::size_t>(t)], max_edge_m * max_edge_m, kMaxDepth, triangles,
-          fine.triangle_materials);
+    split(corners, scene.triangle_materials[static_cast<std::size_t>(t)], max_edge_m * max_edge_m, kMaxDepth,
+          triangles);
   }
-  const auto count = static_cast<Eigen::Index>(triangles.size());
-  fine.vertices_m.resize(3 * count, 3);
-  fine.texture_uv.resize(3 * count, 2);
-  fine.triangles.resize(count, 3);
-  for (Eigen::Index t = 0; t < count; ++t) {
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      const Corner& corner = triangles[static_cast<std::size_t>(t)][static_cast<std::size_t>(k)];
-      fine.vertices_m.row(3 * t + k) = corner.position_m;
-      fine.texture_uv.row(3 * t + k) = corner.uv;
-      fine.triangles(t, k) = static_cast<std::int32_t>(3 * t + k);
-    }
-  }
+  Scene fine = triangles.take();
+  fine.materials = scene.materials;
+  fine.textures = scene.textures;
   return fine;
 }
 

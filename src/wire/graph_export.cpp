@@ -3,6 +3,7 @@
 
 #include <unordered_map>
 
+#include "core/markup.hpp"
 #include "map/lookup.hpp"
 #include "wire/graph_json.hpp"
 #include "wire/inspect_json.hpp"
@@ -13,36 +14,10 @@ namespace {
 
 using nlohmann::json;
 
-/// Text that may stand between tags and in attributes. Control characters that XML 1.0 forbids are left out.
-std::string xml_escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 && c != '\t' && c != '\n' && c != '\r') continue;
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
 std::string number_text(double value) { return json(value).dump(); }
 
 std::string data(const char* key, const std::string& text) {
-  return std::string("      <data key=\"") + key + "\">" + xml_escaped(text) + "</data>\n";
+  return std::string("      <data key=\"") + key + "\">" + escape_xml(text) + "</data>\n";
 }
 
 std::string graphml_keys() {
@@ -60,16 +35,15 @@ std::string graphml_keys() {
 std::string graphml(const map::TopologicalMap& map, const std::vector<Eigen::Vector2d>& layout) {
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n" +
-      graphml_keys() + "  <graph id=\"" + xml_escaped(map.name) + "\" edgedefault=\"directed\">\n";
+      graphml_keys() + "  <graph id=\"" + escape_xml(map.name) + "\" edgedefault=\"directed\">\n";
   for (std::size_t i = 0; i < map.places.size(); ++i) {
     const map::Place& place = map.places[i];
-    text += "    <node id=\"" + xml_escaped(place.id.str()) + "\">\n" + data("label", place.label) +
+    text += "    <node id=\"" + escape_xml(place.id.str()) + "\">\n" + data("label", place.label) +
             data("prototype", place.prototype.str()) + data("images", std::to_string(place.members.size())) +
             data("x", number_text(layout.at(i).x())) + data("y", number_text(layout.at(i).y())) + "    </node>\n";
   }
   for (const map::Edge& edge : map.edges) {
-    text +=
-        "    <edge source=\"" + xml_escaped(edge.from.str()) + "\" target=\"" + xml_escaped(edge.to.str()) + "\">\n";
+    text += "    <edge source=\"" + escape_xml(edge.from.str()) + "\" target=\"" + escape_xml(edge.to.str()) + "\">\n";
     if (edge.bearing_rad) text += data("bearing_rad", number_text(*edge.bearing_rad));
     if (edge.turn_rad) text += data("turn_rad", number_text(*edge.turn_rad));
     text += data("length_m", number_text(edge.length_m)) +
@@ -103,12 +77,11 @@ json geojson(const map::TopologicalMap& map, const std::vector<Eigen::Vector2d>&
                                 {"images", place.members.size()}}));
   }
   for (const map::Edge& edge : map.edges) {
-    const auto from = index.find(edge.from);
-    const auto to = index.find(edge.to);
-    if (from == index.end() || to == index.end()) continue;
+    const auto ends = map::ends_of(edge, index);
+    if (!ends) continue;
     json properties = edge_to_json(edge);
     properties["blocked"] = edge.blocked;
-    features.push_back(feature("LineString", json::array({position(from->second), position(to->second)}), properties));
+    features.push_back(feature("LineString", json::array({position(ends->from), position(ends->to)}), properties));
   }
   return {{"type", "FeatureCollection"},
           {"name", map.name},

@@ -14,10 +14,8 @@ namespace homeward::wire {
 namespace {
 
 std::optional<PathEdge> edge_between(const map::TopologicalMap& map, const PlaceId& from, const PlaceId& to) {
-  const auto edge = std::find_if(map.edges.begin(), map.edges.end(), [&](const map::Edge& candidate) {
-    return candidate.from == from && candidate.to == to;
-  });
-  if (edge == map.edges.end()) return std::nullopt;
+  const map::Edge* edge = map::find_edge(map, from, to);
+  if (edge == nullptr) return std::nullopt;
   // A robot that counts on a length needs a measured one.
   const bool metric = edge->length_from == map::LengthSource::kOdometry;
   return PathEdge{edge->bearing_rad, edge->turn_rad, metric ? std::optional(edge->length_m) : std::nullopt, edge->weak,

@@ -88,4 +88,11 @@ inline std::string spelled(const std::vector<PlaceId>& places) {
   return text;
 }
 
+/// The places of a drawing with these letters, in their order.
+inline std::vector<PlaceId> places(const std::string& letters) {
+  std::vector<PlaceId> ids;
+  for (const char letter : letters) ids.emplace_back(std::string(1, letter));
+  return ids;
+}
+
 }  // namespace homeward::testing

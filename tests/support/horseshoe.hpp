@@ -7,6 +7,7 @@
 #include "map/topological_map.hpp"
 #include "mapping/seen_floor.hpp"
 #include "support/landmarks.hpp"
+#include "support/sample_map.hpp"
 #include "support/walled_floor.hpp"
 
 namespace homeward::testing {
@@ -24,12 +25,7 @@ struct Horseshoe {
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const ImageId image("tour/" + std::to_string(100 + i));
       map.images.push_back({image, std::nullopt, poses[i]});
-      map::Place place;
-      place.id = PlaceId("p" + std::to_string(i + 1));
-      place.prototype = image;
-      place.members = {image};
-      place.appearances = {seen_from(landmarks, poses[i], 70 + i)};
-      map.places.push_back(place);
+      map.places.push_back(place_of_image("p" + std::to_string(i + 1), image, seen_from(landmarks, poses[i], 70 + i)));
       sweeps.push_back({image, sweep_at(poses[i], walls)});
     }
     for (std::size_t i = 0; i + 1 < poses.size(); ++i) {

@@ -47,4 +47,16 @@ inline void drive(MemoryTour& tour, const camera::Camera& camera, int count, dou
   }
 }
 
+/// A small camera that sees all around.
+inline const camera::CameraConfig& camera_config() {
+  static const camera::CameraConfig config = sphere_camera(512);
+  return config;
+}
+
+/// The camera itself.
+inline const camera::Camera& the_camera() {
+  static const auto camera = camera::Camera::create(camera_config()).value();
+  return *camera;
+}
+
 }  // namespace homeward::testing

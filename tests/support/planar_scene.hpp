@@ -67,4 +67,9 @@ inline PlanarScene planar_scene(int count, double outlier_share, double noise_ra
   return scene;
 }
 
+/// How far a direction is from the true one, whichever way round.
+inline double direction_error_deg(const geometry::PlanarMotion& found, const geometry::PlanarMotion& truth) {
+  return std::abs(degrees(wrap_angle(found.direction_rad - truth.direction_rad)));
+}
+
 }  // namespace homeward::testing

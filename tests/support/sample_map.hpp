@@ -2,6 +2,8 @@
 #pragma once
 
 #include <random>
+#include <string>
+#include <utility>
 
 #include "map/topological_map.hpp"
 
@@ -26,6 +28,16 @@ inline features::Appearance random_appearance(int count, unsigned seed) {
   }
   for (float& moment : appearance.colour_moments) moment = uniform(random);
   return appearance;
+}
+
+/// A place with one image.
+inline map::Place place_of_image(const std::string& id, const ImageId& image, features::Appearance appearance) {
+  map::Place place;
+  place.id = PlaceId(id);
+  place.prototype = image;
+  place.members = {image};
+  place.appearances.push_back(std::move(appearance));
+  return place;
 }
 
 /// A small valid map with one of everything: 3 images, 2 places, 2 edges, a hypothesis, a rejected

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <map>
 
+#include "core/index.hpp"
+#include "core/markup.hpp"
 #include "map/layout.hpp"
 #include "map/lookup.hpp"
 #include "pipeline/report/drawings.hpp"
@@ -15,8 +17,6 @@ constexpr double kWidth = 1000.0;
 constexpr double kMargin = 40.0;
 constexpr double kMostHeight = 760.0;
 constexpr std::size_t kMostIds = 160;  // beyond, the ids of places would cover each other
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Places on the drawing: the layout, turned so that its longer side lies across, fills the width.
 struct Sheet {
@@ -75,10 +75,9 @@ std::string draw_graph(const map::TopologicalMap& map, const ReportFacts& facts)
   const auto indices = map::place_indices(map);
   std::map<std::pair<int, int>, map::Edge> drawn;
   for (const map::Edge& edge : map.edges) {
-    const auto from = indices.find(edge.from);
-    const auto to = indices.find(edge.to);
-    if (from == indices.end() || to == indices.end()) continue;
-    map::Edge& kept = drawn.try_emplace(std::minmax(from->second, to->second), edge).first->second;
+    const auto ends = map::ends_of(edge, indices);
+    if (!ends) continue;
+    map::Edge& kept = drawn.try_emplace(std::minmax(ends->from, ends->to), edge).first->second;
     kept.weak = kept.weak || edge.weak;
     kept.blocked = kept.blocked || edge.blocked;
   }

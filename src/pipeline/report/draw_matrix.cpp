@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/index.hpp"
 #include "imageio/decode.hpp"
 #include "map/lookup.hpp"
 #include "pipeline/report/drawings.hpp"
@@ -18,8 +19,6 @@ constexpr double kSide = 560.0;     // as drawn
 constexpr double kAxis = 44.0;
 
 using Colour = std::array<std::uint8_t, 3>;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// White for nothing in common, through light blue to dark: also told apart without colours.
 Colour colour_of(double similarity) {

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/index.hpp"
+#include "core/markup.hpp"
 #include "map/lookup.hpp"
 #include "pipeline/report/drawings.hpp"
 #include "pipeline/report/html.hpp"
@@ -14,8 +16,6 @@ constexpr double kRight = 990.0;
 constexpr double kArcs = 150.0;  // height of the arcs
 constexpr double kRow = 20.0;
 constexpr double kBetween = 6.0;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Colours far apart: the hue goes on by the golden angle.
 std::string colour_of(int number_of_it) {

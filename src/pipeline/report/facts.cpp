@@ -8,14 +8,14 @@
 #include <map>
 #include <numeric>
 
+#include "core/index.hpp"
+#include "core/markup.hpp"
 #include "map/graph.hpp"
 #include "map/lookup.hpp"
 #include "pipeline/report/html.hpp"
 
 namespace homeward::pipeline {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 using Pair = std::pair<int, int>;
 
@@ -64,10 +64,9 @@ std::map<Pair, map::Edge> ways(const map::TopologicalMap& map) {
   const auto places = map::place_indices(map);
   std::map<Pair, map::Edge> result;
   for (const map::Edge& edge : map.edges) {
-    const auto from = places.find(edge.from);
-    const auto to = places.find(edge.to);
-    if (from == places.end() || to == places.end()) continue;
-    const auto [known, is_new] = result.try_emplace(ordered(from->second, to->second), edge);
+    const auto ends = map::ends_of(edge, places);
+    if (!ends) continue;
+    const auto [known, is_new] = result.try_emplace(ordered(ends->from, ends->to), edge);
     if (is_new) continue;
     known->second.weak = known->second.weak || edge.weak;
     known->second.confidence = std::min(known->second.confidence, edge.confidence);

@@ -8,10 +8,6 @@
 
 namespace homeward::pipeline {
 
-/// Text as it may stand in HTML and SVG, between tags and in quoted attributes. Bytes that are no UTF-8, and control
-/// characters, which no page may hold, become U+FFFD.
-std::string escape_html(std::string_view text);
-
 /// A file's bytes as an address that needs no file: "data:image/png;base64,...".
 std::string data_uri(std::string_view media_type, std::span<const std::uint8_t> bytes);
 

@@ -5,7 +5,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "pipeline/report/report_page.hpp"
+#include "core/result.hpp"
+#include "core/tour.hpp"
+#include "pipeline/build_map.hpp"
+#include "pipeline/report/report_options.hpp"
 
 namespace homeward::pipeline {
 

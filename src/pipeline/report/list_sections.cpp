@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/index.hpp"
+#include "core/markup.hpp"
 #include "pipeline/report/drawings.hpp"
 #include "pipeline/report/html.hpp"
 #include "pipeline/report/sections.hpp"
@@ -10,8 +12,6 @@ namespace homeward::pipeline {
 namespace {
 
 constexpr std::size_t kMostRows = 25;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 std::string image_name(const BuiltMap& built, int image) { return picture_name(built.map.images[at(image)].id); }
 

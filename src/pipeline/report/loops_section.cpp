@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/index.hpp"
 #include "map/lookup.hpp"
 #include "pipeline/report/drawings.hpp"
 #include "pipeline/report/html.hpp"
@@ -11,8 +12,6 @@ namespace homeward::pipeline {
 namespace {
 
 constexpr std::size_t kMostRows = 300;  // of hypotheses without a picture
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// What the way driven said, where the builder told.
 std::optional<mapping::TrackVerdict> way_of(const BuiltMap& built, int index) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "core/markup.hpp"
 #include "pipeline/report/drawings.hpp"
 #include "pipeline/report/html.hpp"
 #include "pipeline/report/sections.hpp"

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "core/result.hpp"
 #include "core/tour.hpp"
 #include "pipeline/build_map.hpp"
+#include "pipeline/report/report_options.hpp"
 
 namespace homeward::pipeline {
-
-struct ReportOptions {
-  std::string date;        // as it is to be printed; empty: none
-  int most_pictures = 60;  // hypotheses that are drawn, the least certain ones
-  int threads = 0;         // 0: as many as the machine has
-  std::uint64_t seed = 1;
-};
 
 /// One page of HTML about a map and how it came about, for people to read and print: complete in itself, without
 /// scripts, well-formed as XML too. `tours`: those that the map was built of; pictures of hypotheses are taken from

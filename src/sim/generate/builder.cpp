@@ -37,11 +37,9 @@ int SceneBuilder::texture(Image picture) {
 
 void SceneBuilder::triangle(const std::array<Eigen::Vector3d, 3>& corners, const std::array<Eigen::Vector2d, 3>& uv,
                             int material) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    vertices_m_.push_back(corners[k].cast<float>());
-    uv_.push_back(uv[k].cast<float>());
-  }
-  materials_of_triangles_.push_back(material);
+  std::array<Corner, 3> rounded;
+  for (std::size_t k = 0; k < 3; ++k) rounded[k] = {corners[k].cast<float>(), uv[k].cast<float>()};
+  triangles_.add(rounded, material);
 }
 
 void SceneBuilder::quad(const Pose2& frame, const std::array<Eigen::Vector3d, 4>& corners, Surface surface) {
@@ -105,17 +103,7 @@ void SceneBuilder::cylinder(const Pose2& frame, const Eigen::Vector3d& foot, dou
 }
 
 Scene SceneBuilder::take() {
-  Scene scene;
-  const auto count = static_cast<Eigen::Index>(vertices_m_.size());
-  scene.vertices_m.resize(count, 3);
-  scene.texture_uv.resize(count, 2);
-  scene.triangles.resize(count / 3, 3);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    scene.vertices_m.row(i) = vertices_m_[static_cast<std::size_t>(i)];
-    scene.texture_uv.row(i) = uv_[static_cast<std::size_t>(i)];
-    scene.triangles(i / 3, i % 3) = static_cast<std::int32_t>(i);
-  }
-  scene.triangle_materials = std::move(materials_of_triangles_);
+  Scene scene = triangles_.take();
   scene.materials = std::move(materials_);
   scene.textures = std::move(textures_);
   *this = SceneBuilder();

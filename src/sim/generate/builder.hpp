@@ -7,6 +7,7 @@
 
 #include "core/pose2.hpp"
 #include "sim/scene.hpp"
+#include "sim/triangles.hpp"
 
 namespace homeward::sim {
 
@@ -38,7 +39,7 @@ class SceneBuilder {
   /// An upright cylinder with 12 sides, closed above.
   void cylinder(const Pose2& frame, const Eigen::Vector3d& foot, double radius_m, double height_m, Surface surface);
 
-  [[nodiscard]] Eigen::Index triangles() const { return static_cast<Eigen::Index>(materials_of_triangles_.size()); }
+  [[nodiscard]] Eigen::Index triangles() const { return triangles_.count(); }
   /// The scene; the builder is empty afterwards.
   Scene take();
 
@@ -46,11 +47,22 @@ class SceneBuilder {
   [[nodiscard]] int texture(Image picture);
   void triangle(const std::array<Eigen::Vector3d, 3>& corners, const std::array<Eigen::Vector2d, 3>& uv, int material);
 
-  std::vector<Eigen::Vector3f> vertices_m_;
-  std::vector<Eigen::Vector2f> uv_;
-  std::vector<int> materials_of_triangles_;
+  LooseTriangles triangles_;
   std::vector<Material> materials_;
   std::vector<Image> textures_;
+};
+
+/// Boxes of one thing, in the frame that it stands in; x is measured from its middle.
+struct FramedBoxes {
+  SceneBuilder& scene;
+  Pose2 frame;
+
+  void box(double x0, double x1, double y0, double y1, double z0, double z1, Surface front, Surface others) const {
+    scene.box(frame, {x0, y0, z0}, {x1, y1, z1}, {front, others});
+  }
+  void box(double x0, double x1, double y0, double y1, double z0, double z1, Surface all) const {
+    box(x0, x1, y0, y1, z0, z1, all, all);
+  }
 };
 
 }  // namespace homeward::sim

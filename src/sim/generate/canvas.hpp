@@ -5,14 +5,11 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "sim/generate/painting.hpp"
+#include "core/image.hpp"
+#include "sim/generate/colour.hpp"
+#include "sim/random.hpp"
 
 namespace homeward::sim {
-
-Rgb scaled(Rgb colour, double factor);
-/// The colour, changed a little at random in lightness and tint.
-Rgb varied(Random& random, Rgb colour, int by);
-Rgb rich_colour(Random& random);
 
 /// Something to paint on. Coordinates in pixels, u to the right, v down.
 class Canvas {

@@ -12,9 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// One piece in the making: the scene, where it stands and what it is made of.
-struct Workshop {
-  SceneBuilder& scene;
-  Pose2 frame;
+struct Workshop : FramedBoxes {
   Random& random;
   PieceSize size;
 
@@ -30,13 +28,6 @@ struct Workshop {
         {{150, 105, 65}, {110, 72, 45}, {190, 150, 105}, {215, 205, 190}, {85, 58, 42}}};
     return varied(random, kWoods[static_cast<std::size_t>(pick(random, kWoods.size()))], 12);
   }
-  /// A box of the piece; x is measured from its middle.
-  void box(double x0, double x1, double y0, double y1, double z0, double z1, Surface front, Surface others) const {
-    scene.box(frame, Vector3d(x0, y0, z0), Vector3d(x1, y1, z1), {front, others});
-  }
-  void box(double x0, double x1, double y0, double y1, double z0, double z1, Surface all) const {
-    box(x0, x1, y0, y1, z0, z1, all, all);
-  }
   void legs(double x0, double x1, double y0, double y1, double height, double thick, Surface surface) const {
     for (const double x : {x0, x1 - thick}) {
       for (const double y : {y0, y1 - thick}) box(x, x + thick, y, y + thick, 0, height, surface);
@@ -46,7 +37,7 @@ struct Workshop {
 
 void chair(const Workshop& at, double x, double y, double facing_rad, Surface wood, Surface seat) {
   const Pose2 here = at.frame * Pose2{x, y, facing_rad};
-  const Workshop own{at.scene, here, at.random, {}};
+  const Workshop own{{at.scene, here}, at.random, {}};
   own.legs(-0.21, 0.21, -0.21, 0.21, 0.44, 0.04, wood);
   own.box(-0.22, 0.22, -0.22, 0.22, 0.44, 0.49, seat);
   own.box(-0.22, 0.22, -0.22, -0.18, 0.49, 0.92, seat, wood);
@@ -328,7 +319,7 @@ void hang_picture(SceneBuilder& scene, const Pose2& frame, double width_m, doubl
 }
 
 void build_piece(SceneBuilder& scene, Piece piece, const Pose2& frame, Random& random) {
-  const Workshop at{scene, frame, random, size_of(piece)};
+  const Workshop at{{scene, frame}, random, size_of(piece)};
   switch (piece) {
     case Piece::kWardrobe:
       return wardrobe(at);

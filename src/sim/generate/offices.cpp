@@ -71,14 +71,7 @@ World generate_offices(std::uint64_t seed) {
                       {{south ? Side::kSouth : Side::kNorth, window_at_m, 1.6}}});
     doorways.push_back({{x0 + 0.5 * kWidth_m, south ? 0.0 : kCorridor_m}, true, 1.15, 2.1, false});
   }
-  for (const Space& space : spaces) {
-    Random same(seed * 13 + 1);  // the same windows, curtains and skirting everywhere
-    build_shell(scene, space, doorways, same);
-  }
-  for (const Doorway& doorway : doorways) {
-    Random same(seed * 17 + 2);
-    build_linings(scene, {doorway}, same);
-  }
+  build_like_shells(scene, spaces, doorways, seed);
   World world;
   for (std::size_t i = 1; i < spaces.size(); ++i) {
     const int number = static_cast<int>(i);

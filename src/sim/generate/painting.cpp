@@ -9,12 +9,6 @@
 
 namespace homeward::sim {
 
-double uniform(Random& random, double least, double most) {
-  return least + (most - least) * static_cast<double>(random() >> 11U) * 0x1.0p-53;
-}
-
-int pick(Random& random, int count) { return static_cast<int>(random() % static_cast<std::uint64_t>(count)); }
-
 Image paint_planks(Random& random, Rgb base) {
   Canvas canvas(512, 512, base);
   constexpr int kRows = 14;

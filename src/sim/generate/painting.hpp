@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <random>
-
 #include "core/image.hpp"
+#include "sim/generate/colour.hpp"
+#include "sim/random.hpp"
 
 namespace homeward::sim {
-
-using Random = std::mt19937_64;
-using Rgb = std::array<int, 3>;  // sRGB 0..255
-
-/// The same number on every machine, unlike the standard's distributions.
-double uniform(Random& random, double least, double most);
-int pick(Random& random, int count);
 
 // Painted surfaces of a home. Each is seeded by `random` alone; 8-bit sRGB.
 

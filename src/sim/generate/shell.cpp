@@ -205,6 +205,18 @@ void build_linings(SceneBuilder& scene, const std::vector<Doorway>& doorways, Ra
   }
 }
 
+void build_like_shells(SceneBuilder& scene, const std::vector<Space>& spaces, const std::vector<Doorway>& doorways,
+                       std::uint64_t seed) {
+  for (const Space& space : spaces) {
+    Random same(seed * 13 + 1);  // the same windows, curtains and skirting everywhere
+    build_shell(scene, space, doorways, same);
+  }
+  for (const Doorway& doorway : doorways) {
+    Random same(seed * 17 + 2);
+    build_linings(scene, {doorway}, same);
+  }
+}
+
 void build_shut_door(SceneBuilder& scene, const Pose2& frame, Random& random) {
   const Surface wood = lining_of(scene, random);
   const Surface door = leaf_of(scene, random);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,6 +64,10 @@ void build_shell(SceneBuilder& scene, const Space& space, const std::vector<Door
 
 /// The linings of the doorways' walls, once for each doorway; the frames and bars of glazed panels.
 void build_linings(SceneBuilder& scene, const std::vector<Doorway>& doorways, Random& random);
+
+/// Shells and linings that look the same from space to space and from doorway to doorway.
+void build_like_shells(SceneBuilder& scene, const std::vector<Space>& spaces, const std::vector<Doorway>& doorways,
+                       std::uint64_t seed);
 
 /// A door that is shut: it stands before the wall at y = 0 of `frame`, which looks along +y. Looks as the leaves do
 /// that `build_linings` builds of the same `random`.

@@ -7,16 +7,7 @@ namespace homeward::sim {
 namespace {
 
 /// Boxes of one thing.
-struct Bench {
-  SceneBuilder& scene;
-  Pose2 frame;
-
-  void box(double x0, double x1, double y0, double y1, double z0, double z1, Surface front, Surface others) const {
-    scene.box(frame, {x0, y0, z0}, {x1, y1, z1}, {front, others});
-  }
-  void box(double x0, double x1, double y0, double y1, double z0, double z1, Surface all) const {
-    box(x0, x1, y0, y1, z0, z1, all, all);
-  }
+struct Bench : FramedBoxes {
   void legs(double half_m, double y0, double y1, double height_m, Surface surface) const {
     constexpr double kThick_m = 0.04;
     for (const double x : {-half_m, half_m - kThick_m}) {
@@ -93,7 +84,7 @@ WardMaterials ward_materials(SceneBuilder& scene, Random& random) {
 }
 
 void build_ward_thing(SceneBuilder& scene, WardThing thing, const Pose2& frame, const WardMaterials& materials) {
-  const Bench at{scene, frame};
+  const Bench at{{scene, frame}};
   switch (thing) {
     case WardThing::kBed:
       return bed(at, materials);
@@ -109,7 +100,7 @@ void build_ward_thing(SceneBuilder& scene, WardThing thing, const Pose2& frame, 
 }
 
 void build_bed_wall(SceneBuilder& scene, const Pose2& frame, const WardMaterials& materials) {
-  const Bench at{scene, frame};
+  const Bench at{{scene, frame}};
   at.box(-0.75, 0.75, 0.0, 0.05, 1.22, 1.36, materials.enamel);
   for (const double x : {-0.5, 0.38}) at.box(x, x + 0.12, 0.05, 0.055, 1.23, 1.35, materials.outlets, materials.steel);
   at.box(-0.2, 0.2, 0.0, 0.02, 1.62, 1.9, materials.notes, materials.steel);

@@ -7,6 +7,7 @@
 #include "sim/generate/ward_things.hpp"
 #include "sim/generate/wards_plan.hpp"
 #include "sim/generate/worlds.hpp"
+#include "sim/triangles.hpp"
 
 namespace homeward::sim {
 namespace {
@@ -177,7 +178,7 @@ void name_rooms_of(World& world) {
   for (Furniture& piece : world.furniture) {
     Eigen::Vector2d middle_m = Eigen::Vector2d::Zero();
     for (Eigen::Index t = piece.first; t < piece.first + piece.count; ++t) {
-      middle_m += world.scene.vertices_m.row(world.scene.triangles(t, 0)).head<2>().transpose().cast<double>();
+      middle_m += corners_m(world.scene, t)[0].head<2>();
     }
     middle_m /= static_cast<double>(piece.count);
     for (const Room& room : world.rooms) {
@@ -197,14 +198,7 @@ World generate_wards(std::uint64_t seed) {
   const WardsPlan plan = plan_wards(random);
   const std::vector<Space> spaces = spaces_of(plan, surfaces_of(scene, plan, random));
   const std::vector<Doorway> doorways = doorways_of(plan);
-  for (const Space& space : spaces) {
-    Random same(seed * 13 + 1);  // the same windows, curtains and skirting everywhere
-    build_shell(scene, space, doorways, same);
-  }
-  for (const Doorway& doorway : doorways) {
-    Random same(seed * 17 + 2);
-    build_linings(scene, {doorway}, same);
-  }
+  build_like_shells(scene, spaces, doorways, seed);
   Fitter fitter(scene, plan, seed);
   for (int i = 0; i < plan.modules; ++i) {
     for (const bool north : {false, true}) {

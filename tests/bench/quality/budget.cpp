@@ -10,6 +10,7 @@
 #include "features/colour.hpp"
 #include "features/descriptor_code.hpp"
 #include "features/extract.hpp"
+#include "geometry/planar_solver.hpp"
 #include "matching/verify.hpp"
 #include "truth.hpp"
 #include "wire/appearance_blob.hpp"

@@ -18,6 +18,7 @@
 #include "features/extract.hpp"
 #include "files/read_file.hpp"
 #include "geometry/planar_motion.hpp"
+#include "geometry/planar_solver.hpp"
 #include "matching/match.hpp"
 #include "matching/match_columns.hpp"
 #include "pipeline/eye.hpp"

@@ -76,7 +76,7 @@ double best_possible_deg(const Scene& scene, double outlier_share) {
   const std::vector<Correspondence> right(scene.correspondences.begin() + wrong, scene.correspondences.end());
   FitConfig config;
   config.level = true;
-  const MotionFit fit = fit_motion(right, {scene.truth}, config);
+  const MotionFit fit = fit_motion(MatchRows(right), {scene.truth}, config);
   return std::abs(degrees(wrap_angle(fit.motion.planar.direction_rad - scene.truth.direction_rad)));
 }
 

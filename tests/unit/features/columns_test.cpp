@@ -242,9 +242,8 @@ TEST(Columns, KeepTheBudgetAllAround) {
   std::array<int, 8> in_sector{};
   for (int i = 0; i < found.size(); ++i) {
     EXPECT_NEAR(found.bearings.row(i).norm(), 1.0F, 1e-5F);
-    const double azimuth_rad =
-        std::atan2(static_cast<double>(found.bearings(i, 1)), static_cast<double>(found.bearings(i, 0)));
-    ++in_sector[static_cast<std::size_t>(std::clamp((azimuth_rad + kPi) / (2.0 * kPi) * 8.0, 0.0, 7.999))];
+    const double here_rad = azimuth_rad(found, i);
+    ++in_sector[static_cast<std::size_t>(std::clamp((here_rad + kPi) / (2.0 * kPi) * 8.0, 0.0, 7.999))];
   }
   for (const int count : in_sector) EXPECT_GE(count, 6);  // 12 each when even
   EXPECT_EQ(extract_columns(room(), with_columns(0)).size(), 0);

@@ -88,9 +88,8 @@ TEST(Extract, SpreadsOverAzimuth) {
   ASSERT_EQ(seen.sift.size(), 120);
   std::array<int, 8> in_sector{};
   for (int i = 0; i < seen.sift.size(); ++i) {
-    const double azimuth_rad =
-        std::atan2(static_cast<double>(seen.sift.bearings(i, 1)), static_cast<double>(seen.sift.bearings(i, 0)));
-    ++in_sector[static_cast<std::size_t>(std::clamp((azimuth_rad + kPi) / (2.0 * kPi) * 8.0, 0.0, 7.999))];
+    const double here_rad = azimuth_rad(seen.sift, i);
+    ++in_sector[static_cast<std::size_t>(std::clamp((here_rad + kPi) / (2.0 * kPi) * 8.0, 0.0, 7.999))];
   }
   for (const int count : in_sector) EXPECT_GE(count, 8);  // 15 each when even
 }

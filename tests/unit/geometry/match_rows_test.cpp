@@ -10,6 +10,7 @@
 
 #include "core/angles.hpp"
 #include "geometry/tilted_motion.hpp"
+#include "geometry/tilted_refinement.hpp"
 
 namespace homeward::geometry::match_rows_test {
 namespace {

@@ -6,17 +6,15 @@
 #include <Eigen/Geometry>
 #include <limits>
 
+#include "geometry/planar_solver.hpp"
 #include "support/planar_scene.hpp"
 
 namespace homeward::geometry::planar_motion_test {
 namespace {
 
+using homeward::testing::direction_error_deg;
 using homeward::testing::planar_scene;
 using homeward::testing::PlanarScene;
-
-double direction_error_deg(const PlanarMotion& found, const PlanarMotion& truth) {
-  return std::abs(degrees(wrap_angle(found.direction_rad - truth.direction_rad)));
-}
 
 double turn_error_deg(const PlanarMotion& found, const PlanarMotion& truth) {
   return std::abs(degrees(wrap_angle(found.turn_rad - truth.turn_rad)));

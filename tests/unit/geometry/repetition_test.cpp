@@ -8,12 +8,9 @@
 namespace homeward::geometry::repetition_test {
 namespace {
 
+using homeward::testing::direction_error_deg;
 using homeward::testing::planar_scene;
 using homeward::testing::PlanarScene;
-
-double direction_error_deg(const PlanarMotion& found, const PlanarMotion& truth) {
-  return std::abs(degrees(wrap_angle(found.direction_rad - truth.direction_rad)));
-}
 
 std::vector<Correspondence> together(const PlanarScene& a, const PlanarScene& b) {
   std::vector<Correspondence> both = a.correspondences;
@@ -23,7 +20,7 @@ std::vector<Correspondence> together(const PlanarScene& a, const PlanarScene& b)
 
 SharedView seen_from(double step_m, double outlier_share, std::uint64_t seed) {
   const PlanarScene scene = planar_scene(200, outlier_share, 0.0, step_m, seed);
-  return shared_view(scene.correspondences, fit_motion(scene.correspondences, {scene.truth}, {}));
+  return shared_view(scene.correspondences, fit_motion(MatchRows(scene.correspondences), {scene.truth}, {}));
 }
 
 TEST(SharedView, CountsHeightsInStepsAndTheShareThatAgrees) {

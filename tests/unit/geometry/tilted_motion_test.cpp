@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/angles.hpp"
+#include "geometry/planar_solver.hpp"
+#include "geometry/tilted_refinement.hpp"
 #include "support/planar_scene.hpp"
 
 namespace homeward::geometry::tilted_motion_test {

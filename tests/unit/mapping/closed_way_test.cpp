@@ -9,18 +9,19 @@
 
 #include "core/angles.hpp"
 #include "mapping/closed_loops.hpp"
+#include "support/posed_drive.hpp"
+#include "support/single_images.hpp"
 
 namespace homeward::mapping::closed_way_test {
 namespace {
 
+using homeward::testing::PosedDrive;
+using homeward::testing::seen_between;
+using homeward::testing::singles;
+
 /// A corridor of `length` steps driven there and back `times` times; lengths of the pictures alone, odd lanes 0.3 steps
 /// aside.
-struct Corridor {
-  std::vector<Pose2> truth;
-  std::vector<map::MapImage> images;
-  std::vector<int> tour_of;
-  PairTable pairs{0};
-
+struct Corridor : PosedDrive {
   [[nodiscard]] TourTrack track(double picture_length_sigma) const {
     TrackConfig config;
     config.picture_length_sigma = picture_length_sigma;
@@ -30,44 +31,38 @@ struct Corridor {
 };
 
 PairRelation seen(const Pose2& a, const Pose2& b) {
-  const Pose2 between = inverse(a) * b;
-  const double length = std::hypot(between.x_m, between.y_m);
-  PairRelation relation;
-  relation.distance = static_cast<float>(0.2 * length);
-  relation.inliers = 60;
-  relation.direction_rad = static_cast<float>(std::atan2(between.y_m, between.x_m));
-  relation.turn_rad = static_cast<float>(between.theta_rad);
-  relation.parallax_rad = static_cast<float>(0.2 * length);
+  PairRelation relation = seen_between(a, b);
+  relation.distance = relation.parallax_rad;  // both grow with the way between them
   return relation;
+}
+
+/// What pictures up to 3 steps apart tell of each other.
+void relate(Corridor& tour) {
+  tour.pairs = PairTable(static_cast<int>(tour.truth.size()));
+  for (std::size_t b = 0; b < tour.truth.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      const Pose2 between = inverse(tour.truth[a]) * tour.truth[b];
+      if (std::hypot(between.x_m, between.y_m) > 3.0) continue;
+      tour.pairs.set(static_cast<int>(a), static_cast<int>(b), seen(tour.truth[a], tour.truth[b]));
+    }
+  }
 }
 
 Corridor corridor(int length, int times) {
   Corridor result;
   Pose2 at{};
-  const auto add = [&] {
-    result.images.push_back({ImageId("t/" + std::to_string(1000 + result.truth.size())), std::nullopt, std::nullopt});
-    result.truth.push_back(at);
-    result.tour_of.push_back(0);
-  };
-  add();
+  result.add(at, std::nullopt);
   for (int pass = 0; pass < times; ++pass) {
     for (int i = 0; i < length; ++i) {
       at = at * Pose2{1.0, 0.0, 0.0};
-      add();
+      result.add(at, std::nullopt);
     }
     for (int i = 0; i < 4; ++i) {
       at = at * Pose2{0.0, 0.0, kPi / 4.0};
-      add();
+      result.add(at, std::nullopt);
     }
   }
-  result.pairs = PairTable(static_cast<int>(result.truth.size()));
-  for (std::size_t b = 0; b < result.truth.size(); ++b) {
-    for (std::size_t a = 0; a < b; ++a) {
-      const Pose2 between = inverse(result.truth[a]) * result.truth[b];
-      if (std::hypot(between.x_m, between.y_m) > 3.0) continue;
-      result.pairs.set(static_cast<int>(a), static_cast<int>(b), seen(result.truth[a], result.truth[b]));
-    }
-  }
+  relate(result);
   return result;
 }
 
@@ -108,14 +103,7 @@ TEST(LengthAccuracy, StepsThatDifferAreLessExact) {
     uneven.images.push_back(full.images[i]);
     uneven.tour_of.push_back(0);
   }
-  uneven.pairs = PairTable(static_cast<int>(uneven.truth.size()));
-  for (std::size_t b = 0; b < uneven.truth.size(); ++b) {
-    for (std::size_t a = 0; a < b; ++a) {
-      const Pose2 between = inverse(uneven.truth[a]) * uneven.truth[b];
-      if (std::hypot(between.x_m, between.y_m) > 3.0) continue;
-      uneven.pairs.set(static_cast<int>(a), static_cast<int>(b), seen(uneven.truth[a], uneven.truth[b]));
-    }
-  }
+  relate(uneven);
   EXPECT_GT(measured_length_sigma(uneven), measured_length_sigma(full) + 0.05);
 }
 
@@ -148,13 +136,26 @@ TEST(ClosedWay, LoopsMakeWhatLiesBetweenThemMoreCertain) {
   EXPECT_NEAR(way.predict(5, last - 8).distance, track.predict(5, last - 8).distance, 0.1);  // the truth already
 }
 
+/// What the way and the loops of all other groups say about each tie, in the order of the ties.
+std::vector<ClosedWay::Without> without_own_group(const ClosedWay& way, const std::vector<LoopTie>& ties) {
+  std::vector<ClosedWay::Without> result;
+  for (std::size_t begin = 0; begin < ties.size();) {
+    std::vector<std::size_t> group;
+    for (std::size_t t = begin; t < ties.size() && ties[t].group == ties[begin].group; ++t) group.push_back(t);
+    begin += group.size();
+    const std::vector<ClosedWay::Without> of_group = way.without(group);
+    result.insert(result.end(), of_group.begin(), of_group.end());
+  }
+  return result;
+}
+
 TEST(ClosedWay, ATieIsJudgedByTheOthersAlone) {
   const Corridor tour = corridor(15, 4);
   const TourTrack track = tour.track(0.35);
   // The third one is wrong by 6 steps.
   std::vector<LoopTie> ties = {tie(tour, 2, 38, 0), tie(tour, 3, 39, 0), tie(tour, 10, 66, 1), tie(tour, 25, 50, 2)};
   ties[2].x += 6.0;
-  const std::vector<ClosedWay::Without> all = ClosedWay(track, ties).without_own_group();
+  const std::vector<ClosedWay::Without> all = without_own_group(ClosedWay(track, ties), ties);
   for (std::size_t t = 0; t < ties.size(); ++t) {
     std::vector<LoopTie> others;
     for (const LoopTie& other : ties) {
@@ -173,11 +174,12 @@ TEST(ClosedWay, ABrokenWayTellsNothing) {
   Corridor tour = corridor(10, 2);
   tour.pairs.set(14, 15, {});  // these two have nothing in common
   const TourTrack track = tour.track(0.35);
-  const ClosedWay way(track, {tie(tour, 2, 20, 0), tie(tour, 1, 5, 1)});
+  const std::vector<LoopTie> ties = {tie(tour, 2, 20, 0), tie(tour, 1, 5, 1)};
+  const ClosedWay way(track, ties);
   EXPECT_FALSE(way.predict(2, 20).known);
   EXPECT_TRUE(way.predict(1, 9).known);
-  EXPECT_FALSE(way.without_own_group()[0].prediction.known);
-  EXPECT_TRUE(way.without_own_group()[1].prediction.known);
+  EXPECT_FALSE(without_own_group(way, ties)[0].prediction.known);
+  EXPECT_TRUE(without_own_group(way, ties)[1].prediction.known);
 }
 
 constexpr int kLength = 30;
@@ -194,7 +196,9 @@ struct Loops {
   std::vector<std::size_t> false_ones;
 
   explicit Loops(int wrong_by) {
-    for (int i = 0; i < static_cast<int>(tour.truth.size()); ++i) parts.push_back({0, {i}, i});
+    std::vector<int> images;
+    for (int i = 0; i < static_cast<int>(tour.truth.size()); ++i) images.push_back(i);
+    parts = singles(images);
     for (int along = 2; along < kLength; along += 4) {
       accept(image_at(0, along), image_at(1, along));
       accept(image_at(0, along), image_at(2, along));

@@ -31,6 +31,17 @@ DistanceFunction from(const Matrix& matrix) {
   return [&matrix](int a, int b) { return matrix[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)]; };
 }
 
+/// The clusters where every pair of `items` items has a distance.
+std::vector<int> linked(int items, const DistanceFunction& distance, float threshold) {
+  NearLists near(static_cast<std::size_t>(items));
+  for (int b = 0; b < items; ++b) {
+    for (int a = 0; a < items; ++a) {
+      if (a != b) near[static_cast<std::size_t>(b)].push_back({a, distance(std::min(a, b), std::max(a, b))});
+    }
+  }
+  return complete_linkage(std::move(near), threshold);
+}
+
 /// The definition, step by step: always merges the two nearest clusters of all.
 std::vector<int> by_definition(const Matrix& matrix, float threshold) {
   std::vector<std::vector<int>> clusters;
@@ -118,8 +129,7 @@ TEST(CompleteLinkage, IsWhatTheDefinitionGives) {
   for (int round = 0; round < 400; ++round) {
     const Matrix matrix = random_matrix(1 + round % 14, round % 3 == 0 ? 0.4 : 0.0, random);
     for (const float threshold : {0.1F, 0.35F, 0.6F, 0.9F}) {
-      ASSERT_EQ(complete_linkage(static_cast<int>(matrix.size()), from(matrix), threshold),
-                by_definition(matrix, threshold))
+      ASSERT_EQ(linked(static_cast<int>(matrix.size()), from(matrix), threshold), by_definition(matrix, threshold))
           << "round " << round << ", threshold " << threshold;
     }
   }
@@ -167,7 +177,7 @@ TEST(CompleteLinkage, NoPairOfAClusterIsFurtherApartThanTheThresholdWhateverTheT
     for (auto& row : matrix) {
       for (float& value : row) value = std::ceil(value * 4.0F) / 4.0F;  // few values: many ties
     }
-    const auto cluster = complete_linkage(20, from(matrix), 0.5F);
+    const auto cluster = linked(20, from(matrix), 0.5F);
     for (std::size_t i = 0; i < 20; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (cluster[i] == cluster[j]) {
@@ -175,18 +185,18 @@ TEST(CompleteLinkage, NoPairOfAClusterIsFurtherApartThanTheThresholdWhateverTheT
         }
       }
     }
-    EXPECT_EQ(cluster, complete_linkage(20, from(matrix), 0.5F));
+    EXPECT_EQ(cluster, linked(20, from(matrix), 0.5F));
   }
 }
 
 TEST(CompleteLinkage, EdgeCases) {
   const auto far = [](int, int) { return kInfinity; };
   const auto same = [](int, int) { return 0.0F; };
-  EXPECT_TRUE(complete_linkage(0, same, 1.0F).empty());
-  EXPECT_EQ(complete_linkage(1, same, 1.0F), (std::vector<int>{0}));
-  EXPECT_EQ(complete_linkage(3, far, 1e30F), (std::vector<int>{0, 1, 2}));
-  EXPECT_EQ(complete_linkage(3, far, kInfinity), (std::vector<int>{0, 1, 2}));  // infinitely far is never one place
-  EXPECT_EQ(complete_linkage(3, same, 0.0F), (std::vector<int>{0, 0, 0}));
+  EXPECT_TRUE(linked(0, same, 1.0F).empty());
+  EXPECT_EQ(linked(1, same, 1.0F), (std::vector<int>{0}));
+  EXPECT_EQ(linked(3, far, 1e30F), (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(linked(3, far, kInfinity), (std::vector<int>{0, 1, 2}));  // infinitely far is never one place
+  EXPECT_EQ(linked(3, same, 0.0F), (std::vector<int>{0, 0, 0}));
 }
 
 float on_a_line(int a, int b) { return std::abs(static_cast<float>(a - b)); }

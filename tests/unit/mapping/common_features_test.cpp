@@ -19,11 +19,8 @@ using ::testing::IsEmpty;
 map::TopologicalMap row_of(int count, double length_m) {
   map::TopologicalMap map;
   for (int i = 0; i < count; ++i) {
-    map::Place place;
-    place.id = PlaceId("p" + std::to_string(i));
-    place.prototype = ImageId("tour/" + std::to_string(i) + ".jpg");
-    place.members = {place.prototype};
-    place.appearances.push_back(testing::random_appearance(10, static_cast<unsigned>(i)));
+    map::Place place = testing::place_of_image("p" + std::to_string(i), ImageId("tour/" + std::to_string(i) + ".jpg"),
+                                               testing::random_appearance(10, static_cast<unsigned>(i)));
     map.images.push_back({place.prototype, {}, {}});
     if (i > 0) {
       map::Edge edge;

@@ -6,6 +6,7 @@
 #include "core/angles.hpp"
 #include "map/lookup.hpp"
 #include "mapping/extra_places.hpp"
+#include "mapping/tour_path.hpp"
 #include "support/corridor_tour.hpp"
 
 namespace homeward::mapping::edges_test {

@@ -12,12 +12,14 @@
 #include "map/parts.hpp"
 #include "mapping/edits.hpp"
 #include "support/corridor_tour.hpp"
+#include "support/new_tour.hpp"
 
 namespace homeward::mapping::grow_test {
 namespace {
 
 using homeward::testing::corridor_tour;
 using homeward::testing::CorridorTour;
+using homeward::testing::new_tour;
 using homeward::testing::walk;
 
 /// The map of a corridor of 12 m, and what becomes of it when it is driven again.
@@ -25,21 +27,10 @@ class Grow : public ::testing::Test {
  protected:
   void SetUp() override { map_ = make_map(old_.input(), {}, nullptr); }
 
-  /// A new tour with pictures at these positions.
-  static NewTours tour_at(const std::vector<double>& position_m, const std::string& name = "new") {
-    NewTours tours;
-    for (std::size_t i = 0; i < position_m.size(); ++i) {
-      tours.images.push_back({ImageId(name + "/" + std::to_string(1000 + i) + ".jpg"), std::nullopt, std::nullopt});
-      tours.tour_of.push_back(0);
-      tours.appearances.push_back(testing::random_appearance(3, static_cast<unsigned>(500 + i)));
-    }
-    return tours;
-  }
-
   using Tweak = std::function<void(PairTable&, const GrowthInput&)>;
   [[nodiscard]] GrownMap grow(const std::vector<double>& position_m, std::vector<MarkedImage> marks = {},
                               const Tweak& tweak = {}, const MappingConfig& config = {}) const {
-    NewTours tours = tour_at(position_m);
+    NewTours tours = new_tour(static_cast<int>(position_m.size()));
     tours.marks = std::move(marks);
     const GrowthInput input = growth_input(map_, std::move(tours)).value();
     std::vector<double> all_m = position_m;
@@ -325,13 +316,11 @@ struct MovedPoster {
   }
   [[nodiscard]] GrownMap grow() const {
     std::vector<double> looks_m;
-    NewTours tours;
+    NewTours tours = new_tour(60);
     for (int i = 0; i < 60; ++i) {
       const double at_m = 0.4 * i + 0.1;
       looks_m.push_back(at_m > 16.0 && at_m < 20.0 ? at_m - 12.0 : at_m);
-      tours.images.push_back({ImageId("new/" + std::to_string(1000 + i)), std::nullopt, Pose2{at_m, 0.0, 0.0}});
-      tours.tour_of.push_back(0);
-      tours.appearances.push_back(testing::random_appearance(3, static_cast<unsigned>(500 + i)));
+      tours.images[static_cast<std::size_t>(i)].odometry = Pose2{at_m, 0.0, 0.0};
     }
     const GrowthInput input = growth_input(map, std::move(tours)).value();
     for (int image = input.new_images; image < static_cast<int>(input.images.size()); ++image) {
@@ -370,7 +359,7 @@ TEST(GrowWithOdometry, WhatTheTwoWaysKeepApartStaysApart) {
 }
 
 TEST_F(Grow, ImagesAreAddedOnce) {
-  NewTours again = tour_at({0.0, 0.4, 0.8});
+  NewTours again = new_tour(3);
   again.images[1].id = image(3);
   const auto known = growth_input(map_, again);
   ASSERT_FALSE(known);

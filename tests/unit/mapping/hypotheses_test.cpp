@@ -7,27 +7,18 @@
 
 #include "mapping/dempster_shafer.hpp"
 #include "mapping/similarity.hpp"
+#include "support/single_images.hpp"
 
 namespace homeward::mapping::hypotheses_test {
 namespace {
 
-/// Subclusters of one image each, at these images, in these clusters.
-std::vector<Subcluster> singles(const std::vector<std::pair<int, int>>& image_and_cluster) {
-  std::vector<Subcluster> result;
-  for (const auto& [image, cluster] : image_and_cluster) result.push_back({cluster, {image}, image});
-  return result;
-}
-
-std::vector<double> positions(int images) {
-  std::vector<double> result;
-  for (int i = 0; i < images; ++i) result.push_back(i);
-  return result;
-}
+using homeward::testing::positions;
+using homeward::testing::singles_of;
 
 bool never(int /*a*/, int /*b*/) { return false; }
 
 TEST(Hypotheses, AreThePairsOfEachCluster) {
-  const auto parts = singles({{0, 0}, {1, 1}, {2, 0}, {3, 1}, {4, 0}});
+  const auto parts = singles_of({{0, 0}, {1, 1}, {2, 0}, {3, 1}, {4, 0}});
   const auto hypotheses = formulate_hypotheses(parts, [](int a, int b) { return a == 0 && b == 2 ? 0.4 : 7.0; }, {});
   ASSERT_EQ(hypotheses.size(), 4U);  // 0-2, 0-4, 2-4 and 1-3
   EXPECT_EQ(hypotheses[0].a, 0);
@@ -69,7 +60,7 @@ TEST(Hypotheses, HearFromAllNeighboursInTheirOrder) {
     for (int image = 0; image < 120; image += 1 + static_cast<int>(random() % 4)) {
       at.emplace_back(image, static_cast<int>(random() % 12));
     }
-    const auto parts = singles(at);
+    const auto parts = singles_of(at);
     std::vector<double> position_of = positions(120);
     for (std::size_t i = 70; i < position_of.size(); ++i) position_of[i] += 1e6;  // another tour
     HypothesisConfig config;
@@ -92,7 +83,7 @@ TEST(Hypotheses, NeighboursMakeTheDifference) {
   for (int i = 0; i < 6; ++i) both.emplace_back(i, i);
   for (int i = 0; i < 6; ++i) both.emplace_back(40 + i, i);
   const auto similar = [](int, int) { return 0.8; };
-  const auto parts = singles(both);
+  const auto parts = singles_of(both);
   auto together = formulate_hypotheses(parts, similar, {});
   ASSERT_EQ(together.size(), 6U);
   collect_evidence(together, parts, positions(50), {});
@@ -101,14 +92,14 @@ TEST(Hypotheses, NeighboursMakeTheDifference) {
     EXPECT_GT(support(hypothesis.after), support(hypothesis.before));
     EXPECT_NEAR(hypothesis.after.is_true + hypothesis.after.is_false + hypothesis.after.unknown, 1.0, 1e-12);
   }
-  const auto one = singles({{2, 2}, {42, 2}});
+  const auto one = singles_of({{2, 2}, {42, 2}});
   auto alone = formulate_hypotheses(one, similar, {});
   collect_evidence(alone, one, positions(50), {});
   EXPECT_EQ(alone[0].decision, map::Decision::kUndecided);
 }
 
 TEST(Hypotheses, TheSumIsThatOfDempstersRule) {
-  const auto parts = singles({{0, 0}, {4, 1}, {30, 0}, {34, 1}});
+  const auto parts = singles_of({{0, 0}, {4, 1}, {30, 0}, {34, 1}});
   const auto similarity = [](int a, int) { return a == 0 ? 0.9 : 0.3; };
   auto hypotheses = formulate_hypotheses(parts, similarity, {});
   ASSERT_EQ(hypotheses.size(), 2U);
@@ -122,14 +113,14 @@ TEST(Hypotheses, UnlikeNeighboursReject) {
   std::vector<std::pair<int, int>> both;
   for (int i = 0; i < 5; ++i) both.emplace_back(i, i);
   for (int i = 0; i < 5; ++i) both.emplace_back(40 + i, i);
-  const auto parts = singles(both);
+  const auto parts = singles_of(both);
   auto hypotheses = formulate_hypotheses(parts, [](int a, int) { return a == 2 ? 0.7 : 0.05; }, {});
   collect_evidence(hypotheses, parts, positions(50), {});
   EXPECT_EQ(hypotheses[2].decision, map::Decision::kRejected);  // alike by chance
 }
 
 TEST(Hypotheses, FarNeighboursSayNothing) {
-  const auto parts = singles({{0, 0}, {100, 1}, {200, 0}, {300, 1}});
+  const auto parts = singles_of({{0, 0}, {100, 1}, {200, 0}, {300, 1}});
   auto hypotheses = formulate_hypotheses(parts, [](int, int) { return 0.9; }, {});
   collect_evidence(hypotheses, parts, positions(301), {});
   for (const LoopHypothesis& hypothesis : hypotheses) {
@@ -139,7 +130,7 @@ TEST(Hypotheses, FarNeighboursSayNothing) {
 }
 
 TEST(Hypotheses, APersonsDecisionIsKept) {
-  const auto parts = singles({{0, 0}, {10, 0}});
+  const auto parts = singles_of({{0, 0}, {10, 0}});
   auto hypotheses = formulate_hypotheses(parts, [](int, int) { return 0.0; }, {});
   hypotheses[0].decision = map::Decision::kAccepted;
   hypotheses[0].by = map::Decider::kPerson;

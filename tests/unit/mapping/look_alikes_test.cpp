@@ -7,25 +7,16 @@
 #include "mapping/dempster_shafer.hpp"
 #include "mapping/hypotheses.hpp"
 #include "mapping/map_builder.hpp"
+#include "support/single_images.hpp"
 
 namespace homeward::mapping::look_alikes_test {
 namespace {
 
+using homeward::testing::positions;
+using homeward::testing::singles;
+
 constexpr WayEvidence kAgreeing{TrackVerdict::kAgrees, 0.9};
 constexpr WayEvidence kExcluding{TrackVerdict::kContradicts, 0.0};
-
-/// Subclusters of one image each, all in one cluster.
-std::vector<Subcluster> singles(const std::vector<int>& images) {
-  std::vector<Subcluster> result;
-  for (const int image : images) result.push_back({0, {image}, image});
-  return result;
-}
-
-std::vector<double> line(int images) {
-  std::vector<double> position;
-  for (int i = 0; i < images; ++i) position.push_back(i);
-  return position;
-}
 
 TEST(WeighWay, WhatTheWayExcludesIsRejectedWhateverTheNeighboursSay) {
   const auto parts = singles({0, 1, 2, 40, 41, 42});
@@ -34,7 +25,7 @@ TEST(WeighWay, WhatTheWayExcludesIsRejectedWhateverTheNeighboursSay) {
       parts, [](int, int) { return 1.0; }, config);
   const auto way = [](int a, int b) { return a == 1 && b == 4 ? kExcluding : kAgreeing; };
   weigh_way(hypotheses, way, config);
-  collect_evidence(hypotheses, parts, line(43), config);
+  collect_evidence(hypotheses, parts, positions(43), config);
   for (const LoopHypothesis& hypothesis : hypotheses) {
     if (hypothesis.a == 1 && hypothesis.b == 4) {
       EXPECT_EQ(hypothesis.decision, map::Decision::kRejected);
@@ -54,7 +45,7 @@ TEST(WeighWay, WhereLooksWereWrongTheyDecideNothing) {
   // The way excludes all that it can tell, and cannot tell of the last image.
   const auto way = [](int, int b) { return b == 5 ? WayEvidence{} : kExcluding; };
   EXPECT_EQ(weigh_way(hypotheses, way, config), 0.0);
-  collect_evidence(hypotheses, parts, line(43), config);
+  collect_evidence(hypotheses, parts, positions(43), config);
   for (const LoopHypothesis& hypothesis : hypotheses) {
     if (hypothesis.b != 5) continue;
     EXPECT_EQ(hypothesis.decision, map::Decision::kUndecided);
@@ -71,8 +62,8 @@ TEST(WeighWay, WhereItCannotTellLooksDecideAsBefore) {
   EXPECT_EQ(weigh_way(
                 weighed, [](int, int) { return WayEvidence{}; }, config),
             1.0);
-  collect_evidence(weighed, parts, line(43), config);
-  collect_evidence(plain, parts, line(43), config);
+  collect_evidence(weighed, parts, positions(43), config);
+  collect_evidence(plain, parts, positions(43), config);
   for (std::size_t i = 0; i < plain.size(); ++i) {
     EXPECT_EQ(weighed[i].after.is_true, plain[i].after.is_true);
     EXPECT_EQ(weighed[i].decision, plain[i].decision);
@@ -92,7 +83,7 @@ TEST(WeighWay, AgreementAddsMassAndKeepsTheWordOfAPerson) {
   hypotheses[0].by = map::Decider::kPerson;
   weigh_way(
       hypotheses, [](int, int) { return kExcluding; }, config);
-  collect_evidence(hypotheses, parts, line(41), config);
+  collect_evidence(hypotheses, parts, positions(41), config);
   EXPECT_EQ(hypotheses[0].decision, map::Decision::kAccepted);
 }
 

@@ -17,10 +17,9 @@ using homeward::testing::CorridorTour;
 using homeward::testing::walk;
 
 const map::Place& place_of(const map::TopologicalMap& map, const ImageId& image) {
-  for (const map::Place& place : map.places) {
-    if (std::ranges::find(place.members, image) != place.members.end()) return place;
-  }
-  throw std::out_of_range("no place holds " + image.str());
+  const map::Place* place = map::find_place_of(map, image);
+  if (place == nullptr) throw std::out_of_range("no place holds " + image.str());
+  return *place;
 }
 
 /// What holds for every map.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "support/new_tour.hpp"
 #include "support/sample_map.hpp"
 
 namespace homeward::mapping::old_places_test {
@@ -20,12 +21,9 @@ struct TwoDrives {
       old.images.push_back({ImageId("old/" + std::to_string(1000 + i)), std::nullopt, Pose2{kStep_m * i, 0.0, 0.0}});
     }
     for (int i = 0; i < count; i += 3) {
-      map::Place place;
-      place.id = PlaceId("p" + std::to_string(i / 3));
-      place.prototype = old.images[static_cast<std::size_t>(i)].id;
-      place.members = {place.prototype};
-      place.appearances = {homeward::testing::random_appearance(3, static_cast<unsigned>(i))};
-      old.places.push_back(place);
+      old.places.push_back(
+          homeward::testing::place_of_image("p" + std::to_string(i / 3), old.images[static_cast<std::size_t>(i)].id,
+                                            homeward::testing::random_appearance(3, static_cast<unsigned>(i))));
     }
     for (std::size_t p = 1; p < old.places.size() && edges; ++p) {
       map::Edge edge;
@@ -39,12 +37,8 @@ struct TwoDrives {
       edge.inliers = 60;
       old.edges.push_back(edge);
     }
-    NewTours tours;
-    for (int i = 0; i < count; ++i) {
-      tours.images.push_back({ImageId("new/" + std::to_string(1000 + i)), std::nullopt, Pose2{kStep_m * i, 0.0, 0.0}});
-      tours.tour_of.push_back(0);
-      tours.appearances.push_back(homeward::testing::random_appearance(3, static_cast<unsigned>(500 + i)));
-    }
+    NewTours tours = homeward::testing::new_tour(count);
+    for (int i = 0; i < count; ++i) tours.images[static_cast<std::size_t>(i)].odometry = Pose2{kStep_m * i, 0.0, 0.0};
     input = growth_input(old, std::move(tours)).value();
     pairs = PairTable(static_cast<int>(input.images.size()));
     for (int i = 0; i + 1 < count; ++i) pairs.set(i, i + 1, seen());  // the pictures know the turns

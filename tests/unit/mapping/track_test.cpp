@@ -6,43 +6,28 @@
 #include <cmath>
 
 #include "core/angles.hpp"
+#include "support/posed_drive.hpp"
 
 namespace homeward::mapping::track_test {
 namespace {
 
-/// A drive with what pictures and odometry tell of it: both exact unless a test spoils one.
-struct Drive {
-  std::vector<Pose2> truth;
-  std::vector<map::MapImage> images;
-  std::vector<int> tour_of;
-  PairTable pairs{0};
+using homeward::testing::PosedDrive;
+using homeward::testing::seen_between;
 
+/// A drive with what pictures and odometry tell of it: both exact unless a test spoils one.
+struct Drive : PosedDrive {
   [[nodiscard]] TourTrack track(bool metric, double place_extent) const {
     return TourTrack(images, tour_of, pairs, metric, place_extent, {});
   }
 };
 
-/// What two pictures of these poses tell.
-PairRelation seen(const Pose2& a, const Pose2& b) {
-  const Pose2 between = inverse(a) * b;
-  const double length_m = std::hypot(between.x_m, between.y_m);
-  PairRelation relation;
-  relation.inliers = 60;
-  relation.direction_rad = static_cast<float>(std::atan2(between.y_m, between.x_m));
-  relation.turn_rad = static_cast<float>(between.theta_rad);
-  relation.parallax_rad = static_cast<float>(0.2 * length_m);
-  return relation;
-}
-
 Drive drive(const std::vector<Pose2>& truth) {
   Drive result;
-  result.truth = truth;
   result.pairs = PairTable(static_cast<int>(truth.size()));
   for (std::size_t b = 0; b < truth.size(); ++b) {
-    result.images.push_back({ImageId("t/" + std::to_string(1000 + b)), std::nullopt, truth[b]});
-    result.tour_of.push_back(0);
+    result.add(truth[b], truth[b]);
     for (std::size_t a = b < 2 ? 0 : b - 2; a < b; ++a) {
-      result.pairs.set(static_cast<int>(a), static_cast<int>(b), seen(truth[a], truth[b]));
+      result.pairs.set(static_cast<int>(a), static_cast<int>(b), seen_between(truth[a], truth[b]));
     }
   }
   return result;
@@ -83,7 +68,7 @@ TEST(TourTrack, TurnsOfThePicturesUndoTheDriftOfOdometry) {
 
 TEST(TourTrack, KeepsFarImagesApartHoweverAlikeTheyAre) {
   Drive square = drive(around_a_square(10));
-  PairRelation alike = seen(square.truth[5], square.truth[5]);
+  PairRelation alike = seen_between(square.truth[5], square.truth[5]);
   square.pairs.set(5, 31, alike);  // the middle of two opposite sides, 4 m apart
   const TourTrack track = square.track(true, 1.0);
   EXPECT_EQ(track.judge(5, 31).verdict, TrackVerdict::kContradicts);
@@ -93,7 +78,7 @@ TEST(TourTrack, KeepsFarImagesApartHoweverAlikeTheyAre) {
 TEST(TourTrack, AVerifiedTurnThatTheWayExcludesContradicts) {
   Drive square = drive(around_a_square(10));
   const int last = static_cast<int>(square.images.size()) - 1;
-  PairRelation turned = seen(square.truth.front(), square.truth.back());
+  PairRelation turned = seen_between(square.truth.front(), square.truth.back());
   EXPECT_EQ(square.track(true, 1.0).judge(0, last).verdict, TrackVerdict::kAgrees);
   turned.turn_rad = 3.1F;  // the room on the other side of the corridor, seen entering
   square.pairs.set(0, last, turned);

@@ -4,22 +4,28 @@
 #include <gtest/gtest.h>
 
 #include "core/angles.hpp"
+#include "support/posed_drive.hpp"
 
 namespace homeward::mapping::two_ways_test {
 namespace {
 
 /// A straight drive with odometry, 0.4 m a step.
-struct Drive {
-  explicit Drive(int count) : tour_of(static_cast<std::size_t>(count), 0), pairs(count) {
-    for (int i = 0; i < count; ++i) {
-      images.push_back({ImageId("t/" + std::to_string(i)), std::nullopt, Pose2{0.4 * i, 0.0, 0.0}});
-    }
+struct Drive : testing::PosedDrive {
+  explicit Drive(int count) {
+    for (int i = 0; i < count; ++i) add({0.4 * i, 0.0, 0.0}, Pose2{0.4 * i, 0.0, 0.0});
+    pairs = PairTable(count);
   }
   [[nodiscard]] TourTrack track() const { return {images, tour_of, pairs, true, 1.0, {}}; }
-  std::vector<map::MapImage> images;
-  std::vector<int> tour_of;
-  PairTable pairs;
 };
+
+/// With the ways as they were driven, without their loops.
+std::vector<MeetingTrust> trust_of(const std::vector<Meeting>& meetings, const Drive& now, const Drive& before) {
+  const TourTrack new_way = now.track();
+  const TourTrack old_way = before.track();
+  return meeting_trust(
+      meetings, [&](int a, int b) { return new_way.predict(a, b); },
+      [&](int a, int b) { return old_way.predict(a, b); }, 1.0, 60);
+}
 
 PairRelation turned(float turn_rad) {
   PairRelation seen;
@@ -33,7 +39,7 @@ TEST(MeetingTrust, WaysThatLeadAlikeBearEachOtherOut) {
   const Drive now(30);
   const Drive before(30);
   const std::vector<Meeting> meetings = {{2, 2, turned(0.0F)}, {9, 9, turned(0.0F)}, {16, 16, turned(0.0F)}};
-  for (const MeetingTrust& trust : meeting_trust(meetings, now.track(), before.track(), 1.0, 60)) {
+  for (const MeetingTrust& trust : trust_of(meetings, now, before)) {
     EXPECT_DOUBLE_EQ(trust.agreed, 2.0);
     EXPECT_EQ(trust.factor(), 1.0);
   }
@@ -44,7 +50,7 @@ TEST(MeetingTrust, ALookAlikeAwayFromTheWayIsNotTrusted) {
   const Drive before(40);
   const std::vector<Meeting> meetings = {
       {2, 2, turned(0.0F)}, {9, 9, turned(0.0F)}, {12, 27, turned(0.0F)}, {16, 16, turned(0.0F)}};
-  const auto trust = meeting_trust(meetings, now.track(), before.track(), 1.0, 60);
+  const auto trust = trust_of(meetings, now, before);
   EXPECT_LT(trust[2].factor(), 0.05);
   EXPECT_GT(trust[0].factor(), 0.6);
   EXPECT_GT(trust[1].factor(), 0.6);
@@ -65,7 +71,7 @@ TEST(MeetingTrust, TheRoomBesideIsNotTheSameRoom) {
   std::vector<Meeting> meetings;
   for (int image = 0; image < 8; ++image) meetings.push_back({image, image, turned(0.0F)});
   const std::size_t right = 5;
-  const auto trust = meeting_trust(meetings, now.track(), before.track(), 1.0, 60);
+  const auto trust = trust_of(meetings, now, before);
   for (std::size_t i = 0; i < meetings.size(); ++i) {
     if (i < right) {
       EXPECT_GT(trust[i].factor(), 0.6) << i;
@@ -80,7 +86,7 @@ TEST(MeetingTrust, ARoomTurnedRoundIsNotTrusted) {
   const Drive before(30);
   const std::vector<Meeting> meetings = {
       {2, 2, turned(0.0F)}, {9, 9, turned(3.0F)}, {14, 14, turned(0.0F)}, {16, 16, turned(0.0F)}};
-  const auto trust = meeting_trust(meetings, now.track(), before.track(), 1.0, 60);
+  const auto trust = trust_of(meetings, now, before);
   EXPECT_LT(trust[1].factor(), 0.05);
   EXPECT_GT(trust[0].factor(), 0.6);
 }
@@ -93,7 +99,7 @@ TEST(MeetingTrust, LookAlikesThatGoWithNothingDoNotOutvoteWhatGoesTogether) {
   for (const int image : {8, 16, 24, 32, 36, 40}) {
     meetings.push_back({image, (image * 37) % 190, turned(0.1F * static_cast<float>(image))});
   }
-  const auto trust = meeting_trust(meetings, now.track(), before.track(), 1.0, 60);
+  const auto trust = trust_of(meetings, now, before);
   for (std::size_t i = 0; i < meetings.size(); ++i) {
     if (i < 4) {
       EXPECT_GT(trust[i].factor(), 0.5) << i;
@@ -108,7 +114,7 @@ TEST(MeetingTrust, WhatIsTooNearOrTooFarSaysNothing) {
   const Drive now(200);
   const Drive before(200);
   const auto silent = [&](const Meeting& a, const Meeting& b) {
-    const auto trust = meeting_trust(std::vector<Meeting>{a, b}, now.track(), before.track(), 1.0, 60);
+    const auto trust = trust_of({a, b}, now, before);
     return trust[0].agreed + trust[0].contradicted + trust[1].agreed + trust[1].contradicted == 0.0;
   };
   EXPECT_TRUE(silent({2, 2, turned(0.0F)}, {4, 5, turned(0.0F)}));    // inside one place

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "features/columns.hpp"
-#include "geometry/planar_motion.hpp"
+#include "geometry/planar_solver.hpp"
 
 namespace homeward::matching::match_columns_test {
 namespace {

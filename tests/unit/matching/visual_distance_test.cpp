@@ -90,9 +90,7 @@ TEST(VisualDistance, IsTheFormulaOfThePaper) {
   // All azimuth differences, and their common turn by brute force over the differences themselves.
   std::vector<double> turns_rad;
   for (const int i : pair.pose->inliers) {  // match i joins feature i to feature i
-    const auto azimuth_rad = [i](const features::Appearance& seen) {
-      return std::atan2(static_cast<double>(seen.sift.bearings(i, 1)), static_cast<double>(seen.sift.bearings(i, 0)));
-    };
+    const auto azimuth_rad = [i](const features::Appearance& seen) { return features::azimuth_rad(seen.sift, i); };
     turns_rad.push_back(azimuth_rad(views.b) - azimuth_rad(views.a));
   }
   double least_rad = 1e9;

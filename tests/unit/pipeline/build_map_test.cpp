@@ -11,18 +11,10 @@
 namespace homeward::pipeline::build_map_test {
 namespace {
 
+using homeward::testing::camera_config;
 using homeward::testing::drive;
 using homeward::testing::MemoryTour;
-
-const camera::CameraConfig& camera_config() {
-  static const camera::CameraConfig config = homeward::testing::sphere_camera(512);
-  return config;
-}
-
-const camera::Camera& the_camera() {
-  static const auto camera = camera::Camera::create(camera_config()).value();
-  return *camera;
-}
+using homeward::testing::the_camera;
 
 /// Six pictures forth and six back.
 const MemoryTour& sample_tour() {

@@ -10,20 +10,12 @@
 namespace homeward::pipeline::grow_map_test {
 namespace {
 
+using homeward::testing::camera_config;
 using homeward::testing::drive;
 using homeward::testing::MemoryTour;
 using homeward::testing::painted_corridor;
 using homeward::testing::painted_picture;
-
-const camera::CameraConfig& camera_config() {
-  static const camera::CameraConfig config = homeward::testing::sphere_camera(512);
-  return config;
-}
-
-const camera::Camera& the_camera() {
-  static const auto camera = camera::Camera::create(camera_config()).value();
-  return *camera;
-}
+using homeward::testing::the_camera;
 
 /// Pictures from `from_m` on along the painted corridor.
 MemoryTour tour_from(const std::string& name, double from_m, int count) {

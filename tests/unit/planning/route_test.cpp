@@ -8,6 +8,7 @@
 
 #include "core/angles.hpp"
 #include "map/lookup.hpp"
+#include "planning/no_route.hpp"
 #include "support/ascii_map.hpp"
 
 namespace homeward::planning::route_test {

@@ -12,6 +12,7 @@
 namespace homeward::planning::surroundings_test {
 namespace {
 
+using homeward::testing::places;
 using homeward::testing::spelled;
 using ::testing::Contains;
 using ::testing::IsEmpty;
@@ -30,12 +31,6 @@ map::MetricLayout as_drawn(std::string_view drawing) {
     y_m = c == '\n' ? y_m - 2.0 : y_m;
   }
   return layout;
-}
-
-std::vector<PlaceId> places(const std::string& letters) {
-  std::vector<PlaceId> ids;
-  for (const char letter : letters) ids.emplace_back(std::string(1, letter));
-  return ids;
 }
 
 /// What is seen in the middle of a room of its own for each letter. Looks at one room differ by `look`.

@@ -10,6 +10,8 @@
 namespace homeward::wire::mission_order_test {
 namespace {
 
+using homeward::testing::places;
+
 /// A corridor of four places with one beside it, each of which looks its own way, and a picture of its own at D.
 map::TopologicalMap corridor() {
   map::TopologicalMap map = testing::ascii_map(R"(
@@ -34,12 +36,6 @@ map::MetricLayout in_a_row(const std::string& letters, bool metric) {
   }
   layout.emplace(ImageId("t/bed"), map::LaidOutImage{{6.5, -1.0, 1.5}, 0, metric});
   return layout;
-}
-
-std::vector<PlaceId> places(const std::string& letters) {
-  std::vector<PlaceId> ids;
-  for (const char letter : letters) ids.emplace_back(std::string(1, letter));
-  return ids;
 }
 
 TEST(AddSurroundings, TellsWhereThePathLiesInItsOrder) {
