@@ -31,6 +31,7 @@ packages=(
   libspdlog-dev
   libcli11-dev
   libhnswlib-dev
+  libhwy-dev
   prometheus-cpp-dev
   libsodium-dev
   libssl-dev

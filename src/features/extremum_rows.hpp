@@ -13,8 +13,8 @@ struct RowBand {
   const float* below;
 };
 
-/// One row of each difference of neighbouring pictures: one fewer than pictures. With AVX2 where the processor has it,
-/// as below: the same numbers.
+/// One row of each difference of neighbouring pictures: one fewer than pictures. With the vector instructions that
+/// the processor has, as below: the same numbers.
 void subtract(std::span<const float* const> blurred, std::span<float* const> differences, int columns);
 
 /// The columns from `first` to below `end` at which the middle row's value is larger than `floor` in size and not

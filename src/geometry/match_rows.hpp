@@ -14,7 +14,7 @@ namespace homeward::geometry {
 class EpipolarError;
 
 /// Correspondences number by number instead of match by match, for loops that the processor's vector instructions run
-/// (AVX2, where it has them). The numbers that come out do not depend on the instructions.
+/// (match_row_loops.hpp). The numbers that come out do not depend on the instructions.
 /// The formulas are those of motion_fit.hpp (likelihood, MLESAC) and tilted_motion.hpp (Sampson errors).
 class MatchRows {
  public:

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "features/appearance.hpp"
-#include "features/columns.hpp"
 #include "matching/match.hpp"
+#include "matching/nearest_columns.hpp"
 
 namespace homeward::matching {
 
@@ -21,10 +21,6 @@ struct ColumnMatchConfig {
 /// exchanges the sides of each match and changes nothing else. (Goedemé 2007 §3.4, equation 2.)
 std::vector<Match> match_columns(const features::FeatureSet& current, const features::FeatureSet& target,
                                  const ColumnMatchConfig& config);
-
-/// The ten invariants of segments, one row for each invariant and one column for each segment, in units of the
-/// Mahalanobis distance: a loop over segments is then a loop over neighbours in memory.
-using ScaledColumns = Eigen::Matrix<float, features::kColumnInvariants, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// The same by invariants given apart from the sets, which may be more exact than the bytes there.
 std::vector<Match> match_columns(const features::FeatureSet& current, const features::FeatureSet& target,

@@ -18,6 +18,13 @@ struct NearestNeighbours {
   std::vector<std::int32_t> distance;         // ... its squared distance
   std::vector<std::int32_t> second_distance;  // ... that of the second nearest; kNone where there is one target alone
   std::vector<std::int32_t> of_target;        // per target descriptor: index of the nearest current one
+
+  /// Of so many descriptors while none has been compared.
+  NearestNeighbours(Eigen::Index current, Eigen::Index target)
+      : of_current(static_cast<std::size_t>(current), 0),
+        distance(static_cast<std::size_t>(current), kNone),
+        second_distance(static_cast<std::size_t>(current), kNone),
+        of_target(static_cast<std::size_t>(target), 0) {}
 };
 
 /// Compares all pairs, exactly, with the vector instructions that the processor has. Both sets hold at least one
@@ -25,10 +32,7 @@ struct NearestNeighbours {
 /// In place of the approximate kd-tree of Goedemé 2007 §3.4.
 NearestNeighbours find_nearest(const ByteDescriptors& current, const ByteDescriptors& target);
 
-/// The same with instructions that most processors have (AVX2), or without: the same numbers.
-NearestNeighbours find_nearest_avx2(const ByteDescriptors& current, const ByteDescriptors& target);
-
-/// The same without special instructions, for other processors: the same numbers, slower.
+/// The same one number at a time, for processors without: the same numbers, slower.
 NearestNeighbours find_nearest_portable(const ByteDescriptors& current, const ByteDescriptors& target);
 
 }  // namespace homeward::matching

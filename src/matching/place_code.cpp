@@ -7,12 +7,6 @@
 #include <numeric>
 #include <random>
 
-#include "core/processor.hpp"
-
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
 namespace homeward::matching {
 namespace {
 
@@ -29,35 +23,6 @@ void walsh_hadamard(std::vector<float>& numbers) {
     }
   }
 }
-
-std::int32_t dot_portable(const std::int8_t* a, const std::int8_t* b, std::size_t length) {
-  std::int32_t sum = 0;
-  for (std::size_t i = 0; i < length; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-#if defined(__x86_64__)
-
-__attribute__((target("avx2"))) inline __m256i sixteen(const std::int8_t* numbers) {
-  return _mm256_cvtepi8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(numbers)));
-}
-
-__attribute__((target("avx2"))) std::int32_t dot_avx2(const std::int8_t* a, const std::int8_t* b, std::size_t length) {
-  __m256i even = _mm256_setzero_si256();
-  __m256i odd = _mm256_setzero_si256();
-  std::size_t i = 0;
-  for (; i + 32 <= length; i += 32) {
-    even = _mm256_add_epi32(even, _mm256_madd_epi16(sixteen(a + i), sixteen(b + i)));
-    odd = _mm256_add_epi32(odd, _mm256_madd_epi16(sixteen(a + i + 16), sixteen(b + i + 16)));
-  }
-  const __m256i sums = _mm256_add_epi32(even, odd);
-  __m128i four = _mm_add_epi32(_mm256_castsi256_si128(sums), _mm256_extracti128_si256(sums, 1));
-  four = _mm_add_epi32(four, _mm_shuffle_epi32(four, _MM_SHUFFLE(1, 0, 3, 2)));
-  four = _mm_add_epi32(four, _mm_shuffle_epi32(four, _MM_SHUFFLE(2, 3, 0, 1)));
-  return _mm_cvtsi128_si32(four) + dot_portable(a + i, b + i, length - i);
-}
-
-#endif
 
 }  // namespace
 
@@ -92,13 +57,6 @@ std::vector<std::int8_t> PlaceCoder::encode(const Eigen::VectorXf& vector) const
     code[i] = static_cast<std::int8_t>(std::lround(numbers[i] * (127.0F / largest)));
   }
   return code;
-}
-
-std::int32_t dot(const std::int8_t* a, const std::int8_t* b, std::size_t length) {
-#if defined(__x86_64__)
-  if (has_avx2()) return dot_avx2(a, b, length);
-#endif
-  return dot_portable(a, b, length);
 }
 
 }  // namespace homeward::matching

@@ -26,7 +26,4 @@ class PlaceCoder {
   std::vector<std::uint32_t> kept_;  // of the transformed numbers
 };
 
-/// Sum of products, exact for up to 2^17 numbers.
-std::int32_t dot(const std::int8_t* a, const std::int8_t* b, std::size_t length);
-
 }  // namespace homeward::matching

@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "core/bytes.hpp"
+#include "matching/dot.hpp"
 #include "matching/place_code.hpp"
 
 namespace homeward::matching {

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "features/extremum_rows.hpp"
+#include "support/vector_targets.hpp"
 
 namespace homeward::features::gaussian_blur_test {
 namespace {
@@ -28,10 +28,12 @@ TEST(GaussianBlur, GivesWhatOpenCvGives) {
       const cv::Mat picture = noise(rows, columns, 7);
       cv::Mat theirs;
       cv::GaussianBlur(picture, theirs, {}, sigma_px, sigma_px);
-      cv::Mat ours;
-      gaussian_blur(picture, ours, sigma_px);
-      ASSERT_EQ(ours.size(), theirs.size());
-      EXPECT_LE(cv::norm(ours, theirs, cv::NORM_INF), 1e-6);
+      testing::for_each_vector_target([&] {
+        cv::Mat ours;
+        gaussian_blur(picture, ours, sigma_px);
+        ASSERT_EQ(ours.size(), theirs.size());
+        EXPECT_LE(cv::norm(ours, theirs, cv::NORM_INF), 1e-6);
+      });
     }
   }
 }
@@ -50,38 +52,6 @@ TEST(GaussianBlur, KeepsTheMemoryThatFits) {
   const auto* memory = to.data;
   gaussian_blur(noise(30, 300, 1), to, 1.5);
   EXPECT_EQ(to.data, memory);
-}
-
-TEST(ExtremumRows, FindWhatStandsOutInEveryColumn) {
-  constexpr int kColumns = 83;
-  constexpr int kFirst = 5;
-  const cv::Mat rows = noise(3, kColumns, 11) - 0.5F;
-  const RowBand band{rows.ptr<float>(0), rows.ptr<float>(1), rows.ptr<float>(2)};
-  constexpr float kFloor = 0.2F;
-  std::vector<int> expected;
-  for (int c = kFirst; c < kColumns - kFirst; ++c) {
-    const float v = band.here[c];
-    const auto beats = [&](float sign) {
-      return sign * v > kFloor && sign * v >= sign * band.here[c - 1] && sign * v >= sign * band.here[c + 1] &&
-             sign * v >= sign * band.above[c] && sign * v >= sign * band.below[c];
-    };
-    if (beats(1.0F) || beats(-1.0F)) expected.push_back(c);
-  }
-  std::vector<int> found{1, 2, 3};  // of the row before
-  find_candidates(band, kFirst, kColumns - kFirst, kFloor, found);
-  EXPECT_EQ(found, expected);
-  EXPECT_GT(found.size(), 3U);
-}
-
-TEST(ExtremumRows, DifferencesAreOfNeighbours) {
-  constexpr int kColumns = 21;
-  const cv::Mat rows = noise(4, kColumns, 5);
-  cv::Mat out(3, kColumns, CV_32F);
-  const std::vector<const float*> sources = {rows.ptr<float>(0), rows.ptr<float>(1), rows.ptr<float>(2),
-                                             rows.ptr<float>(3)};
-  const std::vector<float*> differences = {out.ptr<float>(0), out.ptr<float>(1), out.ptr<float>(2)};
-  subtract(sources, differences, kColumns);
-  EXPECT_EQ(cv::norm(out, rows.rowRange(1, 4) - rows.rowRange(0, 3), cv::NORM_INF), 0.0);
 }
 
 }  // namespace

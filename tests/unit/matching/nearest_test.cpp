@@ -5,6 +5,8 @@
 
 #include <random>
 
+#include "support/vector_targets.hpp"
+
 namespace homeward::matching::nearest_test {
 namespace {
 
@@ -19,12 +21,13 @@ ByteDescriptors random_descriptors(int count, int length, int levels, std::uint6
 
 void agree(const ByteDescriptors& current, const ByteDescriptors& target) {
   const auto plain = find_nearest_portable(current, target);
-  for (const auto& fast : {find_nearest(current, target), find_nearest_avx2(current, target)}) {
+  testing::for_each_vector_target([&] {
+    const auto fast = find_nearest(current, target);
     EXPECT_EQ(fast.of_current, plain.of_current);
     EXPECT_EQ(fast.distance, plain.distance);
     EXPECT_EQ(fast.second_distance, plain.second_distance);
     EXPECT_EQ(fast.of_target, plain.of_target);
-  }
+  });
 }
 
 TEST(Nearest, VectorInstructionsChangeNothing) {

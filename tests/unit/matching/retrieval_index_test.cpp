@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "matching/dot.hpp"
 #include "matching/place_code.hpp"
 #include "support/clustered_features.hpp"
 
