@@ -42,6 +42,9 @@ packages=(
   libgmock-dev
   librapidcheck-dev
   libbenchmark-dev
+  googletest
+  g++-aarch64-linux-gnu
+  qemu-user
   chromium
   fonts-dejavu-core
 )
