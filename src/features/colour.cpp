@@ -6,6 +6,27 @@
 #include <cstdlib>
 
 namespace homeward::features {
+namespace {
+
+/// Of a level from 0 to 255 as a number from 0 to 1: dividing millions of times takes longer than looking up.
+struct Powers {
+  double value;
+  double square;
+  double cube;
+};
+const std::array<Powers, 256>& powers_of_levels() {
+  static const std::array<Powers, 256> all = [] {
+    std::array<Powers, 256> made{};
+    for (std::size_t level = 0; level < made.size(); ++level) {
+      const double value = static_cast<double>(level) / 255.0;
+      made[level] = {value, value * value, value * value * value};
+    }
+    return made;
+  }();
+  return all;
+}
+
+}  // namespace
 
 std::array<float, 9> colour_moments(const camera::Panorama& panorama) {
   std::array<double, 3> sum{};
@@ -13,14 +34,15 @@ std::array<float, 9> colour_moments(const camera::Panorama& panorama) {
   std::array<double, 3> cube_sum{};
   std::size_t count = 0;
   const std::uint8_t* pixel = panorama.rgb.data.data();
+  const std::array<Powers, 256>& of_level = powers_of_levels();
   for (std::size_t i = 0; i < panorama.valid.size(); ++i, pixel += 3) {
     if (panorama.valid[i] == 0) continue;
     ++count;
     for (std::size_t band = 0; band < 3; ++band) {
-      const double value = pixel[band] / 255.0;
-      sum[band] += value;
-      square_sum[band] += value * value;
-      cube_sum[band] += value * value * value;
+      const Powers& powers = of_level[pixel[band]];
+      sum[band] += powers.value;
+      square_sum[band] += powers.square;
+      cube_sum[band] += powers.cube;
     }
   }
   std::array<float, 9> moments{};
@@ -67,19 +89,24 @@ std::array<double, 3> colour_correlations(const Image& rgb, double centre_u_px, 
   constexpr std::size_t kSamples = std::size_t{kSamplesPerSide} * kSamplesPerSide;
   std::array<std::array<double, kSamples>, 3> bands{};
   std::array<double, 3> mean{};
+  std::array<int, kSamplesPerSide> columns{};
+  std::array<int, kSamplesPerSide> rows{};
+  for (int k = 0; k < kSamplesPerSide; ++k) {
+    const double off = (2.0 * k / (kSamplesPerSide - 1) - 1.0) * radius_px;
+    const int u = static_cast<int>(std::lround(centre_u_px + off)) % rgb.width_px;
+    const auto at = static_cast<std::size_t>(k);
+    columns[at] = u < 0 ? u + rgb.width_px : u;
+    rows[at] = std::clamp(static_cast<int>(std::lround(centre_v_px + off)), 0, rgb.height_px - 1);
+  }
   std::size_t sample = 0;
-  for (int row = 0; row < kSamplesPerSide; ++row) {
-    for (int column = 0; column < kSamplesPerSide; ++column, ++sample) {
-      const double right = (2.0 * column / (kSamplesPerSide - 1) - 1.0) * radius_px;
-      const double down = (2.0 * row / (kSamplesPerSide - 1) - 1.0) * radius_px;
-      int u = static_cast<int>(std::lround(centre_u_px + right)) % rgb.width_px;
-      if (u < 0) u += rgb.width_px;
-      const int v = std::clamp(static_cast<int>(std::lround(centre_v_px + down)), 0, rgb.height_px - 1);
+  for (const int v : rows) {
+    for (const int u : columns) {
       const std::uint8_t* pixel = rgb.at(u, v);
       for (std::size_t band = 0; band < 3; ++band) {
         bands[band][sample] = pixel[band];
         mean[band] += pixel[band];
       }
+      ++sample;
     }
   }
   for (double& value : mean) value /= static_cast<double>(kSamples);

@@ -247,9 +247,11 @@ double gradient_threshold(const cv::Mat& magnitude, const cv::Mat& trusted) {
     }
   }
   if (sample.empty()) return kMinGradient;
-  const auto quantile = [&](double share) {
+  auto sorted_to = sample.begin();           // what lies before is smaller than what lies behind
+  const auto quantile = [&](double share) {  // asked for ascending
     const auto at = sample.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sample.size() - 1));
-    std::nth_element(sample.begin(), at, sample.end());
+    std::nth_element(sorted_to, at, sample.end());
+    sorted_to = at;
     return static_cast<double>(*at);
   };
   constexpr double kMedianOfAbsoluteNormal = 0.6745;

@@ -61,7 +61,6 @@ void find_candidates(const RowBand& band, int first, int end, float floor, std::
     const auto v = hn::LoadU(f, band.here + c);
     const auto high = v > above_floor;
     const auto low = v < below_floor;
-    if (hn::AllFalse(f, hn::Or(high, low))) continue;
     const auto left = hn::LoadU(f, band.here + c - 1);
     const auto right = hn::LoadU(f, band.here + c + 1);
     const auto up = hn::LoadU(f, band.above + c);
@@ -70,8 +69,10 @@ void find_candidates(const RowBand& band, int first, int end, float floor, std::
     const auto smallest = hn::Min(hn::Min(left, right), hn::Min(up, down));
     const auto peak = hn::And(high, v >= largest);
     const auto pit = hn::And(low, v <= smallest);
+    const auto either = hn::Or(peak, pit);
+    if (hn::AllFalse(f, either)) continue;  // nearly always; whether all are below the floor is a coin's toss
     std::array<std::uint8_t, 8> bits{};
-    hn::StoreMaskBits(f, hn::Or(peak, pit), bits.data());
+    hn::StoreMaskBits(f, either, bits.data());
     for (unsigned marks = bits[0]; marks != 0; marks &= marks - 1) found.push_back(c + std::countr_zero(marks));
   }
   for (; c < end; ++c) {
