@@ -9,7 +9,7 @@ namespace homeward::cli {
 namespace {
 
 constexpr int kFirstColumn = 14;
-constexpr int kColumn = 10;
+constexpr int kColumn = 13;
 
 template <class... Values>
 std::string formatted(const char* format, Values... values) {

@@ -130,7 +130,8 @@ Status compare(const CompareOptions& options) {
   if (!by_features && !aggregated && measure == features::kGlobalMeasures.end()) {
     return fail(ErrorCode::kInvalidInput,
                 "The measure '" + options.measure +
-                    "' is not known; there are features, moments, jeffrey, chi2, sad, fourier and vlad.",
+                    "' is not known; there are features, moments, jeffrey, chi2, sad, fourier, invariants, "
+                    "rgb_jeffrey, row_fourier and vlad.",
                 "--measure");
   }
   if (!options.drawing.empty() && (!by_features || options.pictures.size() != 2)) {
@@ -159,7 +160,9 @@ void register_compare(CLI::App& program) {
       "compare", "How different the first picture is from each of the others: a JSON line per pair");
   const auto options = std::make_shared<CompareOptions>();
   command->add_option("--camera", options->camera, "camera.json")->required();
-  command->add_option("--measure", options->measure, "features, moments, jeffrey, chi2, sad, fourier or vlad")
+  command
+      ->add_option("--measure", options->measure,
+                   "features, moments, jeffrey, chi2, sad, fourier, invariants, rgb_jeffrey, row_fourier or vlad")
       ->capture_default_str();
   command->add_option("--draw", options->drawing, "Picture (PNG) of the two panoramas and what they have in common");
   command->add_option("--seed", options->seed, "Seed of everything random");

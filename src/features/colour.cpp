@@ -125,6 +125,34 @@ std::array<double, 3> colour_correlations(const Image& rgb, double centre_u_px, 
   return {invariant(0, 1), invariant(0, 2), invariant(1, 2)};
 }
 
+std::array<double, 3> colour_correlations(const camera::Panorama& panorama) {
+  std::int64_t count = 0;
+  std::array<std::int64_t, 3> sum{};
+  std::array<std::array<std::int64_t, 3>, 3> product_sum{};
+  const std::uint8_t* pixel = panorama.rgb.data.data();
+  for (std::size_t i = 0; i < panorama.valid.size(); ++i, pixel += 3) {
+    if (panorama.valid[i] == 0) continue;
+    ++count;
+    for (std::size_t p = 0; p < 3; ++p) {
+      sum[p] += pixel[p];
+      for (std::size_t q = p; q < 3; ++q) product_sum[p][q] += std::int64_t{pixel[p]} * pixel[q];
+    }
+  }
+  // The sum of products of centred values, times the count: whole numbers as well.
+  const auto product = [&](std::size_t p, std::size_t q) {
+    return static_cast<double>(count * product_sum[p][q] - sum[p] * sum[q]);
+  };
+  // Less than one grey level of spread is noise, not colour.
+  const double noise = static_cast<double>(count) * static_cast<double>(count);
+  const auto invariant = [&](std::size_t p, std::size_t q) {
+    const double pp = product(p, p);
+    const double qq = product(q, q);
+    if (count == 0 || pp < noise || qq < noise) return 0.0;
+    return std::clamp(product(p, q) / (std::sqrt(pp) * std::sqrt(qq)), -1.0, 1.0);
+  };
+  return {invariant(0, 1), invariant(0, 2), invariant(1, 2)};
+}
+
 std::array<std::int8_t, 3> colour_invariants(const Image& rgb, double centre_u_px, double centre_v_px,
                                              double radius_px) {
   const auto correlations = colour_correlations(rgb, centre_u_px, centre_v_px, radius_px);

@@ -9,8 +9,8 @@
 namespace homeward::features {
 
 /// Mean, standard deviation and cube root of the third central moment of R, G and B, each over 0..1, in the order
-/// R mean, R spread, R skewness, G ..., B ... . Rotation of the robot does not change them.
-/// Stricker & Orengo, Similarity of color images (1995); Goedemé 2007 §4.2.1 takes the invariants of its eq. 1 instead.
+/// R mean, R spread, R skewness, G ..., B ... (Stricker and Orengo, "Similarity of color images", 1995, there of HSV).
+/// Rotation of the robot does not change them.
 std::array<float, 9> colour_moments(const camera::Panorama& panorama);
 
 /// Euclidean distance of two sets of moments.
@@ -29,6 +29,10 @@ bool colours_agree(const std::int8_t* a, const std::int8_t* b, int bound);
 /// GB, over a square patch whose columns wrap (Goedemé 2007 §3.2, eq. 1): each in -1..1, unchanged by gain and offset
 /// of any band. A band without variation gives 0.
 std::array<double, 3> colour_correlations(const Image& rgb, double centre_u_px, double centre_v_px, double radius_px);
+
+/// The same over all pixels of a panorama that the camera sees (Goedemé 2007 §4.2.1), the sums in whole numbers, so
+/// that a turn by whole columns changes no bit. All 0 where it sees none. Precondition: fewer than 1e7 pixels.
+std::array<double, 3> colour_correlations(const camera::Panorama& panorama);
 
 /// The same in 8 bits: times 127, rounded.
 std::array<std::int8_t, 3> colour_invariants(const Image& rgb, double centre_u_px, double centre_v_px,

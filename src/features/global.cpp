@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kRowBands = 32;
 constexpr int kFrequencies = 30;
+constexpr int kColourLevels = 8;  // of each band
 
 cv::Mat grey_of(const camera::Panorama& panorama) {
   const cv::Mat colour(panorama.rgb.height_px, panorama.rgb.width_px, CV_8UC3,
@@ -23,7 +24,7 @@ cv::Mat grey_of(const camera::Panorama& panorama) {
 }
 
 /// Shares of the 256 levels among the pixels that the camera sees; all zero when it sees none.
-std::array<float, 256> histogram_of(const cv::Mat& grey, const std::vector<std::uint8_t>& valid) {
+std::array<float, 256> grey_histogram_of(const cv::Mat& grey, const std::vector<std::uint8_t>& valid) {
   std::array<std::size_t, 256> counts{};
   std::size_t total = 0;
   for (int v = 0; v < grey.rows; ++v) {
@@ -43,15 +44,34 @@ std::array<float, 256> histogram_of(const cv::Mat& grey, const std::vector<std::
   return shares;
 }
 
-/// Magnitudes of the lowest frequencies of each band of rows; pixels that the camera does not see count as the band's
-/// mean, so that the shape of what it sees is no texture.
-std::vector<float> fourier_of(const cv::Mat& grey, const std::vector<std::uint8_t>& valid) {
+/// Shares of the colours among the pixels that the camera sees; all zero when it sees none.
+std::vector<float> colour_histogram_of(const camera::Panorama& panorama) {
+  std::vector<std::size_t> counts(std::size_t{kColourLevels} * kColourLevels * kColourLevels, 0);
+  std::size_t total = 0;
+  const std::uint8_t* pixel = panorama.rgb.data.data();
+  for (std::size_t i = 0; i < panorama.valid.size(); ++i, pixel += 3) {
+    if (panorama.valid[i] == 0) continue;
+    const auto level = [&](int band) { return static_cast<std::size_t>(pixel[band] * kColourLevels / 256); };
+    ++counts[(level(0) * kColourLevels + level(1)) * kColourLevels + level(2)];
+    ++total;
+  }
+  std::vector<float> shares(counts.size(), 0.0F);
+  if (total == 0) return shares;
+  std::ranges::transform(counts, shares.begin(), [&](std::size_t count) {
+    return static_cast<float>(static_cast<double>(count) / static_cast<double>(total));
+  });
+  return shares;
+}
+
+/// Magnitudes of the lowest frequencies of each of `bands` bands of rows; pixels that the camera does not see count as
+/// the band's mean, so that the shape of what it sees is no texture.
+std::vector<float> fourier_of(const cv::Mat& grey, const std::vector<std::uint8_t>& valid, int bands) {
   const cv::Mat mask(grey.rows, grey.cols, CV_8UC1, const_cast<std::uint8_t*>(valid.data()));
   std::vector<float> magnitudes;
-  magnitudes.reserve(static_cast<std::size_t>(kRowBands) * kFrequencies);
-  for (int band = 0; band < kRowBands; ++band) {
-    const int top = band * grey.rows / kRowBands;
-    const int bottom = std::max(top + 1, (band + 1) * grey.rows / kRowBands);
+  magnitudes.reserve(static_cast<std::size_t>(bands) * kFrequencies);
+  for (int band = 0; band < bands; ++band) {
+    const int top = band * grey.rows / bands;
+    const int bottom = std::max(top + 1, (band + 1) * grey.rows / bands);
     const cv::Mat seen = mask.rowRange(top, bottom);
     cv::Mat filled = grey.rowRange(top, bottom).clone();
     const double mean = cv::countNonZero(seen) > 0 ? cv::mean(filled, seen)[0] : 0.0;
@@ -110,6 +130,12 @@ std::string_view global_measure_name(GlobalMeasure measure) {
       return "sad";
     case GlobalMeasure::kFourier:
       return "fourier";
+    case GlobalMeasure::kInvariants:
+      return "invariants";
+    case GlobalMeasure::kColourJeffrey:
+      return "rgb_jeffrey";
+    case GlobalMeasure::kRowFourier:
+      return "row_fourier";
   }
   return "";
 }
@@ -127,12 +153,15 @@ Result<GlobalDescriptor> describe(const camera::Panorama& panorama) {
   }
   const cv::Mat grey = grey_of(panorama);
   GlobalDescriptor descriptor;
-  descriptor.grey_histogram = histogram_of(grey, panorama.valid);
+  descriptor.grey_histogram = grey_histogram_of(grey, panorama.valid);
   if (const char* reason = why_nothing_is_shown(descriptor.grey_histogram)) {
     return fail(ErrorCode::kTooFewFeatures, reason, "picture");
   }
   descriptor.moments = colour_moments(panorama);
-  descriptor.fourier = fourier_of(grey, panorama.valid);
+  descriptor.fourier = fourier_of(grey, panorama.valid, kRowBands);
+  descriptor.invariants = colour_correlations(panorama);
+  descriptor.colour_histogram = colour_histogram_of(panorama);
+  descriptor.row_fourier = fourier_of(grey, panorama.valid, grey.rows);
   return descriptor;
 }
 
@@ -148,6 +177,13 @@ double dissimilarity(GlobalMeasure measure, const GlobalDescriptor& a, const Glo
       return sum_of_absolute_differences(a.grey_histogram, b.grey_histogram);
     case GlobalMeasure::kFourier:
       return sum_of_absolute_differences(a.fourier, b.fourier);
+    case GlobalMeasure::kInvariants:
+      return std::hypot(a.invariants[0] - b.invariants[0], a.invariants[1] - b.invariants[1],
+                        a.invariants[2] - b.invariants[2]);
+    case GlobalMeasure::kColourJeffrey:
+      return jeffrey_divergence(a.colour_histogram, b.colour_histogram);
+    case GlobalMeasure::kRowFourier:
+      return sum_of_absolute_differences(a.row_fourier, b.row_fourier);
   }
   return 0.0;
 }

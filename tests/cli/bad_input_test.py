@@ -270,7 +270,8 @@ class BadPictures(CliTest):
         compare = ("compare", "--camera", "tour/camera.json")
         for name, grey in FLAT.items():
             write_png(self.folder / "tour" / name, 1024, 512, grey)
-            for measure in ("moments", "jeffrey", "chi2", "sad", "fourier", "vlad"):
+            for measure in ("moments", "jeffrey", "chi2", "sad", "fourier", "invariants", "rgb_jeffrey", "row_fourier",
+                            "vlad"):
                 why = name.removesuffix(".png").replace("_", " ")
                 self.assert_refused(4, [name, why], *compare, "--measure", measure, "tour/00001.jpg", f"tour/{name}")
             (line,) = self.lines_of(*compare, "tour/00001.jpg", f"tour/{name}")

@@ -25,7 +25,8 @@ class BenchLocalise(CliTest):
         self.assertEqual([line["apart_m"] for line in result["table_3_2"]], [0.0, 0.3])
         self.assertIn("winlit_1", [line["training"] for line in result["table_3_3"]])
         self.assertIn("moved_1", [line["training"] for line in result["table_3_3"]])
-        for measure in ("moments", "jeffrey", "chi2", "sad", "fourier", "vlad", "features"):
+        for measure in ("moments", "jeffrey", "chi2", "sad", "fourier", "invariants", "rgb_jeffrey", "row_fourier", "vlad",
+                        "features"):
             self.assertIn(measure, result["measures"])
             for line in result["table_3_2"] + result["table_3_3"]:
                 self.assertGreaterEqual(line["localised"][measure], 0.0)

@@ -122,6 +122,42 @@ TEST(ColourCorrelations, GainAndOffsetOfTheBandsChangeNothing) {
   }
 }
 
+camera::Panorama whole(const Image& image) {
+  camera::Panorama panorama;
+  panorama.rgb = image;
+  panorama.valid.assign(static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px), 1);
+  return panorama;
+}
+
+TEST(ColourCorrelations, OfAWholePictureAreThoseOfItsBands) {
+  // Green is red, blue is red turned round: +1, -1, -1; then red up and down, green up, up, down, down: 0.
+  camera::Panorama panorama;
+  panorama.rgb = Image(4, 1, 3);
+  panorama.valid = {1, 1, 1, 1};
+  panorama.rgb.data = {10, 20, 90, 30, 40, 70, 50, 60, 50, 70, 80, 30};
+  auto measured = colour_correlations(panorama);
+  EXPECT_DOUBLE_EQ(measured[0], 1.0);
+  EXPECT_DOUBLE_EQ(measured[1], -1.0);
+  EXPECT_DOUBLE_EQ(measured[2], -1.0);
+  panorama.rgb.data = {0, 0, 7, 100, 0, 7, 0, 100, 7, 100, 100, 7};
+  measured = colour_correlations(panorama);
+  EXPECT_DOUBLE_EQ(measured[0], 0.0);
+  EXPECT_DOUBLE_EQ(measured[1], 0.0) << "blue does not vary";
+  panorama.rgb.data = {10, 20, 90, 30, 40, 70, 50, 60, 50, 255, 0, 255};
+  panorama.valid[3] = 0;  // what the camera does not see does not count
+  EXPECT_DOUBLE_EQ(colour_correlations(panorama)[0], 1.0);
+  panorama.valid.assign(4, 0);
+  EXPECT_EQ(colour_correlations(panorama), (std::array<double, 3>{}));
+}
+
+TEST(ColourCorrelations, GainAndOffsetChangeNothingInAWholePicture) {
+  const Image before = even_values();
+  const auto expected = colour_correlations(whole(before));
+  for (const double value : expected) EXPECT_NE(value, 0.0);
+  const auto measured = colour_correlations(whole(with_gain_and_offset(before, {1.5, 1.0, 2.0}, {0.0, 90.0, 3.0})));
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(measured[k], expected[k], 1e-12);
+}
+
 TEST(ColourCorrelations, RoundingToGreyLevelsCostsLittle) {
   const Image before = even_values();
   const Image after = with_gain_and_offset(before, {1.37, 1.37, 1.37}, {11.3, 11.3, 11.3});

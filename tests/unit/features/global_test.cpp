@@ -84,6 +84,51 @@ TEST_P(EveryMeasure, ATurnChangesNothing) {
   }
 }
 
+TEST(GlobalMeasures, ColourHistogramsTellApartWhatIsEquallyGrey) {
+  camera::Panorama red = view(1, 0.0);
+  camera::Panorama blue = red;
+  for (std::size_t i = 0; i + 2 < red.rgb.data.size(); i += 3) {
+    const auto base = static_cast<std::uint8_t>(red.rgb.data[i] / 3);
+    for (std::size_t band = 0; band < 3; ++band) red.rgb.data[i + band] = blue.rgb.data[i + band] = base;
+    red.rgb.data[i] = static_cast<std::uint8_t>(base + 60);        // weighs 0.299 in grey,
+    blue.rgb.data[i + 2] = static_cast<std::uint8_t>(base + 157);  // and this 0.114: 18 levels both
+  }
+  const auto a = describe(red);
+  const auto b = describe(blue);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(dissimilarity(GlobalMeasure::kJeffrey, *a, *b), 0.0);
+  EXPECT_GT(dissimilarity(GlobalMeasure::kColourJeffrey, *a, *b), 0.5);
+  double sum = 0.0;
+  for (const float share : a->colour_histogram) sum += static_cast<double>(share);
+  EXPECT_NEAR(sum, 1.0, 1e-5);
+}
+
+/// Three grey waves round the picture, their height in each row; 4 rows to each band.
+camera::Panorama waves(double even_rows, double odd_rows) {
+  constexpr int kSide_px = 128;
+  camera::Panorama panorama;
+  panorama.rgb = Image(kSide_px, kSide_px, 3);
+  panorama.valid.assign(std::size_t{kSide_px} * kSide_px, 1);
+  for (int v = 0; v < kSide_px; ++v) {
+    for (int u = 0; u < kSide_px; ++u) {
+      const double wave = (v % 2 == 0 ? even_rows : odd_rows) * std::cos(2.0 * kPi * 3.0 * u / kSide_px);
+      const auto value = static_cast<std::uint8_t>(std::lround(128.0 + wave));
+      for (int band = 0; band < 3; ++band) panorama.rgb.at(u, v)[band] = value;
+    }
+  }
+  return panorama;
+}
+
+TEST(GlobalMeasures, EveryRowTellsApartWhatBandsOfRowsDoNot) {
+  const auto a = describe(waves(60.0, 60.0));
+  const auto b = describe(waves(0.0, 120.0));
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->row_fourier.size(), 128U * 30U);
+  // A cosine's magnitude is half its height.
+  EXPECT_NEAR(dissimilarity(GlobalMeasure::kRowFourier, *a, *b) / 128.0, 0.5 * 60.0 / 255.0, 0.01);
+  EXPECT_LT(dissimilarity(GlobalMeasure::kFourier, *a, *b) / 32.0, 0.01);
+}
+
 std::string name_of(const ::testing::TestParamInfo<GlobalMeasure>& measure) {
   return std::string(global_measure_name(measure.param));
 }
