@@ -74,8 +74,12 @@ Status run(const BenchOptions& options) {
   if (!tables) return pass_on(tables);
   if (!options.out.empty()) {
     const fs::path out(options.out);
-    if (const Status kept = files::write_file(out / "tables.txt", text_of(*tables, bench)); !kept) return kept;
-    if (const Status kept = files::write_file(out / "tables.json", json_of(*tables, bench)); !kept) return kept;
+    for (const auto& [name, text] : {std::pair<std::string, std::string>{"tables.txt", text_of(*tables, bench)},
+                                     {"tables.json", json_of(*tables, bench)},
+                                     {"curves.csv", curves_csv(*tables)},
+                                     {"curves.svg", curves_svg(*tables)}}) {
+      if (const Status kept = files::write_file(out / name, text); !kept) return kept;
+    }
   }
   std::cout << (options.json ? json_of(*tables, bench) : text_of(*tables, bench));
   return {};
@@ -87,7 +91,9 @@ void register_bench_localise(CLI::App& bench) {
   CLI::App* command = bench.add_subcommand(
       "localise",
       "Which measure finds the nearest training picture: rows further and further apart, and in changed "
-      "light and with moved furniture (Ferdaus 2008, tables 3.2 and 3.3) in generated rooms");
+      "light and with moved furniture (Ferdaus 2008, tables 3.2 and 3.3), each picture alone and with a filter along "
+      "the "
+      "row, and how different pictures are by how far they are apart (its figure 3.6), in generated rooms");
   const auto options = std::make_shared<BenchOptions>();
   command->add_option("--rooms", options->bench.rooms, "Rooms; the shares are means over them")
       ->check(CLI::Range(1, 100))
@@ -102,7 +108,8 @@ void register_bench_localise(CLI::App& bench) {
       ->capture_default_str();
   command->add_option("--seed", options->bench.seed, "Seed of rooms, headings, noise and verification")
       ->capture_default_str();
-  command->add_option("--out", options->out, "New folder that keeps the pictures with their poses, and the tables");
+  command->add_option("--out", options->out,
+                      "New folder that keeps the pictures with their poses, the tables and the curves");
   command->add_flag("--json", options->json, "One JSON object instead of tables");
   run_on(*command, [options] { return run(*options); });
 }

@@ -28,7 +28,14 @@ struct LocaliseBench {
 struct BenchLine {
   std::string training;
   double apart_m = 0.0;           // between test and training row
-  std::vector<double> localised;  // share of the test pictures, by each measure
+  std::vector<double> localised;  // share of the test pictures, by each measure,
+  std::vector<double> filtered;   // and with the Bayes filter along the row
+};
+
+/// How different the first test picture is from each picture along its own row, means over the rooms.
+struct BenchCurves {
+  std::vector<double> along_m;
+  std::vector<std::vector<double>> dissimilarities;  // by each measure; infinite where a room's is
 };
 
 /// What one run found.
@@ -36,6 +43,7 @@ struct BenchTables {
   std::vector<std::string> measures;
   std::vector<BenchLine> distances;  // the thesis's table 3.2
   std::vector<BenchLine> changes;    // its table 3.3
+  BenchCurves curves;                // its figure 3.6
 };
 
 /// Where rendered rows go as well; may be empty. `condition`: the state of the room as JSON text.
@@ -49,5 +57,10 @@ Result<BenchTables> bench_localise(const LocaliseBench& bench, const camera::Cam
 /// The tables as text with aligned columns, and as one JSON object.
 std::string text_of(const BenchTables& tables, const LocaliseBench& bench);
 std::string json_of(const BenchTables& tables, const LocaliseBench& bench);
+
+/// The curves as CSV, `along_m` and a column for each measure (empty where infinite), and as an SVG with a panel for
+/// each measure, drawn to its own scale.
+std::string curves_csv(const BenchTables& tables);
+std::string curves_svg(const BenchTables& tables);
 
 }  // namespace homeward::cli

@@ -83,10 +83,26 @@ class Photographer {
 };
 
 /// Adds the shares of one room to the means over `rooms`.
-void add(std::vector<BenchLine>& lines, std::size_t first, const std::vector<std::vector<double>>& shares, int rooms) {
+void add(std::vector<BenchLine>& lines, std::size_t first, const std::vector<std::vector<pipeline::RowScore>>& scores,
+         int rooms) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    lines[i].localised.resize(shares[first + i].size());
-    for (std::size_t m = 0; m < lines[i].localised.size(); ++m) lines[i].localised[m] += shares[first + i][m] / rooms;
+    const std::vector<pipeline::RowScore>& of_row = scores[first + i];
+    lines[i].localised.resize(of_row.size());
+    lines[i].filtered.resize(of_row.size());
+    for (std::size_t m = 0; m < of_row.size(); ++m) {
+      lines[i].localised[m] += of_row[m].alone / rooms;
+      lines[i].filtered[m] += of_row[m].filtered / rooms;
+    }
+  }
+}
+
+/// Adds the curves of one room to the means over `rooms`.
+void add(BenchCurves& curves, const std::vector<double>& along_m, const std::vector<std::vector<double>>& of_room,
+         int rooms) {
+  curves.along_m = along_m;
+  curves.dissimilarities.resize(of_room.size(), std::vector<double>(along_m.size(), 0.0));
+  for (std::size_t m = 0; m < of_room.size(); ++m) {
+    for (std::size_t i = 0; i < along_m.size(); ++i) curves.dissimilarities[m][i] += of_room[m][i] / rooms;
   }
 }
 
@@ -102,9 +118,9 @@ Result<BenchTables> bench_localise(const LocaliseBench& bench, const camera::Cam
   BenchTables tables;
   for (const pipeline::RowMeasure& measure : measures) tables.measures.push_back(measure.name);
   for (int row = 0; row < bench.rows; ++row)
-    tables.distances.push_back({"original_" + std::to_string(row), row * kStep_m, {}});
+    tables.distances.push_back({"original_" + std::to_string(row), row * kStep_m, {}, {}});
   const std::vector<PictureSet> sets = changed_sets();
-  for (const PictureSet& set : sets) tables.changes.push_back({set.name + "_1", kStep_m, {}});
+  for (const PictureSet& set : sets) tables.changes.push_back({set.name + "_1", kStep_m, {}, {}});
   const double steps = static_cast<double>(bench.rooms) * static_cast<double>(sets.size());
   double done = 0.0;
   for (int room = 0; room < bench.rooms; ++room) {
@@ -130,10 +146,11 @@ Result<BenchTables> bench_localise(const LocaliseBench& bench, const camera::Cam
       if (const Status taken = photograph(photographer, 1); !taken) return pass_on(taken);
       progress(++done / steps);
     }
-    const auto shares = pipeline::localise_rows(*tests, training, *eye, measures);
-    if (!shares) return pass_on(shares);
-    add(tables.distances, 0, *shares, bench.rooms);
-    add(tables.changes, tables.distances.size(), *shares, bench.rooms);
+    const auto found = pipeline::localise_rows(*tests, training, *eye, measures);
+    if (!found) return pass_on(found);
+    add(tables.distances, 0, found->scores, bench.rooms);
+    add(tables.changes, tables.distances.size(), found->scores, bench.rooms);
+    add(tables.curves, tests->along_m, found->curves, bench.rooms);
   }
   return tables;
 }

@@ -57,6 +57,34 @@ Eigen::MatrixXd aggregated(std::span<const RowView> tests, std::span<const RowVi
   });
 }
 
+/// P(z | x) of one test picture at each place, over that at the likeliest one; all 1 where it says nothing.
+Eigen::RowVectorXd likelihoods(const Eigen::RowVectorXd& dissimilarities, double least) {
+  double count = 0.0;
+  double sum = 0.0;
+  for (const double d : dissimilarities) {
+    if (!std::isfinite(d)) continue;
+    sum += d;
+    ++count;
+  }
+  const double nearest = dissimilarities.minCoeff();
+  double variance = 0.0;
+  for (const double d : dissimilarities) {
+    if (std::isfinite(d)) variance += (d - sum / count) * (d - sum / count) / count;
+  }
+  Eigen::RowVectorXd result = Eigen::RowVectorXd::Ones(dissimilarities.size());
+  const bool all_seen = count == static_cast<double>(dissimilarities.size());
+  if (count == 0.0 || (variance <= 0.0 && all_seen)) return result;
+  for (Index k = 0; k < result.size(); ++k) {
+    const double d = dissimilarities[k];
+    if (!std::isfinite(d)) {
+      result[k] = least;
+    } else if (variance > 0.0) {
+      result[k] = std::max(least, std::exp((nearest - d) / variance));
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<RowMeasure> row_measures(std::uint64_t seed) {
@@ -99,21 +127,48 @@ double share_localised(const Eigen::MatrixXd& dissimilarities, std::span<const i
   return sum / static_cast<double>(dissimilarities.rows());
 }
 
-Result<std::vector<std::vector<double>>> localise_rows(const PictureRow& tests, const std::vector<PictureRow>& training,
-                                                       const Eye& eye, const std::vector<RowMeasure>& measures) {
+Eigen::MatrixXd row_beliefs(const Eigen::MatrixXd& dissimilarities, const RowFilterConfig& config) {
+  const Index places = dissimilarities.cols();
+  Eigen::MatrixXd moves(places, places);  // from each line's place to each column's
+  for (Index from = 0; from < places; ++from) {
+    for (Index to = 0; to < places; ++to) {
+      const auto apart = static_cast<double>(std::abs(to - from));
+      moves(from, to) = std::exp(-apart / (config.spread_places * config.spread_places));
+    }
+    moves.row(from) /= moves.row(from).sum();
+  }
+  Eigen::MatrixXd beliefs(dissimilarities.rows(), places);
+  Eigen::RowVectorXd belief = Eigen::RowVectorXd::Constant(places, 1.0 / static_cast<double>(places));
+  for (Index t = 0; t < dissimilarities.rows(); ++t) {
+    if (t > 0) belief = belief * moves;
+    belief = belief.cwiseProduct(likelihoods(dissimilarities.row(t), config.least_likelihood));
+    belief /= belief.sum();
+    beliefs.row(t) = belief;
+  }
+  return beliefs;
+}
+
+Result<RowFindings> localise_rows(const PictureRow& tests, const std::vector<PictureRow>& training, const Eye& eye,
+                                  const std::vector<RowMeasure>& measures) {
   const auto test_views = views_of(tests, eye);
   if (!test_views) return pass_on(test_views);
-  std::vector<std::vector<double>> scores;
+  RowFindings findings;
+  for (const RowMeasure& measure : measures) {
+    const Eigen::MatrixXd curve = measure.compare(std::span(*test_views).first(1), *test_views);
+    findings.curves.emplace_back(curve.data(), curve.data() + curve.size());
+  }
   for (const PictureRow& row : training) {
     const auto views = views_of(row, eye);
     if (!views) return pass_on(views);
     const std::vector<int> nearest = nearest_in_row(tests.along_m, row.along_m);
-    std::vector<double>& of_row = scores.emplace_back();
+    std::vector<RowScore>& of_row = findings.scores.emplace_back();
     for (const RowMeasure& measure : measures) {
-      of_row.push_back(share_localised(measure.compare(*test_views, *views), nearest));
+      const Eigen::MatrixXd dissimilarities = measure.compare(*test_views, *views);
+      const Eigen::MatrixXd improbable = (1.0 - row_beliefs(dissimilarities).array()).matrix();
+      of_row.push_back({share_localised(dissimilarities, nearest), share_localised(improbable, nearest)});
     }
   }
-  return scores;
+  return findings;
 }
 
 }  // namespace homeward::pipeline

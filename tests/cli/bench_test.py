@@ -6,6 +6,7 @@ import json
 import sys
 import unittest
 from pathlib import Path
+from xml.etree import ElementTree
 
 from program import CliTest, Program
 
@@ -29,10 +30,20 @@ class BenchLocalise(CliTest):
                         "features"):
             self.assertIn(measure, result["measures"])
             for line in result["table_3_2"] + result["table_3_3"]:
-                self.assertGreaterEqual(line["localised"][measure], 0.0)
-                self.assertLessEqual(line["localised"][measure], 1.0)
+                for share in (line["localised"][measure], line["filtered"][measure]):
+                    self.assertGreaterEqual(share, 0.0)
+                    self.assertLessEqual(share, 1.0)
+            curve = result["figure_3_6"]["dissimilarity"][measure]
+            self.assertEqual(len(curve), 4)
+            self.assertAlmostEqual(curve[0], 0.0, places=3)
         self.assertEqual(result["table_3_2"][0]["localised"]["features"], 1.0)
         self.assertEqual(json.loads((self.folder / "kept" / "tables.json").read_text()), result)
+        table = (self.folder / "kept" / "curves.csv").read_text().splitlines()
+        self.assertEqual(table[0].split(","), ["along_m"] + result["measures"])
+        self.assertEqual([float(line.split(",")[0]) for line in table[1:]], result["figure_3_6"]["along_m"])
+        svg = ElementTree.fromstring((self.folder / "kept" / "curves.svg").read_text())
+        curves = [path for path in svg.iter("{http://www.w3.org/2000/svg}path") if path.get("class") == "curve"]
+        self.assertEqual(len(curves), len(result["measures"]))
         rows = self.folder / "kept" / "room_1"
         self.assertEqual(len(list((rows / "original_0_test").glob("*.png"))), 4)
         self.assertEqual(len(list((rows / "original_1").glob("*.png"))), 2)

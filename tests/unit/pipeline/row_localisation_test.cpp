@@ -44,6 +44,45 @@ TEST(ShareLocalised, SharesAFirstPlace) {
   EXPECT_DOUBLE_EQ(share_localised(dissimilarities, std::vector<int>{3}), 0.0);
 }
 
+TEST(RowBeliefs, AreBayesRuleWithTheThesisMotion) {
+  // Two places. The first picture: 0 and 2, sigma_z = 1, likelihoods 1 and exp(-2); the second says nothing.
+  Eigen::MatrixXd dissimilarities(2, 2);
+  dissimilarities << 0.0, 2.0, 5.0, 5.0;
+  const Eigen::MatrixXd beliefs = row_beliefs(dissimilarities);
+  const double first = 1.0 / (1.0 + std::exp(-2.0));
+  EXPECT_NEAR(beliefs(0, 0), first, 1e-12);
+  const double stays = 1.0 / (1.0 + std::exp(-1.0));  // one place away, sigma_x = 1
+  EXPECT_NEAR(beliefs(1, 0), first * stays + (1.0 - first) * (1.0 - stays), 1e-12);
+  EXPECT_NEAR(beliefs(1, 0) + beliefs(1, 1), 1.0, 1e-12);
+}
+
+TEST(RowBeliefs, SeeDifferencesOfPicturesThatAreAllFarFromAlike) {
+  // Likelihoods themselves are as good as 0; only their proportion counts. The variance is 8 / 9.
+  Eigen::MatrixXd dissimilarities(1, 3);
+  dissimilarities << 40.0, 42.0, 42.0;
+  const Eigen::MatrixXd beliefs = row_beliefs(dissimilarities);
+  EXPECT_NEAR(beliefs(0, 0), 1.0 / (1.0 + 2.0 * std::exp(-2.0 * 9.0 / 8.0)), 1e-9);
+  EXPECT_NEAR(beliefs(0, 1), beliefs(0, 2), 1e-12);
+}
+
+TEST(RowBeliefs, OutliveAPictureThatLiesAndOneThatSaysNothing) {
+  Eigen::MatrixXd dissimilarities(4, 6);
+  dissimilarities << 0.1, 1.0, 1.0, 1.0, 1.0, 1.0,                       // at the first place
+      0.5, 0.6, 1.0, 1.0, 1.0, 0.4,                                      // the last one looks a little more like it
+      kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity,  // nothing in common with any
+      kInfinity, 0.3, kInfinity, kInfinity, kInfinity, kInfinity;        // with one alone
+  const Eigen::MatrixXd beliefs = row_beliefs(dissimilarities);
+  Eigen::Index most = -1;
+  beliefs.row(1).maxCoeff(&most);
+  EXPECT_EQ(most, 0);
+  EXPECT_DOUBLE_EQ(share_localised(dissimilarities.topRows(2), std::vector<int>{0, 0}), 0.5);
+  EXPECT_GT(beliefs(2, 0), beliefs(2, 5));
+  beliefs.row(3).maxCoeff(&most);
+  EXPECT_EQ(most, 1);
+  for (Eigen::Index t = 0; t < beliefs.rows(); ++t) EXPECT_NEAR(beliefs.row(t).sum(), 1.0, 1e-12);
+  EXPECT_GT(beliefs.minCoeff(), 0.0);
+}
+
 class LocaliseRows : public ::testing::Test {
  protected:
   [[nodiscard]] PictureRow row(const std::string& name, double y_m, double step_m, int count) const {
@@ -63,17 +102,33 @@ class LocaliseRows : public ::testing::Test {
 TEST_F(LocaliseRows, FindsTheSamePlacesByEveryMeasure) {
   const PictureRow training = row("training", 0.0, 0.9, 3);
   const auto measures = row_measures(1);
-  const auto shares = localise_rows(training, {training}, *eye_, measures);
-  ASSERT_TRUE(shares) << shares.error().message;
-  ASSERT_EQ(shares->size(), 1U);
-  ASSERT_EQ(shares->front().size(), measures.size());
-  for (std::size_t m = 0; m < measures.size(); ++m) EXPECT_DOUBLE_EQ(shares->front()[m], 1.0) << measures[m].name;
+  const auto found = localise_rows(training, {training}, *eye_, measures);
+  ASSERT_TRUE(found) << found.error().message;
+  ASSERT_EQ(found->scores.size(), 1U);
+  ASSERT_EQ(found->scores.front().size(), measures.size());
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    EXPECT_DOUBLE_EQ(found->scores.front()[m].alone, 1.0) << measures[m].name;
+  }
+}
+
+TEST_F(LocaliseRows, DrawsHowDifferentTheFirstPictureIsAlongItsOwnRow) {
+  const PictureRow tests = row("tests", 0.0, 0.3, 4);
+  const auto measures = row_measures(1);
+  const auto found = localise_rows(tests, {}, *eye_, measures);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_TRUE(found->scores.empty());
+  ASSERT_EQ(found->curves.size(), measures.size());
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    ASSERT_EQ(found->curves[m].size(), 4U) << measures[m].name;
+    EXPECT_NEAR(found->curves[m].front(), 0.0, 1e-3) << measures[m].name;
+    EXPECT_GT(found->curves[m].back(), found->curves[m].front()) << measures[m].name;
+  }
 }
 
 TEST_F(LocaliseRows, FindsNearPlacesByFeatures) {
-  const auto shares = localise_rows(row("tests", 0.0, 0.3, 7), {row("training", 0.3, 0.9, 3)}, *eye_, row_measures(1));
-  ASSERT_TRUE(shares) << shares.error().message;
-  EXPECT_GE(shares->front().back(), 0.85);
+  const auto found = localise_rows(row("tests", 0.0, 0.3, 7), {row("training", 0.3, 0.9, 3)}, *eye_, row_measures(1));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_GE(found->scores.front().back().alone, 0.85);
 }
 
 TEST_F(LocaliseRows, LetsAMeasureLearnFromTheTrainingRow) {
@@ -82,10 +137,10 @@ TEST_F(LocaliseRows, LetsAMeasureLearnFromTheTrainingRow) {
                              seen = training.size();
                              return Eigen::MatrixXd(Eigen::MatrixXd::Ones(std::ssize(tests), std::ssize(training)));
                            }};
-  const auto shares = localise_rows(row("tests", 0.0, 0.9, 2), {row("training", 0.3, 0.9, 3)}, *eye_, {measure});
-  ASSERT_TRUE(shares);
+  const auto found = localise_rows(row("tests", 0.0, 0.9, 2), {row("training", 0.3, 0.9, 3)}, *eye_, {measure});
+  ASSERT_TRUE(found);
   EXPECT_EQ(seen, 3U);
-  EXPECT_DOUBLE_EQ(shares->front().front(), 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(found->scores.front().front().alone, 1.0 / 3.0);
 }
 
 TEST_F(LocaliseRows, NamesTheRowAndPictureThatIsNoGood) {
