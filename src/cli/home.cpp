@@ -45,9 +45,11 @@ Status answer(const BothEnds& ends, const std::string& current, const std::strin
   const auto there = ends.target.look(folder / target);
   if (!there) return pass_on(there);
   const auto begin = std::chrono::steady_clock::now();
-  const auto vector = options.method == "scale-space" ? homing::scale_space_vector(**here, **there, {})
-                      : options.uncertain             ? homing::uncertain_home_vector(**here, **there, options.seed)
-                                                      : homing::home_vector(**here, **there, {}, options.seed);
+  homing::ScaleSpaceConfig scale_space;
+  if (options.method == "hiss") scale_space.sum = homing::ScaleSpaceSum::kGroupSizes;
+  const auto vector = options.method != "epipolar" ? homing::scale_space_vector(**here, **there, scale_space)
+                      : options.uncertain          ? homing::uncertain_home_vector(**here, **there, options.seed)
+                                                   : homing::home_vector(**here, **there, {}, options.seed);
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   nlohmann::json line = {{"current", current},  {"target", target},    {"bearing_rad", nullptr},
                          {"turn_rad", nullptr}, {"nearness", nullptr}, {"matches", 0},
@@ -91,9 +93,10 @@ Status answer_by_map(AppearanceGallery& current, const HomeOptions& options) {
 }
 
 Status home(const HomeOptions& options) {
-  if (options.method != "epipolar" && options.method != "scale-space") {
+  if (options.method != "epipolar" && options.method != "scale-space" && options.method != "hiss") {
     return fail(ErrorCode::kInvalidInput,
-                "The method '" + options.method + "' is not known; there are epipolar and scale-space.", "--method");
+                "The method '" + options.method + "' is not known; there are epipolar, scale-space and hiss.",
+                "--method");
   }
   if (options.uncertain && options.method != "epipolar") {
     return fail(ErrorCode::kInvalidInput, "Only the epipolar method knows what may be chance.", "--uncertain");
@@ -115,7 +118,11 @@ void register_home(CLI::App& program) {
       program.add_subcommand("home", "Which way to drive from one picture to another: a JSON line per pair");
   const auto options = std::make_shared<HomeOptions>();
   add_picture_pairs(*command, options->pairs);
-  command->add_option("--method", options->method, "epipolar or scale-space")->capture_default_str();
+  command
+      ->add_option(
+          "--method", options->method,
+          "epipolar, scale-space (each feature counts one) or hiss (scale space with groups weighed as published)")
+      ->capture_default_str();
   command->add_option("--map", options->map, "Map file: what is common in its building says little (epipolar)");
   command->add_flag("--uncertain", options->uncertain,
                     "Also answer where what was found may be chance, with a confidence of 0.02 (epipolar)");

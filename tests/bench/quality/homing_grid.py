@@ -103,7 +103,8 @@ def main():
         result["return_ratio_of_exact_vectors"] = round(
             statistics.mean(returns(poses, exact, goal, asked.step_m) for goal in names), 4)
         methods = {"epipolar": ("home",), "epipolar --uncertain": ("home", "--uncertain"),
-                   "scale-space": ("home", "--method", "scale-space"), "compass": ("compass",)}
+                   "scale-space": ("home", "--method", "scale-space"), "hiss": ("home", "--method", "hiss"),
+                   "compass": ("compass",)}
         for method, (command, *more) in methods.items():
             turns, vectors, ms, errors = [], {}, [], {}
             for answer in ask(asked.homeward, command, folder, pairs, more):
