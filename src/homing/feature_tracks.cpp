@@ -2,6 +2,7 @@
 #include "homing/feature_tracks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace homeward::homing {
@@ -13,11 +14,14 @@ void FeatureTracks::anchor(const tracking::TrackingFrame& frame, std::span<const
   if (chosen.size() > static_cast<std::size_t>(config_.most)) chosen.resize(static_cast<std::size_t>(config_.most));
   int anchored = 0;
   for (const Sighting& sighting : chosen) {
-    const Eigen::Vector2d pixel_px = frame.geometry().pixel(sighting.here);
+    const Eigen::Vector2d feature_px = frame.geometry().pixel(sighting.here);
+    const Eigen::Vector2d pixel_px = frame.strongest_corner(feature_px, config_.neighbour_px, config_.track.window_px);
     std::vector<std::uint8_t> patch = frame.patch(pixel_px, config_.patch_px);
     if (patch.empty()) continue;
+    const Eigen::Vector2d offset_px(std::remainder(pixel_px.x() - feature_px.x(), frame.geometry().width_px),
+                                    pixel_px.y() - feature_px.y());
     const tracking::IntensityHistogram histogram = tracking::intensity_histogram(patch);
-    tracks_[sighting.feature] = {sighting.target, pixel_px, std::move(patch), histogram, 0};
+    tracks_[sighting.feature] = {sighting.target, pixel_px, offset_px, std::move(patch), histogram, 0};
     ++anchored;
   }
   std::erase_if(tracks_, [&](const auto& entry) { return entry.second.lost_for > config_.forget_after; });
@@ -40,7 +44,7 @@ std::vector<Sighting> FeatureTracks::follow(const tracking::TrackingFrame& next,
     if (!expected) continue;
     numbers.push_back(number);
     points_px.push_back(track.pixel_px);
-    guesses_px.push_back(next.geometry().pixel(*expected));
+    guesses_px.push_back(next.geometry().pixel(*expected) + track.offset_px);
   }
   std::vector<tracking::TrackedPoint> found;
   if (frame_.has_value()) found = frame_.track_into(next, points_px, guesses_px, config_.track);
@@ -51,7 +55,7 @@ std::vector<Sighting> FeatureTracks::follow(const tracking::TrackingFrame& next,
     Track& track = tracks_[numbers[i]];
     track.pixel_px = found[i].pixel_px;
     track.lost_for = 0;
-    sightings.push_back({numbers[i], track.target, next.geometry().bearing(track.pixel_px)});
+    sightings.push_back({numbers[i], track.target, next.geometry().bearing(track.pixel_px - track.offset_px)});
   }
   frame_ = next;
   counts_ = {static_cast<int>(sightings.size()), 0, static_cast<int>(tracks_.size() - sightings.size())};
@@ -64,7 +68,7 @@ std::vector<Sighting> FeatureTracks::settle(const LocalMap& map, const Pose2& ta
   for (auto& [number, track] : tracks_) {
     const auto expected = map.bearing_from(number, target_from_robot);
     if (track.lost_for == 0) {
-      const Sighting now{number, track.target, frame_.geometry().bearing(track.pixel_px)};
+      const Sighting now{number, track.target, frame_.geometry().bearing(track.pixel_px - track.offset_px)};
       if (expected && expected->cross(now.here).norm() < map.inlier_rad()) {
         sightings.push_back(now);
         ++counts_.tracked;
@@ -73,7 +77,7 @@ std::vector<Sighting> FeatureTracks::settle(const LocalMap& map, const Pose2& ta
       track.lost_for = 1;
     }
     if (expected) {
-      const Eigen::Vector2d guess_px = frame_.geometry().pixel(*expected);
+      const Eigen::Vector2d guess_px = frame_.geometry().pixel(*expected) + track.offset_px;
       const auto there = frame_.patch(guess_px, config_.patch_px);
       const bool alike = !there.empty() && tracking::in_common(track.histogram, tracking::intensity_histogram(there)) >=
                                                config_.least_in_common;
@@ -83,7 +87,7 @@ std::vector<Sighting> FeatureTracks::settle(const LocalMap& map, const Pose2& ta
       if (again.found) {
         track.pixel_px = again.pixel_px;
         track.lost_for = 0;
-        sightings.push_back({number, track.target, frame_.geometry().bearing(track.pixel_px)});
+        sightings.push_back({number, track.target, frame_.geometry().bearing(track.pixel_px - track.offset_px)});
         ++counts_.tracked;
         ++counts_.recovered;
         continue;

@@ -23,6 +23,7 @@ struct FeatureTracksConfig {
   double least_correlation = 0.8;  // of the patch, for it to be taken up again
   int search_px = 5;               // round where it should be
   int forget_after = 30;           // pictures that a feature may stay lost
+  int neighbour_px = 0;            // a feature is tracked by the strongest corner so near to it; 0: by itself
 };
 
 /// What happened to the features from one picture to the next.
@@ -32,9 +33,10 @@ struct TrackCounts {
   int lost = 0;       // known and not seen now
 };
 
-/// The features of a local map followed from picture to picture (Goedemé 2007 §7.2.1 and §7.2.2): tracked, and where
-/// they get lost, taken up again where the map says they must be when the surroundings look as they did. Copies are
-/// independent.
+/// The features of a local map followed from picture to picture (Goedemé 2007 §7.2): tracked, and where they get lost,
+/// taken up again where the map says they must be when the surroundings look as they did. With `neighbour_px` what is
+/// tracked is the best trackable point near a feature (§7.2.1), and the feature is taken to keep its place beside it in
+/// the picture, as what lies on one surface nearly does while the distance changes little. Copies are independent.
 class FeatureTracks {
  public:
   FeatureTracks() = default;
@@ -58,7 +60,8 @@ class FeatureTracks {
  private:
   struct Track {
     Eigen::Vector3d target = Eigen::Vector3d::UnitX();
-    Eigen::Vector2d pixel_px = Eigen::Vector2d::Zero();
+    Eigen::Vector2d pixel_px = Eigen::Vector2d::Zero();   // of what is tracked,
+    Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();  // which lies so far from the feature
     std::vector<std::uint8_t> patch;
     tracking::IntensityHistogram histogram{};
     int lost_for = 0;  // pictures; 0: seen in the latest

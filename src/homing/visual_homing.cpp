@@ -14,11 +14,16 @@ Eigen::Vector3d bearing(const features::FeatureSet& set, int index) {
 }
 
 std::vector<Sighting> sightings_of(const features::Appearance& current, const features::Appearance& target,
-                                   const std::vector<matching::Match>& matches) {
+                                   const std::vector<matching::Match>& matches, bool columns) {
   std::vector<Sighting> result;
   for (const matching::Match& match : matches) {
-    if (match.kind != matching::FeatureKind::kSift) continue;
-    result.push_back({match.target, bearing(target.sift, match.target), bearing(current.sift, match.current)});
+    if (match.kind == matching::FeatureKind::kSift) {
+      result.push_back({match.target, bearing(target.sift, match.target), bearing(current.sift, match.current)});
+    } else if (columns) {
+      const matching::ColumnBearings ends = matching::bearings_of(current.columns, target.columns, match);
+      const int number = target.sift.size() + 2 * match.target + (ends.bottom ? 1 : 0);
+      result.push_back({number, ends.target.normalized(), ends.current.normalized()});
+    }
   }
   return result;
 }
@@ -131,7 +136,8 @@ Result<TargetSeen> VisualHoming::recognise(const features::Appearance& current, 
   if (!map_.empty()) {
     // The map first: it knows more than two views do, above all close to the target, where these say nothing.
     all = sightings_of(current, target,
-                       matching::match_both_kinds(current, target, verify_config.match, verify_config.columns));
+                       matching::match_both_kinds(current, target, verify_config.match, verify_config.columns),
+                       config_.columns);
     std::vector<int> inliers;
     const auto pose = map_.pose_of(all, expected(odometry), seed, &inliers);
     if (pose) {
@@ -178,7 +184,7 @@ Result<TargetSeen> VisualHoming::recognise(const features::Appearance& current, 
   std::vector<matching::Match> inliers;
   for (const int inlier : verified->pose.inliers)
     inliers.push_back(verified->matches[static_cast<std::size_t>(inlier)]);
-  const std::vector<Sighting> sightings = sightings_of(current, target, inliers);
+  const std::vector<Sighting> sightings = sightings_of(current, target, inliers, config_.columns);
   const double guess_m = std::max(std::clamp(config_.metres_per_parallax * vector.median_parallax_rad, 0.05, 6.0),
                                   share < kLeastShare ? usual_distance_m(share) : 0.0);
   const DistancePrior distance = prior.value_or(DistancePrior{guess_m, 0.7});

@@ -22,6 +22,7 @@ struct VisualHomingConfig {
   double prior_odds = 1.0;         // its odds are multiplied by these: what is known beside the pictures
   double metres_per_parallax = 4;  // first guess of the distance where nothing else is known
   int patience = 4;                // pictures in a row that may contradict before it begins anew
+  bool columns = false;            // the local map takes column segments in as well
   LocalMapConfig map;
   FeatureTracksConfig tracks;
 };
@@ -52,8 +53,10 @@ struct TargetSeen {
   bool began = false;                                           // the local map is new
 };
 
-/// Homing to one view through a local map of its features (Goedemé 2007 §7.1-7.2): an initialisation by two views, then
-/// a pose against the map for every picture, the map growing and being refined as the robot moves. Deterministic by the
+/// Homing to one view through a local map of its features (Goedemé 2007 §7.2): an initialisation by two views, then a
+/// pose against the map for every picture, the map growing and being refined as the robot moves. Of a column segment,
+/// where `columns` lets it in, the ends that matching::bearings_of takes are the feature, its upper and its lower end
+/// one of its own each; they follow the SIFT features in number and so in what is tracked. Deterministic by the
 /// pictures and seeds given. Copies are independent.
 class VisualHoming {
  public:

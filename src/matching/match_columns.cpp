@@ -87,8 +87,8 @@ ColumnBearings bearings_of(const features::FeatureSet& current, const features::
   const features::ColumnEnds there = features::column_ends(target, match.target);
   const double top = std::abs(here.top.z()) + std::abs(there.top.z());
   const double bottom = std::abs(here.bottom.z()) + std::abs(there.bottom.z());
-  if (top > bottom) return {here.top, there.top};
-  return {here.bottom, there.bottom};
+  if (top > bottom) return {here.top, there.top, false};
+  return {here.bottom, there.bottom, true};
 }
 
 }  // namespace homeward::matching

@@ -33,6 +33,7 @@ std::vector<Match> match_columns(const features::FeatureSet& current, const feat
 struct ColumnBearings {
   Eigen::Vector3d current;
   Eigen::Vector3d target;
+  bool bottom = false;  // the lower ends of both; else the upper ones
 };
 ColumnBearings bearings_of(const features::FeatureSet& current, const features::FeatureSet& target, const Match& match);
 

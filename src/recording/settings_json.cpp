@@ -61,7 +61,7 @@ void local_map_fields(Fields& fields, Config& map) {
 
 template <class Fields, class Config>
 void feature_tracks_fields(Fields& fields, Config& tracks) {
-  auto& [track, most, patch_px, least_in_common, least_correlation, search_px, forget_after] = tracks;
+  auto& [track, most, patch_px, least_in_common, least_correlation, search_px, forget_after, neighbour_px] = tracks;
   auto& [window_px, levels, iterations, least_contrast, most_return_px] = track;
   fields("tracks_window_px", window_px);
   fields("tracks_levels", levels);
@@ -74,13 +74,14 @@ void feature_tracks_fields(Fields& fields, Config& tracks) {
   fields("tracks_least_correlation", least_correlation);
   fields("tracks_search_px", search_px);
   fields("tracks_forget_after", forget_after);
+  fields("tracks_neighbour_px", neighbour_px);
 }
 
 template <class Fields, class Config>
 void visual_fields(Fields& fields, Config& visual) {
   // What begins a homing is the homing's own and the path's.
-  auto& [first, recognise_every, fewest_tracked, begin_confidence, prior_odds, metres_per_parallax, patience, map,
-         tracks] = visual;
+  auto& [first, recognise_every, fewest_tracked, begin_confidence, prior_odds, metres_per_parallax, patience, columns,
+         map, tracks] = visual;
   static_cast<void>(first);
   static_cast<void>(begin_confidence);
   static_cast<void>(prior_odds);
@@ -88,6 +89,7 @@ void visual_fields(Fields& fields, Config& visual) {
   fields("visual_fewest_tracked", fewest_tracked);
   fields("visual_metres_per_parallax", metres_per_parallax);
   fields("visual_patience", patience);
+  fields("visual_columns", columns);
   local_map_fields(fields, map);
   feature_tracks_fields(fields, tracks);
 }

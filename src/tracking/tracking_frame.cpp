@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/tracking_frame.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
@@ -11,6 +12,7 @@ namespace {
 constexpr int kSeam_px = 48;  // columns repeated on either side: more than a patch on the coarsest level reaches
 constexpr int kMostLevels = 3;
 constexpr int kLargestWindow_px = 21;
+constexpr int kMostWithin_px = 20;  // with half a window it stays within the repeated seam
 
 }  // namespace
 
@@ -66,6 +68,30 @@ std::vector<std::uint8_t> TrackingFrame::patch(const Eigen::Vector2d& pixel_px, 
   cv::Mat cut;
   cv::getRectSubPix(parts_->grey, {side_px, side_px}, centre, cut);
   return {cut.datastart, cut.dataend};
+}
+
+Eigen::Vector2d TrackingFrame::strongest_corner(const Eigen::Vector2d& pixel_px, int within_px, int window_px) const {
+  const cv::Point2f centre(parts_->column(pixel_px.x()), static_cast<float>(pixel_px.y()));
+  const cv::Point middle(cvRound(centre.x), cvRound(centre.y));
+  if (within_px <= 0 || !parts_->sees(centre)) return pixel_px;
+  const int within = std::min(within_px, kMostWithin_px);
+  const int reach = within + window_px / 2 + 1;  // and the derivative's neighbours
+  const cv::Rect around = cv::Rect(middle.x - reach, middle.y - reach, 2 * reach + 1, 2 * reach + 1) &
+                          cv::Rect(0, 0, parts_->grey.cols, parts_->grey.rows);
+  cv::Mat strength;
+  cv::cornerMinEigenVal(parts_->grey(around), strength, window_px, 3);
+  const auto strength_at = [&](const cv::Point& at) { return strength.at<float>(at.y - around.y, at.x - around.x); };
+  cv::Point best = middle;
+  const int half = window_px / 2;  // the patch must be in the picture
+  for (int v = std::max(half, middle.y - within); v < std::min(parts_->grey.rows - half, middle.y + within + 1); ++v) {
+    for (int u = middle.x - within; u <= middle.x + within; ++u) {
+      const cv::Point at(u, v);
+      const cv::Point off = at - middle;
+      if (off.dot(off) > within * within || !parts_->sees(cv::Point2f(at))) continue;
+      if (strength_at(at) > strength_at(best)) best = at;
+    }
+  }
+  return best == middle ? pixel_px : parts_->pixel(cv::Point2f(best));
 }
 
 std::vector<TrackedPoint> TrackingFrame::track_into(const TrackingFrame& next,

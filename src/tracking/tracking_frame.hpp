@@ -37,6 +37,11 @@ class TrackingFrame {
   /// The patch of a side (odd) around a point, rows from the top; empty where it is not in the picture.
   [[nodiscard]] std::vector<std::uint8_t> patch(const Eigen::Vector2d& pixel_px, int side_px) const;
 
+  /// Where a patch of `window_px` can be tracked best within `within_px` (1 to 20) of a point: the pixel whose patch's
+  /// gradients have the largest least eigenvalue (Shi and Tomasi 1994, OpenCV's cornerMinEigenVal). The point itself
+  /// where none is any better, or where it is not in the picture.
+  [[nodiscard]] Eigen::Vector2d strongest_corner(const Eigen::Vector2d& pixel_px, int within_px, int window_px) const;
+
   /// Where points of this frame are in another one, looked for from guesses (Lucas-Kanade with pyramids, Bouguet 2000,
   /// OpenCV's), each checked by tracking it back. Points may cross the seam. As many as `points_px`.
   [[nodiscard]] std::vector<TrackedPoint> track_into(const TrackingFrame& next,

@@ -84,6 +84,8 @@ int main(int argc, char** argv) {
   bool elsewhere = false;
   bool answers_alone = false;
   bool trace = false;
+  int neighbour_px = 0;
+  bool columns = false;
   CLI::App app("Homing to single views from random starts");
   app.add_option("--world", world_name);
   app.add_option("--light", light_name, "of the start; the target is seen by day");
@@ -95,6 +97,9 @@ int main(int argc, char** argv) {
   app.add_option("--only", only, "one start alone");
   app.add_flag("--answers", answers_alone, "only what single pictures say");
   app.add_flag("--elsewhere", elsewhere, "the picture driven to is of a spot that no straight way leads to");
+  app.add_option("--neighbour", neighbour_px, "features are tracked by the strongest corner within so many pixels")
+      ->check(CLI::Range(0, 20));
+  app.add_flag("--columns", columns, "column segments enter the local map");
   app.add_flag("--trace", trace, "each cycle on standard error");
   CLI11_PARSE(app, argc, argv);
 
@@ -167,6 +172,8 @@ int main(int argc, char** argv) {
     driving::DrivingConfig driving;
     driving.body = scenario::body_of(profile);
     driving.feature_config_id = order.feature_config_id;
+    driving.follow.visual.tracks.neighbour_px = neighbour_px;
+    driving.follow.visual.columns = columns;
     scenario::ScenarioListener listener;
     if (trace) {
       listener.cycled = [&](const scenario::CycleTrace& now) {

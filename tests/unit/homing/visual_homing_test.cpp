@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "features/extract.hpp"
 #include "support/painted_room.hpp"
@@ -71,6 +72,38 @@ TEST(VisualHoming, MeasuresTheWayHomeByOdometry) {
       EXPECT_GT(seen->vector.confidence, 0.9);
     }
   }
+}
+
+/// Drives the way with some setting; how far off the target is thought to be at its end, and of how many features.
+std::pair<double, int> end_of_way(const VisualHomingConfig& config) {
+  Way way;
+  way.homing = VisualHoming(config);
+  double end_m = 1e9;
+  int known = 0;
+  for (int i = 0; i <= 12; ++i) {
+    const Pose2 pose = way.at(i / 13.0);
+    const auto seen = i % 3 == 0 ? way.recognise(pose) : way.track(pose);
+    EXPECT_TRUE(seen) << i << ": " << (seen ? "" : seen.error().message);
+    if (!seen || !seen->target_m) continue;
+    end_m = off_m(*seen, pose, way.target);
+    known = seen->known;
+  }
+  return {end_m, known};
+}
+
+TEST(VisualHoming, TracksFeaturesByCornersBesideThem) {
+  VisualHomingConfig config;
+  config.tracks.neighbour_px = 5;
+  EXPECT_LT(end_of_way(config).first, 0.05);
+}
+
+TEST(VisualHoming, TakesColumnSegmentsIntoItsMapWhereAskedTo) {
+  VisualHomingConfig config;
+  const auto without = end_of_way(config);
+  config.columns = true;
+  const auto with = end_of_way(config);
+  EXPECT_GT(with.second, without.second);
+  EXPECT_LT(with.first, 0.05);
 }
 
 TEST(VisualHoming, TracksBetweenRecognitionsAndSaysWhenItShouldRecognise) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/angles.hpp"
 #include "support/painted_room.hpp"
 
@@ -24,6 +26,57 @@ std::vector<Eigen::Vector2d> grid(const camera::PanoramaGeometry& geometry) {
 double apart_px(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double width_px) {
   const double du = std::remainder(a.x() - b.x(), width_px);
   return std::hypot(du, a.y() - b.y());
+}
+
+/// Grey with one bright dot of 3 x 3 pixels.
+camera::Panorama with_dot(int u_px, int v_px) {
+  camera::Panorama panorama = painted_panorama({}, {});
+  std::ranges::fill(panorama.rgb.data, std::uint8_t{90});
+  std::ranges::fill(panorama.valid, std::uint8_t{1});
+  const int width_px = panorama.rgb.width_px;
+  for (int v = v_px - 1; v <= v_px + 1; ++v) {
+    for (int u = u_px - 1; u <= u_px + 1; ++u) {
+      for (int band = 0; band < 3; ++band) panorama.rgb.at((u + width_px) % width_px, v)[band] = 220;
+    }
+  }
+  return panorama;
+}
+
+TEST(TrackingFrame, TheStrongestCornerNearbyIsTheDotAlsoAcrossTheSeam) {
+  constexpr int kWindow_px = 5;
+  const int width_px = painted_panorama({}, {}).rgb.width_px;
+  for (const int u_px : {300, 0, width_px - 1}) {
+    const TrackingFrame frame(with_dot(u_px, 60));
+    const Eigen::Vector2d dot_px(u_px, 60.0);
+    for (const Eigen::Vector2d& off_px : {Eigen::Vector2d(6.0, 0.0), Eigen::Vector2d(-5.0, 4.0)}) {
+      const Eigen::Vector2d from_px = dot_px + off_px;
+      const Eigen::Vector2d corner_px = frame.strongest_corner(from_px, 8, kWindow_px);
+      EXPECT_LT(apart_px(corner_px, dot_px, width_px), 2.0) << u_px << " " << off_px.transpose();
+      EXPECT_GE(corner_px.x(), -0.5);
+      EXPECT_LT(corner_px.x(), width_px - 0.5);
+      // Too far off, and with nothing asked for, a point is its own.
+      EXPECT_EQ(frame.strongest_corner(from_px, 1, kWindow_px), from_px);
+      EXPECT_EQ(frame.strongest_corner(from_px, 0, kWindow_px), from_px);
+    }
+  }
+}
+
+TEST(TrackingFrame, TheStrongestCornerStaysWithinItsBoundAndWhereThePatchFits) {
+  const camera::Panorama panorama = painted_panorama({}, {0.3, 0.2, 0.0});
+  const TrackingFrame frame(panorama);
+  const double width_px = panorama.geometry.width_px;
+  int moved = 0;
+  for (double u_px = 3.3; u_px < width_px; u_px += 41.0) {
+    for (const double v_px : {2.0, 60.4, 100.0, panorama.rgb.height_px - 3.0}) {
+      const Eigen::Vector2d from_px(u_px, v_px);
+      const Eigen::Vector2d corner_px = frame.strongest_corner(from_px, 6, 15);
+      EXPECT_LT(apart_px(corner_px, from_px, width_px), 6.0 + 0.75);  // a pixel's rounding
+      if (corner_px == from_px) continue;
+      ++moved;
+      EXPECT_FALSE(frame.patch(corner_px, 15).empty());
+    }
+  }
+  EXPECT_GT(moved, 20);
 }
 
 TEST(TrackingFrame, FollowsATurnAcrossTheSeam) {
