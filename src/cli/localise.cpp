@@ -10,6 +10,7 @@
 #include "db/map_file.hpp"
 #include "files/read_file.hpp"
 #include "files/tour_folder.hpp"
+#include "map/lookup.hpp"
 #include "pipeline/belief_tracker.hpp"
 
 namespace homeward::cli {
@@ -19,6 +20,7 @@ struct LocaliseOptions {
   std::string map;
   std::string images;
   std::string camera;
+  std::string start;
   int restart_every = 0;
   bool no_odometry = false;
 };
@@ -62,10 +64,18 @@ Status localise(const LocaliseOptions& options) {
   }
   auto tracker = pipeline::BeliefTracker::create(map, camera);
   if (!tracker) return pass_on(tracker);
+  if (!options.start.empty()) {
+    const std::vector<PlaceId> places = map::places_named(*map, options.start);
+    if (places.empty()) {
+      return fail(ErrorCode::kUnknownPlace, "No place has the id or label '" + options.start + "'.", "--start");
+    }
+    tracker->start_at(places);
+  }
   for (std::size_t i = 0; i < files->size(); ++i) {
     const auto picture = files::read_picture((*files)[i]);
     if (!picture) return pass_on(picture);
-    if (options.restart_every > 0 && i % static_cast<std::size_t>(options.restart_every) == 0) tracker->restart();
+    const bool again = options.restart_every > 0 && i % static_cast<std::size_t>(options.restart_every) == 0;
+    if (again && i > 0) tracker->restart();
     const auto begin = std::chrono::steady_clock::now();
     const auto belief = tracker->update(*picture, (*odometry)[i]);
     if (!belief) return fail(belief.error().code, belief.error().message, (*files)[i].string());
@@ -86,6 +96,9 @@ void register_localise(CLI::App& program) {
                    "Folder of pictures, in name order; its odometry.csv, if any, tells the way between them")
       ->required();
   command->add_option("--camera", options->camera, "camera.json, when it is not the map's camera");
+  command->add_option("--start", options->start,
+                      "Where the first picture was taken, as somebody says: place (id or label). It and its neighbours "
+                      "are believed at first; pictures of another place overrule that");
   command->add_option("--restart-every", options->restart_every, "Forget everything after so many pictures (0: never)")
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--no-odometry", options->no_odometry, "Leave odometry.csv aside");

@@ -28,17 +28,10 @@ struct RouteOptions {
   bool json = false;
 };
 
-/// A place by its id or, where no place has this id, by the label of a destination or place.
+/// A place by its id or label; the name itself where there is none, which is then refused as an unknown place.
 PlaceId place_named(const map::TopologicalMap& map, const std::string& name) {
-  const PlaceId id(name);
-  if (map::find_place(map, id) != nullptr) return id;
-  for (const map::Destination& destination : map.destinations) {
-    if (destination.label == name) return destination.place;
-  }
-  for (const map::Place& place : map.places) {
-    if (place.label == name) return place.id;
-  }
-  return id;
+  const std::vector<PlaceId> named = map::places_named(map, name);
+  return named.empty() ? PlaceId(name) : named.front();
 }
 
 planning::RouteRequest request_of(const RouteOptions& options, const map::TopologicalMap& map) {

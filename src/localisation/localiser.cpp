@@ -208,6 +208,22 @@ void Localiser::restart() {
   restart_odometry();
 }
 
+void Localiser::start_at(const std::vector<PlaceId>& places) {
+  restart();
+  const Known& known = *state_->known;
+  std::vector<int> there;
+  for (const PlaceId& id : places) {
+    const map::Place* named = map::find_place(*known.map, id);
+    if (named == nullptr) continue;
+    const auto index = static_cast<int>(named - known.map->places.data());
+    there.push_back(index);
+    there.insert(there.end(), known.neighbours[at(index)].begin(), known.neighbours[at(index)].end());
+  }
+  std::ranges::sort(there);
+  there.erase(std::unique(there.begin(), there.end()), there.end());
+  state_->belief.start_at(there, known.config.start_share);
+}
+
 void Localiser::restart_odometry() {
   state_->spot.reset();
   state_->spot_seen.reset();

@@ -31,6 +31,7 @@ struct LocaliserConfig {
   double heard_odds = 20.0;               // an estimate of the way driven weighs so much, for each independent picture,
   double heard_above = 0.9;               // from so probable on,
   double heard_most = 0.97;               // and makes nothing more probable than that
+  double start_share = 0.9;               // of the belief, for where a person says that the robot is, and beside it
 };
 
 struct PlaceProbability {
@@ -79,6 +80,11 @@ class Localiser {
 
   /// Forgets all pictures: uniform belief.
   void restart();
+
+  /// Forgets all pictures; a person says that the robot is at one of these places ("in the kitchen"). They and their
+  /// neighbours get `start_share` of the belief, everything else the rest, so that pictures of another place overrule
+  /// it. Ids that the map has not say nothing; without any that it has this is `restart`. Ours.
+  void start_at(const std::vector<PlaceId>& places);
 
  private:
   struct Known;

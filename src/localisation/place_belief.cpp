@@ -30,6 +30,15 @@ void PlaceBelief::restart() {
   common_ = elsewhere_ = 1.0 / (motion_->places() + 1);
 }
 
+void PlaceBelief::start_at(std::span<const int> places, double share) {
+  restart();
+  if (places.empty()) return;
+  common_ *= 1.0 - share;
+  elsewhere_ *= 1.0 - share;
+  for (const int place : places) excess_.push_back({place, share / static_cast<double>(places.size())});
+  std::ranges::sort(excess_, {}, &PlaceShare::place);
+}
+
 double PlaceBelief::total() const { return sum_of(excess_) + common_ * motion_->places() + elsewhere_; }
 
 double PlaceBelief::of(int place) const {

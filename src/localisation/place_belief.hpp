@@ -28,6 +28,11 @@ class PlaceBelief {
   /// Every place and "not in this map" equally probable.
   void restart();
 
+  /// Somebody says that the robot begins at one of these places, each named once: together they get `share`, evenly,
+  /// and the rest is spread evenly over every place, these too, and "not in this map". All that was believed before is
+  /// forgotten. As `restart` where `places` is empty.
+  void start_at(std::span<const int> places, double share);
+
   /// The robot may have moved. That all places are equally probable stays so: the motion is taken to bring as much to a
   /// place as it takes away.
   void predict();

@@ -14,6 +14,22 @@ Place* find_place(TopologicalMap& map, const PlaceId& id) {
   return const_cast<Place*>(find_place(std::as_const(map), id));
 }
 
+std::vector<PlaceId> places_named(const TopologicalMap& map, const std::string& name) {
+  if (find_place(map, PlaceId(name)) != nullptr) return {PlaceId(name)};
+  std::vector<PlaceId> named;
+  const auto add = [&](const PlaceId& place) {
+    if (std::ranges::find(named, place) == named.end()) named.push_back(place);
+  };
+  if (name.empty()) return named;  // as places are that nobody named
+  for (const Destination& destination : map.destinations) {
+    if (destination.label == name) add(destination.place);
+  }
+  for (const Place& place : map.places) {
+    if (place.label == name) add(place.id);
+  }
+  return named;
+}
+
 const Place* find_place_of(const TopologicalMap& map, const ImageId& image) {
   const auto found = std::ranges::find_if(
       map.places, [&](const Place& place) { return std::ranges::find(place.members, image) != place.members.end(); });

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "core/ids.hpp"
 #include "map/topological_map.hpp"
@@ -13,6 +14,10 @@ namespace homeward::map {
 /// The place with this id, or null. Linear in the number of places.
 const Place* find_place(const TopologicalMap& map, const PlaceId& id);
 Place* find_place(TopologicalMap& map, const PlaceId& id);
+
+/// The places that a person may mean: the one with this id; else those of destinations with this label, then those with
+/// this label, each once. Empty: there is none.
+std::vector<PlaceId> places_named(const TopologicalMap& map, const std::string& name);
 
 /// The place that holds this image, or null.
 const Place* find_place_of(const TopologicalMap& map, const ImageId& image);

@@ -57,6 +57,8 @@ localisation::Belief BeliefTracker::hear(const PlaceId& place, double probabilit
 
 void BeliefTracker::restart() { state_->localiser.restart(); }
 
+void BeliefTracker::start_at(const std::vector<PlaceId>& places) { state_->localiser.start_at(places); }
+
 void BeliefTracker::restart_odometry() { state_->localiser.restart_odometry(); }
 
 const features::Appearance& BeliefTracker::seen() const { return state_->seen; }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/image.hpp"
 #include "core/pose2.hpp"
@@ -35,6 +36,8 @@ class BeliefTracker {
   /// The robot's own estimate, after the update by the same picture; see localisation::Localiser::hear.
   localisation::Belief hear(const PlaceId& place, double probability);
   void restart();
+  /// A person says where the robot is; see localisation::Localiser::start_at.
+  void start_at(const std::vector<PlaceId>& places);
   /// Odometry counts anew; the belief stays.
   void restart_odometry();
   /// Of the latest picture; empty before the first.

@@ -117,6 +117,24 @@ class HappyPath(CliTest):
         self.assertTrue(all(answer["updates"] == 1 for answer in alone))
         self.assertGreaterEqual(sum(answer["place"] == place_of[answer["image"]] for answer in alone), 0.6 * len(alone))
 
+    def test_a_stated_start_is_believed_and_no_certainty(self):
+        report = self.inspect(self.good_map().name)
+        place_of = {member.split("/")[-1]: place["id"] for place in report["places"] for member in place["members"]}
+        localise = ("localise", "--map", "good.map", "--images", self.shared / "tour")
+        uniform = self.lines_of(*localise)
+        first = place_of[uniform[0]["image"]]
+        told = self.lines_of(*localise, "--start", first)
+
+        def share(line, place):
+            return sum(entry["probability"] for entry in line["top"] if entry["place"] == place)
+
+        self.assertGreaterEqual(share(told[0], first), share(uniform[0], first))
+        # Told wrong, it comes to what it sees all the same.
+        wrong = self.lines_of(*localise, "--start", place_of[uniform[-1]["image"]])
+        right = sum(answer["place"] == place_of[answer["image"]] for answer in wrong)
+        self.assertGreaterEqual(right, 0.5 * len(wrong))
+        self.assert_refused(3, ["--start", "cellar"], *localise, "--start", "cellar")
+
     def test_odometry_is_used_when_there_is_one(self):
         self.good_map()
         self.tour("with")

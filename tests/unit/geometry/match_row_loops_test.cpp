@@ -11,7 +11,7 @@
 
 #include "support/vector_targets.hpp"
 
-namespace homeward::geometry::match_row_loops {
+namespace homeward::geometry::match_row_loops::match_row_loops_test {
 namespace {
 
 using testing::for_each_vector_target;
@@ -114,4 +114,4 @@ TEST(MatchRowLoops, WhatIsLeftBehindWholeVectorsIsNoDifferent) {
 }
 
 }  // namespace
-}  // namespace homeward::geometry::match_row_loops
+}  // namespace homeward::geometry::match_row_loops::match_row_loops_test

@@ -154,6 +154,21 @@ TEST(PlaceBelief, NamesTheMostProbablePlacesFirst) {
   EXPECT_NEAR(belief.of(2), 1.0 / 9.0, 1e-12);
 }
 
+TEST(PlaceBelief, AStatedStartSharesMostOfItAndLeavesTheRestToEverything) {
+  const MotionModel motion(map::PlaceGraph(ring(8)), 1.0, 1);
+  PlaceBelief belief(motion, {});
+  belief.weigh(std::vector<PlaceShare>{{2, 0.9}}, kFloor, kElsewhere);
+  belief.start_at(std::vector<int>{5, 4, 6}, 0.9);
+  for (const int place : {4, 5, 6}) EXPECT_NEAR(belief.of(place), 0.3 + 0.1 / 9.0, 1e-12);
+  for (const int place : {0, 2, 7}) EXPECT_NEAR(belief.of(place), 0.1 / 9.0, 1e-12);
+  EXPECT_NEAR(belief.elsewhere(), 0.1 / 9.0, 1e-12);
+  EXPECT_NEAR(sum_of(belief, 8), 1.0, 1e-12);
+  belief.weigh(std::vector<PlaceShare>{{1, 1.0}}, kFloor, kElsewhere);
+  EXPECT_GT(belief.of(1), 0.8) << "a clear sighting overrules it";
+  belief.start_at({}, 0.9);
+  EXPECT_NEAR(belief.of(5), 1.0 / 9.0, 1e-12);
+}
+
 TEST(PlaceBelief, HalfThePowerIsHalfTheNews) {
   const map::TopologicalMap map = ring(8);
   const map::PlaceGraph graph(map);
