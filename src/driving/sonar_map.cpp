@@ -26,23 +26,23 @@ Eigen::Vector2d placed(const Pose2& frame, double x_m, double y_m) {
 }  // namespace
 
 bool SonarMap::was_free(const Eigen::Vector2d& at_m) const {
-  const double least_cosine = std::cos(config_.half_cone_rad + 0.25 * kEdge_rad);
   return std::ranges::any_of(free_, [&](const Free& free) {
+    const double least_cosine = std::cos(free.half_cone_rad + 0.25 * kEdge_rad);
     const Eigen::Vector2d to_m = at_m - free.from_m;
     const double apart_m = to_m.norm();
     return apart_m < free.reach_m && to_m.dot(free.direction) > least_cosine * apart_m;
   });
 }
 
-std::vector<Eigen::Vector2d> SonarMap::arc(const Pose2& sonar, double range_m) const {
+std::vector<Eigen::Vector2d> SonarMap::arc(const Pose2& sonar, double range_m, double half_cone_rad) const {
   std::vector<Eigen::Vector2d> all;
   std::vector<Eigen::Vector2d> middle;
   std::vector<Eigen::Vector2d> unknown;
   std::vector<Eigen::Vector2d> unknown_middle;
-  const bool near = config_.half_cone_rad * range_m <= config_.half_arc_m;
-  const int steps = std::max(1, static_cast<int>(std::ceil(config_.half_cone_rad * range_m / kApart_m)));
+  const bool near = half_cone_rad * range_m <= config_.half_arc_m;
+  const int steps = std::max(1, static_cast<int>(std::ceil(half_cone_rad * range_m / kApart_m)));
   for (int i = -steps; i <= steps; ++i) {
-    const double angle_rad = config_.half_cone_rad * i / steps;
+    const double angle_rad = half_cone_rad * i / steps;
     const Eigen::Vector2d at_m = placed(sonar, range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
     all.push_back(at_m);
     if (near) continue;
@@ -63,8 +63,11 @@ Scan SonarMap::update(const std::vector<SonarReading>& readings, const Pose2& od
   std::vector<Eigen::Vector2d> arcs;
   for (const SonarReading& reading : readings) {
     const auto range_m = static_cast<double>(reading.range_m);
-    if (!(range_m < config_.range_max_m)) continue;
-    for (const Eigen::Vector2d& at_m : arc(odometry * reading.robot_from_sonar, range_m)) arcs.push_back(at_m);
+    const SonarCone cone = cone_of(reading);
+    if (!(range_m < cone.range_max_m)) continue;
+    for (const Eigen::Vector2d& at_m : arc(odometry * reading.robot_from_sonar, range_m, cone.half_cone_rad)) {
+      arcs.push_back(at_m);
+    }
   }
   // One point for each place; what was said just now is the newest.
   std::set<std::pair<long, long>> taken;
@@ -79,13 +82,18 @@ Scan SonarMap::update(const std::vector<SonarReading>& readings, const Pose2& od
   }
   for (const SonarReading& reading : readings) {
     const Pose2 from_odometry = inverse(odometry * reading.robot_from_sonar);
-    const double free_m = std::min(static_cast<double>(reading.range_m), config_.range_max_m) - config_.tolerance_m;
-    if (static_cast<double>(reading.range_m) <= config_.range_min_m) continue;
+    const SonarCone cone = cone_of(reading);
+    const double free_m = std::min(static_cast<double>(reading.range_m), cone.range_max_m) - config_.tolerance_m;
+    if (static_cast<double>(reading.range_m) <= cone.range_min_m) continue;
     const Pose2 sonar = odometry * reading.robot_from_sonar;
-    free_.push_back({{sonar.x_m, sonar.y_m}, {std::cos(sonar.theta_rad), std::sin(sonar.theta_rad)}, free_m, updates_});
+    free_.push_back({{sonar.x_m, sonar.y_m},
+                     {std::cos(sonar.theta_rad), std::sin(sonar.theta_rad)},
+                     free_m,
+                     cone.half_cone_rad,
+                     updates_});
     std::erase_if(now, [&](const Maybe& maybe) {
       const Eigen::Vector2d seen_m = placed(from_odometry, maybe.at_m.x(), maybe.at_m.y());
-      return seen_m.norm() < free_m && std::abs(std::atan2(seen_m.y(), seen_m.x())) < config_.half_cone_rad - kEdge_rad;
+      return seen_m.norm() < free_m && std::abs(std::atan2(seen_m.y(), seen_m.x())) < cone.half_cone_rad - kEdge_rad;
     });
   }
   const Pose2 robot_from_odometry = inverse(odometry);

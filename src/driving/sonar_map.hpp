@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/pose2.hpp"
@@ -9,18 +10,26 @@
 
 namespace homeward::driving {
 
+/// What one ultrasound sensor hears in, as in SonarConfig.
+struct SonarCone {
+  double half_cone_rad = 0.0;
+  double range_min_m = 0.0;
+  double range_max_m = 0.0;
+};
+
 /// What one ultrasound sensor says: the nearest thing within its cone is that far; infinite: none within its reach.
 struct SonarReading {
   Pose2 robot_from_sonar;  // heading: the middle of the cone
   float range_m = 0.0F;
+  std::optional<SonarCone> cone = {};  // of this sensor, where a ring has various ones; nothing: that of the config
 };
 
 struct SonarConfig {
   double half_cone_rad = 0.2618;  // 30 degrees in all
   double range_min_m = 0.2;       // nearer things read as this
-  double range_max_m = 3.0;
-  double tolerance_m = 0.03;  // of a reading
-  double half_arc_m = 0.15;   // from the middle of an arc on no more than this counts
+  double range_max_m = 3.0;       // of the sensor that hears farthest
+  double tolerance_m = 0.03;      // of a reading
+  double half_arc_m = 0.15;       // from the middle of an arc on no more than this counts
 };
 
 /// A short memory of what a ring of ultrasound sensors said, as a sweep that the rest of the agent understands. A
@@ -49,10 +58,14 @@ class SonarMap {
     Eigen::Vector2d from_m;
     Eigen::Vector2d direction;
     double reach_m = 0.0;
+    double half_cone_rad = 0.0;
     int update = 0;
   };
   [[nodiscard]] bool was_free(const Eigen::Vector2d& at_m) const;
-  [[nodiscard]] std::vector<Eigen::Vector2d> arc(const Pose2& sonar, double range_m) const;
+  [[nodiscard]] SonarCone cone_of(const SonarReading& reading) const {
+    return reading.cone.value_or(SonarCone{config_.half_cone_rad, config_.range_min_m, config_.range_max_m});
+  }
+  [[nodiscard]] std::vector<Eigen::Vector2d> arc(const Pose2& sonar, double range_m, double half_cone_rad) const;
   std::vector<Free> free_;
   int updates_ = 0;
 };

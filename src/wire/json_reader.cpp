@@ -73,18 +73,24 @@ const json& ObjectReader::value(const std::string& key) {
   return *found;
 }
 
-void ObjectReader::format(const std::string& format, int version) {
+void ObjectReader::format(const std::string& format, int version) { this->format(format, version, version); }
+
+int ObjectReader::format(const std::string& format, int oldest, int newest) {
   const std::string found = text("format");
   if (found != format) {
     problem("format", "The format is '" + shown(found) + "'; '" + format + "' is wanted.",
             ErrorCode::kUnsupportedFormat);
   }
   const json& number = value("version");
-  if (!number.is_number_integer() || number.get<std::int64_t>() != version) {
-    problem("version",
-            "The version is " + shown(number) + "; this program reads version " + std::to_string(version) + ".",
-            ErrorCode::kUnsupportedFormat);
+  if (number.is_number_integer()) {
+    const auto version = number.get<std::int64_t>();
+    if (version >= oldest && version <= newest) return static_cast<int>(version);
   }
+  const std::string read = oldest == newest ? "version " + std::to_string(newest)
+                                            : "versions " + std::to_string(oldest) + " to " + std::to_string(newest);
+  problem("version", "The version is " + shown(number) + "; this program reads " + read + ".",
+          ErrorCode::kUnsupportedFormat);
+  return oldest;
 }
 
 double ObjectReader::number(const std::string& key) {

@@ -32,6 +32,8 @@ class ObjectReader {
 
   /// Checks the pair "format" and "version" of a file.
   void format(const std::string& format, int version);
+  /// The version, of those that are read; the oldest where it is none of them, which is then a problem.
+  int format(const std::string& format, int oldest, int newest);
   double number(const std::string& key);  // finite
   double number(const std::string& key, double least, double most);
   std::int64_t integer(const std::string& key, std::int64_t least, std::int64_t most);

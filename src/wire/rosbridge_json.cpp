@@ -38,14 +38,41 @@ RosTopic topic_at(ObjectReader& reader, const std::string& key, const std::vecto
   return topic;
 }
 
+/// Where a sensor sits on the robot.
+Pose2 mount_at(ObjectReader& reader, const std::string& key) {
+  ObjectReader mount(reader.value(key), reader.path_of(key));
+  const Pose2 pose{mount.number("x_m", -kMaxOffset_m, kMaxOffset_m), mount.number("y_m", -kMaxOffset_m, kMaxOffset_m),
+                   mount.number("theta_rad", -kPi, kPi)};
+  if (const Status status = mount.finish(); !status) reader.take<double>(pass_on(status));
+  return pose;
+}
+
 void read_scan(ObjectReader& reader, RosbridgeFile& file) {
   ObjectReader inner(reader.value("scan"), reader.path_of("scan"));
-  read_topic(inner, file.scan, both("sensor_msgs", "LaserScan"));
-  ObjectReader mount(inner.value("robot_from_scan"), inner.path_of("robot_from_scan"));
-  file.robot_from_scan = {mount.number("x_m", -kMaxOffset_m, kMaxOffset_m),
-                          mount.number("y_m", -kMaxOffset_m, kMaxOffset_m), mount.number("theta_rad", -kPi, kPi)};
-  if (const Status status = mount.finish(); !status) inner.take<double>(pass_on(status));
+  file.scan.emplace();
+  read_topic(inner, *file.scan, both("sensor_msgs", "LaserScan"));
+  file.robot_from_scan = mount_at(inner, "robot_from_scan");
   if (const Status status = inner.finish(); !status) reader.take<double>(pass_on(status));
+}
+
+void read_ranges(ObjectReader& reader, RosbridgeFile& file) {
+  constexpr std::size_t kMostSensors = 32;
+  const std::vector<json> sensors = reader.array("ranges", kMostSensors);
+  if (sensors.empty())
+    reader.problem("ranges", "'ranges' lists the sensors of the ring; leave it out where there are none.");
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    ObjectReader inner(sensors[i], reader.path_of("ranges") + "/" + std::to_string(i));
+    RosRangeSensor sensor;
+    read_topic(inner, sensor.topic, both("sensor_msgs", "Range"));
+    sensor.robot_from_sensor = mount_at(inner, "robot_from_sensor");
+    sensor.cone_rad = inner.number("cone_rad", 0.02, 1.6);
+    sensor.range_max_m = inner.number("range_max_m", 0.3, 20.0);
+    const bool again = std::ranges::any_of(
+        file.ranges, [&](const RosRangeSensor& other) { return other.topic.topic == sensor.topic.topic; });
+    if (again) inner.problem("topic", "Each sensor of the ring needs a topic of its own.");
+    if (const Status status = inner.finish(); !status) reader.take<double>(pass_on(status));
+    file.ranges.push_back(std::move(sensor));
+  }
 }
 
 RosRider read_rider(ObjectReader& reader, const std::vector<std::string>& types) {
@@ -82,13 +109,11 @@ RosBody read_body(ObjectReader& reader) {
 
 json topic_to_json(const RosTopic& topic) { return {{"topic", topic.topic}, {"type", topic.type}}; }
 
+json mount_to_json(const Pose2& pose) { return {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"theta_rad", pose.theta_rad}}; }
+
 }  // namespace
 
 json rosbridge_to_json(const RosbridgeFile& file) {
-  json scan = topic_to_json(file.scan);
-  scan["robot_from_scan"] = {{"x_m", file.robot_from_scan.x_m},
-                             {"y_m", file.robot_from_scan.y_m},
-                             {"theta_rad", file.robot_from_scan.theta_rad}};
   json body = {{"max_speed_mps", file.body.max_speed_mps},
                {"max_turn_radps", file.body.max_turn_radps},
                {"deceleration_mps2", file.body.deceleration_mps2},
@@ -99,14 +124,24 @@ json rosbridge_to_json(const RosbridgeFile& file) {
     body["rectangle"] = {{"front_m", file.body.front_m}, {"back_m", file.body.back_m}, {"width_m", file.body.width_m}};
   }
   json value = {{"format", "homeward-rosbridge"},
-                {"version", 1},
+                {"version", file.scan && file.ranges.empty() ? 1 : 2},
                 {"address", file.address},
                 {"camera", file.camera},
                 {"cmd_vel", topic_to_json(file.cmd_vel)},
                 {"odom", topic_to_json(file.odom)},
-                {"scan", scan},
                 {"image", topic_to_json(file.image)},
                 {"body", body}};
+  if (file.scan) {
+    value["scan"] = topic_to_json(*file.scan);
+    value["scan"]["robot_from_scan"] = mount_to_json(file.robot_from_scan);
+  }
+  for (const RosRangeSensor& sensor : file.ranges) {
+    json entry = topic_to_json(sensor.topic);
+    entry["robot_from_sensor"] = mount_to_json(sensor.robot_from_sensor);
+    entry["cone_rad"] = sensor.cone_rad;
+    entry["range_max_m"] = sensor.range_max_m;
+    value["ranges"].push_back(std::move(entry));
+  }
   if (file.rider) {
     value["rider"] = topic_to_json(file.rider->topic);
     value["rider"]["motion"] = file.rider->relayed ? "relayed" : "own";
@@ -116,7 +151,7 @@ json rosbridge_to_json(const RosbridgeFile& file) {
 
 Result<RosbridgeFile> rosbridge_from_json(const json& value, const std::string& path) {
   ObjectReader reader(value, path);
-  reader.format("homeward-rosbridge", 1);
+  const int version = reader.format("homeward-rosbridge", 1, 2);
   RosbridgeFile file;
   file.address = reader.text("address", 300);
   if (!file.address.starts_with("ws://") || file.address.size() < 6) {
@@ -128,7 +163,9 @@ Result<RosbridgeFile> rosbridge_from_json(const json& value, const std::string& 
   for (const std::string& stamped : both("geometry_msgs", "TwistStamped")) twists.push_back(stamped);
   file.cmd_vel = topic_at(reader, "cmd_vel", twists);
   file.odom = topic_at(reader, "odom", both("nav_msgs", "Odometry"));
-  read_scan(reader, file);
+  const bool ranges = version >= 2 && reader.has("ranges");
+  if (ranges) read_ranges(reader, file);
+  if (!ranges || reader.has("scan")) read_scan(reader, file);
   file.image = topic_at(reader, "image", both("sensor_msgs", "CompressedImage"));
   if (reader.has("rider")) file.rider = read_rider(reader, twists);
   if (file.rider && file.rider->topic.topic == file.cmd_vel.topic) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/pose2.hpp"
 #include "core/result.hpp"
@@ -33,18 +34,30 @@ struct RosRider {
   bool relayed = true;  // false: the base obeys it by itself
 };
 
-/// A robot behind a rosbridge (proto/schemas/rosbridge.schema.json), format "homeward-rosbridge", version 1.
+/// One ultrasound sensor of a ring.
+struct RosRangeSensor {
+  RosTopic topic;  // of its own
+  Pose2 robot_from_sensor;
+  double cone_rad = 0.0;     // all that it hears in is so wide
+  double range_max_m = 0.0;  // and so deep; what it says beyond is nothing
+};
+
+/// A robot behind a rosbridge (proto/schemas/rosbridge.schema.json), format "homeward-rosbridge", version 2; version 1
+/// has a scan always and no ranges. A robot has a scan or ranges or both.
 struct RosbridgeFile {
   std::string address;  // ws://HOST:PORT
   std::string camera;   // camera.json, relative to the file
   RosTopic cmd_vel;
   RosTopic odom;
-  RosTopic scan;
+  std::optional<RosTopic> scan;
   RosTopic image;
-  Pose2 robot_from_scan;
+  Pose2 robot_from_scan;  // where there is a scan
   RosBody body;
   std::optional<RosRider> rider = {};
+  std::vector<RosRangeSensor> ranges = {};
 };
+
+/// As version 1 what version 1 can say, for older readers.
 
 nlohmann::json rosbridge_to_json(const RosbridgeFile& file);
 

@@ -62,7 +62,7 @@ int run(const std::vector<std::string>& arguments) {
                                     twist = {msg["linear"]["x"].get<double>(), msg["angular"]["z"].get<double>()};
                                   }});
   const wire::RosbridgeFile described = testing::sample_rosbridge();
-  for (const wire::RosTopic* topic : {&described.cmd_vel, &described.odom, &described.scan, &described.image}) {
+  for (const wire::RosTopic* topic : {&described.cmd_vel, &described.odom, &*described.scan, &described.image}) {
     bridge.serve_topic(topic->topic, topic->type);
   }
   // Last: who finds this file finds the bridge listening.

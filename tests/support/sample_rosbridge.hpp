@@ -3,12 +3,14 @@
 
 #include <sodium.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "core/angles.hpp"
 #include "core/pose2.hpp"
 #include "wire/rosbridge_json.hpp"
 
@@ -28,6 +30,21 @@ inline wire::RosbridgeFile sample_rosbridge(unsigned short port = 9090) {
   robot.body.max_speed_mps = 0.8;
   robot.body.max_turn_radps = 1.2;
   return robot;
+}
+
+/// Ultrasound sensors with cones of 40 degrees looking outwards from a circle, topics /sonar/0, ..., the first ahead
+/// and each the next to the left. Nine of them hear all round.
+inline std::vector<wire::RosRangeSensor> sample_ring(int sensors, double apart_rad = radians(40.0),
+                                                     double radius_m = 0.3) {
+  std::vector<wire::RosRangeSensor> ring;
+  for (int i = 0; i < sensors; ++i) {
+    const double angle_rad = wrap_angle(i * apart_rad);
+    ring.push_back({{"/sonar/" + std::to_string(i), "sensor_msgs/msg/Range"},
+                    {radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad), angle_rad},
+                    radians(40.0),
+                    3.0});
+  }
+  return ring;
 }
 
 inline nlohmann::json ros_header(std::int64_t stamp_us) {
@@ -52,6 +69,16 @@ inline nlohmann::json sweep_message(std::int64_t stamp_us, const std::vector<dou
           {"range_max", range_max_m},
           {"ranges", ranges},
           {"intensities", nlohmann::json::array()}};
+}
+
+/// What one ultrasound sensor says.
+inline nlohmann::json range_message(std::int64_t stamp_us, double range_m) {
+  return {{"header", ros_header(stamp_us)},
+          {"radiation_type", 0},
+          {"field_of_view", 0.7},
+          {"min_range", 0.2},
+          {"max_range", 4.0},
+          {"range", range_m}};
 }
 
 inline nlohmann::json odometry_message(std::int64_t stamp_us, const Pose2& pose, double speed_mps) {

@@ -110,6 +110,22 @@ RosSweep sweep_of(Fields& message, const Pose2& robot_from_scan, const Outline& 
   return sweep;
 }
 
+RosRange range_of(Fields& message, std::size_t sensor, double reach_m) {
+  const double range_min_m = message.number("min_range");
+  const double range_max_m = message.number("max_range");
+  const double range_m = message.number("range");
+  // With equal bounds it is a sensor that only says whether something is there, by infinities that JSON has not.
+  if (!(range_min_m >= 0.0 && range_max_m > range_min_m && range_max_m <= 1000.0)) {
+    message.problem("max_range", "The least and greatest range do not fit.");
+  }
+  if (range_m < 0.0) message.problem("range", "A range must not be negative.");
+  RosRange range{stamp_of(message), sensor, std::numeric_limits<float>::infinity(), static_cast<float>(range_min_m)};
+  if (range_m < std::min(reach_m, range_max_m)) {
+    range.range_m = std::max(static_cast<float>(range_m), range.range_min_m);
+  }
+  return range;
+}
+
 RosOdometry odometry_of(Fields& message) {
   RosOdometry odometry;
   odometry.stamp_us = stamp_of(message);
@@ -180,6 +196,15 @@ RosTwist twist_of(Fields twist) {
   return {{linear.number("x"), angular.number("z")}};
 }
 
+/// The topics of the robot's sensors, and the least time between two messages that are of use.
+std::vector<std::pair<const wire::RosTopic*, int>> sensed_topics(const wire::RosbridgeFile& robot) {
+  std::vector<std::pair<const wire::RosTopic*, int>> topics = {{&robot.odom, 20}};
+  if (robot.scan) topics.emplace_back(&*robot.scan, 40);
+  topics.emplace_back(&robot.image, 90);  // ten pictures a second are enough
+  for (const wire::RosRangeSensor& sensor : robot.ranges) topics.emplace_back(&sensor.topic, 40);
+  return topics;
+}
+
 json vector3(double x, double z_or_zero) { return {{"x", x}, {"y", 0.0}, {"z", z_or_zero}}; }
 
 }  // namespace
@@ -198,7 +223,12 @@ Result<RosMessage> decode_ros_message(std::string_view text, const wire::Rosbrid
   Fields fields(*parsed, topic);
   Fields message = fields.inside("msg");
   RosMessage result = RosOther{};
-  if (topic == robot.scan.topic) result = sweep_of(message, robot.robot_from_scan, body_of(robot.body).outline);
+  if (robot.scan && topic == robot.scan->topic) {
+    result = sweep_of(message, robot.robot_from_scan, body_of(robot.body).outline);
+  }
+  for (std::size_t i = 0; i < robot.ranges.size(); ++i) {
+    if (topic == robot.ranges[i].topic.topic) result = range_of(message, i, robot.ranges[i].range_max_m);
+  }
   if (topic == robot.odom.topic) result = odometry_of(message);
   if (topic == robot.image.topic) {
     RosPicture picture{stamp_of(message), bytes_of(message, "data")};
@@ -228,9 +258,8 @@ std::vector<std::string> ros_greeting(const wire::RosbridgeFile& robot) {
         {"compression",
          "none"}}.dump());
   }
-  // Ten pictures a second are enough, and of what waits only the newest matters.
-  for (const auto& [topic, least_ms] :
-       {std::pair(&robot.odom, 20), std::pair(&robot.scan, 40), std::pair(&robot.image, 90)}) {
+  // Of what waits only the newest matters.
+  for (const auto& [topic, least_ms] : sensed_topics(robot)) {
     texts.push_back(json{
         {"op", "subscribe"},
         {"id", "homeward:" + topic->topic},
@@ -246,7 +275,7 @@ std::vector<std::string> ros_greeting(const wire::RosbridgeFile& robot) {
 
 std::vector<std::string> ros_farewell(const wire::RosbridgeFile& robot) {
   std::vector<std::string> texts = {ros_motion(robot, {})};
-  for (const wire::RosTopic* topic : {&robot.odom, &robot.scan, &robot.image}) {
+  for (const auto& [topic, least_ms] : sensed_topics(robot)) {
     texts.push_back(json{{"op", "unsubscribe"}, {"id", "homeward:" + topic->topic}, {"topic", topic->topic}}.dump());
   }
   if (robot.rider) {

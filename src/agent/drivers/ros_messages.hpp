@@ -34,6 +34,12 @@ struct RosPicture {
   RosStamp stamp_us;
   std::vector<std::uint8_t> bytes;  // a JPEG or PNG, not looked at
 };
+struct RosRange {
+  RosStamp stamp_us;
+  std::size_t sensor = 0;    // in the file's `ranges`
+  float range_m = 0.0F;      // of the nearest thing, `range_min_m` where it is nearer; infinite: none within reach
+  float range_min_m = 0.0F;  // that it can measure
+};
 struct RosTwist {  // of the rider's joystick
   driving::Motion motion;
 };
@@ -42,13 +48,14 @@ struct RosStatus {
   std::string text;
 };
 struct RosOther {};  // a message that the agent has no use for
-using RosMessage = std::variant<RosOther, RosSweep, RosOdometry, RosPicture, RosTwist, RosStatus>;
+using RosMessage = std::variant<RosOther, RosSweep, RosRange, RosOdometry, RosPicture, RosTwist, RosStatus>;
 
 inline constexpr std::size_t kMaxRosMessageBytes = 16UL * 1024 * 1024;
 inline constexpr std::size_t kMaxRosRanges = 20'000;
 
-/// A text from the bridge. A range that is null, not finite or below the sensor's least saw nothing.
-/// Errors: kInvalidInput, kTooLarge; each names the field.
+/// A text from the bridge. Of a sweep, a range that is null, not finite or below the sensor's least saw nothing. The
+/// range of a single sensor must be a number: a bridge writes null for minus infinity too, which REP 117 says of what
+/// is too near. Errors: kInvalidInput, kTooLarge; each names the field.
 Result<RosMessage> decode_ros_message(std::string_view text, const wire::RosbridgeFile& robot);
 
 /// What is said first on a connection: the topics that are published and those that are wanted.

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "agent/drivers/odometry_track.hpp"
+#include "agent/drivers/range_ring.hpp"
 #include "agent/drivers/ros_messages.hpp"
 #include "agent/link/json_socket.hpp"
 #include "files/read_file.hpp"
@@ -28,7 +29,8 @@ constexpr double kAtRest_radps = 0.01;
 constexpr driving::Milliseconds kOdometrySilence_ms = 400;
 constexpr driving::Milliseconds kOdometryPeriod_ms = 100;  // of the slowest that is asked for
 constexpr driving::Milliseconds kMostLag_ms = 300;
-constexpr double kBlindBeyond_m = 0.05;  // what is kept free beside the body anyway
+constexpr driving::Milliseconds kRingLife_ms = 400;  // of a ring's sweep beside a scanner's
+constexpr double kBlindBeyond_m = 0.05;              // what is kept free beside the body anyway
 // Longer than the agent bears without sweeps: after a lost connection it stops for certain.
 constexpr driving::Milliseconds kWithheld_ms = 600;
 constexpr driving::Milliseconds kSuspicious_ms = 5000;
@@ -72,7 +74,17 @@ class RosbridgeDriver final : public driving::Driver {
  public:
   RosbridgeDriver(wire::RosbridgeFile robot, camera::CameraConfig camera, const ServerAddress& address,
                   std::function<void(const std::string&)> told)
-      : robot_(std::move(robot)), camera_(std::move(camera)), body_(body_of(robot_.body)), told_(std::move(told)) {
+      : robot_(std::move(robot)),
+        camera_(std::move(camera)),
+        body_(body_of(robot_.body)),
+        told_(std::move(told)),
+        range_feeds_(robot_.ranges.size()),
+        ring_(robot_.ranges) {
+    body_.vague_ranges = !ring_.empty();
+    if (const int deaf_deg = ring_.unheard_deg(); !robot_.scan && deaf_deg > 0) {
+      told_("the ring of range sensors hears nothing in " + std::to_string(deaf_deg) +
+            " of the 360 degrees around the robot: whoever steps in there is not seen");
+    }
     JsonSocket::Events events;
     events.greeting = [this] { return greeting(); };
     events.arrived = [this](std::string_view text) { arrived(text); };
@@ -108,7 +120,7 @@ class RosbridgeDriver final : public driving::Driver {
     if (!live || interrupted_ || reading.t_ms - odom_.arrived_ms > kOdometrySilence_ms) return reading;
     reading.scan = std::move(sweep);
     // A sweep says nothing of where the robot has got to since its wheels fell silent: it counts as old as their word.
-    reading.scan_t_ms = std::min(scan_.arrived_ms, odom_.arrived_ms + kOdometryPeriod_ms);
+    reading.scan_t_ms = std::min(sweep_ms_, odom_.arrived_ms + kOdometryPeriod_ms);
     return reading;
   }
 
@@ -180,6 +192,8 @@ class RosbridgeDriver final : public driving::Driver {
     withheld_until_ms_ = now_ms() + kWithheld_ms;
     command_ = {};
     sweep_.reset();
+    ring_.forget();
+    ring_sweep_.reset();
     rider_.reset();
     track_.clear();
   }
@@ -202,7 +216,9 @@ class RosbridgeDriver final : public driving::Driver {
         blind = std::none_of(sweep->scan.ranges_m.begin(), sweep->scan.ranges_m.end(),
                              [](float range_m) { return std::isfinite(range_m); });
         blind_beyond_m = sweep->blind_beyond_m;
-        if (!blind && scan_.take(sweep->stamp_us, now)) sweep_ = std::move(sweep->scan);
+        if (!blind && scan_.take(sweep->stamp_us, now)) take_sweep(std::move(sweep->scan), now);
+      } else if (const auto* range = std::get_if<RosRange>(&*message)) {
+        take_range(*range, now);
       } else if (const auto* twist = std::get_if<RosTwist>(&*message)) {
         take_hand(twist->motion, now);
       } else if (auto* picture = std::get_if<RosPicture>(&*message)) {
@@ -212,11 +228,36 @@ class RosbridgeDriver final : public driving::Driver {
       }
     }
     if (blind_beyond_m > kBlindBeyond_m && !std::exchange(blindness_told_, true)) {
-      told_("the scanner on " + robot_.scan.topic + " is blind to what is nearer than its range_min, up to " +
+      told_("the scanner on " + robot_.scan->topic + " is blind to what is nearer than its range_min, up to " +
             std::to_string(std::lround(100.0 * blind_beyond_m)) +
             " cm beyond the body: whoever steps in there is not seen; add a scanner that sees them");
     }
-    if (blind) complain({ErrorCode::kEmptyInput, "The sweep saw nothing at all.", robot_.scan.topic});
+    if (blind) complain({ErrorCode::kEmptyInput, "The sweep saw nothing at all.", robot_.scan->topic});
+  }
+
+  /// The mutex is held. A scanner beside which there is a ring says nothing alone.
+  void take_sweep(driving::Scan scan, driving::Milliseconds now) {
+    if (ring_.empty()) {
+      sweep_ = std::move(scan);
+      sweep_ms_ = now;
+    } else if (ring_sweep_ && now - ring_sweep_->taken_ms <= kRingLife_ms) {
+      sweep_ = with_ring(scan, *ring_sweep_, track_.at(std::nullopt));
+      sweep_ms_ = std::min(now, ring_sweep_->taken_ms);
+    }
+  }
+
+  /// The mutex is held.
+  void take_range(const RosRange& range, driving::Milliseconds now) {
+    if (odom_.arrived_ms == 0 || !range_feeds_[range.sensor].take(range.stamp_us, now)) return;
+    ring_.hear(range, now, track_.at(range.stamp_us));
+    auto round = ring_.sweep(now, track_.at(std::nullopt));
+    if (!round) return;
+    if (robot_.scan) {
+      ring_sweep_ = std::move(round);
+      return;
+    }
+    sweep_ = std::move(round->scan);
+    sweep_ms_ = round->taken_ms;
   }
 
   /// The mutex is held.
@@ -268,8 +309,11 @@ class RosbridgeDriver final : public driving::Driver {
   }
 
   void tell_of_missing() {
-    for (const auto& [feed, topic] :
-         {std::pair(&odom_, &robot_.odom), std::pair(&scan_, &robot_.scan), std::pair(&image_, &robot_.image)}) {
+    std::vector<std::pair<Feed*, const wire::RosTopic*>> feeds = {{&odom_, &robot_.odom}, {&image_, &robot_.image}};
+    if (robot_.scan) feeds.emplace_back(&scan_, &*robot_.scan);
+    for (std::size_t i = 0; i < robot_.ranges.size(); ++i)
+      feeds.emplace_back(&range_feeds_[i], &robot_.ranges[i].topic);
+    for (const auto& [feed, topic] : feeds) {
       {
         const std::lock_guard lock(mutex_);
         const driving::Milliseconds since_ms = std::max(feed->arrived_ms, connected_ms_);
@@ -293,9 +337,13 @@ class RosbridgeDriver final : public driving::Driver {
   Feed odom_;
   Feed scan_;
   Feed image_;
+  std::vector<Feed> range_feeds_;  // by sensor of the ring
+  RangeRing ring_;
+  std::optional<RingSweep> ring_sweep_;  // the latest, where there is a scanner too
   OdometryTrack track_;
   double speed_mps_ = 0.0;
   std::optional<driving::Scan> sweep_;
+  driving::Milliseconds sweep_ms_ = 0;  // when it was taken
   std::optional<RosPicture> picture_;
   std::optional<driving::RiderHand> rider_;
   bool touched_ = false;  // the hand was there at some moment since the last reading
@@ -322,6 +370,12 @@ Result<std::unique_ptr<driving::Driver>> make_rosbridge_driver(const std::string
   if (!robot) return pass_on(robot);
   const auto address = parse_websocket_address(robot->address);
   if (!address) return pass_on(address);
+  if (!robot->scan && !RangeRing(robot->ranges).hears_ahead()) {
+    return fail(
+        ErrorCode::kInvalidInput,
+        "A ring without a scanner must hear all within 30 degrees of straight ahead, where the robot drives to.",
+        file + "/ranges");
+  }
   auto camera = files::read_camera(std::filesystem::path(file).parent_path() / robot->camera);
   if (!camera) return pass_on(camera);
   return std::make_unique<RosbridgeDriver>(std::move(*robot), std::move(*camera), *address, std::move(told));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -72,6 +73,42 @@ TEST(RosSweeps, BearTheStampsOfBothRosVersions) {
   EXPECT_EQ(decoded<RosSweep>("/scan", msg).stamp_us, 7'000'001);
   msg["header"]["stamp"] = {{"sec", 0}, {"nanosec", 0}};
   EXPECT_FALSE(decoded<RosSweep>("/scan", msg).stamp_us);
+}
+
+TEST(RosRanges, AreOfTheirSensorAndWithinWhatItHears) {
+  wire::RosbridgeFile robot = sample_rosbridge();
+  robot.ranges = sample_ring(3);
+  const auto heard = [&](const json& msg) { return decode_ros_message(published("/sonar/1", msg), robot); };
+  const auto range = [&](double range_m) {
+    const auto message = heard(range_message(7'000'000, range_m));
+    EXPECT_TRUE(message) << (message ? "" : message.error().message);
+    return message ? std::get<RosRange>(*message) : RosRange{};
+  };
+  EXPECT_EQ(range(1.5).sensor, 1U);
+  EXPECT_EQ(range(1.5).stamp_us, 7'000'000);
+  EXPECT_FLOAT_EQ(range(1.5).range_m, 1.5F);
+  EXPECT_FLOAT_EQ(range(0.05).range_m, 0.2F) << "too near to be measured is near";
+  EXPECT_FLOAT_EQ(range(0.0).range_m, 0.2F);
+  EXPECT_TRUE(std::isinf(range(3.0).range_m)) << "the file's reach";
+  EXPECT_TRUE(std::isinf(range(9.0).range_m));
+  json msg = range_message(7'000'000, 1.5);
+  msg["max_range"] = 1.5;
+  EXPECT_TRUE(std::isinf(std::get<RosRange>(*heard(msg)).range_m)) << "the sensor's own reach";
+  // A null may be either infinity, near or far; a negative one is none; a switch knows no distance.
+  for (const auto& [key, value] :
+       {std::pair<const char*, json>{"range", json()}, {"range", -0.1}, {"max_range", 0.2}, {"min_range", json()}}) {
+    json wrong = range_message(7'000'000, 1.5);
+    wrong[key] = value;
+    const auto refused_range = heard(wrong);
+    ASSERT_FALSE(refused_range) << key;
+    EXPECT_EQ(refused_range.error().where.find("/sonar/1"), 0U) << refused_range.error().where;
+  }
+  // Its topics are asked for and given back.
+  const auto asks = [&](const std::vector<std::string>& texts) {
+    return std::ranges::count_if(texts, [](const std::string& text) { return text.find("/sonar/") != text.npos; });
+  };
+  EXPECT_EQ(asks(ros_greeting(robot)), 3);
+  EXPECT_EQ(asks(ros_farewell(robot)), 3);
 }
 
 TEST(RosTwists, OfTheRidersJoystickComePlainOrStamped) {

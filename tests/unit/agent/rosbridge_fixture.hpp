@@ -50,16 +50,18 @@ inline std::vector<std::uint8_t> sample_jpeg(int width_px = kWidth_px) {
 /// A driver connected with a bridge whose robot does what the test says.
 class RosbridgeDriverTest : public ::testing::Test {
  protected:
-  explicit RosbridgeDriverTest(const std::optional<wire::RosRider>& rider = std::nullopt)
+  RosbridgeDriverTest() : RosbridgeDriverTest(sample_rosbridge()) {}
+  /// `robot`: its address is that of the test's bridge.
+  explicit RosbridgeDriverTest(wire::RosbridgeFile robot)
       : bridge_(std::make_unique<RosbridgeServer>(
             static_cast<unsigned short>(0),
             RosbridgeServer::Events{[this](const std::string& topic, const json& msg) { heard(topic, msg); }})) {
-    wire::RosbridgeFile robot = sample_rosbridge(bridge_->port());
-    robot.rider = rider;
-    if (rider) bridge_->serve_topic(rider->topic.topic, rider->topic.type);
-    bridge_->serve_topic("/odom", robot.odom.type);
-    bridge_->serve_topic("/scan", robot.scan.type);
-    bridge_->serve_topic("/image", robot.image.type);
+    robot.address = sample_rosbridge(bridge_->port()).address;
+    std::vector<wire::RosTopic> sensed = {robot.odom, robot.image};
+    if (robot.scan) sensed.push_back(*robot.scan);
+    if (robot.rider) sensed.push_back(robot.rider->topic);
+    for (const wire::RosRangeSensor& sensor : robot.ranges) sensed.push_back(sensor.topic);
+    for (const wire::RosTopic& topic : sensed) bridge_->serve_topic(topic.topic, topic.type);
     bridge_->serve_topic("/cmd_vel", robot.cmd_vel.type);
     folder_.put("camera.json", wire::camera_to_json(sphere_camera(kWidth_px)).dump());
     folder_.put("robot.json", wire::rosbridge_to_json(robot).dump());
@@ -69,7 +71,7 @@ class RosbridgeDriverTest : public ::testing::Test {
     });
     EXPECT_TRUE(driver) << (driver ? "" : driver.error().message + " " + driver.error().where);
     driver_ = std::move(*driver);
-    EXPECT_TRUE(eventually([&] { return bridge_->subscribed().size() == (rider ? 4U : 3U); }));
+    EXPECT_TRUE(eventually([&] { return bridge_->subscribed().size() == sensed.size(); }));
   }
 
   void heard(const std::string& topic, const json& msg) {

@@ -6,10 +6,15 @@
 namespace homeward::agent::rosbridge_rider_test {
 namespace {
 
+wire::RosbridgeFile ridden(bool relayed) {
+  wire::RosbridgeFile robot = sample_rosbridge();
+  robot.rider = wire::RosRider{{"/joy_vel", "geometry_msgs/msg/Twist"}, relayed};
+  return robot;
+}
+
 class RiderOnABridge : public RosbridgeDriverTest {
  protected:
-  explicit RiderOnABridge(bool relayed = true)
-      : RosbridgeDriverTest(wire::RosRider{{"/joy_vel", "geometry_msgs/msg/Twist"}, relayed}) {}
+  explicit RiderOnABridge(bool relayed = true) : RosbridgeDriverTest(ridden(relayed)) {}
 
   void push(double speed_mps, double turn_radps) {
     bridge_->publish("/joy_vel", {{"linear", {{"x", speed_mps}, {"y", 0.0}, {"z", 0.0}}},

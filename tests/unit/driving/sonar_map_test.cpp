@@ -34,6 +34,16 @@ TEST(SonarMap, TakesAllOfAnArcNearbyForThings) {
   EXPECT_GT(nearest_m(scan, -kPi, -0.4), 100.0);
 }
 
+TEST(SonarMap, ASensorMayHaveAConeOfItsOwn) {
+  SonarMap map;
+  const SonarCone narrow{0.1, 0.2, 1.0};
+  const Scan scan = map.update({{{0.15, 0.0, 0.0}, 0.55F, narrow}}, {});
+  EXPECT_LT(nearest_m(scan, -0.02, 0.02), 0.71);
+  EXPECT_GT(nearest_m(scan, 0.12, kPi), 100.0);
+  const Scan beyond = SonarMap().update({{{0.15, 0.0, 0.0}, 1.2F, narrow}}, {});
+  EXPECT_TRUE(hit_points(beyond).empty()) << "farther than it hears";
+}
+
 TEST(SonarMap, TakesOnlyTheMiddleOfAnArcFarAway) {
   SonarMap map;
   const Scan scan = map.update({{{0.15, 0.0, 0.0}, 2.0F}}, {});
