@@ -11,8 +11,9 @@
 #include "core/pose2.hpp"
 #include "core/result.hpp"
 #include "driving/body.hpp"
+#include "driving/inputs.hpp"
+#include "driving/milliseconds.hpp"
 #include "driving/scan.hpp"
-#include "driving/step.hpp"
 
 namespace homeward::driving {
 

@@ -39,6 +39,10 @@ double position_probability(const FollowState& state, const VisualPath& path) {
   return path.alone() ? 1.0 : state.hypotheses.best_probability();
 }
 
+double drives_above(const FollowState& state, const FollowConfig& config) {
+  return state.looked_around ? config.likelier : config.drive_above;
+}
+
 double arrival_probability(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
   if (path.alone()) return 1.0;
   // Where the belief is sure of another place, both may be right.
@@ -58,6 +62,15 @@ bool is_certain_of_arrival(const FollowState& state, const VisualPath& path, con
 bool stays_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
   constexpr double kWavers = 0.07;
   return arrival_probability(state, path, config) >= least_of_arrival(path, config) - kWavers;
+}
+
+double share_when_here(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
+  if (path.alone()) return kLeastShareAlone;
+  // A few features of things far off agree with any place: that is for those who may be metres away. By night less than
+  // the usual share of a view taken by day may be left at its own spot.
+  constexpr double kOfLeast = 0.5;
+  const double least = homing::VisualHoming::kLeastShare;
+  return is_certain_of_arrival(state, path, config) ? kOfLeast * least : least;
 }
 
 std::optional<PlaceId> estimated_place(const FollowState& state, const VisualPath& path, const FollowConfig& config) {

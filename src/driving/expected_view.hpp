@@ -3,7 +3,10 @@
 
 #include <Eigen/Core>
 
-#include "driving/pose_hypotheses.hpp"
+#include "core/pose2.hpp"
+#include "driving/pose_hypotheses_config.hpp"
+#include "driving/pose_hypothesis.hpp"
+#include "driving/view_sighting.hpp"
 
 namespace homeward::driving {
 

@@ -16,8 +16,6 @@ namespace {
 
 using Vector2 = Eigen::Vector2d;
 
-constexpr double kAloneShare = 0.1;  // single_view.cpp says why
-
 Vector2 position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
 
 /// The robot is where odometry says now.
@@ -223,19 +221,6 @@ FollowResult follow_path(FollowState& state, const VisualPath& path, const featu
 }
 
 }  // namespace
-
-double share_when_here(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
-  if (path.alone()) return kAloneShare;
-  // A few features of things far off agree with any place: that is for those who may be metres away. By night less than
-  // the usual share of a view taken by day may be left at its own spot.
-  constexpr double kOfLeast = 0.5;
-  const double least = homing::VisualHoming::kLeastShare;
-  return is_certain_of_arrival(state, path, config) ? kOfLeast * least : least;
-}
-
-double drives_above(const FollowState& state, const FollowConfig& config) {
-  return state.looked_around ? config.likelier : config.drive_above;
-}
 
 bool is_unsure(const FollowState& state) { return !state.measured && !state.votes.empty(); }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "driving/estimated_position.hpp"
+
 namespace homeward::driving {
 
 homing::VisualHoming new_homing(const FollowConfig& config) {

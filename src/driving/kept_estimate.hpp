@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "core/ids.hpp"
-#include "driving/follow.hpp"
+#include "driving/follow_config.hpp"
+#include "driving/follow_state.hpp"
+#include "driving/visual_path.hpp"
 
 namespace homeward::driving {
 

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "driving/step.hpp"
+#include <vector>
+
+#include "driving/driving_config.hpp"
+#include "driving/driving_state.hpp"
+#include "driving/outputs.hpp"
+#include "wire/link_messages.hpp"
 
 namespace homeward::driving {
 
@@ -10,8 +15,5 @@ namespace homeward::driving {
 /// up.
 void obey(DrivingState& state, const std::vector<wire::ServerMessage>& messages, bool rider_steers,
           const DrivingConfig& config, Milliseconds now_ms, Outputs& outputs);
-
-/// Ends the mission: the robot stands until a newer one comes.
-void end_mission(DrivingState& state, wire::DriveState how, std::string reason);
 
 }  // namespace homeward::driving

@@ -8,63 +8,12 @@
 #include <vector>
 
 #include "core/pose2.hpp"
+#include "driving/pose_hypotheses_config.hpp"
+#include "driving/pose_hypothesis.hpp"
 #include "driving/twin_evidence.hpp"
+#include "driving/view_sighting.hpp"
 
 namespace homeward::driving {
-
-/// A robot's pose in the frame of a map, as one Gaussian.
-struct PoseHypothesis {
-  Pose2 map_from_robot;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  // of x, y (map frame, m) and heading (rad)
-  double weight = 0.0;                                       // probability
-  RecognitionRecord record = {};                             // of the pictures since it was begun
-};
-
-/// Where a view lies by the matches of one picture.
-struct SightedDirection {
-  double bearing_rad = 0.0;  // of the view, robot frame
-  double turn_rad = 0.0;     // from the robot's heading to the view's
-  double confidence = 0.0;   // probability that both are right, given that the robot is near the view
-  double distance_m = 1.0;   // what the share of features recognised says; known to a factor of two
-};
-
-/// Where a view lies by a local map of its features (homing::LocalMap).
-struct SightedPose {
-  Pose2 robot_from_view;
-  Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Identity();  // of the position, robot frame
-};
-
-/// One view of the map that the latest picture was compared with.
-struct ViewSighting {
-  Pose2 map_from_view;
-  double spread_m = 0.15;     // standard deviation of where the view lies among those around it
-  double share = 0.0;         // of the features of picture and view, those that one motion explains,
-  int agreeing = 0;           // and how many those are
-  double prior_share = 1e-3;  // of the probability: that the robot is at this view although no hypothesis said so
-  std::optional<SightedDirection> direction;
-  std::optional<SightedPose> pose;
-};
-
-struct PoseHypothesesConfig {
-  double odometry_m_per_sqrt_m = 0.04;  // standard deviations after a metre; they grow with the root of the way
-  double odometry_rad_per_sqrt_m = 0.03;
-  double odometry_rad_per_sqrt_rad = 0.03;  // and after a radian
-  double least_position_m = 0.04;           // nothing is known better
-  double least_heading_rad = 0.02;
-  double bearing_rad = 0.06;  // standard deviations of a right direction
-  double turn_rad = 0.05;
-  double most_confidence = 0.9;     // of a direction: another place may look alike, however clear it is
-  double near_view_m = 2.0;         // a view so near should have been recognised,
-  double far_view_m = 8.0;          // and one so near may have been
-  double gate = 4.0;                // standard deviations beyond which a sighting does not move a hypothesis
-  double elsewhere_share = 0.03;    // of features recognised at views of other places than the robot's
-  double shrinks_over_m = 2.0;      // from a view d away the share recognised is (1 + d / this)^-2 of that at it
-  double elsewhere_evidence = 1.5;  // a picture speaks against being elsewhere by this power of the share
-  TwinEvidenceConfig twins;
-  double leave_probability = 0.002;  // for each independent picture
-  double cluster_m = 1.0;            // hypotheses so near are one answer to where the robot is
-  double independent_m = 0.4;        // pictures so far from each other say something new each
-};
 
 /// Where the robot may be on a map, as a few Gaussians with weights and the weight of being elsewhere: multi-hypothesis
 /// localisation (Jensfelt & Kristensen 2001) on the views of a topological map. A picture weighs each

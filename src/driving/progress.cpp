@@ -4,8 +4,9 @@
 #include <cmath>
 #include <string>
 
+#include "driving/end_mission.hpp"
 #include "driving/estimated_position.hpp"
-#include "driving/orders.hpp"
+#include "driving/follow.hpp"
 
 namespace homeward::driving {
 namespace {

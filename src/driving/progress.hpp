@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "driving/step.hpp"
+#include "driving/driving_config.hpp"
+#include "driving/driving_state.hpp"
 
 namespace homeward::driving {
 

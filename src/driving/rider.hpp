@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "driving/step.hpp"
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "driving/driving_config.hpp"
+#include "driving/inputs.hpp"
 
 namespace homeward::driving {
 

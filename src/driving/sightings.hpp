@@ -3,7 +3,9 @@
 
 #include <vector>
 
-#include "driving/follow.hpp"
+#include "driving/follow_config.hpp"
+#include "driving/follow_state.hpp"
+#include "driving/visual_path.hpp"
 
 namespace homeward::driving {
 

@@ -6,14 +6,11 @@
 #include <cmath>
 
 #include "core/angles.hpp"
+#include "driving/estimated_position.hpp"
 #include "driving/homed_view.hpp"
 
 namespace homeward::driving {
 namespace {
-
-// Of a view that pictures alone tell of. Rendered houses: 0.13 and more of its features are recognised from half a
-// metre, by night too, and 0.03 (median) from five metres.
-constexpr double kAloneShare = 0.1;
 
 Eigen::Vector2d position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
 
@@ -78,14 +75,14 @@ bool vote_instead(FollowState& state, const VisualPath& path, const features::Ap
 /// no parallax, and a few of them agree with any place between here and there. `most_alike`: of it so far.
 bool is_hollow(const homing::TargetSeen& answer, double most_alike) {
   constexpr double kHere_m = 0.6;
-  return answer.target_m && answer.target_m->norm() < kHere_m && most_alike < kAloneShare;
+  return answer.target_m && answer.target_m->norm() < kHere_m && most_alike < kLeastShareAlone;
 }
 
 /// Whether a local map of few features has turned round: it says that the view lies elsewhere than the bearings say
 /// that led here.
 bool is_turned_round(const FollowState& state, const homing::TargetSeen& answer, double most_alike) {
   constexpr double kFar_m = 1.0;  // nearer, bearings voted before say little
-  if (!answer.target_m || most_alike >= kAloneShare || state.votes.empty()) return false;
+  if (!answer.target_m || most_alike >= kLeastShareAlone || state.votes.empty()) return false;
   const auto voted = state.votes.best();
   if (!voted) return false;
   const Eigen::Vector2d way_m = voted->position_m - position(state.odometry);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "driving/follow.hpp"
+#include "driving/follow_config.hpp"
+#include "driving/follow_state.hpp"
+#include "driving/visual_path.hpp"
 
 namespace homeward::driving {
 

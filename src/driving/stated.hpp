@@ -4,7 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "driving/step.hpp"
+#include "driving/driving_config.hpp"
+#include "driving/driving_state.hpp"
 #include "wire/link_messages.hpp"
 
 namespace homeward::driving {

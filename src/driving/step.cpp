@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "driving/end_mission.hpp"
 #include "driving/estimated_position.hpp"
+#include "driving/follow.hpp"
 #include "driving/orders.hpp"
 #include "driving/progress.hpp"
 #include "driving/pursuit.hpp"
@@ -131,7 +133,7 @@ constexpr double kUnsure_mps = 0.25;  // where it does not know where it is
 
 /// Where the robot does not know where it is, it drives on a little and looks; but not before it has seen something.
 Motion look(DrivingState& state, const Inputs& inputs, const DrivingConfig& config,
-                       const std::vector<Eigen::Vector2d>& points_m) {
+            const std::vector<Eigen::Vector2d>& points_m) {
   forget_standing(state.give_way);
   if (state.follow.hypotheses.empty()) return {};
   state.reason = kLooksAround;

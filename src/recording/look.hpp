@@ -8,7 +8,7 @@
 
 #include "core/result.hpp"
 #include "driving/driver.hpp"
-#include "driving/step.hpp"
+#include "driving/inputs.hpp"
 #include "pipeline/eye.hpp"
 
 namespace homeward::recording {

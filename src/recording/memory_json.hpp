@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/result.hpp"
-#include "driving/step.hpp"
+#include "driving/driving_state.hpp"
 
 namespace homeward::recording {
 

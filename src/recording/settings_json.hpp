@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/result.hpp"
-#include "driving/step.hpp"
+#include "driving/driving_config.hpp"
 #include "features/appearance.hpp"
 
 namespace homeward::recording {

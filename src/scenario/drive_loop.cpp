@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "driving/estimated_position.hpp"
+#include "driving/follow.hpp"
 #include "driving/stated.hpp"
 #include "recording/recorder.hpp"
 #include "wire/drive_terms.hpp"

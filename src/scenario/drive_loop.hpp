@@ -11,8 +11,10 @@
 #include "pipeline/eye.hpp"
 #include "recording/look.hpp"
 #include "scenario/bystander.hpp"
+#include "scenario/cycle_trace.hpp"
 #include "scenario/fault_schedule.hpp"
-#include "scenario/scenario_run.hpp"
+#include "scenario/mission_result.hpp"
+#include "scenario/scenario_listener.hpp"
 #include "scenario/simulated_robot.hpp"
 
 namespace homeward::recording {

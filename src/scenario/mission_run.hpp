@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <string>
+#include <optional>
 
-#include "driving/step.hpp"
+#include "core/pose2.hpp"
+#include "core/result.hpp"
+#include "driving/driving_config.hpp"
 #include "pipeline/eye.hpp"
+#include "recording/recording_thread.hpp"
 #include "scenario/mission_plan.hpp"
-#include "scenario/scenario_run.hpp"
+#include "scenario/mission_result.hpp"
+#include "scenario/scenario_listener.hpp"
 #include "scenario/simulated_robot.hpp"
 #include "scenario/taught_world.hpp"
 #include "sim/motion.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/result.hpp"
-#include "driving/step.hpp"
+#include "driving/inputs.hpp"
 
 namespace homeward::agent {
 

@@ -15,6 +15,7 @@
 #include "agent/run/looker.hpp"
 #include "agent/run/real_time.hpp"
 #include "core/version.hpp"
+#include "driving/follow.hpp"
 #include "driving/stated.hpp"
 #include "driving/step.hpp"
 #include "pipeline/eye.hpp"

@@ -9,7 +9,7 @@
 
 #include "core/result.hpp"
 #include "driving/driver.hpp"
-#include "driving/step.hpp"
+#include "driving/inputs.hpp"
 #include "pipeline/eye.hpp"
 #include "recording/look.hpp"
 #include "wire/drive_terms.hpp"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "driving/follow.hpp"
 #include "support/far_seen.hpp"
 #include "support/landmarks.hpp"
 

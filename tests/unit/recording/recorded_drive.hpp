@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "driving/follow.hpp"
 #include "recording/recorder.hpp"
 #include "support/painted_tour.hpp"
 #include "support/scratch_folder.hpp"

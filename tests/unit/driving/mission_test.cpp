@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "driving/orders.hpp"
+#include "driving/mission.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "driving/body.hpp"
+#include "driving/follow_config.hpp"
+#include "driving/milliseconds.hpp"
+
+namespace homeward::driving {
+
+/// Everything that decides beside the inputs how a robot drives. Recorded with each mission (recording/settings_json).
+struct DrivingConfig {
+  Body body;
+  FollowConfig follow;
+  std::string feature_config_id;            // of this robot's eye: missions made with another are refused
+  Milliseconds link_silence_ms = 400;       // no message for so long while driving: stop
+  Milliseconds frame_silence_ms = 1000;     // no picture for so long while driving: stop
+  Milliseconds first_frame_ms = 4000;       // a mission waits so long, standing, for its first picture
+  Milliseconds scan_silence_ms = 400;       // no sweep for so long while driving: stop
+  Milliseconds rider_silence_ms = 300;      // a joystick that says nothing for so long counts as released
+  Milliseconds loop_silence_ms = 400;       // no step for so long while driving: stop
+  Milliseconds held_up_ms = 1000;           // no step for so long: missions that waited meanwhile are refused
+  Milliseconds stands_within_ms = 500;      // after the last message, picture or sweep it is at rest by itself
+  Milliseconds reaction_ms = 120;           // of it, from an arrival to the wheels
+  Milliseconds blind_ms = 8000;             // nothing recognised for so long: the mission fails
+  Milliseconds looks_ms = 15'000;           // so long it looks around where it does not know where it is,
+  Milliseconds unsure_ms = 60'000;          // and after so long it gives up, whatever it has tried
+  Milliseconds off_path_ms = 1000;          // so long beside its path, by the estimate, and it needs another
+  double off_path_m = 3.0;                  // by more than that
+  Milliseconds off_belief_ms = 3000;        // so long the server's belief may name another place
+  double off_belief_m = 2.0;                // farther off than that
+  Milliseconds estimate_lives_ms = 10'000;  // an estimate is kept for a mission that comes so soon after the last one
+  Milliseconds belief_silence_ms = 2000;    // a belief as old as that says nothing any more
+  Milliseconds doubtful_ms = 12'000;        // so long it tries to make sure that it is at the destination,
+  Milliseconds asks_ms = 60'000;            // and so long it then stands there and asks people
+  Milliseconds stuck_ms = 20'000;           // no way gained for so long: the mission fails,
+  Milliseconds patience_ms = 90'000;        // after so long where somebody stirs about the robot
+  Milliseconds stays_ms = 60'000;           // so long at one spot the way is blocked, whatever the robot does there:
+  double stays_within_m = 1.5;              // no farther than that from where it came to it
+  double near_m = 0.25;                     // of the destination: what is in the way there may stay in the way
+  Milliseconds near_ms = 8000;              // so long it tries to come nearer than that
+  double turn_gain = 1.8;                   // turn rate for each radian towards the carrot
+  double dock_within_rad = 0.02;            // heading at the end
+};
+
+}  // namespace homeward::driving

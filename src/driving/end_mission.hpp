@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "driving/driving_state.hpp"
+#include "wire/link_messages.hpp"
+
+namespace homeward::driving {
+
+/// Ends the mission: the robot stands until a newer one comes.
+void end_mission(DrivingState& state, wire::DriveState how, std::string reason);
+
+}  // namespace homeward::driving

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/pose2.hpp"
+#include "driving/body.hpp"
+#include "driving/milliseconds.hpp"
+#include "driving/scan.hpp"
+#include "features/appearance.hpp"
+#include "tracking/tracking_frame.hpp"
+#include "wire/link_messages.hpp"
+
+namespace homeward::driving {
+
+/// A picture that was looked at. `taken_ms`: by the sensors' clock, which is the machine's own on a robot and simulated
+/// time in a simulator.
+struct SeenPicture {
+  Milliseconds taken_ms = 0;
+  std::shared_ptr<const features::Appearance> appearance;  // null: only tracked, not recognised
+  tracking::TrackingFrame frame;
+  Pose2 odometry;  // when it was taken
+};
+
+/// One sweep of the range sensors. `taken_ms`: by the sensors' clock.
+struct SeenScan {
+  Milliseconds taken_ms = 0;
+  Scan scan;
+};
+
+/// What the rider's own joystick says. A deflected one may want no motion of the agent: the base obeys it by itself, or
+/// it has not been at rest yet.
+struct RiderHand {
+  Milliseconds said_ms = 0;  // by the sensors' clock
+  bool deflected = false;
+  Motion wanted;
+};
+
+/// What is new since the last step.
+struct Inputs {
+  std::optional<SeenPicture> picture;
+  std::optional<SeenScan> scan;
+  Pose2 odometry;
+  std::vector<wire::ServerMessage> messages;  // in the order of their arrival
+  bool link_up = false;
+  std::optional<Milliseconds> sensors_now_ms;  // by the sensors' clock; nothing: it is the machine's own
+  std::optional<RiderHand> rider;              // the newest word of the joystick, when there is one
+};
+
+}  // namespace homeward::driving

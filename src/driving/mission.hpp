@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/ids.hpp"
+#include "core/result.hpp"
+#include "driving/driving_config.hpp"
+#include "driving/visual_path.hpp"
+#include "wire/link_messages.hpp"
+
+namespace homeward::driving {
+
+/// One mission that was permitted.
+struct Mission {
+  MissionId id;
+  MapId map;
+  std::int64_t revision = 0;
+  std::string label;
+  VisualPath path;
+  bool dock = false;
+  double speed_limit_mps = 0.0;
+};
+
+/// A mission as `step` needs it, its views decoded. Errors: kFeatureConfigMismatch, kCorruptFile,
+/// kUnsupportedFormat.
+Result<Mission> decode_mission(const wire::MissionOrder& order, const DrivingConfig& config);
+
+}  // namespace homeward::driving
