@@ -52,7 +52,7 @@ nlohmann::json to_json(const scenario::MissionResult& result) {
   }
   if (result.kidnapped_at_s) {
     value["kidnapped_at_s"] = *result.kidnapped_at_s;
-    value["told_after_s"] = result.told_after_s ? nlohmann::json(*result.told_after_s) : nlohmann::json();
+    value["told_after_s"] = result.noticed_after_s ? nlohmann::json(*result.noticed_after_s) : nlohmann::json();
   }
   return value;
 }
@@ -97,7 +97,7 @@ void print(const scenario::MissionResult& result) {
               result.path_m, result.shortest_m, result.collisions, result.duration_s);
   for (const scenario::StopEvent& stop : result.stops) std::printf("; at %.1f s: %s", stop.t_s, stop.reason.c_str());
   if (result.kidnapped_at_s) std::printf("; kidnapped at %.1f s", *result.kidnapped_at_s);
-  if (result.told_after_s) std::printf(", told %.1f s later", *result.told_after_s);
+  if (result.noticed_after_s) std::printf(", told %.1f s later", *result.noticed_after_s);
   std::printf("\n");
   std::fflush(stdout);
 }

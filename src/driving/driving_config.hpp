@@ -35,7 +35,7 @@ struct DrivingConfig {
   Milliseconds doubtful_ms = 12'000;        // so long it tries to make sure that it is at the destination,
   Milliseconds asks_ms = 60'000;            // and so long it then stands there and asks people
   Milliseconds stuck_ms = 20'000;           // no way gained for so long: the mission fails,
-  Milliseconds patience_ms = 90'000;        // after so long where somebody stirs about the robot
+  Milliseconds patience_ms = 90'000;        // after so long where somebody moves about the robot
   Milliseconds stays_ms = 60'000;           // so long at one spot the way is blocked, whatever the robot does there:
   double stays_within_m = 1.5;              // no farther than that from where it came to it
   double near_m = 0.25;                     // of the destination: what is in the way there may stay in the way

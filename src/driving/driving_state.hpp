@@ -18,8 +18,8 @@
 #include "driving/look_around.hpp"
 #include "driving/milliseconds.hpp"
 #include "driving/mission.hpp"
+#include "driving/moving_obstacle.hpp"
 #include "driving/steady_sweep.hpp"
-#include "driving/stirring.hpp"
 #include "driving/sweep_continuity.hpp"
 #include "driving/turn_rate.hpp"
 #include "wire/link_messages.hpp"
@@ -48,7 +48,7 @@ struct DrivingState {
   bool at_odds = false;              // the mission has ended because belief and estimate named two places
   std::optional<KeptEstimate> kept;  // of where it is, for the next mission
   GiveWay give_way;                  // to whoever stands in the way
-  Stirring stirring;                 // of whoever that is
+  MovingObstacle moving_obstacle;    // of whoever that is
   SteadySweep sweeps;                // round a body that is not round
   Continuity continuity;             // of the pictures that are recognised
   SweepContinuity going_on;          // of the sweeps
@@ -57,7 +57,7 @@ struct DrivingState {
   std::optional<Milliseconds> last_step_ms;
   Milliseconds refuses_until_ms = 0;  // missions that waited while no step was made
   Milliseconds last_message_ms = 0;
-  Milliseconds belief_ms = 0;          // when the server told its belief last,
+  Milliseconds belief_ms = 0;          // when the server sent its belief last,
   Milliseconds belief_changes_ms = 0;  // and, lost or not, the same as follow.belief_lost last
   Milliseconds last_picture_ms = 0;    // at first, when the mission began
   Milliseconds picture_came_ms = 0;    // the latest one that counted, less what it was looked at for too long

@@ -222,7 +222,7 @@ FollowResult follow_path(FollowState& state, const VisualPath& path, const featu
 
 }  // namespace
 
-bool is_unsure(const FollowState& state) { return !state.measured && !state.votes.empty(); }
+bool is_unsure(const FollowState& state) { return !state.measured && !state.bearings.empty(); }
 
 std::optional<Eigen::Vector2d> goal(const FollowState& state, const Pose2& odometry, const FollowConfig& config) {
   if (!state.view.known()) return std::nullopt;

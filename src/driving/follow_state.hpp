@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/pose2.hpp"
-#include "driving/bearing_votes.hpp"
+#include "driving/bearing_evidence.hpp"
 #include "driving/pose_hypotheses.hpp"
 #include "driving/view_track.hpp"
 #include "homing/home_vector.hpp"
@@ -38,7 +38,7 @@ struct FollowState {
   int behind = 0;                       // answers in a row that say that the destination's view lies behind
   double alike = 0.0;          // share of the features that agree with the view homed to, at the latest picture,
   double most_alike = 0.0;     // and the most since this view is homed to: people may stand before the camera
-  BearingVotes votes;          // of one view alone: where it is, while nothing but bearings to it says so
+  BearingEvidence bearings;    // of one view alone: where it is, while nothing but bearings to it says so
   bool looked_around = false;  // in vain: it goes on from where it is more probably than anywhere else
   int undecided = 0;           // pictures in a row that they were too few or too divided to say so
   int given_up = 0;            // how often what they said was followed as far as odometry alone, in vain

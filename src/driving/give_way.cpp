@@ -21,7 +21,7 @@ constexpr double kBacking_mps = 0.25;             // and so fast
 constexpr std::int64_t kWaiting_ms = 2500;        // at least
 constexpr std::int64_t kLongestWait_ms = 12'000;  // while somebody walks about
 constexpr std::int64_t kQuiet_ms = 1500;          // nobody walks there any more
-constexpr std::int64_t kSomebody_ms = 20'000;     // since somebody stirred: it is no thing
+constexpr std::int64_t kSomebody_ms = 20'000;     // since somebody moved: it is no thing
 constexpr int kTimes = 3;                         // from a thing
 constexpr double kElsewhere_m = 2.0;              // from where it backed off: it has got past
 
@@ -104,7 +104,9 @@ void remember_trail(GiveWay& state, const Pose2& odometry) {
 std::optional<Eigen::Vector2d> give_way(GiveWay& state, const Body& body, const Surroundings& about,
                                         const Pose2& odometry, std::int64_t now_ms, std::int64_t patience_ms) {
   const Eigen::Vector2d here_m = position(odometry);
-  const auto quiet_for = [&](std::int64_t ms) { return !about.stirred_ms || now_ms - *about.stirred_ms >= ms; };
+  const auto quiet_for = [&](std::int64_t ms) {
+    return !about.obstacle_moved_ms || now_ms - *about.obstacle_moved_ms >= ms;
+  };
   if (state.phase == GiveWay::Phase::kOnTheWay) {
     const double backed_m = (state.back_to_m - state.blocked_at_m).norm();
     if ((here_m - state.blocked_at_m).norm() > std::max(kElsewhere_m, backed_m + kThere_m)) state.times = 0;

@@ -36,8 +36,8 @@ void remember_trail(GiveWay& state, const Pose2& odometry);
 
 /// What a robot that may have to make room knows of what is about it.
 struct Surroundings {
-  std::span<const Eigen::Vector2d> points_m;  // of the newest sweep, robot frame
-  std::optional<std::int64_t> stirred_ms;     // when somebody last stirred
+  std::span<const Eigen::Vector2d> points_m;      // of the newest sweep, robot frame
+  std::optional<std::int64_t> obstacle_moved_ms;  // when something there last moved of itself
 };
 
 /// Where to back off to, robot frame; zero: it waits where it is; nothing: it drives on. To be asked at every step at

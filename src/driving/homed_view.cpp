@@ -22,7 +22,7 @@ homing::VisualHoming& homing_of(FollowState& state, const FollowConfig& config) 
     state.visual = new_homing(config);
     state.visual_index = state.index;
     state.contradictions = 0;
-    state.votes.clear();
+    state.bearings.clear();
     state.undecided = state.given_up = 0;
     state.most_alike = 0.0;
   }

@@ -31,7 +31,7 @@ constexpr float kEager = 1.2F;  // ways may be so much dearer than the cheapest,
 constexpr float kCell_m = 0.08F;
 constexpr int kHalfCells = 34;
 constexpr int kSide = 2 * kHalfCells + 1;
-constexpr int kBins = 48;  // headings told apart
+constexpr int kBins = 48;  // headings that count as different
 
 constexpr int kHeadings = 192;  // turns are multiples of one of these
 constexpr float kHeading_rad = static_cast<float>(2.0 * kPi / kHeadings);

@@ -98,8 +98,8 @@ struct Clerk {
     if (!hear(state.asking, answer.question, answer.here)) return;
     const VisualPath& path = state.mission->path;
     const Pose2& there = path.pose(path.size() - 1);
-    state.follow.hypotheses.told({there.x_m, there.y_m}, config.follow.arrived_within_m,
-                                 answer.here ? kAnswerOdds : 1.0 / kAnswerOdds);
+    state.follow.hypotheses.weigh_within({there.x_m, there.y_m}, config.follow.arrived_within_m,
+                                         answer.here ? kAnswerOdds : 1.0 / kAnswerOdds);
   }
   void operator()(const wire::LinkError&) const {}
 };

@@ -320,7 +320,7 @@ void PoseHypotheses::refine(const ViewSighting& sighting) {
   for (PoseHypothesis& hypothesis : hypotheses_) move(hypothesis, sighting, kNews);
 }
 
-void PoseHypotheses::told(const Vector2& point_m, double radius_m, double odds) {
+void PoseHypotheses::weigh_within(const Vector2& point_m, double radius_m, double odds) {
   for (PoseHypothesis& one : hypotheses_) {
     const double inside = share_within(one, point_m, radius_m);
     one.weight *= inside * odds + 1.0 - inside;

@@ -54,7 +54,7 @@ class PoseHypotheses {
   /// Somebody says that the robot is within `radius_m` of a point of the map, or that it is not: `odds` multiplies the
   /// odds of what lies there against all else, being elsewhere included. Where that makes it likely that it is there,
   /// the word is a measurement of the position as well.
-  void told(const Eigen::Vector2d& point_m, double radius_m, double odds);
+  void weigh_within(const Eigen::Vector2d& point_m, double radius_m, double odds);
 
   /// The most probable one, or null.
   [[nodiscard]] const PoseHypothesis* best() const;

@@ -26,7 +26,7 @@ void end_blocked(DrivingState& state, const DrivingConfig& config) {
   const auto before = estimated_place(state.follow, path, config.follow);
   const PoseHypothesis* best = state.follow.hypotheses.best();
   if ((before || state.follow.looked_around) && path.index && best != nullptr) {
-    state.follow.hypotheses.told({best->map_from_robot.x_m, best->map_from_robot.y_m}, kWithin_m, kOdds);
+    state.follow.hypotheses.weigh_within({best->map_from_robot.x_m, best->map_from_robot.y_m}, kWithin_m, kOdds);
   }
   if (!state.follow.looked_around && (!before || estimated_place(state.follow, path, config.follow) == before)) {
     return end_mission(state, wire::DriveState::kFailed, "The way is blocked.");
@@ -173,15 +173,16 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
     return end_astray(state, "I am not sure where I am: the map says another place.");
   }
   // Beside its destination it waits for `near_ms` and has then arrived.
-  const bool stirs = state.stirring.seen_ms && now_ms - *state.stirring.seen_ms < config.stuck_ms;
-  const Milliseconds patience_ms = stirs ? config.patience_ms : config.stuck_ms;
+  const bool obstacle_moves =
+      state.moving_obstacle.seen_ms && now_ms - *state.moving_obstacle.seen_ms < config.stuck_ms;
+  const Milliseconds patience_ms = obstacle_moves ? config.patience_ms : config.stuck_ms;
   if (!state.near_since_ms && now_ms - state.last_gain_ms > patience_ms) {
     if (is_unsure(state.follow)) {
       return end_mission(state, wire::DriveState::kFailed, "I do not see clearly enough where it is.");
     }
     return end_blocked(state, config);
   }
-  if (stirs) state.stays_since_ms.reset();  // it waits for them as long as its patience lasts
+  if (obstacle_moves) state.stays_since_ms.reset();  // it waits for them as long as its patience lasts
   if (stays_too_long(state, config, now_ms)) end_blocked(state, config);
 }
 

@@ -8,7 +8,7 @@
 namespace homeward::driving {
 namespace {
 
-/// Sums of weights may be off by their last digits; what is told is a probability.
+/// Sums of weights may be off by their last digits; what is stated is a probability.
 double as_probability(double value) { return std::clamp(value, 0.0, 1.0); }
 
 }  // namespace

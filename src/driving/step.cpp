@@ -197,7 +197,7 @@ Motion drive(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
   const Milliseconds patience_ms = is_round(config.body.outline) ? 6000 : 12'000;
   if (state.near_since_ms) {
     forget_standing(state.give_way);
-  } else if (const auto back_m = give_way(state.give_way, config.body, {points_m, state.stirring.seen_ms},
+  } else if (const auto back_m = give_way(state.give_way, config.body, {points_m, state.moving_obstacle.seen_ms},
                                           inputs.odometry, now_ms, patience_ms)) {
     // Whoever it makes room for stands before what it would recognise, and back it goes where it came along.
     state.last_answer_ms = now_ms;
@@ -298,7 +298,7 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     state.scan = inputs.scan;
     state.scan->taken_ms = std::min(state.scan->taken_ms, sensors_ms);
     // The arcs of ultrasound come and go by themselves.
-    if (!config.body.vague_ranges) watch(state.stirring, state.scan->scan, inputs.odometry, sensors_ms);
+    if (!config.body.vague_ranges) watch(state.moving_obstacle, state.scan->scan, inputs.odometry, sensors_ms);
     steady(state, inputs, config);
     notice_lift(state, inputs, config);
     see_ways(state, inputs, config);

@@ -27,8 +27,8 @@ struct CameraPicture {
 /// A driver's picture as bytes: as they came, or as JPEG where the driver has pixels only.
 CameraPicture as_sent(driving::TakenPicture taken);
 
-/// What the heart is given of a picture: the one way from bytes to what is seen, on a robot, in a scenario and in a
-/// replay. Errors: those of imageio::decode and of Eye::look.
+/// What the driving step is given of a picture: the one way from bytes to what is seen, on a robot, in a scenario and
+/// in a replay. Errors: those of imageio::decode and of Eye::look.
 Result<driving::SeenPicture> look(const CameraPicture& picture, const pipeline::Eye& eye);
 
 }  // namespace homeward::recording

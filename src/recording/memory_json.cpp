@@ -69,19 +69,19 @@ static void take(const json& value, GiveWay& way) {
   way.times = value.at("times").get<int>();
 }
 
-static json numbers_of(const Stirring& stirring) {
-  const auto& [before, before_from, before_ms, seen_ms] = stirring;
+static json numbers_of(const MovingObstacle& obstacle) {
+  const auto& [before, before_from, before_ms, seen_ms] = obstacle;
   return {{"before", before ? numbers_of(*before) : json()},
           {"before_from", numbers_of(before_from)},
           {"before_ms", before_ms},
           {"seen_ms", seen_ms ? json(*seen_ms) : json()}};
 }
 
-static void take(const json& value, Stirring& stirring) {
-  if (const json& before = value.at("before"); !before.is_null()) stirring.before = scan_of(before);
-  stirring.before_from = pose_of(value.at("before_from"));
-  stirring.before_ms = value.at("before_ms").get<std::int64_t>();
-  if (const json& seen = value.at("seen_ms"); !seen.is_null()) stirring.seen_ms = seen.get<std::int64_t>();
+static void take(const json& value, MovingObstacle& obstacle) {
+  if (const json& before = value.at("before"); !before.is_null()) obstacle.before = scan_of(before);
+  obstacle.before_from = pose_of(value.at("before_from"));
+  obstacle.before_ms = value.at("before_ms").get<std::int64_t>();
+  if (const json& seen = value.at("seen_ms"); !seen.is_null()) obstacle.seen_ms = seen.get<std::int64_t>();
 }
 
 static json numbers_of(const SweepContinuity& continuity) {
@@ -160,7 +160,7 @@ void memory_fields(Fields& fields, State& s) {
   fields("refuses_until_ms", s.refuses_until_ms);
   fields("questions", s.asking.number);
   fields("give_way", s.give_way);
-  fields("stirring", s.stirring);
+  fields("stirring", s.moving_obstacle);
   fields("going_on", s.going_on);
   fields("kept_estimate", s.kept);
 }

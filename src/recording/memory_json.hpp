@@ -8,8 +8,8 @@
 
 namespace homeward::recording {
 
-/// What outlives the beginning of a mission in the heart's memory, but for the sweep, as JSON text: numbers come back
-/// bit for bit.
+/// What outlives the beginning of a mission in the memory of the driving step, but for the sweep, as JSON text: numbers
+/// come back bit for bit.
 std::string memory_to_json(const driving::DrivingState& before);
 /// A key that lacks keeps the program's value. Errors: kUnsupportedFormat for a key that the program does not know,
 /// kCorruptFile for what cannot be.

@@ -16,7 +16,7 @@
 
 namespace homeward::recording {
 
-/// Records each mission of a robot in a file of its own. The heart's loop never waits for the disk: a thread writes.
+/// Records each mission of a robot in a file of its own. The driving loop never waits for the disk: a thread writes.
 class Recorder {
  public:
   /// What all recordings of one robot have in common.
@@ -35,7 +35,7 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// One step of the heart. Recorded from the step that takes up a mission to the one that ends it.
+  /// One step of driving. Recorded from the step that takes up a mission to the one that ends it.
   /// `picture`: the bytes of the picture in `inputs`, when there is one.
   driving::Outputs step(driving::DrivingState& state, const driving::Inputs& inputs, const PictureBytes& picture,
                         driving::Milliseconds now_ms);

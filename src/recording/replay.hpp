@@ -36,8 +36,8 @@ struct ReplayResult {
   [[nodiscard]] bool same() const { return differences == 0; }
 };
 
-/// Runs what was recorded through the same eye and heart and compares vectors, decisions and commands bit by bit.
-/// Errors: those of db::RecordingReader; kFeatureConfigMismatch (recorded by a program with other features),
+/// Runs what was recorded through the same eye and driving step and compares vectors, decisions and commands bit by
+/// bit. Errors: those of db::RecordingReader; kFeatureConfigMismatch (recorded by a program with other features),
 /// kUnsupportedFormat (settings that this program does not know), kEmptyInput (no steps), and those of `look`.
 Result<ReplayResult> replay(const std::filesystem::path& file, const std::function<void(double)>& progress);
 

@@ -9,7 +9,7 @@
 
 namespace homeward::recording {
 
-// What decides beside the inputs how the heart drives, as JSON text: numbers come back bit for bit. A key that lacks
+// What decides beside the inputs how a robot drives, as JSON text: numbers come back bit for bit. A key that lacks
 // keeps the program's value; one that the program does not know is kUnsupportedFormat, what cannot be is kCorruptFile.
 
 std::string driving_to_json(const driving::DrivingConfig& config);

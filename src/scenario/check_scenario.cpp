@@ -140,12 +140,12 @@ class Checker {
     if (draws && visited_.size() < 2) return;
     const sim::RobotProfile robot = profile_of(scenario_);
     const sim::Obstacles obstacles(world_);
-    std::set<std::pair<std::size_t, std::string>> told;
+    std::set<std::pair<std::size_t, std::string>> reported;
     for (const MissionPlan& plan : plan_missions(scenario_, visited_)) {
       const auto room = rooms_.find(plan.from);
       if (room == rooms_.end() || plan.moved_furniture > 0) continue;
       const auto start = starting_pose(world_, obstacles, room->second, robot, plan.seed);
-      if (start || !told.emplace(plan.entry, plan.from).second) continue;
+      if (start || !reported.emplace(plan.entry, plan.from).second) continue;
       const bool random = scenario_.missions[plan.entry].random > 0;
       add(entry(plan.entry) + (random ? ".random" : ".from"), "the " + robot.name + " does not fit in at '" +
                                                                   plan.from +

@@ -178,7 +178,7 @@ void DriveLoop::place_boxes() {
     }
     const auto box = box_ahead(robot_.vehicle().pose(), ahead_m);
     if (box) boxes_.emplace_back(i, *box);
-    if (!box && listener_.told) listener_.told("no box: the way ends within 1.5 m");
+    if (!box && listener_.log) listener_.log("no box: the way ends within 1.5 m");
     changed = changed || box;
   }
   if (!changed) return;
@@ -196,23 +196,23 @@ Status DriveLoop::kidnap() {
     lift_done_[i] = true;
     const auto spot = elsewhere_();
     if (!spot) return pass_on(spot);
-    if (!*spot && listener_.told) listener_.told("not kidnapped: there is no other spot with room for the robot");
+    if (!*spot && listener_.log) listener_.log("not kidnapped: there is no other spot with room for the robot");
     if (!*spot) continue;
     robot_.carry_to(**spot);
     kidnapped_at_s_ = elapsed_s();
     said_when_lifted_ = state_.reason;
-    told_after_s_.reset();
+    noticed_after_s_.reset();
   }
   return {};
 }
 
 /// Whoever takes itself to have arrived has no doubt, whatever else it says.
 void DriveLoop::listen_for_doubt() {
-  if (!kidnapped_at_s_ || told_after_s_ || state_.drive == wire::DriveState::kArrived) return;
+  if (!kidnapped_at_s_ || noticed_after_s_ || state_.drive == wire::DriveState::kArrived) return;
   // What it said before says nothing of the lift.
   if (state_.reason != said_when_lifted_) said_when_lifted_.clear();
   if (state_.drive != wire::DriveState::kDriving || (!state_.reason.empty() && said_when_lifted_.empty()))
-    told_after_s_ = elapsed_s() - *kidnapped_at_s_;
+    noticed_after_s_ = elapsed_s() - *kidnapped_at_s_;
 }
 
 void DriveLoop::compare_with_belief() {

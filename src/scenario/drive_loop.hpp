@@ -37,8 +37,8 @@ using Elsewhere = std::function<Result<std::optional<Pose2>>()>;
 using Believes = std::function<wire::BeliefReport(const features::Appearance&, const Pose2&,
                                                   const std::optional<wire::EstimateReport>&)>;
 
-/// The loop of one mission: world, sensors and heart, cycle by cycle, and the house that permits it, with all that goes
-/// wrong. The robot's base brakes by itself 0.1 s after the last command.
+/// The loop of one mission: world, sensors and driving step, cycle by cycle, and the house that permits it, with all
+/// that goes wrong. The robot's base brakes by itself 0.1 s after the last command.
 class DriveLoop {
  public:
   /// Everything but the faults must outlive the loop. `recorder`: may be null.
@@ -47,7 +47,7 @@ class DriveLoop {
 
   /// What a fault "kidnapped" asks where to; without it there is none.
   void kidnap_to(Elsewhere elsewhere) { elsewhere_ = std::move(elsewhere); }
-  /// Whom the robot's recognised pictures are told, twice a second, and who answers; without it nobody does.
+  /// What is believed of the robot's recognised pictures, asked twice a second; without it nothing is.
   void ask_belief(Believes believes) { believes_ = std::move(believes); }
   /// Who answers when the robot asks whether it is at its destination, 2 s after; without it nobody does.
   void answer_by(Answers answers) { answers_ = std::move(answers); }
@@ -73,7 +73,7 @@ class DriveLoop {
   [[nodiscard]] const std::optional<double>& kidnapped_at_s() const { return kidnapped_at_s_; }
   /// How long after that it gave up, or said that something is wrong. Nothing: never, or it took itself to have
   /// arrived.
-  [[nodiscard]] const std::optional<double>& told_after_s() const { return told_after_s_; }
+  [[nodiscard]] const std::optional<double>& noticed_after_s() const { return noticed_after_s_; }
   /// The longest that a sure belief of the map and a sure estimate were more than 2 m apart while it drove.
   [[nodiscard]] double belief_apart_s() const { return belief_apart_s_; }
   /// About the last seconds' pictures, one a second, oldest first.
@@ -118,7 +118,7 @@ class DriveLoop {
   std::vector<bool> lift_done_;
   Elsewhere elsewhere_;
   std::optional<double> kidnapped_at_s_;
-  std::optional<double> told_after_s_;
+  std::optional<double> noticed_after_s_;
   std::string said_when_lifted_;
   std::optional<double> apart_since_s_;
   double belief_apart_s_ = 0.0;

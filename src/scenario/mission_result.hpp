@@ -38,7 +38,7 @@ struct MissionResult {
   /// When it was lifted and put down elsewhere.
   std::optional<double> kidnapped_at_s;
   /// From then until it gave up or said that something is wrong. Nothing: never.
-  std::optional<double> told_after_s;
+  std::optional<double> noticed_after_s;
 };
 
 }  // namespace homeward::scenario

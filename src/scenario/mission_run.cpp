@@ -41,7 +41,7 @@ MissionResult result_of(DriveLoop& drive) {
   result.vectors_per_s = drive.vectors() / std::max(wire::kScenarioCycle_s, ended_s);
   result.moved_after_stop = drive.moved_after_stop();
   result.kidnapped_at_s = drive.kidnapped_at_s();
-  result.told_after_s = drive.told_after_s();
+  result.noticed_after_s = drive.noticed_after_s();
   result.belief_apart_s = drive.belief_apart_s();
   result.asked = static_cast<int>(drive.state().asking.number);
   return result;
@@ -147,7 +147,7 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
       const recording::Recorder::Robot recorded{name_with_version("homeward simulate"), taught.camera,
                                                 taught.map->feature_config, config};
       auto created = recording::Recorder::create(*record, recorded, [&](const std::string& what) {
-        if (listener.told) listener.told(what);
+        if (listener.log) listener.log(what);
       });
       if (!created) return pass_on(created);
       recorder = std::move(*created);

@@ -22,9 +22,9 @@ class Recorder;
 
 namespace homeward::scenario {
 
-/// Drives one order in simulated time with the agent's own heart, until it stands; how it went, but for the truth
-/// about where it came to (see judge). Of the plan, the faults count, all but "kidnapped".
-/// `recorder`, or null: records it.
+/// Drives one order in simulated time with the agent's own driving step, until it stands; how it went, but for the
+/// truth about where it came to (see judge). Of the plan, the faults count, all but "kidnapped". `recorder`, or null:
+/// records it.
 Result<MissionResult> drive_order(SimulatedRobot& robot, const pipeline::Eye& eye, const wire::MissionOrder& order,
                                   const MissionPlan& plan, const driving::DrivingConfig& config,
                                   const ScenarioListener& listener, recording::Recorder* recorder = nullptr);

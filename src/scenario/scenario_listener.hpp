@@ -9,9 +9,9 @@
 
 namespace homeward::scenario {
 
-/// What a scenario's runner is told; functions that are not set are not called.
+/// What a scenario's runner hears; functions that are not set are not called.
 struct ScenarioListener {
-  std::function<void(const std::string&)> told;
+  std::function<void(const std::string&)> log;
   std::function<void(const MissionResult&)> done;
   std::function<void(const CycleTrace&)> cycled;
 };

@@ -31,8 +31,8 @@ std::string shortcuts_in_words(const TaughtWorld& taught) {
 
 Status run_scenario(wire::ScenarioFile scenario, const std::string& folder, const ScenarioListener& listener,
                     const std::optional<recording::RecordingOptions>& record, const std::set<int>& only) {
-  const auto told = [&](const std::string& what) {
-    if (listener.told) listener.told(what);
+  const auto report = [&](const std::string& what) {
+    if (listener.log) listener.log(what);
   };
   const int missions = count_missions(scenario);
   if (!only.empty() && (*only.begin() < 1 || *only.rbegin() > missions)) {
@@ -47,12 +47,12 @@ Status run_scenario(wire::ScenarioFile scenario, const std::string& folder, cons
   // All that can be known is said before the long tour.
   if (const auto problems = check_scenario(scenario, *world); !problems.empty())
     return tl::unexpected<Error>(error_of(problems));
-  told("teaching " + scenario.world);
+  report("teaching " + scenario.world);
   auto taught = teach(scenario, folder, std::move(*world));
   if (!taught) return pass_on(taught);
-  told(std::to_string(taught->map->images.size()) + " pictures, " + std::to_string(taught->map->places.size()) +
-       " places");
-  if (scenario.tour_shortcuts) told(shortcuts_in_words(*taught));
+  report(std::to_string(taught->map->images.size()) + " pictures, " + std::to_string(taught->map->places.size()) +
+         " places");
+  if (scenario.tour_shortcuts) report(shortcuts_in_words(*taught));
   const sim::RobotProfile profile = profile_of(scenario);
   std::vector<std::string> destinations;
   for (const auto& [room, pose] : taught->destination_poses) destinations.push_back(room);
@@ -60,7 +60,7 @@ Status run_scenario(wire::ScenarioFile scenario, const std::string& folder, cons
   for (const MissionPlan& plan : plan_missions(scenario, destinations)) {
     ++number;
     if (!only.empty() && !only.contains(number)) continue;
-    told("from " + plan.from + " to " + plan.to);
+    report("from " + plan.from + " to " + plan.to);
     std::optional<recording::RecordingOptions> record_one = record;
     if (record_one) {
       char count[16];

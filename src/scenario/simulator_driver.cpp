@@ -85,13 +85,13 @@ class SimulatorDriver final : public driving::Driver {
     const bool moved = std::exchange(moves_, motion.speed_mps != 0.0 || motion.turn_radps != 0.0);
     commanded_motion_ = motion;
     robot_.command(motion);
-    if (moved && !moves_) told_ = {};  // the moment of a stop is told at once
+    if (moved && !moves_) reported_ = {};  // the moment of a stop is reported at once
     if (moved != moves_) tell_truth(now);
   }
 
   void tell_truth(Clock::time_point now) {
-    if (!truth_.is_open() || now - told_ < kTruthPeriod) return;
-    told_ = now;
+    if (!truth_.is_open() || now - reported_ < kTruthPeriod) return;
+    reported_ = now;
     const sim::Vehicle& vehicle = robot_.vehicle();
     const auto t_us =
         std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
@@ -119,7 +119,7 @@ class SimulatorDriver final : public driving::Driver {
   Clock::time_point advanced_ = Clock::now();
   Clock::time_point commanded_ = Clock::now();
   Clock::time_point pictured_ = Clock::now();
-  Clock::time_point told_;
+  Clock::time_point reported_;
   driving::Motion commanded_motion_;
   bool moves_ = false;
   double until_picture_s_ = kPictureLife_s;  // that simulated time may still pass before the next picture

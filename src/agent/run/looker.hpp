@@ -22,10 +22,11 @@ struct LookedAt {
   recording::PictureBytes bytes;
 };
 
-/// Takes pictures from a driver in a thread of its own: what was seen for the heart of the agent, JPEGs for the server.
+/// Takes pictures from a driver in a thread of its own: what was seen for the driving step, JPEGs for the server.
 class Looker {
  public:
-  /// `now_ms`: the clock of the heart. `show`: hears of a picture for the server, as often as `set_show_period` says.
+  /// `now_ms`: the clock of the driving step. `show`: hears of a picture for the server, as often as `set_show_period`
+  /// says.
   Looker(driving::Driver& driver, const pipeline::Eye& eye, std::function<driving::Milliseconds()> now_ms,
          std::function<void(const recording::CameraPicture&)> show);
   ~Looker();

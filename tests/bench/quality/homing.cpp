@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Homing to one view, again and again: targets at random in a world, starts some metres off with the target's spot in
-// sight, any headings. The agent's own heart drives; the world judges. One JSON line for each, then a summary. With
+// sight, any headings. The agent's own driving step drives; the world judges. One JSON line for each, then a summary.
+// With
 // --answers nothing drives: what single pictures on the straight way say of the target, by how far off it is.
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -33,7 +33,7 @@ class AskingTest : public StepTest {
   void doubt(double probability) {
     const Pose2& there = state_.mission->path.pose(state_.mission->path.size() - 1);
     for (int k = 0; k < 1000 && arrival() > probability; ++k)
-      state_.follow.hypotheses.told({there.x_m, there.y_m}, config_.follow.arrived_within_m, 0.9);
+      state_.follow.hypotheses.weigh_within({there.x_m, there.y_m}, config_.follow.arrived_within_m, 0.9);
     ASSERT_NEAR(arrival(), probability, 0.05);
   }
 
@@ -212,7 +212,7 @@ TEST_F(AskingTest, ANoEndsItHoweverCertainItIsByThen) {
 TEST_F(AskingTest, AfterANoToWhatIsStillProbableAPersonDecides) {
   ASSERT_NO_FATAL_FAILURE(drive_until_it_asks());
   const Pose2& there = state_.mission->path.pose(state_.mission->path.size() - 1);
-  for (int k = 0; k < 4; ++k) state_.follow.hypotheses.told({there.x_m, there.y_m}, 0.5, 10.0);
+  for (int k = 0; k < 4; ++k) state_.follow.hypotheses.weigh_within({there.x_m, there.y_m}, 0.5, 10.0);
   config_.follow.arrived_probability = 1.01;
   say(false);
   ASSERT_EQ(state_.drive, DriveState::kFailed);

@@ -61,7 +61,7 @@ struct SimulatedBody {
   }
 };
 
-/// Least clearance of a body that is told to drive at random through clutter, a sweep every 100 ms.
+/// Least clearance of a body that is to drive at random through clutter, a sweep every 100 ms.
 double least_clearance_m(const Body& body, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const Points world = cluttered(body, random);

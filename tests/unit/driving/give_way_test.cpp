@@ -8,7 +8,7 @@
 namespace homeward::driving::give_way_test {
 namespace {
 
-/// A robot on a straight way along x that drives wherever it is told to, without things to heed.
+/// A robot on a straight way along x that drives wherever it is sent, without things to heed.
 class GiveWayTest : public ::testing::Test {
  protected:
   static constexpr std::int64_t kTick_ms = 100;
@@ -21,13 +21,13 @@ class GiveWayTest : public ::testing::Test {
   bool tick() {
     now_ms_ += kTick_ms;
     remember_trail(state_, pose_);
-    if (somebody_stirs_) stirred_ms_ = now_ms_;
-    const auto told_m = give_way(state_, body_, {points_m(), stirred_ms_}, pose_, now_ms_, kPatience_ms);
-    if (!told_m) return true;
-    const double step_m = std::min(0.03, told_m->norm());
+    if (somebody_moves_) obstacle_moved_ms_ = now_ms_;
+    const auto back_to_m = give_way(state_, body_, {points_m(), obstacle_moved_ms_}, pose_, now_ms_, kPatience_ms);
+    if (!back_to_m) return true;
+    const double step_m = std::min(0.03, back_to_m->norm());
     if (step_m > 0.0) {
       const Pose2 moved =
-          pose_ * Pose2{step_m * told_m->x() / told_m->norm(), step_m * told_m->y() / told_m->norm(), 0};
+          pose_ * Pose2{step_m * back_to_m->x() / back_to_m->norm(), step_m * back_to_m->y() / back_to_m->norm(), 0};
       pose_.x_m = moved.x_m;
       pose_.y_m = moved.y_m;
     }
@@ -72,8 +72,8 @@ class GiveWayTest : public ::testing::Test {
   GiveWay state_;
   Body body_{.outline = Outline{.radius_m = 0.35}};
   std::vector<double> walls_m_;
-  bool somebody_stirs_ = false;
-  std::optional<std::int64_t> stirred_ms_;
+  bool somebody_moves_ = false;
+  std::optional<std::int64_t> obstacle_moved_ms_;
   Pose2 pose_;
   std::int64_t now_ms_ = 1'000'000;
 };
@@ -160,7 +160,7 @@ TEST_F(GiveWayTest, StandingForAReasonOfItsOwnIsNotBeingBlocked) {
 TEST_F(GiveWayTest, ForSomebodyItPullsOverToTheNearerWall) {
   walls_m_ = {0.8, -1.2};
   drive_to(3.0);
-  stirred_ms_ = now_ms_;
+  obstacle_moved_ms_ = now_ms_;
   pose_.theta_rad = 2.0;  // whichever way it looks
   ASSERT_GT(until_it_backs_off(), 0);
   EXPECT_NEAR(state_.back_to_m.x(), 1.8, 0.15);
@@ -176,7 +176,7 @@ TEST_F(GiveWayTest, ForAThingOrWhereThereIsRoomItDoesNotPullOver) {
   until_it_goes_on();
   walls_m_ = {0.8, -2.5};
   drive_to(6.0);
-  stirred_ms_ = now_ms_;
+  obstacle_moved_ms_ = now_ms_;
   ASSERT_GT(until_it_backs_off(), 0);
   EXPECT_NEAR(state_.back_to_m.y(), 0.0, 1e-6);
 }
@@ -184,11 +184,11 @@ TEST_F(GiveWayTest, ForAThingOrWhereThereIsRoomItDoesNotPullOver) {
 TEST_F(GiveWayTest, WaitsWhileSomebodyWalksAboutAndNotForEver) {
   drive_to(3.0);
   ASSERT_GT(until_it_backs_off(), 0);
-  somebody_stirs_ = true;
+  somebody_moves_ = true;
   const std::int64_t long_ms = until_it_goes_on();
   EXPECT_GT(long_ms, 10'000);
   EXPECT_LT(long_ms, 25'000);
-  somebody_stirs_ = false;
+  somebody_moves_ = false;
   drive_to(3.0);
   ASSERT_GT(until_it_backs_off(), 0);
   EXPECT_LT(until_it_goes_on(), 12'000);
@@ -198,7 +198,7 @@ TEST_F(GiveWayTest, FromSomebodyItBacksOffMoreThanThreeTimesAndFartherEachTime) 
   drive_to(5.0);
   double before_m = 0.0;
   for (int time = 0; time < 5; ++time) {
-    stirred_ms_ = now_ms_;
+    obstacle_moved_ms_ = now_ms_;
     ASSERT_GT(until_it_backs_off(), 0) << time;
     const double back_m = 5.0 - state_.back_to_m.x();
     EXPECT_GT(back_m, std::min(before_m + 0.4, 3.8)) << time;

@@ -292,7 +292,7 @@ class Told : public ::testing::Test {
     hypotheses_.weigh(sightings);
   }
   [[nodiscard]] double here() const { return hypotheses_.probability_within({0.0, 0.0}, kRadius_m); }
-  void told(double odds) { hypotheses_.told({0.0, 0.0}, kRadius_m, odds); }
+  void answer(double odds) { hypotheses_.weigh_within({0.0, 0.0}, kRadius_m, odds); }
   static double with_odds(double probability, double odds) {
     return probability * odds / (probability * odds + 1.0 - probability);
   }
@@ -306,9 +306,9 @@ TEST_F(Told, MultipliesTheOddsByAFactor) {
   const double before = here();
   ASSERT_GT(before, 0.2);
   ASSERT_LT(before, 0.6);
-  told(19.0);
+  answer(19.0);
   EXPECT_NEAR(here(), with_odds(before, 19.0), 0.02);
-  told(1.0 / 19.0);
+  answer(1.0 / 19.0);
   EXPECT_NEAR(here(), before, 0.05) << "the contrary takes it back";
 }
 
@@ -316,7 +316,7 @@ TEST_F(Told, MakesNoArrivalOfWhatIsImprobable) {
   look(0.001, 0.999);
   const double before = here();
   ASSERT_LT(before, 0.002);
-  told(19.0);
+  answer(19.0);
   EXPECT_GT(here(), before);
   EXPECT_LT(here(), 0.04);
 }
@@ -325,7 +325,7 @@ TEST_F(Told, OfBeingElsewhereCountsTheSame) {
   look(0.3, 1e-6);
   const double elsewhere = hypotheses_.elsewhere();
   ASSERT_GT(elsewhere, 0.001);
-  told(1.0 / 19.0);
+  answer(1.0 / 19.0);
   EXPECT_GT(hypotheses_.elsewhere(), 5.0 * elsewhere);
 }
 
@@ -333,13 +333,13 @@ TEST_F(Told, PlacesARobotThatKnewItRoughly) {
   look(1.0, 1e-6);
   hypotheses_.predict({0.0, 0.0, 0.0});
   const double rough = hypotheses_.probability_within({0.0, 0.0}, 0.5);
-  hypotheses_.told({0.0, 0.0}, 0.5, 19.0);
+  hypotheses_.weigh_within({0.0, 0.0}, 0.5, 19.0);
   EXPECT_GT(hypotheses_.probability_within({0.0, 0.0}, 0.5), rough);
   EXPECT_GT(hypotheses_.probability_within({0.0, 0.0}, 0.5), 0.9);
 }
 
 TEST_F(Told, SaysNothingToARobotThatKnowsNothing) {
-  told(19.0);
+  answer(19.0);
   EXPECT_TRUE(hypotheses_.empty());
   EXPECT_NEAR(hypotheses_.elsewhere(), 1.0, 1e-12);
 }

@@ -198,7 +198,7 @@ TEST_F(StepTest, WhereTheWayIsBlockedAndItMayBeElsewhereNoPartOfTheWayIsToBlame)
 TEST_F(StepTest, WhoGetsNowhereBecauseItDoesNotKnowWhereDoesNotCallTheWayBlocked) {
   config_.stuck_ms = 2000;
   set_off();
-  state_.follow.votes.add(pose_, homing::HomeVector{}, true, 1.0);
+  state_.follow.bearings.add(pose_, homing::HomeVector{}, true, 1.0);
   state_.follow.measured = false;
   covered_ = true;
   until_stopped(true, 10'000);

@@ -13,7 +13,7 @@
 
 namespace homeward::driving {
 
-/// A robot in open space whose ideal wheels do what they are told; the test decides what it is given.
+/// A robot in open space whose ideal wheels do what they are ordered; the test decides what it is given.
 class StepTest : public ::testing::Test {
  protected:
   static constexpr Milliseconds kTick_ms = 50;

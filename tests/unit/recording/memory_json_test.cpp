@@ -34,18 +34,18 @@ TEST(MemoryJson, KeepsTheWayBackAndWhoStirredToTheLastBit) {
   before.give_way.trail_m = {{0.1, 1.0 / 3.0}, {-2.0, 1e-17}};
   before.give_way.blocked_at_m = {1.1, -0.7};
   before.give_way.times = 2;
-  before.stirring.before = driving::Scan{
+  before.moving_obstacle.before = driving::Scan{
       {0.1F, kNothing_m, std::numeric_limits<float>::quiet_NaN(), 3.3F}, -0.5, 0.1, 11.0, {0.2, -0.1, 3.0}};
-  before.stirring.before_from = {1.0 / 7.0, 2.0, -3.0};
-  before.stirring.before_ms = 123'456'789'012;
-  before.stirring.seen_ms = 7;
+  before.moving_obstacle.before_from = {1.0 / 7.0, 2.0, -3.0};
+  before.moving_obstacle.before_ms = 123'456'789'012;
+  before.moving_obstacle.seen_ms = 7;
   const auto read = memory_from_json(memory_to_json(before));
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->refuses_until_ms, 4711);
   EXPECT_EQ(read->give_way.trail_m, before.give_way.trail_m);
   EXPECT_EQ(read->give_way.blocked_at_m, before.give_way.blocked_at_m);
   EXPECT_EQ(read->give_way.times, 2);
-  const driving::Scan& scan = read->stirring.before.value();
+  const driving::Scan& scan = read->moving_obstacle.before.value();
   ASSERT_EQ(scan.ranges_m.size(), 4U);
   EXPECT_EQ(scan.ranges_m[0], 0.1F);
   EXPECT_EQ(scan.ranges_m[1], kNothing_m);
@@ -55,9 +55,9 @@ TEST(MemoryJson, KeepsTheWayBackAndWhoStirredToTheLastBit) {
   EXPECT_EQ(scan.angle_step_rad, 0.1);
   EXPECT_EQ(scan.range_max_m, 11.0);
   EXPECT_EQ(scan.robot_from_scan.theta_rad, 3.0);
-  EXPECT_EQ(read->stirring.before_from.x_m, 1.0 / 7.0);
-  EXPECT_EQ(read->stirring.before_ms, 123'456'789'012);
-  EXPECT_EQ(read->stirring.seen_ms, 7);
+  EXPECT_EQ(read->moving_obstacle.before_from.x_m, 1.0 / 7.0);
+  EXPECT_EQ(read->moving_obstacle.before_ms, 123'456'789'012);
+  EXPECT_EQ(read->moving_obstacle.seen_ms, 7);
   for (const char* damaged : {R"({"give_way": {}})", R"({"stirring": 3})", R"({"give_way": {"trail_m": [[1]]}})"}) {
     EXPECT_FALSE(memory_from_json(damaged)) << damaged;
   }

@@ -84,7 +84,7 @@ class Kidnapped : public ::testing::Test {
     MissionResult result;
     result.arrived = loop.state().drive == wire::DriveState::kArrived;
     result.kidnapped_at_s = loop.kidnapped_at_s();
-    result.told_after_s = loop.told_after_s();
+    result.noticed_after_s = loop.noticed_after_s();
     result.stops = loop.stops();
     result.duration_s = loop.elapsed_s();
     judge(robot.vehicle(), {3.2, 1.1, 0.0}, result);
@@ -144,9 +144,9 @@ TEST_F(Kidnapped, TheMissionSaysHowSoonItWasToldOf) {
   EXPECT_FALSE(result.arrived);
   ASSERT_TRUE(result.kidnapped_at_s);
   EXPECT_NEAR(*result.kidnapped_at_s, 0.5, 1e-9);
-  ASSERT_TRUE(result.told_after_s);
+  ASSERT_TRUE(result.noticed_after_s);
   ASSERT_FALSE(result.stops.empty());
-  EXPECT_NEAR(*result.kidnapped_at_s + *result.told_after_s, result.stops.front().t_s, 0.11);
+  EXPECT_NEAR(*result.kidnapped_at_s + *result.noticed_after_s, result.stops.front().t_s, 0.11);
   EXPECT_NEAR(before_.y_m, 1.1, 0.1);
   EXPECT_LT(odometry_way_m_, result.path_m + 0.1) << "odometry does not jump";
   EXPECT_LT(result.path_m, 2.0) << "the lift is no way driven";
@@ -160,14 +160,14 @@ TEST_F(Kidnapped, TheMissionSaysThatItNeverWasToldOf) {
   });
   EXPECT_TRUE(result.arrived);
   EXPECT_TRUE(result.kidnapped_at_s);
-  EXPECT_FALSE(result.told_after_s);
+  EXPECT_FALSE(result.noticed_after_s);
 }
 
 TEST_F(Kidnapped, NotWhereThereIsNoOtherSpot) {
   const MissionResult result = drive(std::nullopt);
   EXPECT_TRUE(result.arrived);
   EXPECT_FALSE(result.kidnapped_at_s);
-  EXPECT_FALSE(result.told_after_s);
+  EXPECT_FALSE(result.noticed_after_s);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "driving/stirring.hpp"
+#include "driving/moving_obstacle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kApart_ms = 1000;  // two sweeps that are compared
 constexpr double kStands_m = 0.05;        // farther apart they show other sides of things
-constexpr double kNear_m = 3.0;           // what stirs farther off does not stand in the way
+constexpr double kNear_m = 3.0;           // what moves farther off does not stand in the way
 constexpr double kNearer_m = 0.4;         // than what was seen there: more than noise
 constexpr double kWidth_m = 0.1;          // of what counts, at least,
 constexpr int kRays = 4;                  // and in rays
@@ -61,7 +61,7 @@ bool something_came(const Scan& before, const Scan& now, const Pose2& to_before)
 
 }  // namespace
 
-void watch(Stirring& state, const Scan& scan, const Pose2& odometry, std::int64_t now_ms) {
+void watch(MovingObstacle& state, const Scan& scan, const Pose2& odometry, std::int64_t now_ms) {
   if (state.before) {
     const Pose2 to_before = inverse(state.before_from) * odometry;
     const bool stands = std::hypot(to_before.x_m, to_before.y_m) < kStands_m;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "driving/stirring.hpp"
+#include "driving/moving_obstacle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace homeward::driving::stirring_test {
 namespace {
 
 /// A room of 8 by 3 m with a post of 0.1 m in it and somebody of 0.24 m, swept with noise of 0.01 m.
-class StirringTest : public ::testing::Test {
+class MovingObstacleTest : public ::testing::Test {
  protected:
   [[nodiscard]] double range_m(const Pose2& scanner, double angle_rad) const {
     const double c = std::cos(scanner.theta_rad + angle_rad);
@@ -53,13 +53,13 @@ class StirringTest : public ::testing::Test {
   double step_rad_ = radians(1.0);
   int rays_ = 360;
   bool failing_ = false;
-  Stirring state_;
+  MovingObstacle state_;
   std::int64_t now_ms_ = 5000;
   std::mt19937_64 random_{3};
   std::normal_distribution<double> noise_m_{0.0, 0.01};
 };
 
-TEST_F(StirringTest, NothingStirsWhileTheRobotStandsOrTurnsBeforeAThing) {
+TEST_F(MovingObstacleTest, NothingStirsWhileTheRobotStandsOrTurnsBeforeAThing) {
   for (int k = 0; k < 200; ++k) {
     if (k >= 100) pose_.theta_rad += 0.12 * std::sin(0.05 * k);
     sweep();
@@ -67,7 +67,7 @@ TEST_F(StirringTest, NothingStirsWhileTheRobotStandsOrTurnsBeforeAThing) {
   }
 }
 
-TEST_F(StirringTest, NothingStirsWhileTheRobotDrivesByAThing) {
+TEST_F(MovingObstacleTest, NothingStirsWhileTheRobotDrivesByAThing) {
   for (int k = 0; k < 100; ++k) {
     pose_ = {-2.0 + 0.03 * k, -0.6, 0.01 * k};
     sweep();
@@ -75,7 +75,7 @@ TEST_F(StirringTest, NothingStirsWhileTheRobotDrivesByAThing) {
   }
 }
 
-TEST_F(StirringTest, SomebodyWhoTakesAStepIsSeenWithinTwoSeconds) {
+TEST_F(MovingObstacleTest, SomebodyWhoTakesAStepIsSeenWithinTwoSeconds) {
   for (int k = 0; k < 30; ++k) sweep();
   for (int k = 0; k < 20; ++k) {
     pose_.theta_rad += 0.1;
@@ -86,7 +86,7 @@ TEST_F(StirringTest, SomebodyWhoTakesAStepIsSeenWithinTwoSeconds) {
   EXPECT_GT(*state_.seen_ms, 5000 + 3000);
 }
 
-TEST_F(StirringTest, ASweepThatRunsTheOtherWayOrSeesHalfTheRoomOnlyDoesAsWell) {
+TEST_F(MovingObstacleTest, ASweepThatRunsTheOtherWayOrSeesHalfTheRoomOnlyDoesAsWell) {
   step_rad_ = -radians(0.75);
   first_rad_ = radians(100.0);
   rays_ = 267;
@@ -102,7 +102,7 @@ TEST_F(StirringTest, ASweepThatRunsTheOtherWayOrSeesHalfTheRoomOnlyDoesAsWell) {
   EXPECT_TRUE(state_.seen_ms);
 }
 
-TEST_F(StirringTest, RaysThatFailNowAndThenAreNobody) {
+TEST_F(MovingObstacleTest, RaysThatFailNowAndThenAreNobody) {
   for (int k = 0; k < 60; ++k) {
     failing_ = (k / 10) % 2 == 0;
     sweep();
@@ -110,7 +110,7 @@ TEST_F(StirringTest, RaysThatFailNowAndThenAreNobody) {
   EXPECT_FALSE(state_.seen_ms);
 }
 
-TEST_F(StirringTest, ASweepWithoutRaysOrStepsSaysNothing) {
+TEST_F(MovingObstacleTest, ASweepWithoutRaysOrStepsSaysNothing) {
   sweep();
   Scan empty;
   for (int k = 0; k < 20; ++k) watch(state_, empty, pose_, now_ms_ += 600);
@@ -118,7 +118,7 @@ TEST_F(StirringTest, ASweepWithoutRaysOrStepsSaysNothing) {
   EXPECT_FALSE(state_.seen_ms);
 }
 
-TEST_F(StirringTest, WhatStirsFarOffDoesNotStandInTheWay) {
+TEST_F(MovingObstacleTest, WhatStirsFarOffDoesNotStandInTheWay) {
   pose_.x_m = -3.0;
   for (int k = 0; k < 60; ++k) {
     person_.x() = 1.2 + std::sin(0.3 * k);
