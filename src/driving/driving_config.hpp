@@ -3,16 +3,54 @@
 
 #include <string>
 
+#include "driving/approach.hpp"
 #include "driving/body.hpp"
 #include "driving/follow_config.hpp"
+#include "driving/give_way.hpp"
+#include "driving/look_around.hpp"
 #include "driving/milliseconds.hpp"
+#include "driving/pursuit.hpp"
+#include "driving/steering.hpp"
 
 namespace homeward::driving {
+
+/// How fast a mission is driven, within what it, the body and the ranges allow.
+struct SpeedConfig {
+  double shortcut_mps = 0.25;           // where no tour drove
+  double unsure_mps = 0.25;             // where it does not know where it is, or nothing answers
+  double destination_gain_per_s = 0.6;  // for each metre left to the destination's view: one picture's way must stay a
+                                        // fraction of the tolerance,
+  double destination_mps = 0.18;        // and at least,
+  double alike_mps = 0.12;              // where the picture looks like the view,
+  double alike_share = 0.25;            // from this share of its features on
+  double without_doubt = 1.2;           // share of the speed, were it known exactly where the view lies,
+  double less_per_m = 0.4;              // less so much for each metre of doubt; 1 at most,
+  double least_share = 0.4;             // and at least that
+};
+
+/// When a mission has arrived or makes no way.
+struct ProgressConfig {
+  double gain_m = 0.25;              // driven on by more than that, way is gained
+  double near_known_m = 0.1;         // doubted by less, the destination is right here also where nothing shows it now
+  double stays_near_m = 0.05;        // measured so much farther off, it is still near
+  Milliseconds docking_ms = 15'000;  // not turned to the heading there for so long, it has arrived all the same
+  // A blocked way that a tour drove speaks against being where the estimate is: the odds, and within what distance.
+  double blocked_odds = 0.02;
+  double blocked_within_m = 2.0;
+  double denied_astray_below = 0.5;  // less probably at a destination that somebody denies, it is astray
+};
 
 /// Everything that decides beside the inputs how a robot drives. Recorded with each mission (recording/settings_json).
 struct DrivingConfig {
   Body body;
   FollowConfig follow;
+  SpeedConfig speed;
+  ProgressConfig progress;
+  ApproachConfig approach;
+  PursuitConfig pursuit;
+  SteeringConfig steering;
+  GiveWayConfig give_way;
+  LookAroundConfig look_around;
   std::string feature_config_id;            // of this robot's eye: missions made with another are refused
   Milliseconds link_silence_ms = 400;       // no message for so long while driving: stop
   Milliseconds frame_silence_ms = 1000;     // no picture for so long while driving: stop
@@ -42,6 +80,12 @@ struct DrivingConfig {
   Milliseconds near_ms = 8000;              // so long it tries to come nearer than that
   double turn_gain = 1.8;                   // turn rate for each radian towards the carrot
   double dock_within_rad = 0.02;            // heading at the end
+  Milliseconds belief_lasts_ms = 1000;      // so long the server's belief must be lost before that counts
+  int covered_below_features = 20;          // a picture with fewer is of a covered camera
+  double odometry_jump_m = 1.0;             // farther between two missions, and odometry has begun anew
+  double least_aim_m = 0.4;        // nearer than that, the destination's bearing is better known than its place
+  double rider_creep_mps = 0.12;   // so fast the rider drives at most where no sweep is fresh,
+  double rider_creep_radps = 0.4;  // and turns
 };
 
 }  // namespace homeward::driving

@@ -21,11 +21,24 @@ struct LookAround {
   std::vector<Eigen::Vector2d> been_m;  // where it was, every half metre
 };
 
-inline constexpr double kLooksAround_m = 12.0;  // so far it goes, and then gives up
+/// How a robot looks around.
+struct LookAroundConfig {
+  double most_m = 12.0;      // so far it goes, and then gives up
+  double step_m = 1.5;       // to the next spot that it looks from, at most,
+  double least_way_m = 0.4;  // and at least
+  double reached_m = 0.3;    // of that spot it is there
+  double trail_m = 0.5;      // between two spots of where it was
+  double keeps_off_m = 0.7;  // of what lies ahead
+  double room_m = 0.1;       // beside the body
+  double farthest_m = 4.0;   // how far room is looked for
+  double turn_cost_m = 0.2;  // what turning half round is worth in room that is new
+  int directions = 24;       // that it chooses from
+};
 
 /// Where to drive next, robot frame; nothing where there is no room, or it has driven far enough. `points_m`: what the
 /// sweep hit, robot frame.
 std::optional<Eigen::Vector2d> look_around(LookAround& state, const Body& body,
-                                           std::span<const Eigen::Vector2d> points_m, const Pose2& odometry);
+                                           std::span<const Eigen::Vector2d> points_m, const Pose2& odometry,
+                                           const LookAroundConfig& config = {});
 
 }  // namespace homeward::driving

@@ -9,7 +9,6 @@
 namespace homeward::driving {
 namespace {
 
-constexpr Milliseconds kBeliefLasts_ms = 1000;
 constexpr const char* kRiderSteers = "The rider is steering with the joystick.";
 
 /// Obeys one message after the other.
@@ -87,7 +86,7 @@ struct Clerk {
     state.follow.belief.reset();
     if (belief.lost == state.follow.belief_lost) state.belief_changes_ms = now_ms;
     // One report in between is none: whoever walks by may hide everything for a moment.
-    if (now_ms - state.belief_changes_ms >= kBeliefLasts_ms) state.follow.belief_lost = belief.lost;
+    if (now_ms - state.belief_changes_ms >= config.belief_lasts_ms) state.follow.belief_lost = belief.lost;
     state.belief_ms = now_ms;
     if (!state.mission || belief.lost || !belief.place) return;
     state.follow.belief = BelievedView{state.mission->path.view_of(*belief.place), belief.probability};

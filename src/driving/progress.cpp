@@ -20,13 +20,12 @@ void end_astray(DrivingState& state, std::string reason) {
 /// The way is blocked. A tour drove it: who is elsewhere meets walls where the map has a way, and who is there seldom
 /// does. Where that leaves it unsure where it is, or surer of another place, no part of the way is to blame.
 void end_blocked(DrivingState& state, const DrivingConfig& config) {
-  constexpr double kOdds = 1.0 / 50.0;  // of being where it is taken to be
-  constexpr double kWithin_m = 2.0;
   const VisualPath& path = state.mission->path;
   const auto before = estimated_place(state.follow, path, config.follow);
   const PoseHypothesis* best = state.follow.hypotheses.best();
   if ((before || state.follow.looked_around) && path.index && best != nullptr) {
-    state.follow.hypotheses.weigh_within({best->map_from_robot.x_m, best->map_from_robot.y_m}, kWithin_m, kOdds);
+    state.follow.hypotheses.weigh_within({best->map_from_robot.x_m, best->map_from_robot.y_m},
+                                         config.progress.blocked_within_m, config.progress.blocked_odds);
   }
   if (!state.follow.looked_around && (!before || estimated_place(state.follow, path, config.follow) == before)) {
     return end_mission(state, wire::DriveState::kFailed, "The way is blocked.");
@@ -38,12 +37,12 @@ void end_blocked(DrivingState& state, const DrivingConfig& config) {
 /// Whether the destination is right here; nothing where that is not known well enough.
 std::optional<bool> is_near(const DrivingState& state, const DrivingConfig& config) {
   if (!state.follow.view.known() || state.follow.index + 1 != state.mission->path.size()) return false;
-  constexpr double kKnownTo_m = 0.1;  // from pictures before, where somebody stands before the camera
-  if (!state.follow.measured && state.follow.view.doubt_m() > kKnownTo_m) return std::nullopt;
+  // From pictures before, where somebody stands before the camera.
+  if (!state.follow.measured && state.follow.view.doubt_m() > config.progress.near_known_m) return std::nullopt;
   if (state.follow.most_alike < share_when_here(state.follow, state.mission->path, config.follow)) return false;
   const auto goal_m = goal(state.follow, state.follow.odometry, config.follow);
-  constexpr double kStaysNear_m = 0.05;  // measured a little farther off, it is still near
-  const double near_m = config.near_m + (state.near_since_ms ? kStaysNear_m : 0.0);
+  // Measured a little farther off, it is still near.
+  const double near_m = config.near_m + (state.near_since_ms ? config.progress.stays_near_m : 0.0);
   return goal_m && goal_m->norm() < near_m;
 }
 
@@ -98,7 +97,8 @@ bool ask_people(DrivingState& state, bool certain, const DrivingConfig& config, 
                 "I am not sure that this is " + where + ", though somebody says so.");
   } else if (state.asking.said) {
     // Where it takes itself to be there all the same, a person decides.
-    state.astray = arrival_probability(state.follow, state.mission->path, config.follow) < 0.5;
+    state.astray =
+        arrival_probability(state.follow, state.mission->path, config.follow) < config.progress.denied_astray_below;
     end_mission(state, wire::DriveState::kFailed, "Somebody says that this is not " + where + ".");
   } else if (now_ms - *state.asking.since_ms > config.asks_ms) {
     end_astray(state, "I am not sure that this is " + where + ".");
@@ -106,51 +106,60 @@ bool ask_people(DrivingState& state, bool certain, const DrivingConfig& config, 
   return true;
 }
 
-}  // namespace
-
-void judge_progress(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
-  // Somebody who stands before the camera for a moment does not move the robot away.
+/// Whether the destination is right here, and since when. Somebody who stands before the camera for a moment does not
+/// move the robot away.
+void note_nearness(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
   const auto near = is_near(state, config);
-  if (near && *near) state.near_since_ms = state.near_since_ms.value_or(now_ms);
-  if (near && !*near) {
-    state.near_since_ms.reset();
-    if (!state.asking.said) stop_asking(state);  // what somebody has said is heard first
+  if (!near) return;
+  if (*near) {
+    state.near_since_ms = state.near_since_ms.value_or(now_ms);
+    return;
   }
-  if (state.docking && !stays_certain_of_arrival(state.follow, state.mission->path, config.follow)) {
-    state.docking = false;
-    state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = now_ms;
-  }
-  const bool certain =
-      is_certain_of_arrival(state.follow, state.mission->path, config.follow, state.asking.said == true);
+  state.near_since_ms.reset();
+  if (!state.asking.said) stop_asking(state);  // what somebody has said is heard first
+}
+
+/// A heading is taken only where it stays certain that this is the destination.
+void leave_dock_where_unsure(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
+  if (!state.docking || stays_certain_of_arrival(state.follow, state.mission->path, config.follow)) return;
+  state.docking = false;
+  state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = now_ms;
+}
+
+/// Whether it is at its destination by now, and certain of that.
+bool has_arrived(const DrivingState& state, bool certain, const DrivingConfig& config, Milliseconds now_ms) {
   const bool near_enough = certain && state.near_since_ms && now_ms - *state.near_since_ms > config.near_ms;
   const bool confirmed = certain && state.asking.since_ms;  // by an answer, or by what it has seen since it asks
   const bool denied = state.asking.said == false;
   // What the latest picture said of its end may be older than what speaks against it.
   const bool at_end = state.seen.at_end && certain;
-  if ((at_end || near_enough || confirmed) && !denied && !state.docking) {
-    stop_asking(state);
-    if (!state.mission->dock) return end_mission(state, wire::DriveState::kArrived, "");
-    state.docking = true;
-    state.last_gain_ms = now_ms;
-  }
-  if (state.docking) {
-    // The place is reached; a heading that cannot be taken does not make it a failure.
-    constexpr Milliseconds kDockingLimit_ms = 15'000;
-    if (state.covered) {
-      state.last_gain_ms = now_ms;  // it stands, and turns on when it sees again
-      if (now_ms - state.last_answer_ms > config.blind_ms) end_astray(state, "I do not see where I am any more.");
-      return;
-    }
-    if (now_ms - state.last_gain_ms > kDockingLimit_ms) {
-      end_mission(state, wire::DriveState::kArrived, "I am there, but cannot turn to the right heading.");
-    }
+  return (at_end || near_enough || confirmed) && !denied;
+}
+
+/// Arrived: what is left is the heading, where the mission wants one.
+void arrive(DrivingState& state, Milliseconds now_ms) {
+  stop_asking(state);
+  if (!state.mission->dock) return end_mission(state, wire::DriveState::kArrived, "");
+  state.docking = true;
+  state.last_gain_ms = now_ms;
+}
+
+/// The place is reached; a heading that cannot be taken does not make it a failure.
+void judge_docking(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
+  if (state.covered) {
+    state.last_gain_ms = now_ms;  // it stands, and turns on when it sees again
+    if (now_ms - state.last_answer_ms > config.blind_ms) end_astray(state, "I do not see where I am any more.");
     return;
   }
-  if (ask_people(state, certain, config, now_ms)) return;
-  if (now_ms - state.last_answer_ms > config.blind_ms) {
-    return end_mission(state, wire::DriveState::kFailed, "I do not recognise the way any more.");
+  if (now_ms - state.last_gain_ms > config.progress.docking_ms) {
+    end_mission(state, wire::DriveState::kArrived, "I am there, but cannot turn to the right heading.");
   }
-  const double probability = position_probability(state.follow, state.mission->path);
+}
+
+/// Ends a mission that does not know where it is, or is elsewhere than on its way; whether it does.
+bool ends_where_lost(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
+  const VisualPath& path = state.mission->path;
+  const double probability = position_probability(state.follow, path);
   if (probability >= config.follow.drive_above) {
     state.last_sure_ms = now_ms;
     state.follow.looked_around = false;
@@ -159,20 +168,27 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   }
   // Looking around is no way gained, and not blocked either.
   if (probability < drives_above(state.follow, config.follow)) state.last_gain_ms = now_ms;
-  if (now_ms - state.last_sure_ms > config.unsure_ms || state.looking.driven_m > kLooksAround_m) {
-    return end_astray(state, "I am not sure where I am.");
+  if (now_ms - state.last_sure_ms > config.unsure_ms || state.looking.driven_m > config.look_around.most_m) {
+    end_astray(state, "I am not sure where I am.");
+    return true;
   }
-  if (lasts(state.off_path_since_ms, off_path_m(state.follow, state.mission->path, config.follow), config.off_path_m,
-            now_ms, config.off_path_ms)) {
-    return end_astray(state, "I am not on my way, but elsewhere.");
+  if (lasts(state.off_path_since_ms, off_path_m(state.follow, path, config.follow), config.off_path_m, now_ms,
+            config.off_path_ms)) {
+    end_astray(state, "I am not on my way, but elsewhere.");
+    return true;
   }
-  if (lasts(state.off_belief_since_ms, off_belief_m(state.follow, state.mission->path, config.follow),
-            config.off_belief_m, now_ms, config.off_belief_ms)) {
+  if (lasts(state.off_belief_since_ms, off_belief_m(state.follow, path, config.follow), config.off_belief_m, now_ms,
+            config.off_belief_ms)) {
     state.at_odds = true;
     state.kept.reset();
-    return end_astray(state, "I am not sure where I am: the map says another place.");
+    end_astray(state, "I am not sure where I am: the map says another place.");
+    return true;
   }
-  // Beside its destination it waits for `near_ms` and has then arrived.
+  return false;
+}
+
+/// Ends a mission that makes no way. Beside its destination it waits for `near_ms` and has then arrived.
+void judge_way(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
   const bool obstacle_moves =
       state.moving_obstacle.seen_ms && now_ms - *state.moving_obstacle.seen_ms < config.stuck_ms;
   const Milliseconds patience_ms = obstacle_moves ? config.patience_ms : config.stuck_ms;
@@ -184,6 +200,25 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   }
   if (obstacle_moves) state.stays_since_ms.reset();  // it waits for them as long as its patience lasts
   if (stays_too_long(state, config, now_ms)) end_blocked(state, config);
+}
+
+}  // namespace
+
+void judge_progress(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
+  note_nearness(state, config, now_ms);
+  leave_dock_where_unsure(state, config, now_ms);
+  const bool certain =
+      is_certain_of_arrival(state.follow, state.mission->path, config.follow, state.asking.said == true);
+  if (!state.docking && has_arrived(state, certain, config, now_ms)) {
+    arrive(state, now_ms);
+    if (!state.docking) return;
+  }
+  if (state.docking) return judge_docking(state, config, now_ms);
+  if (ask_people(state, certain, config, now_ms)) return;
+  if (now_ms - state.last_answer_ms > config.blind_ms) {
+    return end_mission(state, wire::DriveState::kFailed, "I do not recognise the way any more.");
+  }
+  if (!ends_where_lost(state, config, now_ms)) judge_way(state, config, now_ms);
 }
 
 }  // namespace homeward::driving

@@ -11,16 +11,7 @@
 namespace homeward::driving {
 namespace {
 
-constexpr double kAhead_rad = 0.6;    // a goal further aside is turned to first
-constexpr double kLeastLook_m = 0.4;  // the arc's chord
-constexpr double kMostLook_m = 1.0;
-constexpr double kFarthest_m = 2.0;  // beyond that the way may change before the robot is there
-constexpr double kRoom_m = 0.2;      // beside the body; with less the middle of the way is looked for
-constexpr double kStep_m = 0.1;
-constexpr double kComfortRadius_m = 0.8;  // sharper arcs are driven slower
-constexpr double kSlowest = 0.3;          // share of the speed
-
-bool has_room(const Body& body, std::span<const Eigen::Vector2d> points_m, const Pose2& pose) {
+bool has_room(const Body& body, std::span<const Eigen::Vector2d> points_m, const Pose2& pose, double room_m) {
   const Pose2 back = inverse(pose);
   const double c = std::cos(back.theta_rad);
   const double s = std::sin(back.theta_rad);
@@ -29,7 +20,7 @@ bool has_room(const Body& body, std::span<const Eigen::Vector2d> points_m, const
   std::ranges::transform(points_m, std::back_inserter(then), [&](const Eigen::Vector2d& point) -> Eigen::Vector2d {
     return {back.x_m + c * point.x() - s * point.y(), back.y_m + s * point.x() + c * point.y()};
   });
-  return clearance_m(body, then) >= kRoom_m;
+  return clearance_m(body, then) >= room_m;
 }
 
 Pose2 along_arc(double length_m, double curvature) {
@@ -42,26 +33,29 @@ Pose2 along_arc(double length_m, double curvature) {
 }  // namespace
 
 std::optional<Motion> pursue(const Body& body, std::span<const Eigen::Vector2d> points_m, const Eigen::Vector2d& goal_m,
-                             double speed_mps) {
+                             double speed_mps, const PursuitConfig& config) {
   const double distance_m = goal_m.norm();
   const double ahead_rad = std::atan2(goal_m.y(), goal_m.x());
-  if (std::abs(ahead_rad) > kAhead_rad) return std::nullopt;
-  const double look_m = std::clamp(distance_m, kLeastLook_m, kMostLook_m);
+  if (std::abs(ahead_rad) > config.ahead_rad) return std::nullopt;
+  const double look_m = std::clamp(distance_m, config.least_look_m, config.most_look_m);
   const double curvature = 2.0 * std::sin(ahead_rad) / look_m;
   std::vector<Eigen::Vector2d> near;
-  std::ranges::copy_if(points_m, std::back_inserter(near),
-                       [](const Eigen::Vector2d& point) { return point.norm() < kFarthest_m + 1.5; });
-  const double driven_m = std::min(distance_m, kFarthest_m);
+  std::ranges::copy_if(points_m, std::back_inserter(near), [&](const Eigen::Vector2d& point) {
+    return point.norm() < config.farthest_m + config.beyond_m;
+  });
+  const double driven_m = std::min(distance_m, config.farthest_m);
   const double arc_m = std::min(look_m, distance_m);
-  for (double along_m = 0.0; along_m < arc_m; along_m += kStep_m) {
-    if (!has_room(body, near, along_arc(along_m, curvature))) return std::nullopt;
+  for (double along_m = 0.0; along_m < arc_m; along_m += config.step_m) {
+    if (!has_room(body, near, along_arc(along_m, curvature), config.room_m)) return std::nullopt;
   }
   const Eigen::Vector2d direction = goal_m / std::max(distance_m, 1e-9);
-  for (double along_m = arc_m; along_m < driven_m + kStep_m; along_m += kStep_m) {
+  for (double along_m = arc_m; along_m < driven_m + config.step_m; along_m += config.step_m) {
     const double reached_m = std::min(along_m, driven_m);
-    if (!has_room(body, near, {reached_m * direction.x(), reached_m * direction.y(), ahead_rad})) return std::nullopt;
+    if (!has_room(body, near, {reached_m * direction.x(), reached_m * direction.y(), ahead_rad}, config.room_m))
+      return std::nullopt;
   }
-  const double share = std::clamp(1.0 / (kComfortRadius_m * std::max(std::abs(curvature), 1e-9)), kSlowest, 1.0);
+  const double share =
+      std::clamp(1.0 / (config.comfort_radius_m * std::max(std::abs(curvature), 1e-9)), config.slowest_share, 1.0);
   Motion motion;
   motion.speed_mps = speed_mps * share;
   motion.turn_radps = std::clamp(motion.speed_mps * curvature, -body.max_turn_radps, body.max_turn_radps);

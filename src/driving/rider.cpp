@@ -6,13 +6,6 @@
 #include <cstdlib>
 
 namespace homeward::driving {
-namespace {
-
-constexpr double kCreep_mps = 0.12;
-constexpr double kCreep_radps = 0.4;
-
-}  // namespace
-
 bool rider_steers(const Inputs& inputs, const DrivingConfig& config, Milliseconds sensors_ms) {
   return inputs.rider && inputs.rider->deflected &&
          std::abs(sensors_ms - inputs.rider->said_ms) <= config.rider_silence_ms;
@@ -25,8 +18,8 @@ Motion rider_motion(const RiderHand& hand, const std::optional<SeenScan>& scan,
   if (scan && sensors_ms - scan->taken_ms <= config.scan_silence_ms) {
     return made_safe(hand.wanted, config.body, points_m, turning_radps);
   }
-  const Motion creeping{std::clamp(hand.wanted.speed_mps, -kCreep_mps, kCreep_mps),
-                        std::clamp(hand.wanted.turn_radps, -kCreep_radps, kCreep_radps)};
+  const Motion creeping{std::clamp(hand.wanted.speed_mps, -config.rider_creep_mps, config.rider_creep_mps),
+                        std::clamp(hand.wanted.turn_radps, -config.rider_creep_radps, config.rider_creep_radps)};
   return made_safe(creeping, config.body, {});
 }
 

@@ -51,9 +51,9 @@ TEST(LookAround, GivesUpWhenItHasDrivenFarEnough) {
   double x_m = 0.0;
   while (look_around(looking, Body{}, {}, {x_m, 0.0, 0.0})) {
     x_m += 0.1;
-    ASSERT_LT(x_m, kLooksAround_m + 1.0);
+    ASSERT_LT(x_m, LookAroundConfig{}.most_m + 1.0);
   }
-  EXPECT_GT(x_m, kLooksAround_m - 0.5);
+  EXPECT_GT(x_m, LookAroundConfig{}.most_m - 0.5);
 }
 
 }  // namespace
