@@ -13,14 +13,14 @@ struct ApproachConfig {
   double within_m = 0.35;          // so near, the destination is driven to straight, backwards where it lies behind
   double turn_gain_per_s = 1.5;    // turn rate for each radian left,
   double most_turn_radps = 0.6;    // at most,
-  double least_turn_radps = 0.12;  // and at least, where it turns in place: slower, wheels stick
+  double least_turn_radps = 0.12;  // and at least, where it turns in place
   double aligned_rad = 0.25;       // driven only with the destination that much ahead or behind
   double speed_gain_per_s = 0.7;   // speed for each metre left,
   double slowest_mps = 0.05;       // at least,
   double forward_mps = 0.2;        // and at most,
-  double backward_mps = 0.1;       // where whoever rides does not see the way
-  double room_m = 0.08;        // more room than a door needs: the last centimetres are not worth going nearer to things
-  double room_ahead_m = 0.05;  // so far on, that is
+  double backward_mps = 0.1;       // backwards
+  double room_m = 0.08;            // kept to things, or it stands: more than a door leaves
+  double room_ahead_m = 0.05;      // so far on
 };
 
 /// The last bit of the way: turning towards the destination, or away from it where it lies behind, then straight.

@@ -7,24 +7,21 @@
 namespace homeward::driving {
 namespace {
 
-// Kept between body and things; more than the noise of a sweep, or many sweeps would let it creep into contact.
-constexpr double kMargin_m = 0.05;
-constexpr double kReaction_s = 0.25;  // from the sweep to the wheels
-constexpr double kStep_s = 0.1;
-
 /// What one sweep shows about a body.
 struct Around {
   std::span<const Eigen::Vector2d> points_m;
   double now_m = 0.0;          // room that there is
   double turning_radps = 0.0;  // of the body as it moves now
+  const SafetyConfig& config;
 };
 
 /// Whether an arc of so many seconds leaves the body its margin.
 bool keeps_clear(const Motion& motion, const Body& body, const Around& around, double horizon_s) {
-  for (double t_s = kStep_s; t_s < horizon_s + kStep_s; t_s += kStep_s) {
+  const SafetyConfig& config = around.config;
+  for (double t_s = config.step_s; t_s < horizon_s + config.step_s; t_s += config.step_s) {
     const double then_m = clearance_m(body, seen_after(around.points_m, motion, std::min(t_s, horizon_s)));
     // Already too close: leaving is fine, coming nearer is not.
-    if (then_m < kMargin_m && then_m < around.now_m - 1e-4) return false;
+    if (then_m < config.margin_m && then_m < around.now_m - 1e-4) return false;
   }
   return true;
 }
@@ -34,29 +31,26 @@ bool is_safe(const Motion& motion, const Body& body, const Around& around) {
   if (!is_round(body.outline)) {
     braking_s = std::max(braking_s, std::abs(motion.turn_radps) / body.turn_deceleration_radps2);
   }
-  return keeps_clear(motion, body, around, kReaction_s + braking_s);
+  return keeps_clear(motion, body, around, around.config.reaction_s + braking_s);
 }
 
 /// Whether it is safe as well while the body still turns as it does now: a bend past a thing, wanted for one sweep, and
 /// the opposite bend for the next lead straight into it, as wheels take a moment to take up either.
 bool is_safe_until_taken_up(const Motion& motion, const Body& body, const Around& around) {
-  constexpr double kTakesUp_s = 0.2;
-  return keeps_clear({motion.speed_mps, around.turning_radps}, body, around, kTakesUp_s);
+  return keeps_clear({motion.speed_mps, around.turning_radps}, body, around, around.config.takes_up_s);
 }
 
 /// The safe motion most like one that is not, in the same direction: a dynamic window (Fox, Burgard and Thrun, "The
 /// dynamic window approach to collision avoidance", IEEE RAM 4(1), 1997) about it. A long body beside a wall often gets
 /// on by a little more or less of a bend. Standing still where there is none.
 Motion safe_near(const Motion& wanted, const Body& body, const Around& around) {
-  constexpr double kSlow_mps = 0.06;
-  constexpr double kBend_radps = 0.1;
-  constexpr int kBends = 4;
+  const SafetyConfig& config = around.config;
   const bool turns_only = std::abs(wanted.speed_mps) < 0.01;
-  const double slow_mps = turns_only ? kSlow_mps : std::copysign(kSlow_mps, wanted.speed_mps);
-  const double slow_radps = std::clamp(wanted.turn_radps, -2.0 * kBend_radps, 2.0 * kBend_radps);
-  for (int bend = 0; bend <= kBends; ++bend) {
+  const double slow_mps = turns_only ? config.slow_mps : std::copysign(config.slow_mps, wanted.speed_mps);
+  const double slow_radps = std::clamp(wanted.turn_radps, -2.0 * config.bend_radps, 2.0 * config.bend_radps);
+  for (int bend = 0; bend <= config.bends; ++bend) {
     for (const double side : {1.0, -1.0}) {
-      const double turn_radps = slow_radps + side * bend * kBend_radps;
+      const double turn_radps = slow_radps + side * bend * config.bend_radps;
       // Bending the other way would only lead away from the way.
       if (turn_radps * wanted.turn_radps < 0.0 || (turns_only && turn_radps == 0.0)) continue;
       for (const double way : {1.0, -1.0}) {
@@ -73,10 +67,9 @@ Motion safe_near(const Motion& wanted, const Body& body, const Around& around) {
 /// A long body keeps to the bend that was chosen for it, slower; its front may move sideways hardly faster than things
 /// beside it allow it to drive.
 Motion made_safe_long(const Motion& wanted, const Body& body, const Around& around, double closeness_mps) {
-  constexpr double kSwing = 1.5;
   const double swing_mps = std::abs(wanted.turn_radps) * swept_radius_m(body.outline);
   const double most = std::min({1.0, closeness_mps / std::max(1e-6, std::abs(wanted.speed_mps)),
-                                kSwing * closeness_mps / std::max(1e-6, swing_mps)});
+                                around.config.swing * closeness_mps / std::max(1e-6, swing_mps)});
   for (const double share : {1.0, 0.75, 0.5, 0.25}) {
     const Motion slower{wanted.speed_mps * most * share, wanted.turn_radps * most * share};
     if (is_safe(slower, body, around)) return slower;
@@ -111,20 +104,20 @@ double clearance_m(const Body& body, std::span<const Eigen::Vector2d> points_m) 
 }
 
 Motion made_safe(const Motion& wanted, const Body& body, std::span<const Eigen::Vector2d> points_m,
-                 double turning_radps) {
+                 double turning_radps, const SafetyConfig& config) {
   // Far points cannot matter within one braking distance.
-  constexpr double kNear_m = 2.5;
   std::vector<Eigen::Vector2d> near;
   for (const Eigen::Vector2d& point : points_m) {
-    if (point.norm() < kNear_m) near.push_back(point);
+    if (point.norm() < config.near_m) near.push_back(point);
   }
-  const Around around{near, clearance_m(body, near), turning_radps};
+  const Around around{near, clearance_m(body, near), turning_radps, config};
   Motion motion = wanted;
-  motion.speed_mps = std::clamp(motion.speed_mps, -std::min(0.2, body.max_speed_mps), body.max_speed_mps);
+  motion.speed_mps =
+      std::clamp(motion.speed_mps, -std::min(config.backward_mps, body.max_speed_mps), body.max_speed_mps);
   motion.turn_radps = std::clamp(motion.turn_radps, -body.max_turn_radps, body.max_turn_radps);
-  // Closeness limits speed even beside things: 1 m/s for each metre of room, but creeping is always allowed.
-  constexpr double kCreep_mps = 0.12;
-  const double closeness_mps = std::max(kCreep_mps, 0.1 + 1.2 * std::max(0.0, around.now_m));
+  // Closeness limits speed even beside things: so much for each metre of room, but creeping is always allowed.
+  const double closeness_mps =
+      std::max(config.creep_mps, config.touching_mps + config.closeness_per_s * std::max(0.0, around.now_m));
   if (!is_round(body.outline)) return made_safe_long(motion, body, around, closeness_mps);
   motion.speed_mps = std::min(motion.speed_mps, closeness_mps);
   for (const double share : {1.0, 0.75, 0.5, 0.25}) {

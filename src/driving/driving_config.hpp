@@ -44,6 +44,7 @@ struct ProgressConfig {
 struct DrivingConfig {
   Body body;
   FollowConfig follow;
+  SafetyConfig safety;
   SpeedConfig speed;
   ProgressConfig progress;
   ApproachConfig approach;

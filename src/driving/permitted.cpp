@@ -44,7 +44,7 @@ Motion permitted_motion(Motion wanted, const DrivingState& state, const DrivingC
   // What no sensor looks at may be anything.
   const bool forward_only = !looks_behind(state.scan->scan);
   if (forward_only) slowed.speed_mps = std::max(0.0, slowed.speed_mps);
-  const Motion safe = made_safe(slowed, config.body, points_m, state.turning.radps());
+  const Motion safe = made_safe(slowed, config.body, points_m, state.turning.radps(), config.safety);
   return forward_only && !(safe.speed_mps >= 0.0) ? Motion{} : safe;
 }
 

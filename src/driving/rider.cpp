@@ -16,11 +16,11 @@ Motion rider_motion(const RiderHand& hand, const std::optional<SeenScan>& scan,
                     Milliseconds sensors_ms) {
   if (!std::isfinite(hand.wanted.speed_mps) || !std::isfinite(hand.wanted.turn_radps)) return {};
   if (scan && sensors_ms - scan->taken_ms <= config.scan_silence_ms) {
-    return made_safe(hand.wanted, config.body, points_m, turning_radps);
+    return made_safe(hand.wanted, config.body, points_m, turning_radps, config.safety);
   }
   const Motion creeping{std::clamp(hand.wanted.speed_mps, -config.rider_creep_mps, config.rider_creep_mps),
                         std::clamp(hand.wanted.turn_radps, -config.rider_creep_radps, config.rider_creep_radps)};
-  return made_safe(creeping, config.body, {});
+  return made_safe(creeping, config.body, {}, 0.0, config.safety);
 }
 
 }  // namespace homeward::driving

@@ -103,7 +103,7 @@ Motion steer_round(LongPlan& plan, const Body& body, std::span<const Eigen::Vect
                    const SteeringConfig& config) {
   if (is_round(body.outline))
     return steer_round(body, points_m, goal_m, odometry.theta_rad, speed_mps, turn_gain, config);
-  return steer_long(plan, body, points_m, goal_m, odometry, speed_mps, turn_gain);
+  return steer_long(plan, body, points_m, goal_m, odometry, speed_mps, turn_gain, config.long_plan);
 }
 
 }  // namespace homeward::driving

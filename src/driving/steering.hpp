@@ -10,7 +10,7 @@
 
 namespace homeward::driving {
 
-/// How a round body is led round what stands in its way.
+/// How a body is led round what stands in its way: a round one, and one that is not (`long_plan`).
 struct SteeringConfig {
   double close_m = 0.1;           // with less room the way out is looked for first
   double enough_m = 0.08;         // so much room it wants before it minds nothing but its way
@@ -25,6 +25,7 @@ struct SteeringConfig {
   double longer_m = 1.5;          // and by more than that, leads behind walls mostly: it waits
   double turn_first_rad = 0.9;    // a way further aside is turned to in place
   double slowest_share = 0.15;    // of the speed, right before that
+  LongPlanConfig long_plan;
 };
 
 /// The motion that leads a round body round what the sweep saw to a goal in the robot frame, slower in turns; standing

@@ -2,6 +2,7 @@
 #include "recording/settings_json.hpp"
 
 #include "recording/json_fields.hpp"
+#include "recording/motion_fields.hpp"
 
 namespace homeward::recording {
 namespace {
@@ -151,129 +152,8 @@ void follow_fields(Fields& fields, Config& follow) {
 }
 
 template <class Fields, class Config>
-void speed_fields(Fields& fields, Config& speed) {
-  auto& [shortcut_mps, unsure_mps, destination_gain_per_s, destination_mps, alike_mps, alike_share, without_doubt,
-         less_per_m, least_share] = speed;
-  fields("speed_shortcut_mps", shortcut_mps);
-  fields("speed_unsure_mps", unsure_mps);
-  fields("speed_destination_gain_per_s", destination_gain_per_s);
-  fields("speed_destination_mps", destination_mps);
-  fields("speed_alike_mps", alike_mps);
-  fields("speed_alike_share", alike_share);
-  fields("speed_without_doubt", without_doubt);
-  fields("speed_less_per_m", less_per_m);
-  fields("speed_least_share", least_share);
-}
-
-template <class Fields, class Config>
-void progress_fields(Fields& fields, Config& progress) {
-  auto& [gain_m, near_known_m, stays_near_m, docking_ms, blocked_odds, blocked_within_m, denied_astray_below] =
-      progress;
-  fields("progress_gain_m", gain_m);
-  fields("progress_near_known_m", near_known_m);
-  fields("progress_stays_near_m", stays_near_m);
-  fields("progress_docking_ms", docking_ms);
-  fields("progress_blocked_odds", blocked_odds);
-  fields("progress_blocked_within_m", blocked_within_m);
-  fields("progress_denied_astray_below", denied_astray_below);
-}
-
-template <class Fields, class Config>
-void approach_fields(Fields& fields, Config& approach) {
-  auto& [within_m, turn_gain_per_s, most_turn_radps, least_turn_radps, aligned_rad, speed_gain_per_s, slowest_mps,
-         forward_mps, backward_mps, room_m, room_ahead_m] = approach;
-  fields("approach_within_m", within_m);
-  fields("approach_turn_gain_per_s", turn_gain_per_s);
-  fields("approach_most_turn_radps", most_turn_radps);
-  fields("approach_least_turn_radps", least_turn_radps);
-  fields("approach_aligned_rad", aligned_rad);
-  fields("approach_speed_gain_per_s", speed_gain_per_s);
-  fields("approach_slowest_mps", slowest_mps);
-  fields("approach_forward_mps", forward_mps);
-  fields("approach_backward_mps", backward_mps);
-  fields("approach_room_m", room_m);
-  fields("approach_room_ahead_m", room_ahead_m);
-}
-
-template <class Fields, class Config>
-void pursuit_fields(Fields& fields, Config& pursuit) {
-  auto& [ahead_rad, least_look_m, most_look_m, farthest_m, beyond_m, room_m, step_m, comfort_radius_m, slowest_share] =
-      pursuit;
-  fields("pursuit_ahead_rad", ahead_rad);
-  fields("pursuit_least_look_m", least_look_m);
-  fields("pursuit_most_look_m", most_look_m);
-  fields("pursuit_farthest_m", farthest_m);
-  fields("pursuit_beyond_m", beyond_m);
-  fields("pursuit_room_m", room_m);
-  fields("pursuit_step_m", step_m);
-  fields("pursuit_comfort_radius_m", comfort_radius_m);
-  fields("pursuit_slowest_share", slowest_share);
-}
-
-template <class Fields, class Config>
-void steering_fields(Fields& fields, Config& steering) {
-  auto& [close_m, enough_m, outwards, look_m, heading_step_rad, near_m, alike_m, look_s, step_s, longest_share,
-         longer_m, turn_first_rad, slowest_share] = steering;
-  fields("steering_close_m", close_m);
-  fields("steering_enough_m", enough_m);
-  fields("steering_outwards", outwards);
-  fields("steering_look_m", look_m);
-  fields("steering_heading_step_rad", heading_step_rad);
-  fields("steering_near_m", near_m);
-  fields("steering_alike_m", alike_m);
-  fields("steering_look_s", look_s);
-  fields("steering_step_s", step_s);
-  fields("steering_longest_share", longest_share);
-  fields("steering_longer_m", longer_m);
-  fields("steering_turn_first_rad", turn_first_rad);
-  fields("steering_slowest_share", slowest_share);
-}
-
-template <class Fields, class Config>
-void give_way_fields(Fields& fields, Config& give_way) {
-  auto& [patience_ms, long_patience_ms, got_on_m, back_m, least_back_m, farther_back_m, farthest_back_m, backing_mps,
-         turning_ms, there_m, waiting_ms, longest_wait_ms, quiet_ms, somebody_ms, times, elsewhere_m, enough_beside_m,
-         most_aside_m, wall_m] = give_way;
-  fields("give_way_patience_ms", patience_ms);
-  fields("give_way_long_patience_ms", long_patience_ms);
-  fields("give_way_got_on_m", got_on_m);
-  fields("give_way_back_m", back_m);
-  fields("give_way_least_back_m", least_back_m);
-  fields("give_way_farther_back_m", farther_back_m);
-  fields("give_way_farthest_back_m", farthest_back_m);
-  fields("give_way_backing_mps", backing_mps);
-  fields("give_way_turning_ms", turning_ms);
-  fields("give_way_there_m", there_m);
-  fields("give_way_waiting_ms", waiting_ms);
-  fields("give_way_longest_wait_ms", longest_wait_ms);
-  fields("give_way_quiet_ms", quiet_ms);
-  fields("give_way_somebody_ms", somebody_ms);
-  fields("give_way_times", times);
-  fields("give_way_elsewhere_m", elsewhere_m);
-  fields("give_way_enough_beside_m", enough_beside_m);
-  fields("give_way_most_aside_m", most_aside_m);
-  fields("give_way_wall_m", wall_m);
-}
-
-template <class Fields, class Config>
-void look_around_fields(Fields& fields, Config& look_around) {
-  auto& [most_m, step_m, least_way_m, reached_m, trail_m, keeps_off_m, room_m, farthest_m, turn_cost_m, directions] =
-      look_around;
-  fields("look_around_most_m", most_m);
-  fields("look_around_step_m", step_m);
-  fields("look_around_least_way_m", least_way_m);
-  fields("look_around_reached_m", reached_m);
-  fields("look_around_trail_m", trail_m);
-  fields("look_around_keeps_off_m", keeps_off_m);
-  fields("look_around_room_m", room_m);
-  fields("look_around_farthest_m", farthest_m);
-  fields("look_around_turn_cost_m", turn_cost_m);
-  fields("look_around_directions", directions);
-}
-
-template <class Fields, class Config>
 void driving_fields(Fields& fields, Config& driving) {
-  auto& [body, follow, speed, progress, approach, pursuit, steering, give_way, look_around, feature_config_id,
+  auto& [body, follow, safety, speed, progress, approach, pursuit, steering, give_way, look_around, feature_config_id,
          link_silence_ms, frame_silence_ms, first_frame_ms, scan_silence_ms, rider_silence_ms, loop_silence_ms,
          held_up_ms, stands_within_ms, reaction_ms, blind_ms, looks_ms, unsure_ms, off_path_ms, off_path_m,
          off_belief_ms, off_belief_m, estimate_lives_ms, belief_silence_ms, doubtful_ms, asks_ms, stuck_ms, patience_ms,
@@ -281,6 +161,7 @@ void driving_fields(Fields& fields, Config& driving) {
          odometry_jump_m, least_aim_m, rider_creep_mps, rider_creep_radps] = driving;
   body_fields(fields, body);
   follow_fields(fields, follow);
+  safety_fields(fields, safety);
   speed_fields(fields, speed);
   progress_fields(fields, progress);
   approach_fields(fields, approach);

@@ -28,6 +28,16 @@ TEST(SettingsJson, GiveEveryNumberOfDrivingBack) {
   EXPECT_EQ(config->stuck_ms, 20'001);
 }
 
+TEST(SettingsJson, LeaveTheProgramsValueWhereAnOlderRecordingLacksIt) {
+  const auto config = driving_from_json(R"({"turn_gain": 1.5})");
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(config->turn_gain, 1.5);
+  const driving::DrivingConfig usual;
+  EXPECT_EQ(config->give_way.patience_ms, usual.give_way.patience_ms);
+  EXPECT_EQ(config->safety.margin_m, usual.safety.margin_m);
+  EXPECT_EQ(config->steering.long_plan.cheaper_m, usual.steering.long_plan.cheaper_m);
+}
+
 TEST(SettingsJson, KeepTheIdOfFeatures) {
   features::FeatureConfig config;
   config.panorama_width_px = 512;
