@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "core/angles.hpp"
 #include "core/version.hpp"
@@ -70,6 +72,100 @@ Result<MissionResult> drive_mission(DriveLoop& drive, House& house, wire::Missio
   return result;
 }
 
+/// What one mission is driven with.
+struct Setting {
+  TaughtWorld& taught;
+  const MissionPlan& plan;
+  const sim::RobotProfile& profile;
+  const ScenarioListener& listener;
+  const std::optional<recording::RecordingOptions>& record;
+};
+
+/// The world as it is on the day of a mission; the map knows it as it was.
+struct WorldOfDay {
+  sim::LitWorld* world = nullptr;          // that of the tour, or the changed one
+  std::unique_ptr<sim::LitWorld> changed;  // where furniture was moved
+  int moved_furniture = 0;
+};
+
+Result<WorldOfDay> world_of_day(const Setting& mission, const sim::LightPreset& light) {
+  WorldOfDay day;
+  day.world = mission.taught.world.get();
+  if (mission.plan.moved_furniture <= 0) {
+    prepare_light(*day.world, light);
+    return day;
+  }
+  const double half_width_m = mission.profile.outline.radius_m + mission.profile.outline.side_m;
+  auto moved =
+      sim::move_furniture(day.world->world(), mission.plan.moved_furniture, half_width_m, mission.plan.seed + 29);
+  if (!moved) return pass_on(moved);
+  day.moved_furniture = moved->moved;
+  day.changed = std::make_unique<sim::LitWorld>(std::move(moved->world));
+  day.world = day.changed.get();
+  day.world->irradiance(light);  // of this mission alone: not for the cache
+  return day;
+}
+
+Result<SimulatedRobot> robot_for(const Setting& mission, sim::LitWorld& world, const sim::LightPreset& light,
+                                 const Pose2& start) {
+  SimulatedRobotConfig config;
+  config.camera = mission.taught.camera;
+  config.light = light;
+  config.profile = mission.profile;
+  config.people = mission.plan.people;
+  config.seed = mission.plan.seed;
+  return SimulatedRobot::create(world, config, start);
+}
+
+/// Null where the mission is not recorded.
+Result<std::unique_ptr<recording::Recorder>> recorder_for(const Setting& mission,
+                                                          const driving::DrivingConfig& config) {
+  if (!mission.record) return std::unique_ptr<recording::Recorder>();
+  const recording::Recorder::Robot recorded{name_with_version("homeward simulate"), mission.taught.camera,
+                                            mission.taught.map->feature_config, config};
+  return recording::Recorder::create(*mission.record, recorded,
+                                     [&listener = mission.listener](const std::string& what) {
+                                       if (listener.log) listener.log(what);
+                                     });
+}
+
+/// Drives an order and those that follow it, with all that goes wrong and whoever answers.
+Result<MissionResult> drive_with(const Setting& mission, const wire::MissionOrder& order, const Pose2& target,
+                                 SimulatedRobot& robot, const pipeline::Eye& eye, House& house) {
+  driving::DrivingConfig config;
+  config.body = body_of(mission.profile);
+  config.feature_config_id = mission.taught.map->feature_config_id;
+  const auto recorder = recorder_for(mission, config);
+  if (!recorder) return pass_on(recorder);
+  DriveLoop drive(robot, eye, FaultSchedule(mission.plan.faults), config, mission.listener, recorder->get());
+  drive.kidnap_to([&] { return look_alike_spot(mission.taught, robot, eye); });
+  if (auto answers = answers_named(mission.plan.answers, target)) drive.answer_by(std::move(*answers));
+  drive.ask_belief([&](const features::Appearance& seen, const Pose2& odometry, const auto& estimate) {
+    return house.believe(seen, odometry, estimate);
+  });
+  return drive_mission(drive, house, order);
+}
+
+/// Finds the robot's place and drives from there, where there is a way.
+Result<MissionResult> drive_from_here(const Setting& mission, const map::Destination& destination, const Pose2& target,
+                                      SimulatedRobot& robot) {
+  const auto eye = pipeline::Eye::create(mission.taught.camera, mission.taught.map->feature_config);
+  if (!eye) return pass_on(eye);
+  auto house = House::create(mission.taught, destination);
+  if (!house) return pass_on(house);
+  const auto place = house->find_place(robot);
+  if (!place) return pass_on(place);
+  MissionResult result;
+  if (!*place) {
+    result.stops.push_back({0.0, "I do not know where I am.", {}});
+    return result;
+  }
+  const auto order = house->order_from(**place);
+  if (order) return drive_with(mission, *order, target, robot, *eye, *house);
+  result.stops.push_back({0.0, order.error().message, {}});
+  return result;
+}
+
 }  // namespace
 
 Result<MissionResult> drive_order(SimulatedRobot& robot, const pipeline::Eye& eye, const wire::MissionOrder& order,
@@ -99,74 +195,24 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
   }
   const auto light = light_named(plan.light);
   if (!light) return pass_on(light);
-  // The world as it is now; the map knows it as it was.
-  sim::LitWorld* world = taught.world.get();
-  std::optional<sim::LitWorld> changed;
-  int moved_furniture = 0;
-  if (plan.moved_furniture > 0) {
-    const double half_width_m = profile.outline.radius_m + profile.outline.side_m;
-    auto moved = sim::move_furniture(world->world(), plan.moved_furniture, half_width_m, plan.seed + 29);
-    if (!moved) return pass_on(moved);
-    moved_furniture = moved->moved;
-    changed.emplace(std::move(moved->world));
-    world = &*changed;
-    world->irradiance(*light);  // of this mission alone: not for the cache
-  } else {
-    prepare_light(*world, *light);
-  }
-  const auto from_m = sim::room_point(world->world(), plan.from);
+  const Setting mission{taught, plan, profile, listener, record};
+  const auto day = world_of_day(mission, *light);
+  if (!day) return pass_on(day);
+  const sim::World& world = day->world->world();
+  const auto from_m = sim::room_point(world, plan.from);
   if (!from_m) return pass_on(from_m);
-  const auto start = starting_pose(world->world(), *from_m, profile, plan.seed);
+  const auto start = starting_pose(world, *from_m, profile, plan.seed);
   if (!start) return pass_on(start);
-  SimulatedRobotConfig robot_config;
-  robot_config.camera = taught.camera;
-  robot_config.light = *light;
-  robot_config.profile = profile;
-  robot_config.people = plan.people;
-  robot_config.seed = plan.seed;
-  auto robot = SimulatedRobot::create(*world, robot_config, *start);
+  auto robot = robot_for(mission, *day->world, *light, *start);
   if (!robot) return pass_on(robot);
-  const auto eye = pipeline::Eye::create(taught.camera, taught.map->feature_config);
-  if (!eye) return pass_on(eye);
-  auto house = House::create(taught, *destination);
-  if (!house) return pass_on(house);
-
-  MissionResult result;
-  const auto place = house->find_place(*robot);
-  if (!place) return pass_on(place);
-  if (!*place) {
-    result.stops.push_back({0.0, "I do not know where I am.", {}});
-  } else if (const auto order = house->order_from(**place); !order) {
-    result.stops.push_back({0.0, order.error().message, {}});
-  } else {
-    driving::DrivingConfig config;
-    config.body = body_of(profile);
-    config.feature_config_id = taught.map->feature_config_id;
-    std::unique_ptr<recording::Recorder> recorder;
-    if (record) {
-      const recording::Recorder::Robot recorded{name_with_version("homeward simulate"), taught.camera,
-                                                taught.map->feature_config, config};
-      auto created = recording::Recorder::create(*record, recorded, [&](const std::string& what) {
-        if (listener.log) listener.log(what);
-      });
-      if (!created) return pass_on(created);
-      recorder = std::move(*created);
-    }
-    DriveLoop drive(*robot, *eye, FaultSchedule(plan.faults), config, listener, recorder.get());
-    drive.kidnap_to([&] { return look_alike_spot(taught, *robot, *eye); });
-    if (auto answers = answers_named(plan.answers, target->second)) drive.answer_by(std::move(*answers));
-    drive.ask_belief([&](const features::Appearance& seen, const Pose2& odometry, const auto& estimate) {
-      return house->believe(seen, odometry, estimate);
-    });
-    auto driven = drive_mission(drive, *house, *order);
-    if (!driven) return pass_on(driven);
-    result = std::move(*driven);
-  }
+  auto driven = drive_from_here(mission, *destination, target->second, *robot);
+  if (!driven) return pass_on(driven);
+  MissionResult result = std::move(*driven);
   result.from = plan.from;
   result.to = plan.to;
-  result.moved_furniture = moved_furniture;
+  result.moved_furniture = day->moved_furniture;
   result.shortest_m = sim::length_m(
-      sim::shortest_way(world->world().drivable, {start->x_m, start->y_m}, {target->second.x_m, target->second.y_m}));
+      sim::shortest_way(world.drivable, {start->x_m, start->y_m}, {target->second.x_m, target->second.y_m}));
   result.tour_graph_m =
       way_over_edges_m(*taught.map, taught.picture_poses, {start->x_m, start->y_m}, *destination, false);
   judge(robot->vehicle(), target->second, result);
