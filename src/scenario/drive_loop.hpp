@@ -32,12 +32,12 @@ struct DrivenPicture {
 /// Where a robot is put that is lifted in mid-mission. Nothing: there is no such spot.
 using Elsewhere = std::function<Result<std::optional<Pose2>>()>;
 
-/// What the house believes of a picture that the robot has recognised, where it was taken, and where the robot takes
+/// What the server believes of a picture that the robot has recognised, where it was taken, and where the robot takes
 /// itself to be.
 using Believes = std::function<wire::BeliefReport(const features::Appearance&, const Pose2&,
                                                   const std::optional<wire::EstimateReport>&)>;
 
-/// The loop of one mission: world, sensors and driving step, cycle by cycle, and the house that permits it, with all
+/// The loop of one mission: world, sensors and driving step, cycle by cycle, and the server that permits it, with all
 /// that goes wrong. The robot's base brakes by itself 0.1 s after the last command.
 class DriveLoop {
  public:
@@ -82,7 +82,7 @@ class DriveLoop {
  private:
   Status cycle();
   Result<driving::Outputs> step_once(bool link_up);
-  void hear_the_house(bool link_up);
+  void hear_server(bool link_up);
   void answer_question();
   void place_boxes();
   Status kidnap();
@@ -107,7 +107,7 @@ class DriveLoop {
   std::function<bool(const CycleTrace&)> ended_;
   bool is_ended_ = false;
   std::int64_t answered_ = 0;                  // number of the last question that somebody heard
-  driving::Milliseconds believed_ms_ = -1000;  // when the house was asked last
+  driving::Milliseconds believed_ms_ = -1000;  // when the server was asked last
   driving::DrivingState state_;
   std::vector<wire::ServerMessage> messages_;
   std::vector<StopEvent> stops_;
@@ -124,7 +124,7 @@ class DriveLoop {
   double belief_apart_s_ = 0.0;
   driving::Milliseconds now_ms_ = 0;
   double commanded_s_ = 0.0;  // the last command that reached the base
-  double heard_s_ = 0.0;      // when the house last heard of the agent
+  double heard_s_ = 0.0;      // when the server last heard of the agent
   double stands_since_s_ = 0.0;
   bool stopped_by_hand_ = false;
   bool halted_ = false;  // stopped, and no order since

@@ -50,14 +50,14 @@ MissionResult result_of(DriveLoop& drive) {
 }
 
 /// Drives a mission with all the orders that it takes.
-Result<MissionResult> drive_mission(DriveLoop& drive, House& house, wire::MissionOrder order) {
+Result<MissionResult> drive_mission(DriveLoop& drive, SimulatedServer& server, wire::MissionOrder order) {
   for (;;) {
-    std::vector<Pose2> way = house.way_of(order);
+    std::vector<Pose2> way = server.way_of(order);
     if (const Status driven = drive.run(std::move(order), std::move(way)); !driven) return pass_on(driven);
     // What a person or a fault has stopped, only a person sets going again.
     if (drive.state().drive != wire::DriveState::kFailed) break;
     std::string why;
-    auto next = house.order_after(drive, why);
+    auto next = server.order_after(drive, why);
     if (!next) return pass_on(next);
     if (!why.empty() && !drive.stops().empty()) drive.stops().back().reason += " " + why;
     if (!*next) break;
@@ -68,7 +68,7 @@ Result<MissionResult> drive_mission(DriveLoop& drive, House& house, wire::Missio
     if (const Status watched = drive.watch(); !watched) return pass_on(watched);
   }
   result.moved_after_stop = drive.moved_after_stop();
-  result.detours = house.detours();
+  result.detours = server.detours();
   return result;
 }
 
@@ -131,7 +131,7 @@ Result<std::unique_ptr<recording::Recorder>> recorder_for(const Setting& mission
 
 /// Drives an order and those that follow it, with all that goes wrong and whoever answers.
 Result<MissionResult> drive_with(const Setting& mission, const wire::MissionOrder& order, const Pose2& target,
-                                 SimulatedRobot& robot, const pipeline::Eye& eye, House& house) {
+                                 SimulatedRobot& robot, const pipeline::Eye& eye, SimulatedServer& server) {
   driving::DrivingConfig config;
   config.body = body_of(mission.profile);
   config.feature_config_id = mission.taught.map->feature_config_id;
@@ -141,9 +141,9 @@ Result<MissionResult> drive_with(const Setting& mission, const wire::MissionOrde
   drive.kidnap_to([&] { return look_alike_spot(mission.taught, robot, eye); });
   if (auto answers = answers_named(mission.plan.answers, target)) drive.answer_by(std::move(*answers));
   drive.ask_belief([&](const features::Appearance& seen, const Pose2& odometry, const auto& estimate) {
-    return house.believe(seen, odometry, estimate);
+    return server.believe(seen, odometry, estimate);
   });
-  return drive_mission(drive, house, order);
+  return drive_mission(drive, server, order);
 }
 
 /// Finds the robot's place and drives from there, where there is a way.
@@ -151,17 +151,17 @@ Result<MissionResult> drive_from_here(const Setting& mission, const map::Destina
                                       SimulatedRobot& robot) {
   const auto eye = pipeline::Eye::create(mission.taught.camera, mission.taught.map->feature_config);
   if (!eye) return pass_on(eye);
-  auto house = House::create(mission.taught, destination);
-  if (!house) return pass_on(house);
-  const auto place = house->find_place(robot);
+  auto server = SimulatedServer::create(mission.taught, destination);
+  if (!server) return pass_on(server);
+  const auto place = server->find_place(robot);
   if (!place) return pass_on(place);
   MissionResult result;
   if (!*place) {
     result.stops.push_back({0.0, "I do not know where I am.", {}});
     return result;
   }
-  const auto order = house->order_from(**place);
-  if (order) return drive_with(mission, *order, target, robot, *eye, *house);
+  const auto order = server->order_from(**place);
+  if (order) return drive_with(mission, *order, target, robot, *eye, *server);
   result.stops.push_back({0.0, order.error().message, {}});
   return result;
 }

@@ -20,13 +20,13 @@ std::optional<PlaceId> place_of(const localisation::Belief& belief) {
 
 }  // namespace
 
-Result<House> House::create(const TaughtWorld& taught, const map::Destination& destination) {
+Result<SimulatedServer> SimulatedServer::create(const TaughtWorld& taught, const map::Destination& destination) {
   auto tracker = pipeline::BeliefTracker::create(taught.map, taught.camera);
   if (!tracker) return pass_on(tracker);
-  return House(taught, destination, std::move(*tracker));
+  return SimulatedServer(taught, destination, std::move(*tracker));
 }
 
-Result<std::optional<PlaceId>> House::find_place(SimulatedRobot& robot) {
+Result<std::optional<PlaceId>> SimulatedServer::find_place(SimulatedRobot& robot) {
   constexpr int kLooks = 3;
   tracker_.restart();
   for (int look = 0; look < kLooks; ++look) {
@@ -40,13 +40,13 @@ Result<std::optional<PlaceId>> House::find_place(SimulatedRobot& robot) {
   return belief_.top.front().place;
 }
 
-void House::begin_by_belief() {
+void SimulatedServer::begin_by_belief() {
   likely_.clear();
   for (const auto& [place, probability] : belief_.top) likely_.push_back(place);
   start_probability_ = belief_.lost ? belief_.near_share : belief_.near_probability;
 }
 
-Result<wire::MissionOrder> House::order_from(const PlaceId& place, bool second_look) {
+Result<wire::MissionOrder> SimulatedServer::order_from(const PlaceId& place, bool second_look) {
   planning::RouteRequest request;
   request.from = place;
   request.to = destination_->place;
@@ -74,7 +74,7 @@ Result<wire::MissionOrder> House::order_from(const PlaceId& place, bool second_l
 }
 
 /// Where the robot stands that was lifted: by what it sees now alone. Where that says little, the likeliest place.
-Result<std::optional<PlaceId>> House::look_anew(DriveLoop& drive) {
+Result<std::optional<PlaceId>> SimulatedServer::look_anew(DriveLoop& drive) {
   constexpr int kLooks = 4;
   const double lifted_s = drive.elapsed_s();
   while (drive.elapsed_s() - lifted_s < planning::kStandsAfterLift_s) {
@@ -97,7 +97,7 @@ Result<std::optional<PlaceId>> House::look_anew(DriveLoop& drive) {
 
 /// Where the robot stands after a failed drive: by the last seconds' pictures and some more, which look first beside
 /// the places that it has just passed; where that says nothing, anew among all places.
-Result<std::optional<PlaceId>> House::find_again(DriveLoop& drive) {
+Result<std::optional<PlaceId>> SimulatedServer::find_again(DriveLoop& drive) {
   constexpr int kLeastLooks = 3;
   constexpr int kMostLooks = 16;
   constexpr int kAnewAfter = 8;
@@ -125,7 +125,7 @@ Result<std::optional<PlaceId>> House::find_again(DriveLoop& drive) {
 /// Where the robot is to begin, and how probable that is; `unsure` where nobody is sure of it. The belief is of the
 /// whole map and of all pictures of the drive; where it is lost, the robot's own estimate. Of a covered camera neither
 /// says anything, nor of a robot that was lifted.
-std::optional<PlaceId> House::believed_start(const driving::DrivingState& robot, bool sees, bool& unsure) {
+std::optional<PlaceId> SimulatedServer::believed_start(const driving::DrivingState& robot, bool sees, bool& unsure) {
   constexpr double kBothMayBeRight = 0.5;
   constexpr double kApart_m = 2.0;
   begin_by_belief();
@@ -148,7 +148,7 @@ std::optional<PlaceId> House::believed_start(const driving::DrivingState& robot,
   return believed ? believed : estimated;
 }
 
-Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, std::string& why) {
+Result<std::optional<wire::MissionOrder>> SimulatedServer::order_after(DriveLoop& drive, std::string& why) {
   const driving::DrivingState& robot = drive.state();
   // The destination's own view comes after that of its place.
   const std::int64_t index = std::min<std::int64_t>(robot.follow.index, static_cast<std::int64_t>(path_.size()) - 1);
@@ -191,8 +191,8 @@ Result<std::optional<wire::MissionOrder>> House::order_after(DriveLoop& drive, s
   return std::optional(std::move(*order));
 }
 
-wire::BeliefReport House::believe(const features::Appearance& seen, const Pose2& odometry,
-                                  const std::optional<wire::EstimateReport>& estimate) {
+wire::BeliefReport SimulatedServer::believe(const features::Appearance& seen, const Pose2& odometry,
+                                            const std::optional<wire::EstimateReport>& estimate) {
   belief_ = tracker_.update(seen, odometry);
   if (estimate) belief_ = tracker_.hear(estimate->place, estimate->probability);
   wire::BeliefReport report;
@@ -202,7 +202,7 @@ wire::BeliefReport House::believe(const features::Appearance& seen, const Pose2&
   return report;
 }
 
-std::vector<Pose2> House::way_of(const wire::MissionOrder& order) const {
+std::vector<Pose2> SimulatedServer::way_of(const wire::MissionOrder& order) const {
   std::vector<Pose2> way;
   const auto add = [&](const ImageId& image) {
     const auto pose = taught_->picture_poses.find(image);

@@ -15,10 +15,10 @@ namespace homeward::scenario {
 
 /// What a server does for a mission, without one: says where the robot is, plans its way, and after a drive has failed
 /// looks again and gives an order for another way, as `planning::detour_after` decides.
-class House {
+class SimulatedServer {
  public:
   /// `destination` must be of the map of `taught`, which outlives this. Errors: those of BeliefTracker::create.
-  static Result<House> create(const TaughtWorld& taught, const map::Destination& destination);
+  static Result<SimulatedServer> create(const TaughtWorld& taught, const map::Destination& destination);
 
   /// Looks at where the robot stands: the likeliest place, however unlikely. Nothing: there is nothing to be seen.
   Result<std::optional<PlaceId>> find_place(SimulatedRobot& robot);
@@ -40,7 +40,7 @@ class House {
   void begin_by_belief();
   std::optional<PlaceId> believed_start(const driving::DrivingState& robot, bool sees, bool& unsure);
   Result<std::optional<PlaceId>> look_anew(DriveLoop& drive);
-  House(const TaughtWorld& taught, const map::Destination& destination, pipeline::BeliefTracker tracker)
+  SimulatedServer(const TaughtWorld& taught, const map::Destination& destination, pipeline::BeliefTracker tracker)
       : taught_(&taught), destination_(&destination), tracker_(std::move(tracker)) {}
 
   const TaughtWorld* taught_;

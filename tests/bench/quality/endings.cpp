@@ -132,9 +132,9 @@ Ending drive(const scenario::TaughtWorld& taught, scenario::SimulatedRobot& robo
              const map::Destination& destination, const PlaceId& told, Kind kind, const Options& options) {
   constexpr double kShort_m = 1.0;
   const Pose2& target = taught.destination_poses.at(destination.label);
-  scenario::House house = or_die(scenario::House::create(taught, destination));
-  or_die(house.find_place(robot));
-  wire::MissionOrder order = or_die(house.order_from(told));
+  scenario::SimulatedServer server = or_die(scenario::SimulatedServer::create(taught, destination));
+  or_die(server.find_place(robot));
+  wire::MissionOrder order = or_die(server.order_from(told));
   if (order.surroundings) order.surroundings->start_probability = options.start_probability;
   driving::DrivingConfig config;
   config.body = scenario::body_of(sim::disc_profile());
@@ -142,7 +142,7 @@ Ending drive(const scenario::TaughtWorld& taught, scenario::SimulatedRobot& robo
   const scenario::ScenarioListener listener;
   scenario::DriveLoop drive(robot, eye, scenario::FaultSchedule({}), config, listener, nullptr);
   drive.ask_belief([&](const features::Appearance& seen, const Pose2& odometry, const auto& estimate) {
-    return house.believe(seen, odometry, estimate);
+    return server.believe(seen, odometry, estimate);
   });
   Ending ending;
   ending.kind = kind;
