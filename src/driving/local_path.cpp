@@ -94,37 +94,30 @@ Eigen::Vector2d carrot_on(std::span<const Eigen::Vector2d> way_m, std::span<cons
   return way_m[end];
 }
 
-}  // namespace
+/// What a search has found out about each cell.
+struct Searched {
+  std::vector<float> cost;
+  std::vector<int> before;   // the cell through which it is reached; -1: none
+  std::vector<bool> closed;  // its cheapest way is known
+};
 
-std::optional<LocalWay> local_way(const Body& body, std::span<const Eigen::Vector2d> points_m,
-                                  const Eigen::Vector2d& goal_m, double heading_rad) {
-  // The grid keeps its axes while the robot turns: what is free must not change by turning, or it would dither.
-  const Eigen::Rotation2Dd from_robot(heading_rad);
-  const double blocked_m = body.outline.radius_m + kSpare_m;
-  const std::vector<Eigen::Vector2d> near = thinned(points_m, from_robot);
-  const std::vector<float> distance = distances(near, blocked_m + kComfort_m);
-  const Cell start{kHalfCells, kHalfCells};
-  // A goal outside the grid is drawn to its border.
-  Eigen::Vector2d goal = from_robot * goal_m;
-  const double limit_m = (kHalfCells - 1) * kCell_m;
-  const double largest_m = goal.cwiseAbs().maxCoeff();
-  if (largest_m > limit_m) goal *= limit_m / largest_m;
-
+/// Dijkstra from the robot's cell until that of the goal is reached, or all are that can be.
+Searched search(const std::vector<float>& distance, std::size_t goal_slot, double blocked_m) {
+  constexpr double kCrowding = 2.5;  // a metre right beside things costs so many more
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  std::vector<float> cost(distance.size(), kInfinity);
-  std::vector<int> before(distance.size(), -1);
+  const std::size_t start_slot = slot({kHalfCells, kHalfCells});
+  Searched found{std::vector<float>(distance.size(), kInfinity), std::vector<int>(distance.size(), -1),
+                 std::vector<bool>(distance.size(), false)};
   using Entry = std::pair<float, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  cost[slot(start)] = 0.0F;
-  open.emplace(0.0F, static_cast<int>(slot(start)));
-  const auto start_clear = static_cast<double>(distance[slot(start)]);
-  std::vector<bool> closed(distance.size(), false);
-  const std::size_t goal_slot = slot(cell_of(goal));
+  found.cost[start_slot] = 0.0F;
+  open.emplace(0.0F, static_cast<int>(start_slot));
+  const auto start_clear = static_cast<double>(distance[start_slot]);
   while (!open.empty()) {
     const auto index = static_cast<std::size_t>(open.top().second);
     open.pop();
-    if (closed[index]) continue;
-    closed[index] = true;
+    if (found.closed[index]) continue;
+    found.closed[index] = true;
     if (index == goal_slot) break;
     const Cell cell{static_cast<int>(index % kSide), static_cast<int>(index / kSide)};
     for (int dy = -1; dy <= 1; ++dy) {
@@ -136,35 +129,65 @@ std::optional<LocalWay> local_way(const Body& body, std::span<const Eigen::Vecto
         if (clear_m < blocked_m && !(start_clear < blocked_m && clear_m >= static_cast<double>(distance[index])))
           continue;
         const double crowding = std::max(0.0, 1.0 - (clear_m - blocked_m) / kComfort_m);
-        const auto step = static_cast<float>(kCell_m * std::sqrt(dx * dx + dy * dy) * (1.0 + 2.5 * crowding));
-        if (cost[index] + step >= cost[slot(next)]) continue;
-        cost[slot(next)] = cost[index] + step;
-        before[slot(next)] = static_cast<int>(index);
-        open.emplace(cost[slot(next)], static_cast<int>(slot(next)));
+        const auto step = static_cast<float>(kCell_m * std::sqrt(dx * dx + dy * dy) * (1.0 + kCrowding * crowding));
+        if (found.cost[index] + step >= found.cost[slot(next)]) continue;
+        found.cost[slot(next)] = found.cost[index] + step;
+        found.before[slot(next)] = static_cast<int>(index);
+        open.emplace(found.cost[slot(next)], static_cast<int>(slot(next)));
       }
     }
   }
-  std::size_t last = goal_slot;
+  return found;
+}
+
+/// The cell nearest to a goal that cannot be reached; nothing where that is the robot's own.
+std::optional<std::size_t> nearest_reached(const Searched& found, const Eigen::Vector2d& goal) {
+  constexpr double kOfWay = 0.05;  // of cells about as near the one that costs less
+  const Cell start{kHalfCells, kHalfCells};
+  double best = (goal - centre_of(start)).norm();
+  std::size_t last = slot(start);
+  for (std::size_t i = 0; i < found.closed.size(); ++i) {
+    if (!found.closed[i]) continue;
+    const double apart_m = (centre_of({static_cast<int>(i % kSide), static_cast<int>(i / kSide)}) - goal).norm();
+    if (apart_m + kOfWay * static_cast<double>(found.cost[i]) < best) {
+      best = apart_m + kOfWay * static_cast<double>(found.cost[i]);
+      last = i;
+    }
+  }
+  if (last == slot(start)) return std::nullopt;
+  return last;
+}
+
+/// The way to a cell, from the robot's own.
+std::vector<Eigen::Vector2d> way_to(std::size_t last, const Searched& found) {
+  std::vector<Eigen::Vector2d> way_m;
+  for (int i = static_cast<int>(last); i >= 0; i = found.before[static_cast<std::size_t>(i)]) {
+    way_m.push_back(centre_of({i % kSide, i / kSide}));
+  }
+  std::reverse(way_m.begin(), way_m.end());
+  return way_m;
+}
+
+}  // namespace
+
+std::optional<LocalWay> local_way(const Body& body, std::span<const Eigen::Vector2d> points_m,
+                                  const Eigen::Vector2d& goal_m, double heading_rad) {
+  // The grid keeps its axes while the robot turns: what is free must not change by turning, or it would dither.
+  const Eigen::Rotation2Dd from_robot(heading_rad);
+  const double blocked_m = body.outline.radius_m + kSpare_m;
+  const std::vector<Eigen::Vector2d> near = thinned(points_m, from_robot);
+  // A goal outside the grid is drawn to its border.
+  Eigen::Vector2d goal = from_robot * goal_m;
+  const double limit_m = (kHalfCells - 1) * kCell_m;
+  const double largest_m = goal.cwiseAbs().maxCoeff();
+  if (largest_m > limit_m) goal *= limit_m / largest_m;
+  const std::size_t goal_slot = slot(cell_of(goal));
+  const Searched found = search(distances(near, blocked_m + kComfort_m), goal_slot, blocked_m);
   LocalWay way;
-  way.reaches_goal = closed[goal_slot];
-  if (!way.reaches_goal) {
-    double best = (goal - centre_of(start)).norm();
-    last = slot(start);
-    for (std::size_t i = 0; i < closed.size(); ++i) {
-      if (!closed[i]) continue;
-      const double apart_m = (centre_of({static_cast<int>(i % kSide), static_cast<int>(i / kSide)}) - goal).norm();
-      if (apart_m + 0.05 * static_cast<double>(cost[i]) < best) {
-        best = apart_m + 0.05 * static_cast<double>(cost[i]);
-        last = i;
-      }
-    }
-    if (last == slot(start)) return std::nullopt;
-  }
-  std::vector<Eigen::Vector2d> points;
-  for (int i = static_cast<int>(last); i >= 0; i = before[static_cast<std::size_t>(i)]) {
-    points.push_back(centre_of({i % kSide, i / kSide}));
-  }
-  std::reverse(points.begin(), points.end());
+  way.reaches_goal = found.closed[goal_slot];
+  const auto last = way.reaches_goal ? std::optional(goal_slot) : nearest_reached(found, goal);
+  if (!last) return std::nullopt;
+  const std::vector<Eigen::Vector2d> points = way_to(*last, found);
   for (std::size_t i = 1; i < points.size(); ++i) way.length_m += (points[i] - points[i - 1]).norm();
   way.carrot_m = from_robot.inverse() * (points.size() > 1 ? carrot_on(points, near, blocked_m) : goal);
   return way;
