@@ -7,7 +7,7 @@
 
 #include "core/angles.hpp"
 
-namespace homeward::driving::bearing_votes_test {
+namespace homeward::driving::bearing_evidence_test {
 namespace {
 
 const Pose2 kView{5.0, 1.0, 0.8};
@@ -153,4 +153,4 @@ TEST(BearingEvidence, PicturesFromOneSpotAreNoCrowd) {
 }
 
 }  // namespace
-}  // namespace homeward::driving::bearing_votes_test
+}  // namespace homeward::driving::bearing_evidence_test

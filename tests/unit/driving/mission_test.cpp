@@ -5,7 +5,7 @@
 
 #include "unit/driving/step_fixture.hpp"
 
-namespace homeward::driving::orders_test {
+namespace homeward::driving::mission_test {
 namespace {
 
 TEST_F(StepTest, TheWaysOfAMissionLieBetweenTheViewsThatTheyName) {
@@ -26,4 +26,4 @@ TEST_F(StepTest, TheWaysOfAMissionLieBetweenTheViewsThatTheyName) {
 }
 
 }  // namespace
-}  // namespace homeward::driving::orders_test
+}  // namespace homeward::driving::mission_test

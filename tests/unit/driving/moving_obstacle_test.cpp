@@ -9,7 +9,7 @@
 
 #include "core/angles.hpp"
 
-namespace homeward::driving::stirring_test {
+namespace homeward::driving::moving_obstacle_test {
 namespace {
 
 /// A room of 8 by 3 m with a post of 0.1 m in it and somebody of 0.24 m, swept with noise of 0.01 m.
@@ -128,4 +128,4 @@ TEST_F(MovingObstacleTest, WhatStirsFarOffDoesNotStandInTheWay) {
 }
 
 }  // namespace
-}  // namespace homeward::driving::stirring_test
+}  // namespace homeward::driving::moving_obstacle_test

@@ -283,7 +283,7 @@ TEST(PoseHypotheses, TheProbabilityOfBeingThereGrowsWithTheRadius) {
 
 /// Sees `here` and another view that look alike; how probable it is to be within half a metre of the robot's true
 /// place.
-class Told : public ::testing::Test {
+class WeighWithin : public ::testing::Test {
  protected:
   void look(double prior_here, double prior_there) {
     std::vector<ViewSighting> sightings = {seen_from(along(0.0), along(1.0)), seen_from(along(30.0), along(31.0))};
@@ -301,7 +301,7 @@ class Told : public ::testing::Test {
   PoseHypotheses hypotheses_;
 };
 
-TEST_F(Told, MultipliesTheOddsByAFactor) {
+TEST_F(WeighWithin, MultipliesTheOddsByAFactor) {
   look(0.5, 0.5);
   const double before = here();
   ASSERT_GT(before, 0.2);
@@ -312,7 +312,7 @@ TEST_F(Told, MultipliesTheOddsByAFactor) {
   EXPECT_NEAR(here(), before, 0.05) << "the contrary takes it back";
 }
 
-TEST_F(Told, MakesNoArrivalOfWhatIsImprobable) {
+TEST_F(WeighWithin, MakesNoArrivalOfWhatIsImprobable) {
   look(0.001, 0.999);
   const double before = here();
   ASSERT_LT(before, 0.002);
@@ -321,7 +321,7 @@ TEST_F(Told, MakesNoArrivalOfWhatIsImprobable) {
   EXPECT_LT(here(), 0.04);
 }
 
-TEST_F(Told, OfBeingElsewhereCountsTheSame) {
+TEST_F(WeighWithin, OfBeingElsewhereCountsTheSame) {
   look(0.3, 1e-6);
   const double elsewhere = hypotheses_.elsewhere();
   ASSERT_GT(elsewhere, 0.001);
@@ -329,7 +329,7 @@ TEST_F(Told, OfBeingElsewhereCountsTheSame) {
   EXPECT_GT(hypotheses_.elsewhere(), 5.0 * elsewhere);
 }
 
-TEST_F(Told, PlacesARobotThatKnewItRoughly) {
+TEST_F(WeighWithin, PlacesARobotThatKnewItRoughly) {
   look(1.0, 1e-6);
   hypotheses_.predict({0.0, 0.0, 0.0});
   const double rough = hypotheses_.probability_within({0.0, 0.0}, 0.5);
@@ -338,7 +338,7 @@ TEST_F(Told, PlacesARobotThatKnewItRoughly) {
   EXPECT_GT(hypotheses_.probability_within({0.0, 0.0}, 0.5), 0.9);
 }
 
-TEST_F(Told, SaysNothingToARobotThatKnowsNothing) {
+TEST_F(WeighWithin, SaysNothingToARobotThatKnowsNothing) {
   answer(19.0);
   EXPECT_TRUE(hypotheses_.empty());
   EXPECT_NEAR(hypotheses_.elsewhere(), 1.0, 1e-12);

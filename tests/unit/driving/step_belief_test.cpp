@@ -75,7 +75,7 @@ TEST_F(StepTest, OneReportDoesNotMakeTheBeliefLostOrFindItAgain) {
   EXPECT_FALSE(after(false, 21));
 }
 
-TEST_F(StepTest, ThatTheBeliefIsLostIsForgottenWhenItIsNotToldAnyMore) {
+TEST_F(StepTest, ThatTheBeliefIsLostIsForgottenWhenItIsNotSaidAnyMore) {
   set_off();
   belief_.lost = true;
   for (int k = 0; k < 30; ++k) tick({permit("m1", 1, ++seq_)});
@@ -85,7 +85,7 @@ TEST_F(StepTest, ThatTheBeliefIsLostIsForgottenWhenItIsNotToldAnyMore) {
   EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
 }
 
-TEST_F(StepTest, ABeliefThatIsNotToldAnyMoreSaysNothing) {
+TEST_F(StepTest, ABeliefThatIsNotSaidAnyMoreSaysNothing) {
   set_off();
   belief_ = belief_of("p77", 0.97);
   tick({permit("m1", 1, ++seq_)});

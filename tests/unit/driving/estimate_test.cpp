@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "driving/estimate.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "driving/step.hpp"
 #include "unit/driving/step_fixture.hpp"
 
-namespace homeward::driving::step_lifted_test {
+namespace homeward::driving::estimate_test {
 namespace {
 
 using wire::DriveState;
@@ -93,4 +94,4 @@ TEST_F(StepTest, WhoeverStandsBeforeTheCameraHasNotLiftedIt) {
 }
 
 }  // namespace
-}  // namespace homeward::driving::step_lifted_test
+}  // namespace homeward::driving::estimate_test

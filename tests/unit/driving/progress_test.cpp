@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "driving/progress.hpp"
+
 #include <gtest/gtest.h>
 
-#include "driving/step.hpp"
 #include "unit/driving/step_fixture.hpp"
 
-namespace homeward::driving::step_blocked_test {
+namespace homeward::driving::progress_test {
 namespace {
 
 using wire::DriveState;
@@ -207,7 +208,7 @@ TEST_F(StepTest, WhoGetsNowhereBecauseItDoesNotKnowWhereDoesNotCallTheWayBlocked
   expect_stays();
 }
 
-TEST_F(StepTest, WhereSomebodyStirsInTheWayThatStaysBlockedItWaitsLonger) {
+TEST_F(StepTest, WhereSomebodyMovesInTheWayThatStaysBlockedItWaitsLonger) {
   config_.stuck_ms = 2000;
   config_.stays_ms = 2000;
   config_.patience_ms = 9000;
@@ -236,4 +237,4 @@ TEST_F(StepTest, DrivesNeverBackwardsWhereTheRangeSensorDoesNotLookBehind) {
 }
 
 }  // namespace
-}  // namespace homeward::driving::step_blocked_test
+}  // namespace homeward::driving::progress_test
