@@ -6,6 +6,7 @@
 #include "wire/link_messages.hpp"
 #include "wire/mission_json.hpp"
 #include "wire/problem_json.hpp"
+#include "wire/reason_json.hpp"
 #include "wire/rosbridge_json.hpp"
 #include "wire/scans_json.hpp"
 #include "wire/scenario_json.hpp"
@@ -77,6 +78,8 @@ std::map<std::string, Recode> all_codecs() {
   codecs["sweep"] = recode([](const json& v) { return wire::sweep_from_json(v); }, wire::sweep_to_json);
   codecs["edits"] = recode([](const json& v) { return wire::edits_from_json(v); }, wire::edits_to_json);
   codecs["mission"] = recode([](const json& v) { return wire::mission_from_json(v); }, wire::mission_to_json);
+  codecs["reason"] = recode([](const json& v) { return wire::reason_from_json(v); },
+                            [](const wire::Reason& reason) { return wire::reason_to_json(reason); });
   codecs["problem"] = recode(wire::problem_from_json, wire::problem_to_json);
   codecs["rosbridge"] = recode([](const json& v) { return wire::rosbridge_from_json(v); }, wire::rosbridge_to_json);
   codecs["scenario"] = [](const json& value) -> Result<json> {  // only ever read
