@@ -13,6 +13,7 @@
 #include "core/result.hpp"
 #include "core/time.hpp"
 #include "wire/link_messages.hpp"
+#include "wire/reason.hpp"
 
 namespace homeward::db {
 
@@ -89,7 +90,7 @@ struct RecordedStep {
   double speed_mps = 0.0;
   double turn_radps = 0.0;
   wire::DriveState state = wire::DriveState::kIdle;
-  std::string reason;
+  std::optional<wire::Reason> reason;
   std::int64_t path_index = 0;
   bool answered = false;
   bool docking = false;
@@ -133,8 +134,8 @@ class RecordingWriter {
 struct WhyStopped {
   std::int64_t step = 0;
   double after_s = 0.0;
-  std::string state;   // "driving": the recording ends while it still drives
-  std::string reason;  // empty where it arrived
+  std::string state;                   // "driving": the recording ends while it still drives
+  std::optional<wire::Reason> reason;  // nothing where it arrived
   std::int64_t path_index = 0;
   Pose2 odometry;
   bool link_up = false;

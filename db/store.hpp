@@ -162,7 +162,7 @@ class Store {
 };
 
 /// Opens or makes the database of a data folder, and brings an older one up to date. Missions that were under way are
-/// kStopped with the reason "server restarted" from then on.
+/// kStopped with the reason kServerRestarted from then on.
 /// Errors: kConflict (another process has the folder), kUnsupportedFormat (made by a newer version), kCorruptFile, kIo.
 Result<std::unique_ptr<Store>> open_sqlite_store(const std::filesystem::path& data_directory);
 

@@ -126,7 +126,7 @@ def drive(server, robot, map_id, label, data):
     truth = last_truth(data / "truth.jsonl")
     target = mark_pose(data / "tour", destination["image"].split("/")[-1])
     error_m = math.hypot(truth["x_m"] - target[0], truth["y_m"] - target[1])
-    print(f"mission {mission['state']}{': ' + mission['reason'] if mission.get('reason') else ''}; "
+    print(f"mission {mission['state']}{': ' + mission['reason']['code'] if mission.get('reason') else ''}; "
           f"{error_m:.2f} m from the destination's true pose, {truth['collisions']} collisions", flush=True)
     return mission["state"] == "arrived" and error_m <= ARRIVED_WITHIN_M and truth["collisions"] == 0
 

@@ -10,6 +10,7 @@
 #include "db/sqlite/recording_rows.hpp"
 #include "db/sqlite/recording_schema.hpp"
 #include "db/sqlite/store_database.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward::db {
 namespace {
@@ -41,6 +42,11 @@ std::span<const std::uint8_t> blob(const SQLite::Column& column) {
 }
 
 fs::path journal_of(const fs::path& file) { return file.string() + "-wal"; }
+
+/// A column of the reason; empty where there is none.
+std::optional<wire::Reason> reason_in(const std::string& column) {
+  return column.empty() ? std::nullopt : std::optional(wire::reason_from_text(column));
+}
 
 /// Before SQLite looks at it: an SQLite file, and as long as it says it is.
 void check_file(const fs::path& file) {
@@ -119,7 +125,7 @@ class SqliteRecordingReader final : public RecordingReader {
       why.step = integer(select, 0);
       why.after_s = real(select, 1);
       why.state = text(select, 2);
-      why.reason = text(select, 3);
+      why.reason = reason_in(text(select, 3));
       why.path_index = integer(select, 4);
       why.odometry = {real(select, 5), real(select, 6), real(select, 7)};
       why.link_up = integer(select, 8) != 0;
@@ -249,7 +255,7 @@ class SqliteRecordingReader final : public RecordingReader {
     step.sensors_ms = optional_integer(row, 2);
     step.link_up = integer(row, 3) != 0;
     step.state = state_named(step.seq, text(row, 4));
-    step.reason = text(row, 5);
+    step.reason = reason_in(text(row, 5));
     step.path_index = integer(row, 6);
     step.answered = integer(row, 7) != 0;
     step.docking = integer(row, 8) != 0;

@@ -6,8 +6,9 @@ namespace homeward::db {
 /// "HWRC" in SQLite's application_id field: what makes an SQLite file the recording of a mission.
 inline constexpr int kRecordingApplicationId = 0x48575243;
 /// user_version of the file. A released schema is never edited; a newer file is refused.
-inline constexpr int kRecordingVersion = 3;
-/// Version 1 has no word of joysticks, versions 1 and 2 no counts of tracked features.
+inline constexpr int kRecordingVersion = 4;
+/// Version 1 has no word of joysticks, versions 1 and 2 no counts of tracked features; versions up to 3 have words
+/// where later ones have the JSON of a reason.
 inline constexpr int kOldestRecordingVersion = 1;
 /// The first with the columns `tracked`, `recovered` and `lost`.
 inline constexpr int kRecordingVersionOfTracks = 3;
@@ -37,7 +38,8 @@ CREATE VIEW why_did_it_stop AS
 WITH stood AS (SELECT * FROM steps WHERE seq = coalesce(
   (SELECT min(seq) FROM steps WHERE state <> 'driving'), (SELECT max(seq) FROM steps)))
 SELECT seq AS step, (now_ms - (SELECT now_ms FROM steps ORDER BY seq LIMIT 1)) / 1000.0 AS after_s, state,
-  CASE state WHEN 'driving' THEN coalesce((SELECT value FROM meta WHERE key = 'end'), 'The recording was cut off here.')
+  CASE state WHEN 'driving' THEN coalesce((SELECT value FROM meta WHERE key = 'end'),
+    '{"code":"recording_cut_off","parameters":{}}')
     ELSE reason END AS reason,
   path_index, odometry_x_m, odometry_y_m, odometry_theta_rad, link_up, min_range_m,
   (now_ms - (SELECT s.now_ms FROM messages m JOIN steps s ON s.seq = m.step WHERE m.sender = 'server'

@@ -11,6 +11,7 @@
 #include "db/sqlite/recording_rows.hpp"
 #include "db/sqlite/recording_schema.hpp"
 #include "db/sqlite/store_database.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward::db {
 namespace {
@@ -137,13 +138,14 @@ class SqliteRecordingWriter final : public RecordingWriter {
         "rider_speed_mps, rider_turn_radps, tracked, recovered, lost, exact) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
         "?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         step.seq, step.now_ms, step.sensors_ms, step.odometry.x_m, step.odometry.y_m, step.odometry.theta_rad,
-        step.link_up, step.speed_mps, step.turn_radps, std::string(wire::drive_state_name(step.state)), step.reason,
-        step.path_index, step.answered, step.docking, step.covered, of_vector(&RecordedVector::bearing_rad),
-        of_vector(&RecordedVector::turn_rad), of_vector(&RecordedVector::confidence),
-        of_vector(&RecordedVector::parallax_rad), of_vector(&RecordedVector::inliers), step.min_range_m,
-        step.sweep.has_value(), step.picture.has_value(), step.heard.size() + step.said.size(),
-        of_rider(&RecordedRider::deflected), of_rider(&RecordedRider::speed_mps), of_rider(&RecordedRider::turn_radps),
-        of_tracks(&RecordedTracks::tracked), of_tracks(&RecordedTracks::recovered), of_tracks(&RecordedTracks::lost));
+        step.link_up, step.speed_mps, step.turn_radps, std::string(wire::drive_state_name(step.state)),
+        step.reason ? wire::reason_to_text(*step.reason) : std::string(), step.path_index, step.answered, step.docking,
+        step.covered, of_vector(&RecordedVector::bearing_rad), of_vector(&RecordedVector::turn_rad),
+        of_vector(&RecordedVector::confidence), of_vector(&RecordedVector::parallax_rad),
+        of_vector(&RecordedVector::inliers), step.min_range_m, step.sweep.has_value(), step.picture.has_value(),
+        step.heard.size() + step.said.size(), of_rider(&RecordedRider::deflected), of_rider(&RecordedRider::speed_mps),
+        of_rider(&RecordedRider::turn_radps), of_tracks(&RecordedTracks::tracked),
+        of_tracks(&RecordedTracks::recovered), of_tracks(&RecordedTracks::lost));
     bind_bytes(insert, 31, exact);
     insert.exec();
     int position = 0;

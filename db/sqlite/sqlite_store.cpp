@@ -2,14 +2,15 @@
 #include "db/sqlite/sqlite_store.hpp"
 
 #include "db/sqlite/durable_file.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward::db {
 namespace {
 
 /// After a restart nothing moves until a person says so again.
 void stop_missions(SQLite::Database& database) {
-  execute(database,
-          "UPDATE missions SET state = 'stopped', reason = 'server restarted' WHERE state IN ('accepted', 'driving')");
+  execute(database, "UPDATE missions SET state = 'stopped', reason = ? WHERE state IN ('accepted', 'driving')",
+          wire::reason_to_text({wire::ReasonCode::kServerRestarted}));
 }
 
 }  // namespace

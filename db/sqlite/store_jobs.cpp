@@ -5,6 +5,7 @@
 #include "db/sqlite/durable_file.hpp"
 #include "db/sqlite/sqlite_store.hpp"
 #include "wire/error_table.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward::db {
 namespace {
@@ -25,6 +26,12 @@ std::string ids_text(const std::vector<Name>& ids) {
   return list.dump();
 }
 
+std::vector<wire::Reason> notes_of(const std::string& list) {
+  std::vector<wire::Reason> notes;
+  for (const auto& note : nlohmann::json::parse(list)) notes.push_back(wire::reason_from_text(note.dump()));
+  return notes;
+}
+
 wire::JobView job_of(SQLite::Statement& row) {
   wire::JobView job;
   job.id = JobId(text(row, 0));
@@ -43,7 +50,7 @@ wire::JobView job_of(SQLite::Statement& row) {
   }
   job.created_us = integer(row, 9);
   job.skipped = integer(row, 10);
-  job.notes = nlohmann::json::parse(text(row, 11)).get<std::vector<std::string>>();
+  job.notes = notes_of(text(row, 11));
   job.gained = integer(row, 12);
   job.taken = integer(row, 13) != 0;
   job.tours = ids_of<TourId>(text(row, 14));
@@ -68,10 +75,7 @@ ErrorColumns error_columns(const wire::JobView& job) {
   return {std::string(wire::error_name(job.error->code)), job.error->message, job.error->where};
 }
 
-/// A file name in a note may be no UTF-8.
-std::string notes_text(const wire::JobView& job) {
-  return nlohmann::json(job.notes).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+std::string notes_text(const wire::JobView& job) { return wire::reasons_to_json(job.notes).dump(); }
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 
 #include "db/secrets.hpp"
 #include "db/sqlite/sqlite_store.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward::db {
 namespace {
@@ -36,7 +37,7 @@ wire::MissionView mission_of(SQLite::Statement& row) {
   const std::optional<wire::MissionState> state = wire::mission_state(text(row, 6));
   if (!state) refuse(ErrorCode::kCorruptFile, "The database holds an unknown state.", "missions/" + mission.id.str());
   mission.state = *state;
-  mission.reason = optional_text(row, 7);
+  if (const auto reason = optional_text(row, 7)) mission.reason = wire::reason_from_text(*reason);
   mission.epoch = integer(row, 8);
   mission.seq = integer(row, 9);
   for (const json& place : json::parse(text(row, 10))) mission.path.emplace_back(place.get<std::string>());
@@ -45,6 +46,10 @@ wire::MissionView mission_of(SQLite::Statement& row) {
   mission.by = text(row, 13);
   mission.arrival_probability = optional_number(row, 14);
   return mission;
+}
+
+std::optional<std::string> reason_column(const wire::MissionView& mission) {
+  return mission.reason ? std::optional(wire::reason_to_text(*mission.reason)) : std::nullopt;
 }
 
 constexpr const char* kOneMission =
@@ -117,7 +122,7 @@ Result<wire::MissionView> SqliteStore::add_mission(wire::MissionView mission) {
     for (const PlaceId& place : mission.path) path.push_back(place.str());
     execute(database, "INSERT INTO missions VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", mission.id,
             mission.robot, mission.map, mission.revision, mission.destination, mission.place,
-            std::string(wire::mission_state_name(mission.state)), mission.reason, mission.epoch, mission.seq,
+            std::string(wire::mission_state_name(mission.state)), reason_column(mission), mission.epoch, mission.seq,
             path.dump(), mission.path_index, mission.created_us, mission.by, mission.arrival_probability);
     return mission;
   });
@@ -130,8 +135,9 @@ Status SqliteStore::update_mission(const wire::MissionView& mission) {
     if (execute(database,
                 "UPDATE missions SET state = ?, reason = ?, epoch = ?, seq = ?, revision = ?, path = ?, "
                 "path_index = ?, arrival_probability = ? WHERE id = ?",
-                std::string(wire::mission_state_name(mission.state)), mission.reason, mission.epoch, mission.seq,
-                mission.revision, path.dump(), mission.path_index, mission.arrival_probability, mission.id) == 0) {
+                std::string(wire::mission_state_name(mission.state)), reason_column(mission), mission.epoch,
+                mission.seq, mission.revision, path.dump(), mission.path_index, mission.arrival_probability,
+                mission.id) == 0) {
       no_such_mission(mission.id);
     }
   });

@@ -56,7 +56,7 @@ void Driving::go_on_after_looking(const Unit& found) {
   }
   if (++unit.looks < kLooks || (!unit.lifted && !unit.known_start(now))) return;
   unit.looks_since.reset();
-  const std::string& reason = unit.failed_because;
+  const wire::Reason reason = unit.failed_because;
   if (!begin_detour(found, reason)) end_mission(unit, wire::MissionState::kFailed, reason);
 }
 

@@ -7,10 +7,13 @@
 #include "planning/surroundings.hpp"
 #include "server/driving/driving.hpp"
 #include "wire/drive_terms.hpp"
+#include "wire/map_reasons.hpp"
 #include "wire/mission_order.hpp"
 
 namespace homeward::server {
 namespace {
+
+using wire::ReasonCode;
 
 // What must hold for a robot that failed to be sent on, with the unit locked.
 bool may_go_on(const RobotUnit& unit, SteadyTime now) {
@@ -26,7 +29,7 @@ Result<planning::Detour> second_look_at(const map::TopologicalMap& map, const pl
 
 }  // namespace
 
-bool Driving::begin_detour(const Unit& found, const std::string& reason) {
+bool Driving::begin_detour(const Unit& found, const wire::Reason& reason) {
   RobotUnit& unit = *found;
   const auto now = clock_.steady();
   if (!may_go_on(unit, now)) return false;
@@ -54,15 +57,16 @@ bool Driving::begin_detour(const Unit& found, const std::string& reason) {
     unit.looking_for_detour = false;
     return false;
   }
-  unit.mission->reason =
-      reason + (astray || unsure ? " The way from there is looked for." : " Another way is looked for.");
+  unit.mission->reason = wire::reason_with(
+      astray || unsure ? ReasonCode::kWayFromThereLookedFor : ReasonCode::kAnotherWayLookedFor, "because", reason);
   spdlog::info("robot {} mission {} failed at place {} of its way: {}", unit.id.str(), unit.mission->id.str(),
-               unit.mission->path_index, reason);
+               unit.mission->path_index, wire::english(reason));
   keep(*unit.mission);
   return true;
 }
 
-Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mission, int number) {
+Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mission, int number,
+                                           std::optional<wire::Reason>& no_way) {
   Plan plan;
   planning::RouteRequest asked;
   Start start;
@@ -92,7 +96,11 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   });
   const auto detour =
       second_look_m ? second_look_at(map, asked, *second_look_m) : planning::plan_detour(map, asked, !fails_again);
-  if (!detour) return pass_on(detour);
+  if (!detour) {
+    if (detour.error().code == ErrorCode::kNoRoute)
+      no_way = wire::reason_of(planning::explain_no_route(map, asked), map);
+    return pass_on(detour);
+  }
   const std::vector<PlaceId>& places = detour->route.places;
   const map::Destination* destination =
       plan.mission.destination ? map::find_destination(map, *plan.mission.destination) : nullptr;
@@ -114,8 +122,9 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   return plan;
 }
 
-void Driving::send_detour(const Unit& found, const MissionId& mission, const std::string& reason, int number) {
-  auto planned = plan_detour(found, mission, number);
+void Driving::send_detour(const Unit& found, const MissionId& mission, const wire::Reason& reason, int number) {
+  std::optional<wire::Reason> no_way;
+  auto planned = plan_detour(found, mission, number, no_way);
   RobotUnit& unit = *found;
   const std::scoped_lock lock(unit.mutex);
   if (!unit.looking_for_detour || unit.detour_number != number || !unit.mission || unit.mission->id != mission)
@@ -124,17 +133,22 @@ void Driving::send_detour(const Unit& found, const MissionId& mission, const std
   const auto now = clock_.steady();
   if (!planned || !may_go_on(unit, now) || unit.map != planned->mission.map) {
     if (unit.under_way) {
-      const std::string why = planned ? "" : " " + planned.error().message;
-      end_mission(unit, wire::MissionState::kFailed, reason + why);
+      wire::Reason why = reason;
+      if (!planned) {
+        wire::Reason trouble = no_way ? std::move(*no_way) : wire::reason_of(planned.error());
+        why = {ReasonCode::kNoWayOn, {{"because", std::vector{reason}}, {"trouble", std::vector{std::move(trouble)}}}};
+      }
+      end_mission(unit, wire::MissionState::kFailed, std::move(why));
     }
     return tell(unit);
   }
   planned->mission.state = wire::MissionState::kAccepted;
   const bool astray = unit.status && unit.status->astray;
-  planned->mission.reason = reason + (unit.second_look_m ? " I look around and come back."
-                                      : astray           ? " I go on from there."
-                                      : planned->again   ? " There is no other way; I try it once more."
-                                                         : " I take another way.");
+  const ReasonCode goes_on = unit.second_look_m ? ReasonCode::kLooksAroundAndComesBack
+                             : astray           ? ReasonCode::kGoesOnFromThere
+                             : planned->again   ? ReasonCode::kTriesOnceMore
+                                                : ReasonCode::kTakesAnotherWay;
+  planned->mission.reason = wire::reason_with(goes_on, "because", reason);
   planned->mission.epoch = unit.epoch;
   planned->mission.seq = ++unit.seq;
   planned->order.order = {unit.epoch, unit.seq};

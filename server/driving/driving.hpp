@@ -74,8 +74,8 @@ class Driving : public LinkListener {
   /// Passes it on; the first answer counts. Errors: kNotFound, kLeaseHeld, kRobotOffline, kConflict (nothing is asked,
   /// another question, or somebody has answered).
   Result<wire::MissionView> answer(const RobotId& id, const MissionId& mission, const GivenAnswer& given);
-  /// Anyone may stop. Does not wait for the disk. Returns the stop's id.
-  Result<std::string> stop(const RobotId& id, const std::string& by, const std::string& reason);
+  /// Anyone may stop, and say why in `words` or not (empty). Does not wait for the disk. Returns the stop's id.
+  Result<std::string> stop(const RobotId& id, const std::string& by, const std::string& words);
 
   /// The near end of a new link.
   std::shared_ptr<SocketHandler> open_link(const RobotId& id);
@@ -98,8 +98,8 @@ class Driving : public LinkListener {
   wire::LeaseView lease_view(const RobotUnit& unit, SteadyTime now) const;
   bool lease_lives(const RobotUnit& unit, SteadyTime now) const;
   void tell(const RobotUnit& unit);
-  void end_mission(RobotUnit& unit, wire::MissionState state, const std::string& reason);
-  void stop_robot(RobotUnit& unit, const std::string& stop_id, const std::string& reason, const std::string& by);
+  void end_mission(RobotUnit& unit, wire::MissionState state, std::optional<wire::Reason> reason);
+  void stop_robot(RobotUnit& unit, const std::string& stop_id, const wire::Reason& reason, const std::string& by);
   void begin_looking(const Unit& unit);
 
   void heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello);
@@ -110,9 +110,10 @@ class Driving : public LinkListener {
   // When a mission has lasted too long that sets off now.
   [[nodiscard]] SteadyTime end_of(double length_m, SteadyTime now) const;
   // Another way after the present one failed. begin_detour, with the unit locked: false where the mission has to end.
-  bool begin_detour(const Unit& unit, const std::string& reason);
-  Result<Plan> plan_detour(const Unit& unit, const MissionId& mission, int number);
-  void send_detour(const Unit& unit, const MissionId& mission, const std::string& reason, int number);
+  bool begin_detour(const Unit& unit, const wire::Reason& reason);
+  // `no_way` says why no way leads there.
+  Result<Plan> plan_detour(const Unit& unit, const MissionId& mission, int number, std::optional<wire::Reason>& no_way);
+  void send_detour(const Unit& unit, const MissionId& mission, const wire::Reason& reason, int number);
   void heard_refusal(RobotUnit& unit, const wire::MissionRefused& refusal);
   void welcome(const Unit& unit, const std::shared_ptr<AgentLink>& link);
   void look(const Unit& unit);

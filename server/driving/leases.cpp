@@ -46,7 +46,7 @@ Result<wire::LeaseView> Driving::take_lease(const RobotId& id, const Caller& cal
   const std::scoped_lock lock(unit.mutex);
   const auto now = clock_.steady();
   if (const auto late = refused_or_extended(now)) return *late;
-  if (unit.under_way) stop_robot(unit, "", caller.name + " has taken over", caller.name);
+  if (unit.under_way) stop_robot(unit, "", {wire::ReasonCode::kTakenOverBy, {{"by", caller.name}}}, caller.name);
   if (*epoch > unit.epoch) {
     unit.epoch = *epoch;
     unit.seq = 0;
@@ -75,7 +75,7 @@ Status Driving::release_lease(const RobotId& id, const std::string& lease_id) {
   if (!lease_lives(unit, clock_.steady()) || unit.lease->id != lease_id) {
     return tl::unexpected<Error>(not_yours(unit));
   }
-  if (unit.under_way) stop_robot(unit, "", "the driver gave the robot back", unit.lease->holder);
+  if (unit.under_way) stop_robot(unit, "", {wire::ReasonCode::kDriverGaveBack}, unit.lease->holder);
   unit.lease.reset();
   tell(unit);
   return {};

@@ -11,8 +11,13 @@
 namespace homeward::server {
 namespace {
 
+using wire::ReasonCode;
+
 constexpr std::chrono::seconds kTrackingKept{60};  // a robot that was gone for longer may have been carried anywhere
-const char* const kLooksWhereItIs = " I look where I am.";
+
+wire::Reason why_failed(const wire::AgentStatus& status) {
+  return status.reason.value_or(wire::Reason{ReasonCode::kRobotCannotGoOn});
+}
 
 }  // namespace
 
@@ -43,7 +48,7 @@ void Driving::heard(const std::shared_ptr<AgentLink>& link, wire::AgentMessage m
 void Driving::heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello) {
   {
     const std::scoped_lock lock(unit->mutex);
-    if (unit->under_way) stop_robot(*unit, "", "the robot connected anew", "server");
+    if (unit->under_way) stop_robot(*unit, "", {ReasonCode::kRobotConnectedAnew}, "server");
     if (unit->link) unit->link->close(kClosePolicy, "the robot connected anew");
     spdlog::info("robot {} connected: {}", unit->id.str(), hello.agent);
     // A robot that soon comes back with the same camera goes on from where it was; a program that was started anew
@@ -96,7 +101,7 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
     // It was not put down yet: what was seen in somebody's hands says nothing of where it will stand.
     if (unit.under_way && (unit.looks_since || unit.looking_for_detour)) {
       unit.lifted = true;
-      if (unit.looking_for_detour) unit.failed_because = now.reason.value_or("");
+      if (unit.looking_for_detour) unit.failed_because = why_failed(now);
       unit.looks_since = unit.status_at;
       unit.looking_for_detour = false;  // that way begins where it was
     }
@@ -119,34 +124,34 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
     switch (now.state) {
       case wire::DriveState::kArrived:
         mission.reason = now.reason;  // what is left to say; that of a detour is over
-        end_mission(unit, wire::MissionState::kArrived, "");
+        end_mission(unit, wire::MissionState::kArrived, std::nullopt);
         break;
       case wire::DriveState::kFailed:
         if (lifted && unit.online() && unit.lease) {
           unit.lifted = true;
           unit.looks_since = unit.status_at;
-          unit.failed_because = now.reason.value_or("");
+          unit.failed_because = why_failed(now);
           mission.reason = now.reason;
           keep(mission);
-        } else if (!begin_detour(found, now.reason.value_or("The robot cannot go on."))) {
+        } else if (!begin_detour(found, why_failed(now))) {
           if (unit.online() && unit.lease && !unit.known_start(*unit.status_at)) {
             unit.looks_since = unit.status_at;  // whoever stands before the camera may go on
             unit.looks = 0;
-            unit.failed_because = now.reason.value_or("The robot cannot go on.");
-            mission.reason = unit.failed_because + kLooksWhereItIs;
+            unit.failed_because = why_failed(now);
+            mission.reason = wire::reason_with(ReasonCode::kPlaceLookedFor, "because", unit.failed_because);
             keep(mission);
           } else {
-            end_mission(unit, wire::MissionState::kFailed, now.reason.value_or("the robot cannot go on"));
+            end_mission(unit, wire::MissionState::kFailed, why_failed(now));
           }
         }
         break;
       case wire::DriveState::kStopped:
-        end_mission(unit, wire::MissionState::kStopped, now.reason.value_or("the robot stopped"));
+        end_mission(unit, wire::MissionState::kStopped, now.reason.value_or(wire::Reason{ReasonCode::kRobotStopped}));
         break;
       case wire::DriveState::kDriving: {
         // Its own estimate is sure enough to drive by.
         unit.lifted = false;
-        const bool found_itself = now.estimate && mission.reason == kLooksAroundFirst;
+        const bool found_itself = now.estimate && wire::says(mission.reason, ReasonCode::kLooksAroundFirst);
         if (found_itself) mission.reason.reset();
         if (mission.state != wire::MissionState::kDriving || moved_on || found_itself) {
           mission.state = wire::MissionState::kDriving;
@@ -176,7 +181,7 @@ void Driving::closed(const std::shared_ptr<AgentLink>& link) {
   spdlog::info("robot {} is gone", unit.id.str());
   unit.link.reset();
   unit.welcomed = false;
-  if (unit.under_way) end_mission(unit, wire::MissionState::kStopped, "the connection to the robot was lost");
+  if (unit.under_way) end_mission(unit, wire::MissionState::kStopped, wire::Reason{ReasonCode::kRobotGone});
   unit.status.reset();
   unit.belief.reset();
   unit.waiting_frame.reset();

@@ -15,6 +15,8 @@
 namespace homeward::server {
 namespace {
 
+using wire::ReasonCode;
+
 constexpr std::chrono::milliseconds kHeardWithin{wire::kHeardWithin_ms};
 constexpr std::chrono::milliseconds kSilentTooLong{wire::kLinkSilence_ms};
 constexpr std::chrono::seconds kTakeUpWithin{10};
@@ -86,7 +88,7 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
   const auto layout = maps_.layout(*loaded);
   wire::add_surroundings(map, *layout, planning::surroundings(map, route->places, likely, *layout), plan.order);
   if (const Status begins = set_start(start, plan.order); !begins) return pass_on(begins);
-  if (start.unsure) plan.mission.reason = kLooksAroundFirst;
+  if (start.unsure) plan.mission.reason = wire::Reason{ReasonCode::kLooksAroundFirst};
   plan.mission.id = MissionId(db::random_id());
   plan.mission.robot = unit->id;
   plan.mission.map = map_id;
@@ -125,11 +127,11 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
   }
   if (!status) {
     mission.state = wire::MissionState::kRefused;
-    mission.reason = status.error().message;
+    mission.reason = wire::reason_of(status.error());
     keep(mission);
     return pass_on(status);
   }
-  if (unit.under_way) end_mission(unit, wire::MissionState::kStopped, "another mission was given");
+  if (unit.under_way) end_mission(unit, wire::MissionState::kStopped, wire::Reason{ReasonCode::kAnotherMission});
   mission.epoch = unit.epoch;
   mission.seq = ++unit.seq;
   planned->order.order = {unit.epoch, unit.seq};
@@ -170,21 +172,21 @@ Result<wire::MissionView> Driving::mission(const RobotId& id, const MissionId& m
   return stored;
 }
 
-void Driving::end_mission(RobotUnit& unit, wire::MissionState state, const std::string& reason) {
+void Driving::end_mission(RobotUnit& unit, wire::MissionState state, std::optional<wire::Reason> reason) {
   unit.under_way = false;
   unit.looking_for_detour = false;
   unit.looks_since.reset();
   if (!unit.mission) return;
   unit.mission->state = state;
-  if (!reason.empty()) unit.mission->reason = reason;
   spdlog::info("robot {} mission {} {}{}{}", unit.id.str(), unit.mission->id.str(), wire::mission_state_name(state),
-               reason.empty() ? "" : ": ", reason);
+               reason ? ": " : "", reason ? wire::english(*reason) : "");
+  if (reason) unit.mission->reason = std::move(reason);
   keep(*unit.mission);
   if (state == wire::MissionState::kArrived) hand_over_sights(unit);
   unit.sights.clear();
 }
 
-void Driving::stop_robot(RobotUnit& unit, const std::string& stop_id, const std::string& reason,
+void Driving::stop_robot(RobotUnit& unit, const std::string& stop_id, const wire::Reason& reason,
                          const std::string& by) {
   if (unit.link) {
     unit.link->send(wire::StopOrder{stop_id.empty() ? db::random_id() : stop_id, unit.epoch, reason, by, ++unit.seq},
@@ -193,13 +195,14 @@ void Driving::stop_robot(RobotUnit& unit, const std::string& stop_id, const std:
   if (unit.under_way) end_mission(unit, wire::MissionState::kStopped, reason);
 }
 
-Result<std::string> Driving::stop(const RobotId& id, const std::string& by, const std::string& reason) {
+Result<std::string> Driving::stop(const RobotId& id, const std::string& by, const std::string& words) {
   const auto found = find(id);
   if (!found) return pass_on(found);
   RobotUnit& unit = **found;
   const std::scoped_lock lock(unit.mutex);
   const std::string stop_id = db::random_id();
-  stop_robot(unit, stop_id, reason.empty() ? "stopped by " + by : reason, by);
+  stop_robot(unit, stop_id, words.empty() ? wire::Reason{ReasonCode::kStoppedBy, {{"by", by}}} : wire::in_words(words),
+             by);
   tell(unit);
   return stop_id;
 }
@@ -209,7 +212,7 @@ void Driving::tick(SteadyTime now) {
     RobotUnit& unit = *found;
     const std::scoped_lock lock(unit.mutex);
     if (unit.lease && now >= unit.lease->expires) {
-      if (unit.under_way) stop_robot(unit, "", "nobody was watching any more", unit.lease->holder);
+      if (unit.under_way) stop_robot(unit, "", {ReasonCode::kNobodyWatching}, unit.lease->holder);
       unit.lease.reset();
       tell(unit);
     }
@@ -221,7 +224,7 @@ void Driving::tick(SteadyTime now) {
     }
     if (!unit.under_way || !unit.online() || unit.looking_for_detour) continue;
     if (now > unit.mission_ends) {
-      stop_robot(unit, "", "the mission has lasted too long", "server");
+      stop_robot(unit, "", {ReasonCode::kTooLong}, "server");
       tell(unit);
       continue;
     }
@@ -232,7 +235,7 @@ void Driving::tick(SteadyTime now) {
       continue;
     }
     if (unit.mission->state == wire::MissionState::kAccepted && now - unit.mission_at > kTakeUpWithin) {
-      stop_robot(unit, "", "the robot did not take up the mission", "server");
+      stop_robot(unit, "", {ReasonCode::kNotTakenUp}, "server");
       tell(unit);
       continue;
     }

@@ -20,9 +20,6 @@ namespace homeward::server {
 
 constexpr std::chrono::seconds kBeliefFresh{5};  // an older belief is none
 
-/// What a mission says while its robot has yet to find out where it is.
-constexpr const char* kLooksAroundFirst = "The robot is not sure where it is; it looks around first.";
-
 /// Where a way begins, and how probable it is that the robot is there.
 struct Start {
   PlaceId place;
@@ -93,7 +90,7 @@ struct RobotUnit {
   // Lifted in mid-mission, the last time then, or a drive failed and nothing says where: where it stands is looked for,
   // and no permit goes out.
   std::optional<SteadyTime> looks_since;
-  std::string failed_because;            // what the drive said that ended so
+  wire::Reason failed_because;           // what the drive said that ended so
   int looks = 0;                         // pictures since
   bool lifted = false;                   // and it has not driven since
   DriveSights sights;                    // of this mission

@@ -122,7 +122,7 @@ Result<wire::RobotView> Driving::set_map(const RobotId& id, const std::optional<
   if (const Status status = store_.set_robot_map(id, map); !status) return pass_on(status);
   const std::scoped_lock lock(robot.mutex);
   if (robot.map != map) {
-    if (robot.under_way) stop_robot(robot, "", "the robot was given another map", "server");
+    if (robot.under_way) stop_robot(robot, "", {wire::ReasonCode::kAnotherMap}, "server");
     robot.map = map;
     robot.belief.reset();
     robot.restart_tracking = true;

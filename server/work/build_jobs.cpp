@@ -8,6 +8,7 @@
 
 #include "pipeline/build_map.hpp"
 #include "server/services/tours.hpp"
+#include "server/work/job_notes.hpp"
 #include "server/work/stored_tours.hpp"
 
 namespace homeward::server {
@@ -229,9 +230,9 @@ Result<wire::JobState> BuildJobs::build(wire::JobView& job, const std::stop_toke
   auto built = pipeline::build_noted_map(tours->views(), tours->camera, options, previous ? &previous->map : nullptr,
                                          progress_of(job), stop);
   if (!built) return pass_on(built);
-  const std::vector<std::string> notes = pipeline::notes_in_words(built->notes);
+  std::vector<wire::Reason> notes = notes_of(built->notes);
   job.skipped = static_cast<std::int64_t>(built->notes.skipped.size());
-  for (const std::string& note : notes) spdlog::warn("job {}: {}", job.id.str(), note);
+  for (const wire::Reason& note : notes) spdlog::warn("job {}: {}", job.id.str(), wire::english(note));
   job.stage = "thumbnails";
   job.share = kBuildShare;
   tell(job);
@@ -239,7 +240,7 @@ Result<wire::JobState> BuildJobs::build(wire::JobView& job, const std::stop_toke
   if (const Status made = add_thumbnails(built->map, *tours, stop, thumbnails); !made) return pass_on(made);
   const auto kept = maps_.keep_build(job.map, std::move(built->map), thumbnails);
   if (!kept) return pass_on(kept);
-  job.notes = notes;  // they are about a map that is there
+  job.notes = std::move(notes);  // they are about a map that is there
   spdlog::info("job {}: map {} has {} places from {} pictures", job.id.str(), job.map.str(), kept->places,
                kept->images);
   return wire::JobState::kDone;

@@ -7,7 +7,7 @@
 #include "pipeline/grow_map.hpp"
 #include "pipeline/refine_map.hpp"
 #include "server/work/build_jobs.hpp"
-#include "server/work/learning_words.hpp"
+#include "server/work/job_notes.hpp"
 #include "server/work/stored_tours.hpp"
 #include "wire/appearance_blob.hpp"
 
@@ -116,8 +116,8 @@ Result<wire::JobState> BuildJobs::add_tours(wire::JobView& job, const std::stop_
   db::Thumbnails thumbnails = (*loaded)->thumbnails;
   if (const Status made = add_thumbnails(map, *tours, stop, thumbnails); !made) return pass_on(made);
   job.skipped = static_cast<std::int64_t>(added->skipped.size());
-  job.notes = words_of(added->grown.added);
-  for (std::string& words : words_of_skipped(added->skipped)) job.notes.push_back(std::move(words));
+  job.notes = notes_of(added->grown.added);
+  for (wire::Reason& note : notes_of_skipped(added->skipped)) job.notes.push_back(std::move(note));
   return keep_learnt(job, map, thumbnails, (*loaded)->map.revision);
 }
 
@@ -141,10 +141,10 @@ Result<wire::JobState> BuildJobs::refine_by_tours(wire::JobView& job, const std:
   }
   job.gained = static_cast<std::int64_t>(all.gained.size());
   job.skipped = static_cast<std::int64_t>(skipped.size());
-  job.notes = words_of(map, all, false);
-  for (std::string& words : words_of_skipped(skipped)) job.notes.push_back(std::move(words));
+  job.notes = notes_of(map, all, false);
+  for (wire::Reason& note : notes_of_skipped(skipped)) job.notes.push_back(std::move(note));
   if (all.gained.empty()) {
-    job.notes.insert(job.notes.begin(), "The pictures show nothing new of places that are certain.");
+    job.notes.insert(job.notes.begin(), wire::Reason{wire::ReasonCode::kNothingNew});
     return wire::JobState::kDone;
   }
   map.revision = (*loaded)->map.revision + 1;
@@ -172,13 +172,13 @@ Result<wire::JobState> BuildJobs::refine_by_drives(wire::JobView& job, const std
   const bool at_once = job.taken || record->refine == wire::RefineMode::kAuto;
   const mapping::Refinement& refinement = refined->refinement;
   job.gained = static_cast<std::int64_t>(refinement.gained.size());
-  job.notes = words_of(refined->map, refinement, !at_once);
+  job.notes = notes_of(refined->map, refinement, !at_once);
   const auto certain =
       std::count_if(refined->sure.begin(), refined->sure.end(), [](const PlaceId& p) { return !p.empty(); });
   spdlog::info("job {}: {} sights of {} drives, {} at places that are certain, {} new appearances", job.id.str(),
                sights->size(), job.drives.size(), certain, job.gained);
   if (refinement.gained.empty()) {
-    if (job.taken) job.notes.insert(job.notes.begin(), "Nothing of the offer is left: the map has changed since.");
+    if (job.taken) job.notes.insert(job.notes.begin(), wire::Reason{wire::ReasonCode::kOfferOutdated});
     return wire::JobState::kDone;
   }
   if (!at_once) return wire::JobState::kOffered;

@@ -17,6 +17,7 @@
 #include "pipeline/build_map.hpp"
 #include "pipeline/report/report_page.hpp"
 #include "wire/build_json.hpp"
+#include "wire/map_reasons.hpp"
 
 namespace homeward::cli {
 namespace {
@@ -48,7 +49,10 @@ std::string today() {
 /// Returns the file.
 Result<std::string> write_report(const MapBuildOptions& options, const pipeline::BuiltMap& built,
                                  const TourFolders& tours) {
-  const pipeline::ReportOptions report{today(), options.report_pictures, options.threads, options.seed};
+  pipeline::ReportOptions report{today(), options.report_pictures, options.threads, options.seed};
+  for (const map::TourWarning& warning : built.notes.warnings) {
+    report.warnings.push_back({wire::english(wire::reason_of(warning)), warning.image.str()});
+  }
   const auto page = pipeline::report_page(built, tours.sources(), report);
   if (!page) return pass_on(page);
   const std::filesystem::path file = std::filesystem::path(options.report) / "report.html";
@@ -67,7 +71,9 @@ void tell_notes(const pipeline::BuildNotes& notes) {
               " pictures were left out; the map is made of the others.",
           {}});
   }
-  for (const Error& warning : notes.warnings) tell({warning.code, "Warning: " + warning.message, warning.where});
+  for (const map::TourWarning& warning : notes.warnings) {
+    tell({ErrorCode::kInvalidInput, "Warning: " + wire::english(wire::reason_of(warning)), warning.image.str()});
+  }
 }
 
 /// Where a robot is likely to fail, and what was done about it.

@@ -8,6 +8,7 @@
 
 #include "cli/command.hpp"
 #include "recording/export.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward::cli {
 namespace {
@@ -31,7 +32,7 @@ json to_json(const std::optional<db::WhyStopped>& why) {
   return {{"step", why->step},
           {"after_s", why->after_s},
           {"state", why->state},
-          {"reason", why->reason},
+          {"reason", wire::reason_to_json(why->reason)},
           {"path_index", why->path_index},
           {"odometry", {why->odometry.x_m, why->odometry.y_m, why->odometry.theta_rad}},
           {"link_up", why->link_up},
@@ -72,7 +73,7 @@ void print_since(const char* what, const std::optional<double>& seconds) {
 
 void print(const db::WhyStopped& why) {
   std::printf("step %lld, after %.2f s: %s%s%s\n", static_cast<long long>(why.step), why.after_s, why.state.c_str(),
-              why.reason.empty() ? "" : ": ", why.reason.c_str());
+              why.reason ? ": " : "", why.reason ? wire::english(*why.reason).c_str() : "");
   std::printf("  view of the way  %lld\n  link             %s\n", static_cast<long long>(why.path_index),
               why.link_up ? "up" : "down");
   if (why.min_range_m) std::printf("  nearest thing    %.2f m\n", *why.min_range_m);

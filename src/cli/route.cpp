@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "planning/route.hpp"
 
-#include <array>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "cli/command.hpp"
 #include "db/map_file.hpp"
@@ -46,17 +44,6 @@ planning::RouteRequest request_of(const RouteOptions& options, const map::Topolo
   return request;
 }
 
-void print_no_route(const map::TopologicalMap& map, const planning::RouteRequest& request, const std::string& reason) {
-  constexpr std::array<std::string_view, 4> kKinds = {"blocked", "one_way", "closed", "avoided"};
-  const planning::NoRoute why = planning::explain_no_route(map, request);
-  std::vector<wire::ObstacleView> obstacles;
-  for (const planning::Obstacle& obstacle : why.obstacles) {
-    const auto from = obstacle.way.from.empty() ? std::nullopt : std::optional(obstacle.way.from);
-    obstacles.push_back({std::string(kKinds[static_cast<std::size_t>(obstacle.kind)]), from, obstacle.way.to});
-  }
-  std::cout << wire::no_route_to_json(reason, why.connected, obstacles).dump() << "\n";
-}
-
 void print_json(const std::vector<planning::Route>& routes) {
   std::vector<wire::RouteView> views;
   for (const planning::Route& route : routes) {
@@ -85,7 +72,7 @@ Status plan(const RouteOptions& options) {
   const auto routes = planning::plan_routes(stored->map, request, options.routes);
   if (!routes) {
     if (options.json && routes.error().code == ErrorCode::kNoRoute) {
-      print_no_route(stored->map, request, routes.error().message);
+      std::cout << wire::no_route_to_json(planning::explain_no_route(stored->map, request), stored->map).dump() << "\n";
     }
     return pass_on(routes);
   }

@@ -12,6 +12,7 @@
 #include "cli/simulate.hpp"
 #include "files/read_file.hpp"
 #include "scenario/scenario_run.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward::cli {
 namespace {
@@ -47,7 +48,7 @@ nlohmann::json to_json(const scenario::MissionResult& result) {
       {"asked", result.asked}};
   if (result.arrival_probability) value["arrival_probability"] = *result.arrival_probability;
   for (const scenario::StopEvent& stop : result.stops) {
-    value["stops"].push_back({{"t_s", stop.t_s}, {"reason", stop.reason}});
+    value["stops"].push_back({{"t_s", stop.t_s}, {"reason", wire::reason_to_json(stop.reason)}});
     if (stop.stand_after_s) value["stops"].back()["stand_after_s"] = *stop.stand_after_s;
   }
   if (result.kidnapped_at_s) {
@@ -95,7 +96,8 @@ void print(const scenario::MissionResult& result) {
   std::printf("%-14s -> %-14s %-8s %5.2f m off, %5.1f m driven (shortest %5.1f m), %d collisions, %5.1f s",
               result.from.c_str(), result.to.c_str(), result.arrived ? "arrived" : "failed", result.final_error_m,
               result.path_m, result.shortest_m, result.collisions, result.duration_s);
-  for (const scenario::StopEvent& stop : result.stops) std::printf("; at %.1f s: %s", stop.t_s, stop.reason.c_str());
+  for (const scenario::StopEvent& stop : result.stops)
+    std::printf("; at %.1f s: %s", stop.t_s, wire::english(stop.reason).c_str());
   if (result.kidnapped_at_s) std::printf("; kidnapped at %.1f s", *result.kidnapped_at_s);
   if (result.noticed_after_s) std::printf(", told %.1f s later", *result.noticed_after_s);
   std::printf("\n");

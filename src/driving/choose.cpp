@@ -16,8 +16,7 @@
 namespace homeward::driving {
 namespace {
 
-constexpr const char* kLooksAround = "I am not sure where I am; I drive on a little and look.";
-constexpr const char* kGoesOn = "I am not sure where I am; I go on as if I were where I most probably am, and look.";
+using wire::ReasonCode;
 
 /// What stands about the robot and what it knows of itself, at one step.
 struct Situation {
@@ -46,7 +45,7 @@ Motion take_heading(DrivingState& state, const Situation& now) {
   if (state.covered) return {};
   const double left_rad = wrap_angle(state.follow.view.heading_rad() - now.inputs.odometry.theta_rad);
   if (!(std::abs(left_rad) < now.config.dock_within_rad)) return turn_in_place(left_rad, now.config.approach);
-  end_mission(state, wire::DriveState::kArrived, "");
+  end_mission(state, wire::DriveState::kArrived, std::nullopt);
   return {};
 }
 
@@ -54,7 +53,7 @@ Motion take_heading(DrivingState& state, const Situation& now) {
 Motion look(DrivingState& state, const Situation& now) {
   forget_standing(state.give_way);
   if (state.follow.hypotheses.empty()) return {};
-  state.reason = kLooksAround;
+  state.reason = wire::Reason{ReasonCode::kLooksAround};
   const auto aim_m =
       look_around(state.looking, now.config.body, now.points_m, now.inputs.odometry, now.config.look_around);
   return aim_m ? drive_towards(state, *aim_m, now.config.speed.unsure_mps, now) : Motion{};
@@ -63,8 +62,9 @@ Motion look(DrivingState& state, const Situation& now) {
 /// It knows where it is, or goes on as if it did.
 void stop_looking(DrivingState& state) {
   state.looking = {};
-  if (state.reason == kLooksAround || state.reason == kGoesOn) state.reason.clear();
-  if (state.follow.looked_around) state.reason = kGoesOn;
+  if (says(state.reason, ReasonCode::kLooksAround) || says(state.reason, ReasonCode::kGoesOnUnsure))
+    state.reason.reset();
+  if (state.follow.looked_around) state.reason = wire::Reason{ReasonCode::kGoesOnUnsure};
 }
 
 /// Back, or a moment's wait, for somebody who cannot get past; nothing where the robot goes on.

@@ -29,7 +29,7 @@ namespace homeward::driving {
 /// Everything that `step` remembers between two steps. Copies are cheap: views are shared.
 struct DrivingState {
   wire::DriveState drive = wire::DriveState::kIdle;
-  std::string reason;  // why it stopped or failed, or drives otherwise than it was sent, for people
+  std::optional<wire::Reason> reason;  // why it stopped or failed, or drives otherwise than it was sent
   wire::Order newest;  // the newest order obeyed
   std::int64_t least_epoch = 0;
   std::shared_ptr<const Mission> mission;

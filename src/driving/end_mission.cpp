@@ -5,7 +5,7 @@
 
 namespace homeward::driving {
 
-void end_mission(DrivingState& state, wire::DriveState how, std::string reason) {
+void end_mission(DrivingState& state, wire::DriveState how, std::optional<wire::Reason> reason) {
   state.drive = how;
   state.reason = std::move(reason);
   state.docking = false;

@@ -9,6 +9,6 @@
 namespace homeward::driving {
 
 /// Ends the mission: the robot stands until a newer one comes.
-void end_mission(DrivingState& state, wire::DriveState how, std::string reason);
+void end_mission(DrivingState& state, wire::DriveState how, std::optional<wire::Reason> reason);
 
 }  // namespace homeward::driving

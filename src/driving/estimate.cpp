@@ -11,7 +11,6 @@
 namespace homeward::driving {
 namespace {
 
-constexpr const char* kDisplaced = "All at once I see something else: was I lifted? I look where I am.";
 constexpr Milliseconds kRateOver_ms = 1000;  // answers are counted over, for the rate of vectors
 
 void give_up_displaced(DrivingState& state) {
@@ -21,7 +20,7 @@ void give_up_displaced(DrivingState& state) {
   state.seen = {};
   if (state.drive != wire::DriveState::kDriving) return;
   state.astray = true;
-  end_mission(state, wire::DriveState::kFailed, kDisplaced);
+  end_mission(state, wire::DriveState::kFailed, wire::Reason{wire::ReasonCode::kLifted});
 }
 
 /// Arcs of ultrasound are no surfaces: they tell neither of a lift nor of what stands on a way.

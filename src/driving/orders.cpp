@@ -9,7 +9,11 @@
 namespace homeward::driving {
 namespace {
 
-constexpr const char* kRiderSteers = "The rider is steering with the joystick.";
+wire::Reason why_refused(const wire::MissionOrder& order, const DrivingConfig& config, const Error& error) {
+  if (error.code != ErrorCode::kFeatureConfigMismatch) return wire::reason_of(error);
+  return {wire::ReasonCode::kFeaturesDiffer,
+          {{"map_features", order.feature_config_id}, {"robot_features", config.feature_config_id}}};
+}
 
 /// Obeys one message after the other.
 struct Clerk {
@@ -23,7 +27,7 @@ struct Clerk {
     // A new connection: nothing of an older epoch moves the robot any more.
     state.least_epoch = std::max(state.least_epoch, welcome.epoch);
     if (state.drive == wire::DriveState::kDriving && state.newest.epoch < welcome.epoch) {
-      end_mission(state, wire::DriveState::kStopped, "The connection to the house was made anew.");
+      end_mission(state, wire::DriveState::kStopped, wire::Reason{wire::ReasonCode::kLinkMadeAnew});
     }
   }
 
@@ -31,17 +35,18 @@ struct Clerk {
     if (order.order <= state.newest || order.order.epoch < state.least_epoch) return;
     state.newest = order.order;
     if (rider_steers || now_ms < state.refuses_until_ms) {
-      outputs.messages.emplace_back(
-          wire::MissionRefused{order.mission, order.order,
-                               rider_steers ? kRiderSteers : "The robot's computer was held up; send it again."});
+      outputs.messages.emplace_back(wire::MissionRefused{
+          order.mission, order.order,
+          wire::Reason{rider_steers ? wire::ReasonCode::kRiderSteers : wire::ReasonCode::kWasHeldUp}});
       return;
     }
     auto mission = decode_mission(order, config);
     if (!mission) {
       if (state.drive == wire::DriveState::kDriving) {
-        end_mission(state, wire::DriveState::kStopped, "Another mission was sent that cannot be driven.");
+        end_mission(state, wire::DriveState::kStopped, wire::Reason{wire::ReasonCode::kUndrivableOrder});
       }
-      outputs.messages.emplace_back(wire::MissionRefused{order.mission, order.order, mission.error().message});
+      outputs.messages.emplace_back(
+          wire::MissionRefused{order.mission, order.order, why_refused(order, config, mission.error())});
       return;
     }
     state.belief_changes_ms = now_ms;
@@ -50,7 +55,7 @@ struct Clerk {
     state.mission = std::make_shared<const Mission>(std::move(*mission));
     state.permit_ends_ms = now_ms + order.valid_for_ms;
     state.drive = wire::DriveState::kDriving;
-    state.reason.clear();
+    state.reason.reset();
     state.at_odds = false;
     state.astray = false;
     state.looking = {};
@@ -77,7 +82,8 @@ struct Clerk {
     // A stop is obeyed whatever its age: stopping once too often harms nobody. What it overtook comes too late.
     state.newest = std::max(state.newest, wire::Order{stop.epoch, stop.seq});
     if (state.drive == wire::DriveState::kDriving) {
-      end_mission(state, wire::DriveState::kStopped, stop.reason.empty() ? "Stopped by " + stop.by + "." : stop.reason);
+      end_mission(state, wire::DriveState::kStopped,
+                  stop.reason.value_or(wire::Reason{wire::ReasonCode::kStoppedBy, {{"by", stop.by}}}));
     }
     outputs.messages.emplace_back(wire::Stopped{stop.stop_id, 0});
   }

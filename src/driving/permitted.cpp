@@ -23,15 +23,16 @@ Motion slowed_by_silence(const Motion& wanted, const DrivingState& state, const 
 
 }  // namespace
 
-std::optional<std::string> reason_to_stop(const DrivingState& state, const Inputs& inputs, const DrivingConfig& config,
-                                          Milliseconds now_ms, Milliseconds sensors_ms) {
-  if (!inputs.link_up) return "The connection to the house is lost.";
-  if (now_ms - state.last_message_ms > config.link_silence_ms) return "The house has fallen silent.";
-  if (now_ms > state.permit_ends_ms) return "The permit to drive has run out.";
+std::optional<wire::ReasonCode> reason_to_stop(const DrivingState& state, const Inputs& inputs,
+                                               const DrivingConfig& config, Milliseconds now_ms,
+                                               Milliseconds sensors_ms) {
+  if (!inputs.link_up) return wire::ReasonCode::kLinkLost;
+  if (now_ms - state.last_message_ms > config.link_silence_ms) return wire::ReasonCode::kServerSilent;
+  if (now_ms > state.permit_ends_ms) return wire::ReasonCode::kPermitOver;
   const Milliseconds patience_ms = state.pictured ? config.frame_silence_ms : config.first_frame_ms;
-  if (sensors_ms - state.last_picture_ms > patience_ms) return "The camera gives no pictures.";
+  if (sensors_ms - state.last_picture_ms > patience_ms) return wire::ReasonCode::kCameraSilent;
   if (!state.scan || sensors_ms - state.scan->taken_ms > config.scan_silence_ms)
-    return "The range sensor gives no readings.";
+    return wire::ReasonCode::kRangeSensorSilent;
   return std::nullopt;
 }
 

@@ -11,8 +11,10 @@
 namespace homeward::driving {
 namespace {
 
+using wire::ReasonCode;
+
 /// No part of the way is to blame.
-void end_astray(DrivingState& state, std::string reason) {
+void end_astray(DrivingState& state, wire::Reason reason) {
   state.astray = true;
   end_mission(state, wire::DriveState::kFailed, std::move(reason));
 }
@@ -28,10 +30,10 @@ void end_blocked(DrivingState& state, const DrivingConfig& config) {
                                          config.progress.blocked_within_m, config.progress.blocked_odds);
   }
   if (!state.follow.looked_around && (!before || estimated_place(state.follow, path, config.follow) == before)) {
-    return end_mission(state, wire::DriveState::kFailed, "The way is blocked.");
+    return end_mission(state, wire::DriveState::kFailed, wire::Reason{ReasonCode::kWayBlocked});
   }
   if (state.kept) state.kept->hypotheses = state.follow.hypotheses;
-  end_astray(state, "The way is blocked; I may be elsewhere.");
+  end_astray(state, {ReasonCode::kWayBlockedOrElsewhere});
 }
 
 /// Whether the destination is right here; nothing where that is not known well enough.
@@ -68,40 +70,39 @@ bool stays_too_long(DrivingState& state, const DrivingConfig& config, Millisecon
   return now_ms - *state.stays_since_ms > config.stays_ms;
 }
 
-std::string destination_of(const Mission& mission) {
-  return mission.label.empty() ? std::string("the destination") : mission.label;
+/// What is said of the destination.
+wire::Reason of_destination(ReasonCode code, const Mission& mission) {
+  return {code, {{"destination", mission.label}}};
 }
 
 /// It asks people no longer; what it said of that is over as well.
 void stop_asking(DrivingState& state) {
   if (!state.asking.since_ms) return;
   withdraw(state.asking);
-  state.reason.clear();
+  state.reason.reset();
 }
 
 /// Beside its destination and not certain of it, the robot asks people; whether it does, and so stands and waits. Their
 /// answer has moved the estimate already (orders.cpp): what is left to say here is that it was not enough.
 bool ask_people(DrivingState& state, bool certain, const DrivingConfig& config, Milliseconds now_ms) {
-  const std::string where = destination_of(*state.mission);
   if (!state.asking.since_ms) {
     if (certain || !state.near_since_ms || now_ms - *state.near_since_ms <= config.doubtful_ms) return false;
     ask(state.asking, now_ms);
-    state.reason = "I am not sure that this is " + where + "; I ask whether it is.";
+    state.reason = of_destination(ReasonCode::kDestinationAsked, *state.mission);
   }
   // Whoever comes to answer may stand before the camera; and it makes no way because it does not want to.
   state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = now_ms;
   state.stays_since_ms.reset();
   if (state.asking.said && *state.asking.said) {
     // Whoever says so may be getting out: nothing drives on from here by itself.
-    end_mission(state, wire::DriveState::kStopped,
-                "I am not sure that this is " + where + ", though somebody says so.");
+    end_mission(state, wire::DriveState::kStopped, of_destination(ReasonCode::kDestinationAffirmed, *state.mission));
   } else if (state.asking.said) {
     // Where it takes itself to be there all the same, a person decides.
     state.astray =
         arrival_probability(state.follow, state.mission->path, config.follow) < config.progress.denied_astray_below;
-    end_mission(state, wire::DriveState::kFailed, "Somebody says that this is not " + where + ".");
+    end_mission(state, wire::DriveState::kFailed, of_destination(ReasonCode::kDestinationDenied, *state.mission));
   } else if (now_ms - *state.asking.since_ms > config.asks_ms) {
-    end_astray(state, "I am not sure that this is " + where + ".");
+    end_astray(state, of_destination(ReasonCode::kDestinationUnsure, *state.mission));
   }
   return true;
 }
@@ -139,7 +140,7 @@ bool has_arrived(const DrivingState& state, bool certain, const DrivingConfig& c
 /// Arrived: what is left is the heading, where the mission wants one.
 void arrive(DrivingState& state, Milliseconds now_ms) {
   stop_asking(state);
-  if (!state.mission->dock) return end_mission(state, wire::DriveState::kArrived, "");
+  if (!state.mission->dock) return end_mission(state, wire::DriveState::kArrived, std::nullopt);
   state.docking = true;
   state.last_gain_ms = now_ms;
 }
@@ -148,11 +149,11 @@ void arrive(DrivingState& state, Milliseconds now_ms) {
 void judge_docking(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
   if (state.covered) {
     state.last_gain_ms = now_ms;  // it stands, and turns on when it sees again
-    if (now_ms - state.last_answer_ms > config.blind_ms) end_astray(state, "I do not see where I am any more.");
+    if (now_ms - state.last_answer_ms > config.blind_ms) end_astray(state, {ReasonCode::kPlaceNotSeen});
     return;
   }
   if (now_ms - state.last_gain_ms > config.progress.docking_ms) {
-    end_mission(state, wire::DriveState::kArrived, "I am there, but cannot turn to the right heading.");
+    end_mission(state, wire::DriveState::kArrived, wire::Reason{ReasonCode::kHeadingNotTaken});
   }
 }
 
@@ -169,19 +170,19 @@ bool ends_where_lost(DrivingState& state, const DrivingConfig& config, Milliseco
   // Looking around is no way gained, and not blocked either.
   if (probability < drives_above(state.follow, config.follow)) state.last_gain_ms = now_ms;
   if (now_ms - state.last_sure_ms > config.unsure_ms || state.looking.driven_m > config.look_around.most_m) {
-    end_astray(state, "I am not sure where I am.");
+    end_astray(state, {ReasonCode::kPlaceUnsure});
     return true;
   }
   if (lasts(state.off_path_since_ms, off_path_m(state.follow, path, config.follow), config.off_path_m, now_ms,
             config.off_path_ms)) {
-    end_astray(state, "I am not on my way, but elsewhere.");
+    end_astray(state, {ReasonCode::kOffTheWay});
     return true;
   }
   if (lasts(state.off_belief_since_ms, off_belief_m(state.follow, path, config.follow), config.off_belief_m, now_ms,
             config.off_belief_ms)) {
     state.at_odds = true;
     state.kept.reset();
-    end_astray(state, "I am not sure where I am: the map says another place.");
+    end_astray(state, {ReasonCode::kPlaceDeniedByMap});
     return true;
   }
   return false;
@@ -194,7 +195,7 @@ void judge_way(DrivingState& state, const DrivingConfig& config, Milliseconds no
   const Milliseconds patience_ms = obstacle_moves ? config.patience_ms : config.stuck_ms;
   if (!state.near_since_ms && now_ms - state.last_gain_ms > patience_ms) {
     if (is_unsure(state.follow)) {
-      return end_mission(state, wire::DriveState::kFailed, "I do not see clearly enough where it is.");
+      return end_mission(state, wire::DriveState::kFailed, wire::Reason{ReasonCode::kDestinationNotSeenClearly});
     }
     return end_blocked(state, config);
   }
@@ -216,7 +217,7 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   if (state.docking) return judge_docking(state, config, now_ms);
   if (ask_people(state, certain, config, now_ms)) return;
   if (now_ms - state.last_answer_ms > config.blind_ms) {
-    return end_mission(state, wire::DriveState::kFailed, "I do not recognise the way any more.");
+    return end_mission(state, wire::DriveState::kFailed, wire::Reason{ReasonCode::kWayNotRecognised});
   }
   if (!ends_where_lost(state, config, now_ms)) judge_way(state, config, now_ms);
 }

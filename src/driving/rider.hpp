@@ -11,7 +11,6 @@
 namespace homeward::driving {
 
 /// Why a mission ends when the rider takes the joystick.
-inline constexpr const char* kRiderTookOver = "The rider has taken over.";
 
 /// Whether the rider's hand is on the joystick now. A word that is too old, or of a time to come, is of no hand.
 bool rider_steers(const Inputs& inputs, const DrivingConfig& config, Milliseconds sensors_ms);

@@ -24,14 +24,14 @@ void notice_gap(DrivingState& state, const DrivingConfig& config, Milliseconds n
   state.last_step_ms = now_ms;
   if (gap_ms > config.held_up_ms) state.refuses_until_ms = now_ms + config.held_up_ms;
   if (gap_ms > config.loop_silence_ms && is_driving(state)) {
-    end_mission(state, wire::DriveState::kStopped, "The robot's computer was held up.");
+    end_mission(state, wire::DriveState::kStopped, wire::Reason{wire::ReasonCode::kComputerHeldUp});
   }
 }
 
 /// Also where the server may be about to send it on after a drive that failed: a hand on the joystick ends that.
 void yield_to_rider(DrivingState& state) {
   const bool may_go_on = is_driving(state) || state.drive == wire::DriveState::kFailed;
-  if (may_go_on) end_mission(state, wire::DriveState::kStopped, kRiderTookOver);
+  if (may_go_on) end_mission(state, wire::DriveState::kStopped, wire::Reason{wire::ReasonCode::kRiderTookOver});
 }
 
 void forget_old_belief(DrivingState& state, const DrivingConfig& config, Milliseconds now_ms) {
@@ -70,8 +70,8 @@ void take_orders(DrivingState& state, const Inputs& inputs, bool rider, const Dr
 /// Ends a mission that may not or cannot go on. Precondition: it drives.
 void judge(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds now_ms,
            Milliseconds sensors_ms) {
-  if (auto reason = reason_to_stop(state, inputs, config, now_ms, sensors_ms)) {
-    end_mission(state, wire::DriveState::kStopped, std::move(*reason));
+  if (const auto why = reason_to_stop(state, inputs, config, now_ms, sensors_ms)) {
+    end_mission(state, wire::DriveState::kStopped, wire::Reason{*why});
   } else {
     judge_progress(state, config, sensors_ms);
   }

@@ -167,23 +167,7 @@ Status check_texture(const Pictures& pictures, const std::vector<features::Appea
               first_blank);
 }
 
-std::string with_place(const Error& error) {
-  return error.where.empty() ? error.message : error.message + " (" + error.where + ")";
-}
-
 }  // namespace
-
-std::vector<std::string> notes_in_words(const BuildNotes& notes) {
-  std::vector<std::string> words;
-  if (!notes.skipped.empty()) {
-    const std::size_t all = notes.skipped.size() + notes.appearances.size();
-    words.push_back(std::to_string(notes.skipped.size()) + " of " + std::to_string(all) +
-                    " pictures cannot be read and " + (notes.skipped.size() == 1 ? "is" : "are") +
-                    " left out. The first: " + with_place(notes.skipped.front()));
-  }
-  for (const Error& warning : notes.warnings) words.push_back(with_place(warning));
-  return words;
-}
 
 Result<map::TopologicalMap> build_map(const std::vector<const TourSource*>& tours, const camera::CameraConfig& camera,
                                       const BuildOptions& options, const map::TopologicalMap* previous,

@@ -12,6 +12,7 @@
 #include "core/tour.hpp"
 #include "features/appearance.hpp"
 #include "map/topological_map.hpp"
+#include "map/tour_warning.hpp"
 #include "mapping/map_builder.hpp"
 #include "mapping/pair_table.hpp"
 
@@ -36,13 +37,9 @@ struct BuildNotes {
   std::vector<features::Appearance> appearances;
   mapping::PairTable pairs{0};
   mapping::MappingNotes mapping;
-  std::vector<Error> skipped;   // pictures that the map does without, and why; each names its picture
-  std::vector<Error> warnings;  // what is odd about the tour and yet no reason to refuse it; each names a picture
+  std::vector<Error> skipped;              // pictures that the map does without, and why; each names its picture
+  std::vector<map::TourWarning> warnings;  // what is odd about the tours
 };
-
-/// What a person should know of a build: one sentence on the pictures left out, with the first of them, and each
-/// warning. Empty when there is nothing to say.
-std::vector<std::string> notes_in_words(const BuildNotes& notes);
 
 /// A map with all that a report on it tells.
 struct BuiltMap {

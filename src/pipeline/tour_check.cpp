@@ -152,22 +152,18 @@ Status check_motion(std::span<const map::MapImage> images, std::span<const featu
 
 namespace {
 
-std::string out_of_order(const std::string& how_many, const std::string& times) {
-  return "The pictures are out of order: at " + how_many +
-         " the next picture does not resemble the one before, but others do." + times +
+std::string out_of_order(std::size_t jumps, std::size_t steps, bool against_times) {
+  return "The pictures are out of order: at " + std::to_string(jumps) + " of " + std::to_string(steps) +
+         " steps the next picture does not resemble the one before, but others do." +
+         (against_times ? " Their times say another order than their names, too." : "") +
          " Name them in the order of the drive (00001.jpg, 00002.jpg, ...).";
-}
-
-std::string tour_jumps(const std::string& how_many, const std::string& pictures, const std::string& times) {
-  return "The tour jumps at " + how_many + ": " + pictures +
-         ". These pictures do not resemble each other, but others of the tour do; are they out of order?" + times;
 }
 
 }  // namespace
 
-Result<std::vector<Error>> check_order(std::span<const map::MapImage> images, std::span<const int> tour_of,
-                                       const mapping::PairTable& pairs) {
-  std::vector<Error> warnings;
+Result<std::vector<map::TourWarning>> check_order(std::span<const map::MapImage> images, std::span<const int> tour_of,
+                                                  const mapping::PairTable& pairs) {
+  std::vector<map::TourWarning> warnings;
   for (std::size_t begin = 0; begin < images.size();) {
     std::size_t end = begin + 1;
     while (end < images.size() && tour_of[end] == tour_of[begin]) ++end;
@@ -179,26 +175,19 @@ Result<std::vector<Error>> check_order(std::span<const map::MapImage> images, st
       if (older && back_in_time == end) back_in_time = i + 1;
     }
     const std::size_t steps = end - begin - 1;
-    const std::string times = back_in_time == end ? "" : " Their times say another order than their names, too.";
     if (!jump_after.empty()) {
-      const std::string& first = images[jump_after.front() + 1].id.str();
-      std::string how_many = std::to_string(jump_after.size());
-      how_many.append(" of ").append(std::to_string(steps)).append(" steps");
+      const ImageId& first = images[jump_after.front() + 1].id;
       if (static_cast<double>(jump_after.size()) > kMostJumps * static_cast<double>(steps)) {
-        return fail(ErrorCode::kInvalidInput, out_of_order(how_many, times), first);
+        return fail(ErrorCode::kInvalidInput, out_of_order(jump_after.size(), steps, back_in_time != end), first.str());
       }
-      std::string names;
+      map::TourWarning warning{
+          map::TourWarning::Kind::kJumps, first, jump_after.size(), steps, {}, back_in_time != end};
       for (std::size_t i = 0; i < std::min(kMostNamed, jump_after.size()); ++i) {
-        if (i > 0) names.append(", ");
-        names.append(name_of(images[jump_after[i]])).append(" to ").append(name_of(images[jump_after[i] + 1]));
+        warning.first.push_back({name_of(images[jump_after[i]]), name_of(images[jump_after[i] + 1])});
       }
-      if (jump_after.size() > kMostNamed) names += ", ...";
-      warnings.push_back({ErrorCode::kInvalidInput, tour_jumps(how_many, names, times), first});
+      warnings.push_back(std::move(warning));
     } else if (back_in_time != end) {
-      warnings.push_back({ErrorCode::kInvalidInput,
-                          "The picture is older than the one before it: pictures are taken in the order of their "
-                          "names, not of their times.",
-                          images[back_in_time].id.str()});
+      warnings.push_back({map::TourWarning::Kind::kPictureOlder, images[back_in_time].id});
     }
     begin = end;
   }

@@ -10,6 +10,7 @@
 #include "core/result.hpp"
 #include "features/appearance.hpp"
 #include "map/topological_map.hpp"
+#include "map/tour_warning.hpp"
 #include "mapping/pair_table.hpp"
 
 namespace homeward::pipeline {
@@ -45,7 +46,7 @@ Status check_motion(std::span<const map::MapImage> images, std::span<const featu
 /// Error: kInvalidInput when most steps are jumps. Else one warning for each tour with jumps, or with times that do
 /// not rise.
 /// Ours: docs/experiments/tours_out_of_order.md.
-Result<std::vector<Error>> check_order(std::span<const map::MapImage> images, std::span<const int> tour_of,
-                                       const mapping::PairTable& pairs);
+Result<std::vector<map::TourWarning>> check_order(std::span<const map::MapImage> images, std::span<const int> tour_of,
+                                                  const mapping::PairTable& pairs);
 
 }  // namespace homeward::pipeline

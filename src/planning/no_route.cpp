@@ -13,6 +13,10 @@
 namespace homeward::planning {
 namespace {
 
+using map::NoRoute;
+using map::Obstacle;
+using map::ObstacleKind;
+
 /// A way between neighbours that could be driven if what stands against it did not.
 struct Wish {
   int to = 0;
@@ -68,6 +72,8 @@ NoRoute explain_no_route(const map::TopologicalMap& map, const RouteRequest& req
   const int from = index.at(request.from);
   const int to = index.at(request.to);
   NoRoute why;
+  why.from = request.from;
+  why.to = request.to;
   const std::vector<int> parts = map::components(map::PlaceGraph(map));
   why.connected = parts[at(from)] == parts[at(to)];
   if (!why.connected) {
@@ -105,8 +111,8 @@ NoRoute explain_no_route(const map::TopologicalMap& map, const RouteRequest& req
   for (int place = to; place != from; place = reached[at(place)].before) {
     const Reached& last = reached[at(place)];
     const PlaceId& id = map.places[at(place)].id;
-    if (avoided[at(place)]) why.obstacles.push_back({ObstacleKind::kAvoided, {PlaceId(), id}});
-    if (last.over) why.obstacles.push_back({*last.over, {map.places[at(last.before)].id, id}});
+    if (avoided[at(place)]) why.obstacles.push_back({ObstacleKind::kAvoided, PlaceId(), id});
+    if (last.over) why.obstacles.push_back({*last.over, map.places[at(last.before)].id, id});
   }
   std::ranges::reverse(why.obstacles);
   return why;
@@ -119,7 +125,7 @@ std::string no_route_text(const map::TopologicalMap& map, const RouteRequest& re
   if (!why.connected) {
     return "No way " + ways + " was seen on a tour: the two are in parts of the map that are not connected.";
   }
-  const auto open_back = [&](const Way& way) {
+  const auto open_back = [&](const Obstacle& way) {
     const map::Edge* back = map::find_edge(map, way.to, way.from);
     return back != nullptr && !back->blocked;
   };
@@ -131,11 +137,10 @@ std::string no_route_text(const map::TopologicalMap& map, const RouteRequest& re
       break;
     }
     const std::string way =
-        "the way from " + (obstacle.way.from.empty() ? "" : name(obstacle.way.from)) + " to " + name(obstacle.way.to);
+        "the way from " + (obstacle.from.empty() ? "" : name(obstacle.from)) + " to " + name(obstacle.to);
     switch (obstacle.kind) {
       case ObstacleKind::kBlocked:
-        items.push_back(way +
-                        (open_back(obstacle.way) ? ", which is blocked in this direction" : ", which is blocked"));
+        items.push_back(way + (open_back(obstacle) ? ", which is blocked in this direction" : ", which is blocked"));
         break;
       case ObstacleKind::kOneWay:
         items.push_back(way + ", which is one-way against it");
@@ -144,7 +149,7 @@ std::string no_route_text(const map::TopologicalMap& map, const RouteRequest& re
         items.push_back(way + ", which has just failed or is closed");
         break;
       case ObstacleKind::kAvoided:
-        items.push_back("place " + name(obstacle.way.to) + ", which is to be avoided");
+        items.push_back("place " + name(obstacle.to) + ", which is to be avoided");
         break;
     }
   }

@@ -51,7 +51,7 @@ Status DriveLoop::run(wire::MissionOrder order, std::vector<Pose2> way) {
     if (state_.drive != wire::DriveState::kDriving && !moves(robot_)) break;
   }
   if (state_.drive == wire::DriveState::kDriving && !is_ended_)
-    stops_.push_back({elapsed_s(), "The mission has lasted too long.", {}});
+    stops_.push_back({elapsed_s(), {wire::ReasonCode::kTooLong}, {}});
   close_stop();
   return {};
 }
@@ -87,7 +87,8 @@ void DriveLoop::hear_server(bool link_up) {
         wire::Permit{order_.mission, {order_.order.epoch, ++order_.order.seq}, wire::kPermitValid_ms});
   answer_question();
   if (!on(FaultKind::kStop)) return;
-  messages_.emplace_back(wire::StopOrder{"s1", order_.order.epoch, "Stopped by hand.", "test"});
+  messages_.emplace_back(
+      wire::StopOrder{"s1", order_.order.epoch, wire::Reason{wire::ReasonCode::kStoppedByHand}, "test"});
   stopped_by_hand_ = true;
 }
 
@@ -112,7 +113,7 @@ Status DriveLoop::cycle() {
     const auto outputs = step_once(link_up);
     if (!outputs) return pass_on(outputs);
     const bool ended = was_driving && state_.drive != wire::DriveState::kDriving;
-    if (ended && !state_.reason.empty()) stops_.push_back({elapsed_s(), state_.reason, {}});
+    if (ended && state_.reason) stops_.push_back({elapsed_s(), *state_.reason, {}});
     listen_for_doubt();
     compare_with_belief();
     if (state_.drive != wire::DriveState::kDriving && state_.drive != wire::DriveState::kArrived && !moves(robot_))
@@ -210,8 +211,8 @@ Status DriveLoop::kidnap() {
 void DriveLoop::listen_for_doubt() {
   if (!kidnapped_at_s_ || noticed_after_s_ || state_.drive == wire::DriveState::kArrived) return;
   // What it said before says nothing of the lift.
-  if (state_.reason != said_when_lifted_) said_when_lifted_.clear();
-  if (state_.drive != wire::DriveState::kDriving || (!state_.reason.empty() && said_when_lifted_.empty()))
+  if (state_.reason != said_when_lifted_) said_when_lifted_.reset();
+  if (state_.drive != wire::DriveState::kDriving || (state_.reason && !said_when_lifted_))
     noticed_after_s_ = elapsed_s() - *kidnapped_at_s_;
 }
 

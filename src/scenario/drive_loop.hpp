@@ -119,7 +119,7 @@ class DriveLoop {
   Elsewhere elsewhere_;
   std::optional<double> kidnapped_at_s_;
   std::optional<double> noticed_after_s_;
-  std::string said_when_lifted_;
+  std::optional<wire::Reason> said_when_lifted_;
   std::optional<double> apart_since_s_;
   double belief_apart_s_ = 0.0;
   driving::Milliseconds now_ms_ = 0;

@@ -10,7 +10,7 @@ namespace homeward::scenario {
 /// One end of a drive before its destination.
 struct StopEvent {
   double t_s = 0.0;
-  std::string reason;
+  wire::Reason reason;
   std::optional<double> stand_after_s;  // from the beginning of the fault that was on to wheels at zero
 };
 

@@ -56,10 +56,13 @@ Result<MissionResult> drive_mission(DriveLoop& drive, SimulatedServer& server, w
     if (const Status driven = drive.run(std::move(order), std::move(way)); !driven) return pass_on(driven);
     // What a person or a fault has stopped, only a person sets going again.
     if (drive.state().drive != wire::DriveState::kFailed) break;
-    std::string why;
+    std::optional<wire::Reason> why;
     auto next = server.order_after(drive, why);
     if (!next) return pass_on(next);
-    if (!why.empty() && !drive.stops().empty()) drive.stops().back().reason += " " + why;
+    if (why && !drive.stops().empty()) {
+      wire::Reason& reason = drive.stops().back().reason;
+      reason = {wire::ReasonCode::kNoWayOn, {{"because", std::vector{reason}}, {"trouble", std::vector{*why}}}};
+    }
     if (!*next) break;
     order = std::move(**next);
   }
@@ -157,12 +160,12 @@ Result<MissionResult> drive_from_here(const Setting& mission, const map::Destina
   if (!place) return pass_on(place);
   MissionResult result;
   if (!*place) {
-    result.stops.push_back({0.0, "I do not know where I am.", {}});
+    result.stops.push_back({0.0, {wire::ReasonCode::kPlaceUnknown}, {}});
     return result;
   }
   const auto order = server->order_from(**place);
   if (order) return drive_with(mission, *order, target, robot, *eye, *server);
-  result.stops.push_back({0.0, order.error().message, {}});
+  result.stops.push_back({0.0, wire::reason_of(order.error()), {}});
   return result;
 }
 

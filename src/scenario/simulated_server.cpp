@@ -148,7 +148,8 @@ std::optional<PlaceId> SimulatedServer::believed_start(const driving::DrivingSta
   return believed ? believed : estimated;
 }
 
-Result<std::optional<wire::MissionOrder>> SimulatedServer::order_after(DriveLoop& drive, std::string& why) {
+Result<std::optional<wire::MissionOrder>> SimulatedServer::order_after(DriveLoop& drive,
+                                                                       std::optional<wire::Reason>& why) {
   const driving::DrivingState& robot = drive.state();
   // The destination's own view comes after that of its place.
   const std::int64_t index = std::min<std::int64_t>(robot.follow.index, static_cast<std::int64_t>(path_.size()) - 1);
@@ -170,7 +171,7 @@ Result<std::optional<wire::MissionOrder>> SimulatedServer::order_after(DriveLoop
   if (!here) return pass_on(here);
   if (drive.stopped_by_hand()) return std::nullopt;
   if (!*here) {
-    why = "I do not know where I am.";
+    why = wire::Reason{wire::ReasonCode::kPlaceUnknown};
     return std::nullopt;
   }
   const bool homed_to_it = index + 1 == static_cast<std::int64_t>(path_.size());
@@ -183,7 +184,7 @@ Result<std::optional<wire::MissionOrder>> SimulatedServer::order_after(DriveLoop
   closed_.insert(closed_.end(), ways->begin(), ways->end());
   auto order = order_from(**here, second_look);
   if (!order) {
-    why = order.error().message;
+    why = wire::reason_of(order.error());
     return std::nullopt;
   }
   ++(robot.astray || unsure ? restarts_ : detours_);

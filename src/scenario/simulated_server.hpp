@@ -26,7 +26,7 @@ class SimulatedServer {
   /// plan_detour and plan_second_look.
   Result<wire::MissionOrder> order_from(const PlaceId& place, bool second_look = false);
   /// The next order after a drive that failed. Nothing: a person decides, and `why` may say what for.
-  Result<std::optional<wire::MissionOrder>> order_after(DriveLoop& drive, std::string& why);
+  Result<std::optional<wire::MissionOrder>> order_after(DriveLoop& drive, std::optional<wire::Reason>& why);
   /// Where an order's pictures were truly taken, one for each of its views.
   [[nodiscard]] std::vector<Pose2> way_of(const wire::MissionOrder& order) const;
   /// The belief by one more picture of the drive, and by where the robot takes itself to be.

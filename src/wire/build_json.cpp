@@ -4,6 +4,8 @@
 #include "map/parts.hpp"
 #include "wire/error_table.hpp"
 #include "wire/json_write.hpp"
+#include "wire/map_reasons.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward::wire {
 
@@ -25,8 +27,8 @@ nlohmann::json build_to_json(const BuildView& build, const map::TopologicalMap& 
   for (const Error& error : build.skipped) {
     value["skipped"].push_back({{"image", error.where}, {"code", error_name(error.code)}, {"reason", error.message}});
   }
-  for (const Error& error : build.warnings) {
-    value["warnings"].push_back({{"image", error.where}, {"reason", error.message}});
+  for (const map::TourWarning& warning : build.warnings) {
+    value["warnings"].push_back({{"image", warning.image.str()}, {"reason", reason_to_json(reason_of(warning))}});
   }
   return value;
 }

@@ -8,6 +8,7 @@
 
 #include "core/result.hpp"
 #include "map/topological_map.hpp"
+#include "map/tour_warning.hpp"
 
 namespace homeward::wire {
 
@@ -15,8 +16,8 @@ namespace homeward::wire {
 struct BuildView {
   std::string file;
   std::optional<std::string> report;
-  std::vector<Error> skipped;   // pictures left out; `where` is the picture
-  std::vector<Error> warnings;  // what is odd about the tour
+  std::vector<Error> skipped;  // pictures left out; `where` is the picture
+  std::vector<map::TourWarning> warnings;
 };
 
 nlohmann::json build_to_json(const BuildView& build, const map::TopologicalMap& map);

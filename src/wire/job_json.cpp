@@ -3,6 +3,7 @@
 
 #include "wire/json_write.hpp"
 #include "wire/problem_json.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward::wire {
 namespace {
@@ -24,7 +25,7 @@ nlohmann::json job_to_json(const JobView& job) {
                           {"error", nullptr},
                           {"skipped", job.skipped},
                           {"gained", job.gained},
-                          {"notes", job.notes},
+                          {"notes", reasons_to_json(job.notes)},
                           {"created_us", job.created_us}};
   if (job.error) value["error"] = problem_to_json(*job.error);
   return value;

@@ -12,6 +12,7 @@
 #include "core/ids.hpp"
 #include "core/result.hpp"
 #include "core/time.hpp"
+#include "wire/reason.hpp"
 
 namespace homeward::wire {
 
@@ -37,9 +38,9 @@ struct JobView {
   double share = 0.0;  // of the whole work done, in [0,1]
   std::optional<Error> error;
   TimeUs created_us = 0;
-  std::int64_t skipped = 0;        // pictures that cannot be read and that the map does without
-  std::vector<std::string> notes;  // what a person should know of a job that is done or offered, in whole sentences
-  std::int64_t gained = 0;         // new appearances that places gained, or would gain
+  std::int64_t skipped = 0;   // pictures that cannot be read and that the map does without
+  std::vector<Reason> notes;  // what a person should know of a job that is done or offered
+  std::int64_t gained = 0;    // new appearances that places gained, or would gain
   // What the server remembers and nobody is told:
   bool taken = false;                  // what it offers is wanted
   std::vector<TourId> tours = {};      // that it adds or refines by

@@ -6,6 +6,7 @@
 #include "wire/camera_json.hpp"
 #include "wire/json_reader.hpp"
 #include "wire/link_messages.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward::wire {
 namespace {
@@ -29,6 +30,24 @@ Order read_order(ObjectReader& reader) { return {reader.integer("epoch", 0, kMos
 
 std::optional<std::string> text_or_null(ObjectReader& reader, const std::string& key) {
   return reader.value(key).is_null() ? std::nullopt : std::optional(reader.text(key));
+}
+
+/// The reason of a message; words where it is of version 1, which says nothing by none.
+std::optional<Reason> read_link_reason(ObjectReader& reader) {
+  const json& value = reader.value("reason");
+  if (value.is_null()) return std::nullopt;
+  if (reader.value("v") != kOldestLinkVersion) {
+    return reader.take(reason_from_json(value, reader.path_of("reason")));
+  }
+  std::string words = reader.text("reason");
+  return words.empty() ? std::nullopt : std::optional(in_words(std::move(words)));
+}
+
+/// The same where there must be one.
+Reason read_refusal(ObjectReader& reader) {
+  auto reason = read_link_reason(reader);
+  if (!reason) reader.problem("reason", "'reason' must say why.");
+  return reason ? std::move(*reason) : Reason{};
 }
 
 std::optional<double> number_or_null(ObjectReader& reader, const std::string& key) {
@@ -112,7 +131,7 @@ AgentStatus read_status(ObjectReader& reader) {
   if (const auto mission = text_or_null(reader, "mission")) m.mission = MissionId(*mission);
   m.epoch = reader.integer("epoch", 0, kMost);
   m.path_index = reader.integer("path_index", 0, kMaxPathPlaces);
-  m.reason = text_or_null(reader, "reason");
+  m.reason = read_link_reason(reader);
   m.speed_mps = reader.number("speed_mps", -5.0, 5.0);
   m.home = read_home(reader);
   m.min_range_m = number_or_null(reader, "min_range_m");
@@ -241,13 +260,13 @@ Result<Message> read_message(const json& value, const Read& read) {
   ObjectReader reader(value, "message");
   const std::string type = reader.text("type", 40);
   const json& version = reader.value("v");
-  if (version.is_number_integer() && version != kLinkVersion) {
-    return fail(
-        ErrorCode::kUnsupportedFormat,
-        "Version " + version.dump() + " of the link is not spoken here, only " + std::to_string(kLinkVersion) + ".",
-        "message/v");
+  if (version.is_number_integer() && (version < kOldestLinkVersion || version > kLinkVersion)) {
+    return fail(ErrorCode::kUnsupportedFormat,
+                "Version " + version.dump() + " of the link is not spoken here, only up to " +
+                    std::to_string(kLinkVersion) + ".",
+                "message/v");
   }
-  reader.integer("v", kLinkVersion, kLinkVersion);
+  reader.integer("v", kOldestLinkVersion, kLinkVersion);
   std::optional<Message> message = read(type, reader);
   if (!message) {
     reader.problem("type", "'" + type + "' is no type of message on this link.");
@@ -302,7 +321,7 @@ Result<AgentMessage> agent_message_from_json(const json& value) {
     if (type == "status") return read_status(r);
     if (type == "stopped") return Stopped{r.text("stop_id", 100), r.integer("t_us", 0, kMost)};
     if (type == "mission_refused") {
-      return MissionRefused{MissionId(r.text("mission", 100)), read_order(r), r.text("reason")};
+      return MissionRefused{MissionId(r.text("mission", 100)), read_order(r), read_refusal(r)};
     }
     return std::nullopt;
   });
@@ -317,7 +336,7 @@ Result<ServerMessage> server_message_from_json(const json& value) {
           return Permit{MissionId(r.text("mission", 100)), read_order(r), r.integer("valid_for_ms", 1, 60'000)};
         }
         if (type == "stop") {
-          return StopOrder{r.text("stop_id", 100), r.integer("epoch", 0, kMost), r.text("reason"), r.text("by", 200),
+          return StopOrder{r.text("stop_id", 100), r.integer("epoch", 0, kMost), read_link_reason(r), r.text("by", 200),
                            r.has("seq") ? r.integer("seq", 0, kMost) : 0};
         }
         if (type == "belief") return read_belief(r);

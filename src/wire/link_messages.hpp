@@ -16,12 +16,15 @@
 #include "core/result.hpp"
 #include "core/time.hpp"
 #include "wire/drive_terms.hpp"
+#include "wire/reason.hpp"
 
 namespace homeward::wire {
 
 /// The agent link (proto/asyncapi.yaml): each message one CBOR map in one binary WebSocket message, with "type" and
 /// "v".
-inline constexpr int kLinkVersion = 1;
+inline constexpr int kLinkVersion = 2;
+/// Version 1, which older recordings hold, has words instead of reasons.
+inline constexpr int kOldestLinkVersion = 1;
 inline constexpr std::size_t kMaxLinkMessageBytes = 32UL * 1024 * 1024;
 
 /// What a permit to drive is tied to. A later epoch (lease hand-over, server restart, reconnect) beats every earlier
@@ -82,7 +85,7 @@ struct AgentStatus {
   std::optional<MissionId> mission;
   std::int64_t epoch = 0;
   std::int64_t path_index = 0;
-  std::optional<std::string> reason;  // why it stopped or failed, for people
+  std::optional<Reason> reason;  // why it stopped or failed
   double speed_mps = 0.0;
   std::optional<HomeReport> home;
   std::optional<double> min_range_m;
@@ -109,7 +112,7 @@ struct Stopped {
 struct MissionRefused {
   MissionId mission;
   Order order;
-  std::string reason;
+  Reason reason;
 };
 
 // From the server.
@@ -182,7 +185,7 @@ struct Permit {
 struct StopOrder {
   std::string stop_id;
   std::int64_t epoch = 0;
-  std::string reason;
+  std::optional<Reason> reason;  // nothing: whoever stops it says none
   std::string by;
   std::int64_t seq = 0;  // orders up to this one are void: a stop overtakes those that wait to be sent
 };

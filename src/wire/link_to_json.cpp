@@ -5,6 +5,7 @@
 #include "wire/camera_json.hpp"
 #include "wire/json_write.hpp"
 #include "wire/link_messages.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward::wire {
 namespace {
@@ -47,7 +48,7 @@ json write(const AgentStatus& m) {
   value["mission"] = or_null(m.mission);
   value["epoch"] = m.epoch;
   value["path_index"] = m.path_index;
-  value["reason"] = or_null(m.reason);
+  value["reason"] = reason_to_json(m.reason);
   value["speed_mps"] = m.speed_mps;
   value["home"] = nullptr;
   if (m.home) {
@@ -84,7 +85,7 @@ json write(const MissionRefused& m) {
   json value = start("mission_refused");
   value["mission"] = m.mission.str();
   add_order(value, m.order);
-  value["reason"] = m.reason;
+  value["reason"] = reason_to_json(m.reason);
   return value;
 }
 
@@ -161,7 +162,7 @@ json write(const StopOrder& m) {
   value["stop_id"] = m.stop_id;
   value["epoch"] = m.epoch;
   value["seq"] = m.seq;
-  value["reason"] = m.reason;
+  value["reason"] = reason_to_json(m.reason);
   value["by"] = m.by;
   return value;
 }

@@ -6,6 +6,7 @@
 
 #include "wire/json_reader.hpp"
 #include "wire/json_write.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward::wire {
 namespace {
@@ -14,6 +15,7 @@ using nlohmann::json;
 
 constexpr std::array<std::string_view, 6> kMissionStates = {"accepted", "driving", "arrived",
                                                             "refused",  "stopped", "failed"};
+constexpr int kMissionVersion = 2;  // version 1 had words instead of reasons
 constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
 
 std::vector<PlaceId> read_path(ObjectReader& reader) {
@@ -38,7 +40,7 @@ std::optional<MissionState> mission_state(std::string_view name) {
 
 json mission_to_json(const MissionView& mission) {
   return {{"format", "homeward-mission"},
-          {"version", 1},
+          {"version", kMissionVersion},
           {"id", mission.id.str()},
           {"robot", mission.robot.str()},
           {"map", mission.map.str()},
@@ -46,7 +48,7 @@ json mission_to_json(const MissionView& mission) {
           {"destination", or_null(mission.destination)},
           {"place", mission.place.str()},
           {"state", mission_state_name(mission.state)},
-          {"reason", or_null(mission.reason)},
+          {"reason", reason_to_json(mission.reason)},
           {"epoch", mission.epoch},
           {"seq", mission.seq},
           {"path", ids_to_json(mission.path)},
@@ -58,7 +60,7 @@ json mission_to_json(const MissionView& mission) {
 
 Result<MissionView> mission_from_json(const json& value, const std::string& path) {
   ObjectReader reader(value, path);
-  reader.format("homeward-mission", 1);
+  reader.format("homeward-mission", kMissionVersion);
   MissionView mission;
   mission.id = MissionId(reader.text("id", 100));
   mission.robot = RobotId(reader.text("robot", 100));
@@ -68,7 +70,8 @@ Result<MissionView> mission_from_json(const json& value, const std::string& path
   mission.place = PlaceId(reader.text("place", 100));
   const std::string state = reader.choice("state", {kMissionStates.begin(), kMissionStates.end()});
   mission.state = mission_state(state).value_or(MissionState::kFailed);
-  if (!reader.value("reason").is_null()) mission.reason = reader.text("reason");
+  if (const json& reason = reader.value("reason"); !reason.is_null())
+    mission.reason = reader.take(reason_from_json(reason, reader.path_of("reason")));
   mission.epoch = reader.integer("epoch", 0, kLargest);
   mission.seq = reader.integer("seq", 0, kLargest);
   mission.path = read_path(reader);

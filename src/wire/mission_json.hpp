@@ -10,6 +10,7 @@
 #include "core/ids.hpp"
 #include "core/result.hpp"
 #include "core/time.hpp"
+#include "wire/reason.hpp"
 
 namespace homeward::wire {
 
@@ -29,7 +30,7 @@ struct MissionView {
   std::optional<DestinationId> destination;  // nothing when a place was asked for
   PlaceId place;
   MissionState state = MissionState::kAccepted;
-  std::optional<std::string> reason;  // why it ended without arriving, or what was not right when it arrived
+  std::optional<Reason> reason;  // why it ended without arriving, or what was not right when it arrived
   std::int64_t epoch = 0;
   std::int64_t seq = 0;
   std::vector<PlaceId> path;

@@ -2,6 +2,7 @@
 #include "wire/robot_json.hpp"
 
 #include "wire/json_write.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward::wire {
 
@@ -19,7 +20,7 @@ json robot_to_json(const RobotView& robot) {
                 {"online", robot.online},
                 {"map", or_null(robot.map)},
                 {"state", nullptr},
-                {"reason", or_null(robot.reason)},
+                {"reason", reason_to_json(robot.reason)},
                 {"speed_mps", or_null(robot.speed_mps)},
                 {"home", nullptr},
                 {"min_range_m", or_null(robot.min_range_m)},

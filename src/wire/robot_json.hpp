@@ -26,8 +26,8 @@ struct RobotView {
   std::string name;
   bool online = false;
   std::optional<MapId> map;
-  std::optional<DriveState> state;    // as last told by the agent
-  std::optional<std::string> reason;  // why the agent stopped or failed
+  std::optional<DriveState> state;  // as last told by the agent
+  std::optional<Reason> reason;     // why the agent stopped or failed
   std::optional<double> speed_mps;
   std::optional<HomeReport> home;
   std::optional<double> min_range_m;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/route_json.hpp"
 
+#include <array>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "wire/inspect_json.hpp"
 #include "wire/json_write.hpp"
+#include "wire/map_reasons.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward::wire {
 namespace {
@@ -36,13 +40,18 @@ json routes_to_json(const std::vector<RouteView>& routes) {
   return value;
 }
 
-json no_route_to_json(const std::string& reason, bool connected, const std::vector<ObstacleView>& obstacles) {
+json no_route_to_json(const map::NoRoute& why, const map::TopologicalMap& map) {
+  constexpr std::array<std::string_view, 4> kKinds = {"blocked", "one_way", "closed", "avoided"};
   json list = json::array();
-  for (const ObstacleView& obstacle : obstacles) {
-    const json from = obstacle.from ? json(obstacle.from->str()) : json(nullptr);
-    list.push_back({{"kind", obstacle.kind}, {"from", from}, {"to", obstacle.to.str()}});
+  for (const map::Obstacle& obstacle : why.obstacles) {
+    const json from = obstacle.from.empty() ? json(nullptr) : json(obstacle.from.str());
+    list.push_back(
+        {{"kind", kKinds[static_cast<std::size_t>(obstacle.kind)]}, {"from", from}, {"to", obstacle.to.str()}});
   }
-  return {{"places", nullptr}, {"reason", reason}, {"connected", connected}, {"obstacles", std::move(list)}};
+  return {{"places", nullptr},
+          {"reason", reason_to_json(reason_of(why, map))},
+          {"connected", why.connected},
+          {"obstacles", std::move(list)}};
 }
 
 }  // namespace homeward::wire

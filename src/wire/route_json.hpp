@@ -2,11 +2,10 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "core/ids.hpp"
+#include "map/no_route.hpp"
 #include "map/topological_map.hpp"
 
 namespace homeward::wire {
@@ -31,14 +30,7 @@ struct RouteView {
 /// The best way and, as `others`, the next best ones (proto/schemas/route.schema.json). Precondition: not empty.
 nlohmann::json routes_to_json(const std::vector<RouteView>& routes);
 
-/// What stands in a way: an edge, or a place (`from` is nothing).
-struct ObstacleView {
-  std::string kind;  // "blocked", "one_way", "closed", "avoided"
-  std::optional<PlaceId> from;
-  PlaceId to;
-};
-
 /// That there is none, and why (proto/schemas/no_route.schema.json).
-nlohmann::json no_route_to_json(const std::string& reason, bool connected, const std::vector<ObstacleView>& obstacles);
+nlohmann::json no_route_to_json(const map::NoRoute& why, const map::TopologicalMap& map);
 
 }  // namespace homeward::wire

@@ -175,7 +175,8 @@ class HappyPath(CliTest):
         self.assertIsNone(answer["places"])
         self.assertTrue(answer["connected"])
         self.assertGreater(len(answer["obstacles"]), 0)
-        self.assertIn(answer["reason"], middle.stderr)
+        self.assertEqual(answer["reason"]["code"], "no_way")
+        self.assertEqual(answer["reason"]["parameters"]["from"].split()[0], places[0])
         self.assertNotEqual(self.program.run(*ends, "--routes", 0, cwd=self.folder).returncode, 0)
 
     def test_homes_from_picture_to_picture(self):

@@ -77,8 +77,13 @@ TEST(Encoders, WriteRoutesThatTheSchemasAccept) {
   EXPECT_EQ(routes["others"][0], json::parse(R"({"places":["p1","p3","p2"],"cost_m":6.0,"length_m":6.0,
     "length_from":"tour_time","time_s":15.0,"weak":[],"shortcuts":[]})"));
   EXPECT_EQ(routes["weak"], json::parse(R"([{"from":"p1","to":"p2"}])"));
-  const json none =
-      no_route_to_json("Blocked.", true, {{"blocked", PlaceId("p1"), PlaceId("p2")}, {"avoided", {}, PlaceId("p3")}});
+  const json none = no_route_to_json({PlaceId("p1"),
+                                      PlaceId("p2"),
+                                      true,
+                                      1,
+                                      {{map::ObstacleKind::kBlocked, PlaceId("p1"), PlaceId("p2")},
+                                       {map::ObstacleKind::kAvoided, PlaceId(), PlaceId("p3")}}},
+                                     sample_map());
   EXPECT_THAT(schemas().problems("no_route", none), IsEmpty());
   EXPECT_TRUE(none["obstacles"][1]["from"].is_null());
 }
@@ -100,8 +105,16 @@ TEST(Encoders, TellEverythingOfAMap) {
 }
 
 TEST(Encoders, WriteEventsThatTheSchemaAccepts) {
-  JobView job{JobId("j1"), JobKind::kBuild,      MapId("house"), JobState::kFailed, "features", 0.5, {}, 12,
-              2,           {"2 of 40 pictures."}};
+  JobView job{JobId("j1"),
+              JobKind::kBuild,
+              MapId("house"),
+              JobState::kFailed,
+              "features",
+              0.5,
+              {},
+              12,
+              2,
+              {in_words("2 of 40 pictures.")}};
   job.error = Error{ErrorCode::kTooFewFeatures, "The pictures are black.", "t1"};
   const MapInfoView map{MapId("house"), "House", MapState::kBuilding, 0, 0, 3, {TourId("t1")}, {}};
   RobotView unseen;
@@ -154,12 +167,13 @@ TEST(Encoders, TellWhatABuildMade) {
   build = {"house.map",
            "report/report.html",
            {{ErrorCode::kTruncatedImage, "The JPEG ends before its last row.", "tour/00003.jpg"}},
-           {{ErrorCode::kInvalidInput, "The tour jumps.", "tour/00012.jpg"}}};
+           {{map::TourWarning::Kind::kPictureOlder, ImageId("tour/00012.jpg")}}};
   const json written = build_to_json(build, sample_map());
   EXPECT_THAT(schemas().problems("build", written), IsEmpty());
   EXPECT_EQ(written["images"], 3);
   EXPECT_EQ(written["skipped"][0]["code"], "truncated_image");
   EXPECT_EQ(written["warnings"][0]["image"], "tour/00012.jpg");
+  EXPECT_EQ(written["warnings"][0]["reason"]["code"], "picture_older");
 }
 
 TEST(Encoders, KeepTheSecretOfALeaseToItsHolder) {

@@ -128,7 +128,7 @@ std::vector<Bytes> server_messages() {
                                                      mission,
                                                      placed,
                                                      wire::Permit{MissionId("m1"), {3, 5}, 1500},
-                                                     wire::StopOrder{"s1", 3, "", "anna"},
+                                                     wire::StopOrder{"s1", 3, std::nullopt, "anna"},
                                                      wire::BeliefReport{7, PlaceId("p1"), 0.5, false},
                                                      wire::Answer{MissionId("m1"), 3, false},
                                                      wire::LinkError{"kConflict", "No."}};
@@ -141,7 +141,7 @@ std::vector<Bytes> agent_messages() {
   wire::AgentStatus status;
   status.state = wire::DriveState::kStopped;
   status.mission = MissionId("m1");
-  status.reason = "Because.";
+  status.reason = wire::reason_with(wire::ReasonCode::kTriesOnceMore, "because", wire::in_words("Because."));
   status.home = wire::HomeReport{0.5, 0.9, 30};
   status.arrival_probability = 0.25;
   status.estimate = wire::EstimateReport{PlaceId("p1"), 0.75};
@@ -151,12 +151,13 @@ std::vector<Bytes> agent_messages() {
   hello.robot_name = "chair";
   hello.session = "abc";
   hello.camera = testing::sample_map().camera;
-  const std::vector<wire::AgentMessage> messages = {hello,
-                                                    wire::Frame{1, 2, {0xFF, 0xD8, 0xFF}},
-                                                    wire::Frame{2, 3, {0xFF}, Pose2{1.0, 2.0, 0.5}},
-                                                    status,
-                                                    wire::Stopped{"s1", 5},
-                                                    wire::MissionRefused{MissionId("m1"), {3, 4}, "No."}};
+  const std::vector<wire::AgentMessage> messages = {
+      hello,
+      wire::Frame{1, 2, {0xFF, 0xD8, 0xFF}},
+      wire::Frame{2, 3, {0xFF}, Pose2{1.0, 2.0, 0.5}},
+      status,
+      wire::Stopped{"s1", 5},
+      wire::MissionRefused{MissionId("m1"), {3, 4}, wire::Reason{wire::ReasonCode::kWasHeldUp}}};
   std::vector<Bytes> encoded;
   for (const auto& message : messages) encoded.push_back(wire::encode(message));
   return encoded;

@@ -228,7 +228,7 @@ class Kill(unittest.TestCase):
         killed_us = time.time_ns() // 1000
         self.kill_server()
         self.expect_rest(killed_us, "the server was killed")
-        self.assertIn("The connection to the house is lost.", (self.data / "agent.log").read_text())
+        self.assertIn("The connection to the server is lost.", (self.data / "agent.log").read_text())
         self.start_server()
         after = self.server.call("GET", f"/api/v1/robots/{robot['id']}/missions/{mission}")
         self.assertIn(after["state"], ("stopped", "failed"), after)
@@ -241,7 +241,7 @@ class Kill(unittest.TestCase):
         frozen_us = time.time_ns() // 1000
         self.process.send_signal(signal.SIGSTOP)
         self.expect_rest(frozen_us, "the server froze")
-        self.assertIn("The house has fallen silent.", (self.data / "agent.log").read_text())
+        self.assertIn("The server has fallen silent.", (self.data / "agent.log").read_text())
         self.process.send_signal(signal.SIGCONT)
         self.wait_for("the end of the mission", 30, lambda: self.server.call(
             "GET", f"/api/v1/robots/{self.robot_id}/missions/{mission}")["state"] in ("stopped", "failed"))
@@ -262,10 +262,10 @@ class Kill(unittest.TestCase):
 
     def test_5_its_missions_were_recorded(self):
         self.assertEqual(len(self.recordings()), 2)
-        for file, word in zip(self.recordings(), ["connection to the house is lost", "fallen silent"], strict=True):
+        for file, code in zip(self.recordings(), ["link_lost", "server_silent"], strict=True):
             replayed = self.replay(file)
             self.assertTrue(replayed["complete"], replayed)
-            self.assertIn(word, replayed["why_stopped"]["reason"])
+            self.assertEqual(replayed["why_stopped"]["reason"]["code"], code)
 
     def test_6_a_robot_that_is_killed_leaves_a_recording(self):
         self.wait_for("knowing where it is", 60, self.located)
@@ -274,7 +274,7 @@ class Kill(unittest.TestCase):
         self.agent.wait()
         replayed = self.replay(self.recordings()[-1])
         self.assertFalse(replayed["complete"])
-        self.assertIn("cut off", replayed["why_stopped"]["reason"])
+        self.assertEqual(replayed["why_stopped"]["reason"]["code"], "recording_cut_off")
 
 
 if __name__ == "__main__":

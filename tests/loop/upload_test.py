@@ -82,7 +82,9 @@ class Upload(unittest.TestCase):
         stored.write_bytes(stored.read_bytes()[:1000])
         job = self.build("damaged", tour)
         self.assertEqual((job["state"], job["skipped"]), ("done", 1), job)
-        self.assertIn(f"1 of {left} pictures", job["notes"][0])
+        self.assertEqual(job["notes"][0]["code"], "pictures_left_out_of")
+        self.assertEqual(job["notes"][0]["parameters"]["left_out"], 1)
+        self.assertEqual(job["notes"][0]["parameters"]["all"], left)
         self.assertEqual(self.server.call("GET", f"/api/v1/maps/{job['map']}")["images"], left - 1)
 
     def test_nothing_that_can_be_read(self):

@@ -31,7 +31,7 @@ class FakeAgent {
     latest = idle();
   }
   void status(wire::DriveState state, const std::optional<wire::MissionOrder>& order = {}, std::int64_t index = 0,
-              const std::optional<std::string>& reason = {}) {
+              const std::optional<wire::Reason>& reason = {}) {
     wire::AgentStatus status;
     status.seq = ++status_seq;
     status.t_us = 1;

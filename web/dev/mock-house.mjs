@@ -57,6 +57,14 @@ export function neighboursOf(graph, place) {
 }
 
 /** The shortest way in numbers of places, breadth first; null when there is none. */
+/** What a job tells of the kitchen. */
+export function kitchenNote(code) {
+  return {
+    code,
+    parameters: { place: { code: 'place_named', parameters: { label: 'kitchen' } }, appearances: 2 },
+  };
+}
+
 export function wayBetween(graph, from, to) {
   const before = new Map([[from, null]]);
   for (const place of before.keys())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The routes of the mock server: [method and path, least role, handler(house, {user, body, headers, args})].
-import { wayBetween } from './mock-house.mjs';
+import { kitchenNote, wayBetween } from './mock-house.mjs';
 import { Refusal } from './mock-refusal.mjs';
 
 const kLeaseMs = 10_000;
@@ -62,7 +62,7 @@ function startMission(house, { user, body, args }) {
   if (!path) throw new Refusal(409, 'no_route', 'there is no way from here to there');
   const mission = {
     format: 'homeward-mission',
-    version: 1,
+    version: 2,
     id: house.newId('x'),
     robot: robot.id,
     map: robot.map,
@@ -70,7 +70,7 @@ function startMission(house, { user, body, args }) {
     destination: destination?.id ?? null,
     place,
     state: 'accepted',
-    reason: robot.belief.lost ? 'The robot is not sure where it is; it looks around first.' : null,
+    reason: robot.belief.lost ? { code: 'looks_around_first', parameters: {} } : null,
     epoch: lease.epoch,
     seq: 1,
     path,
@@ -95,7 +95,7 @@ function answer(house, { user, body, args }) {
 
 function stop(house, { user, args }) {
   const robot = house.find(house.robots, args[0]);
-  setTimeout(() => house.halt(robot, `${user.name} pressed stop`), 200);
+  setTimeout(() => house.halt(robot, { code: 'stopped_by', parameters: { by: user.name } }), 200);
   return { status: 202, body: { stop_id: house.newId('s') } };
 }
 
@@ -208,7 +208,7 @@ function setRefine(house, { body, args }) {
 function takeJob(house, { args }) {
   const job = house.find(house.jobs, args[0]);
   if (job.state !== 'offered') throw new Refusal(409, 'conflict', 'the job offers nothing');
-  Object.assign(job, { state: 'done', notes: ['kitchen gained 2 new appearances.'] });
+  Object.assign(job, { state: 'done', notes: [kitchenNote('place_gained')] });
   house.send('job', job);
   return { status: 202, body: job };
 }

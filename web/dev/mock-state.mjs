@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the mock server knows and does: accounts, robots, leases, missions that progress, maps, tours, jobs.
-import { newGraph } from './mock-house.mjs';
+import { kitchenNote, newGraph } from './mock-house.mjs';
 import { kRoutes } from './mock-routes.mjs';
 import { Refusal } from './mock-refusal.mjs';
 
@@ -230,7 +230,11 @@ export class House {
     robot.question = null;
     robot.mission = here
       ? { ...robot.mission, state: 'arrived', arrival_probability: 0.97 }
-      : { ...robot.mission, state: 'failed', reason: `Somebody says that this is not ${label}.` };
+      : {
+          ...robot.mission,
+          state: 'failed',
+          reason: { code: 'destination_denied', parameters: { destination: label } },
+        };
     robot.state = robot.mission.state;
     this.tellRobot(robot);
   }
@@ -254,7 +258,7 @@ export class House {
       error: null,
       skipped: 0,
       gained: 2,
-      notes: ['kitchen would gain 2 new appearances.'],
+      notes: [kitchenNote('place_would_gain')],
       created_us: Date.now() * 1000,
     };
     this.jobs.push(job);

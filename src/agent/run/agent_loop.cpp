@@ -57,7 +57,7 @@ wire::AgentStatus status_of(const driving::DrivingState& state, const driving::D
   if (state.mission) status.mission = state.mission->id;
   status.epoch = state.newest.epoch;
   status.path_index = state.follow.index;
-  if (!state.reason.empty()) status.reason = state.reason;
+  status.reason = state.reason;
   status.speed_mps = reading.speed_mps;
   if (state.drive == wire::DriveState::kDriving && state.seen.vector) {
     status.home =
@@ -180,7 +180,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
     const bool changed = state.drive != told_state;
     if (changed)
       options.told(std::string(wire::drive_state_name(state.drive)) +
-                   (state.reason.empty() ? "" : ": " + state.reason));
+                   (state.reason ? ": " + wire::english(*state.reason) : ""));
     told_state = state.drive;
     const bool asks = driving::open_question(state, config, reading.t_ms).has_value();
     const bool asks_anew = asks != std::exchange(told_question, asks);

@@ -3,8 +3,15 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace homeward::pipeline {
+
+/// What is odd about a tour, in words, and the first picture that it is about.
+struct ReportWarning {
+  std::string words;
+  std::string image;
+};
 
 /// How a report is made.
 struct ReportOptions {
@@ -12,6 +19,7 @@ struct ReportOptions {
   int most_pictures = 60;  // hypotheses that are drawn, the least certain ones
   int threads = 0;         // 0: as many as the machine has
   std::uint64_t seed = 1;
+  std::vector<ReportWarning> warnings = {};
 };
 
 }  // namespace homeward::pipeline

@@ -61,7 +61,7 @@ std::string summary(const BuiltMap& built, const ReportFacts& facts) {
 }
 
 /// What a person can do about it, most important first.
-std::string to_do(const BuiltMap& built, const ReportFacts& facts) {
+std::string to_do(const BuiltMap& built, const ReportFacts& facts, const std::vector<ReportWarning>& warnings) {
   std::string items;
   const auto add = [&](const std::string& html) { items += "<li>" + html + "</li>\n"; };
   if (built.map.places.empty()) add("The map has no places: build it from a tour.");
@@ -82,8 +82,8 @@ std::string to_do(const BuiltMap& built, const ReportFacts& facts) {
     add("<a href=\"#skipped\">" + counted(built.notes.skipped.size(), "picture was", "pictures were") +
         " left out</a>.");
   }
-  for (const Error& warning : built.notes.warnings) {
-    add(escape_html(warning.message) + " <span class=\"soft\">(" + escape_html(warning.where) + ")</span>");
+  for (const ReportWarning& warning : warnings) {
+    add(escape_html(warning.words) + " <span class=\"soft\">(" + escape_html(warning.image) + ")</span>");
   }
   if (items.empty()) items = "<li class=\"good\">Nothing to do: the map is in one piece and no way is weak.</li>\n";
   return "<h2>What to do</h2>\n<ul class=\"todo\">\n" + items + "</ul>\n</section>\n";
@@ -156,10 +156,10 @@ Result<std::string> report_page(const BuiltMap& built, const std::vector<const T
   drawn.resize(std::min(drawn.size(), static_cast<std::size_t>(std::max(0, options.most_pictures))));
   const auto pictures = draw_hypotheses(built, tours, drawn, options);
   if (!pictures) return pass_on(pictures);
-  return head(built.map, options) + summary(built, facts) + to_do(built, facts) + graph_section(built.map, facts) +
-         tour_section(built, facts) + matrix_section(built, facts) + loops_section(built, facts, *pictures) +
-         look_alikes_section(built, facts) + weak_section(built, facts) + coverage_section(built, facts) +
-         skipped_section(built) + "</main>\n</body>\n</html>\n";
+  return head(built.map, options) + summary(built, facts) + to_do(built, facts, options.warnings) +
+         graph_section(built.map, facts) + tour_section(built, facts) + matrix_section(built, facts) +
+         loops_section(built, facts, *pictures) + look_alikes_section(built, facts) + weak_section(built, facts) +
+         coverage_section(built, facts) + skipped_section(built) + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace homeward::pipeline

@@ -20,6 +20,7 @@
 #include "scenario/world_folder.hpp"
 #include "sim/floor.hpp"
 #include "taught.hpp"
+#include "wire/reason_json.hpp"
 
 namespace homeward {
 namespace {
@@ -164,7 +165,7 @@ Ending drive(const scenario::TaughtWorld& taught, scenario::SimulatedRobot& robo
   });
   if (const Status driven = drive.run(std::move(order)); !driven) throw std::runtime_error(driven.error().message);
   ending.arrived = drive.state().drive == wire::DriveState::kArrived;
-  if (!drive.stops().empty()) ending.reason = drive.stops().back().reason;
+  if (!drive.stops().empty()) ending.reason = wire::reason_name(drive.stops().back().reason.code);
   return ending;
 }
 

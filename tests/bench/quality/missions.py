@@ -145,7 +145,7 @@ def main():
             print("| missions | " + " | ".join(figures) + " |\n|" + "---|" * (len(figures) + 1))
         print(f"| {case} | " + " | ".join(figures.values()) + " |", flush=True)
         for one in wrong:
-            stop = one["stops"][-1]["reason"] if one["stops"] else "says that it arrived"
+            stop = one["stops"][-1]["reason"]["code"] if one["stops"] else "says that it arrived"
             notes.append(f"{case}: {one['from']} to {one['to']}, {one['final_error_m']:.2f} m off: {stop}")
         for one in results:
             if one["collisions"]:

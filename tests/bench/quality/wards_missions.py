@@ -114,7 +114,7 @@ def main():
         for number, one in enumerate(results, 1):
             if is_right(one):
                 continue
-            end = one["stops"][-1]["reason"] if one["stops"] and not one["arrived"] else "says that it arrived"
+            end = one["stops"][-1]["reason"]["code"] if one["stops"] and not one["arrived"] else "says that it arrived"
             notes.append(f"wards:{seed} {number}: {one['from']} to {one['to']}, {one['final_error_m']:.2f} m off: {end}")
     total, holds = line("all", every)
     print("| " + " | ".join(total) + " |\n|" + "---|" * len(total))

@@ -32,7 +32,7 @@ class RecordingFile : public ::testing::Test {
     std::vector<RecordedStep> steps;
     for (int seq = 1; seq <= 3; ++seq) steps.push_back(homeward::testing::sample_recorded_step(seq));
     steps.back().state = wire::DriveState::kStopped;
-    steps.back().reason = "The house has fallen silent.";
+    steps.back().reason = wire::Reason{wire::ReasonCode::kServerSilent};
     steps.back().link_up = false;
     steps.back().picture.reset();
     steps.back().heard.clear();
@@ -132,7 +132,7 @@ TEST_F(RecordingFile, SaysWhyTheRobotStoppedInOneQuery) {
   EXPECT_EQ((*why)->step, 3);
   EXPECT_DOUBLE_EQ((*why)->after_s, 0.08);
   EXPECT_EQ((*why)->state, "stopped");
-  EXPECT_EQ((*why)->reason, "The house has fallen silent.");
+  EXPECT_EQ((*why)->reason, wire::Reason{wire::ReasonCode::kServerSilent});
   EXPECT_FALSE((*why)->link_up);
   EXPECT_DOUBLE_EQ((*why)->since_message_s.value(), 0.04);  // heard last in step 2
   EXPECT_DOUBLE_EQ((*why)->since_picture_s.value(), 0.09);  // that of step 2
@@ -144,7 +144,7 @@ TEST_F(RecordingFile, SaysWhyTheRobotStoppedInOneQuery) {
   SQLite::Statement view(database, "SELECT step, reason FROM why_did_it_stop");
   ASSERT_TRUE(view.executeStep());
   EXPECT_EQ(view.getColumn(0).getInt(), 3);
-  EXPECT_EQ(view.getColumn(1).getString(), "The house has fallen silent.");
+  EXPECT_THAT(view.getColumn(1).getString(), HasSubstr("server_silent"));
   EXPECT_FALSE(view.executeStep());
 }
 
@@ -168,7 +168,7 @@ TEST_F(RecordingFile, KeepsWhatWasAppendedWhenItsProgramIsKilled) {
   const auto why = (*reader)->why_stopped();
   ASSERT_TRUE(why && *why);
   EXPECT_EQ((*why)->state, "driving");
-  EXPECT_THAT((*why)->reason, HasSubstr("cut off"));
+  EXPECT_EQ((*why)->reason, wire::Reason{wire::ReasonCode::kRecordingCutOff});
 }
 
 TEST_F(RecordingFile, CanBeReadWhileItIsWritten) {
@@ -203,10 +203,10 @@ TEST_F(RecordingFile, ThatIsAnotherSqliteFile) {
 
 TEST_F(RecordingFile, OfANewerVersion) {
   record();
-  change("PRAGMA user_version = 4");
+  change("PRAGMA user_version = 5");
   EXPECT_EQ(trouble().code, ErrorCode::kUnsupportedFormat);
-  EXPECT_THAT(trouble().message, HasSubstr("version 4"));
-  EXPECT_THAT(trouble().message, HasSubstr("versions 1 to 3"));
+  EXPECT_THAT(trouble().message, HasSubstr("version 5"));
+  EXPECT_THAT(trouble().message, HasSubstr("versions 1 to 4"));
 }
 
 TEST_F(RecordingFile, OfTheVersionBeforeJoysticksIsRead) {
@@ -239,6 +239,16 @@ TEST_F(RecordingFile, OfTheVersionBeforeTracksIsRead) {
   ASSERT_TRUE(*step);
   EXPECT_FALSE((*step)->tracks);
   EXPECT_TRUE((*step)->rider);
+}
+
+TEST_F(RecordingFile, OfTheVersionBeforeReasonsKeepsItsWords) {
+  record();
+  change("PRAGMA user_version = 3; UPDATE steps SET reason = 'The house has fallen silent.' WHERE seq = 3");
+  auto reader = RecordingReader::open(file());
+  ASSERT_TRUE(reader) << reader.error().message;
+  const auto why = (*reader)->why_stopped();
+  ASSERT_TRUE(why && *why);
+  EXPECT_EQ((*why)->reason, wire::in_words("The house has fallen silent."));
 }
 
 TEST_F(RecordingFile, WithHalfOfTheCountsOfItsTracks) {

@@ -206,7 +206,11 @@ TEST_F(StoreContent, JobsThatAreNotOverAreFoundAfterARestart) {
   EXPECT_EQ(store().job(failed.id)->error->where, "tours/1");
   EXPECT_EQ(store().jobs()->size(), 2U);
   failed.skipped = 2;
-  failed.notes = {"2 of 40 pictures cannot be read.", "The tour jumps."};
+  failed.notes = {{wire::ReasonCode::kPicturesLeftOutOf,
+                   {{"left_out", std::int64_t{2}},
+                    {"all", std::int64_t{40}},
+                    {"first", std::vector{wire::reason_at({ErrorCode::kIo, "It is gone.", "t1/7.jpg"})}}}},
+                  {wire::ReasonCode::kPictureOlder}};
   ASSERT_TRUE(store().update_job(failed));
   EXPECT_EQ(store().job(failed.id)->skipped, 2);
   EXPECT_EQ(store().job(failed.id)->notes, failed.notes);

@@ -76,7 +76,7 @@ TEST_F(StoreDurability, MissionsUnderWayAreStoppedByARestart) {
   open();
   const wire::MissionView stopped = store().mission(driving).value();
   EXPECT_EQ(stopped.state, wire::MissionState::kStopped);
-  EXPECT_EQ(stopped.reason, "server restarted");
+  EXPECT_EQ(stopped.reason, wire::Reason{wire::ReasonCode::kServerRestarted});
   EXPECT_EQ(stopped.path, mission.path);
   const auto all = store().missions(mission.robot).value();
   ASSERT_EQ(all.size(), 2U);
@@ -134,7 +134,7 @@ TEST_F(StoreDurability, AnOlderDatabaseKeepsItsMapsAndJobs) {
   EXPECT_EQ(job.state, wire::JobState::kFailed);
   EXPECT_EQ(job.error->message, "two");
   EXPECT_EQ(job.skipped, 2);
-  EXPECT_EQ(job.notes, std::vector<std::string>{"A note."});
+  EXPECT_EQ(job.notes, std::vector<wire::Reason>{wire::in_words("A note.")}) << "in the words of before";
   EXPECT_EQ(job.gained, 0);
   EXPECT_EQ(store().unfinished_jobs()->at(0).id.str(), "open");
 }
@@ -155,7 +155,10 @@ TEST_F(StoreDurability, AnOlderDatabaseKeepsItsMissionsAndToursAndKnowsNotHowSur
         "INSERT INTO tour_images VALUES ('t', 4, '000004.jpg', 'jpg', NULL, NULL, NULL, NULL, 'aa', 1);"
         "INSERT INTO robots (id, name, created_us) VALUES ('r', 'chair', 1);"
         "INSERT INTO missions VALUES ('x', 'r', 'm', 3, NULL, 'p2', 'arrived', NULL, 1, 2, '[\"p1\",\"p2\"]', 1, 7, "
-        "'anna');");
+        "'anna');"
+        "INSERT INTO missions VALUES ('y', 'r', 'm', 3, NULL, 'p2', 'failed', 'The way is \"blocked\".', 1, 2, '[]', "
+        "0, "
+        "6, 'anna');");
     database.exec("PRAGMA application_id = " + std::to_string(0x48575354));
     database.exec("PRAGMA user_version = 3");
   }
@@ -167,6 +170,8 @@ TEST_F(StoreDurability, AnOlderDatabaseKeepsItsMissionsAndToursAndKnowsNotHowSur
   mission.arrival_probability = 0.5;
   ASSERT_TRUE(store().update_mission(mission));
   EXPECT_EQ(store().mission(MissionId("x"))->arrival_probability, 0.5);
+  EXPECT_EQ(store().mission(MissionId("x"))->reason, std::nullopt);
+  EXPECT_EQ(store().mission(MissionId("y"))->reason, wire::in_words("The way is \"blocked\"."));
   TourSweep sweep{4, "000004.jpg", {}};
   sweep.sweep.ranges_m = {1.0F};
   sweep.sweep.angle_step_rad = 0.01;

@@ -8,6 +8,9 @@ namespace homeward::driving::asking_test {
 namespace {
 
 using wire::DriveState;
+using wire::ReasonCode;
+
+wire::Reason of_kitchen(ReasonCode code) { return {code, {{"destination", "kitchen"}}}; }
 
 /// Drives to its destination, before which somebody comes to stand before all that it would recognise; how probable it
 /// is that it is there, the test decides then.
@@ -73,7 +76,7 @@ TEST_F(AskingTest, BesideADestinationThatItIsNotCertainOfItStandsAndAsks) {
   EXPECT_EQ(question()->label, "kitchen");
   EXPECT_EQ(question()->place, PlaceId("p1"));
   EXPECT_NEAR(question()->left_s, 60.0, 0.2);
-  EXPECT_EQ(state_.reason, "I am not sure that this is kitchen; I ask whether it is.");
+  EXPECT_EQ(state_.reason, of_kitchen(ReasonCode::kDestinationAsked));
   EXPECT_GT(arrival(), 0.5);
   EXPECT_LT(arrival(), config_.follow.arrived_probability);
   const Pose2 before = pose_;
@@ -112,7 +115,7 @@ TEST_F(AskingTest, AYesMakesAnArrivalOfWhatWasProbableAlready) {
   const double before = arrival();
   say(true);
   EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
-  EXPECT_EQ(state_.reason, "");
+  EXPECT_EQ(state_.reason, std::nullopt);
   EXPECT_FALSE(question());
   const double odds = before / (1.0 - before) * kAnswerOdds;
   EXPECT_NEAR(arrival(), odds / (1.0 + odds), 0.01) << "evidence, no certainty";
@@ -174,7 +177,7 @@ TEST_F(AskingTest, ANoIsHeardEvenIfItHasJustBeenPushedAway) {
   say(false);
   EXPECT_FALSE(state_.near_since_ms) << "it sees that it is not there";
   EXPECT_EQ(state_.drive, DriveState::kFailed);
-  EXPECT_EQ(state_.reason, "Somebody says that this is not kitchen.");
+  EXPECT_EQ(state_.reason, of_kitchen(ReasonCode::kDestinationDenied));
 }
 
 TEST_F(AskingTest, AYesThatIsNotEnoughMakesNoArrival) {
@@ -185,7 +188,7 @@ TEST_F(AskingTest, AYesThatIsNotEnoughMakesNoArrival) {
   EXPECT_LT(arrival(), config_.follow.arrived_probability);
   EXPECT_EQ(state_.drive, DriveState::kStopped) << "whoever said so may be getting out: it is not sent on";
   EXPECT_FALSE(state_.astray);
-  EXPECT_EQ(state_.reason, "I am not sure that this is kitchen, though somebody says so.");
+  EXPECT_EQ(state_.reason, of_kitchen(ReasonCode::kDestinationAffirmed));
   expect_stays();
 }
 
@@ -194,7 +197,7 @@ TEST_F(AskingTest, ANoEndsItAndCountsAgainstItsBeingThere) {
   const double before = arrival();
   say(false);
   EXPECT_EQ(state_.drive, DriveState::kFailed);
-  EXPECT_EQ(state_.reason, "Somebody says that this is not kitchen.");
+  EXPECT_EQ(state_.reason, of_kitchen(ReasonCode::kDestinationDenied));
   EXPECT_LT(arrival(), 0.5 * before);
   EXPECT_TRUE(state_.astray) << "it is likelier elsewhere now";
   EXPECT_FALSE(question());
@@ -206,7 +209,7 @@ TEST_F(AskingTest, ANoEndsItHoweverCertainItIsByThen) {
   config_.follow.arrived_probability = 0.001;
   say(false);
   EXPECT_EQ(state_.drive, DriveState::kFailed);
-  EXPECT_EQ(state_.reason, "Somebody says that this is not kitchen.");
+  EXPECT_EQ(state_.reason, of_kitchen(ReasonCode::kDestinationDenied));
 }
 
 TEST_F(AskingTest, AfterANoToWhatIsStillProbableAPersonDecides) {
@@ -226,7 +229,7 @@ TEST_F(AskingTest, WithoutAnAnswerItGivesUpAfterAWhile) {
   EXPECT_GE(waited_ms, config_.asks_ms);
   EXPECT_LE(waited_ms, config_.asks_ms + 2 * kTick_ms);
   EXPECT_EQ(state_.drive, DriveState::kFailed);
-  EXPECT_EQ(state_.reason, "I am not sure that this is kitchen.");
+  EXPECT_EQ(state_.reason, of_kitchen(ReasonCode::kDestinationUnsure));
   EXPECT_TRUE(state_.astray) << "no part of the way is to blame";
   EXPECT_FALSE(question());
   expect_stays();
@@ -268,7 +271,7 @@ TEST_F(AskingTest, OfTwoAnswersTheFirstCounts) {
   ASSERT_NO_FATAL_FAILURE(drive_until_it_asks());
   tick({wire::Answer{MissionId("m1"), 1, false}, wire::Answer{MissionId("m1"), 1, true}, permit("m1", 1, ++seq_)});
   EXPECT_EQ(state_.drive, DriveState::kFailed);
-  EXPECT_EQ(state_.reason, "Somebody says that this is not kitchen.");
+  EXPECT_EQ(state_.reason, of_kitchen(ReasonCode::kDestinationDenied));
   const double after = arrival();
   tick({wire::Answer{MissionId("m1"), 1, true}});
   EXPECT_EQ(arrival(), after) << "what comes after the end is void";
@@ -291,7 +294,7 @@ TEST_F(AskingTest, ItArrivesWithoutAnAnswerOnceItIsCertain) {
   hidden_ = false;
   for (int k = 0; k < 200 && state_.drive == DriveState::kDriving; ++k) permitted();
   EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
-  EXPECT_EQ(state_.reason, "");
+  EXPECT_EQ(state_.reason, std::nullopt);
   EXPECT_FALSE(question());
 }
 
@@ -302,7 +305,7 @@ TEST_F(AskingTest, PushedAwayItTakesItsQuestionBackAndDrivesOn) {
   hidden_ = false;
   for (int k = 0; k < 40 && state_.asking.since_ms; ++k) permitted();
   ASSERT_FALSE(question());
-  EXPECT_NE(state_.reason, "I am not sure that this is kitchen; I ask whether it is.");
+  EXPECT_NE(state_.reason, of_kitchen(ReasonCode::kDestinationAsked));
   ASSERT_EQ(state_.drive, DriveState::kDriving);
   for (int k = 0; k < 1000 && state_.drive == DriveState::kDriving && !state_.asking.since_ms; ++k) permitted();
   ASSERT_TRUE(question()) << state_.reason;

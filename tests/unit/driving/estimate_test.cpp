@@ -11,6 +11,7 @@ namespace homeward::driving::estimate_test {
 namespace {
 
 using wire::DriveState;
+using wire::ReasonCode;
 
 /// The same house, but for a part of its things.
 homeward::testing::Landmarks twin_of(const homeward::testing::Landmarks& house, double other_share,
@@ -32,7 +33,7 @@ TEST_F(StepTest, LiftedToAPlaceThatLooksAlikeItGivesUpAndSaysWhy) {
   landmarks_ = twin_of(landmarks_, 0.65, views());
   const Milliseconds gone_ms = until_stopped(true, 2000);
   EXPECT_EQ(state_.drive, DriveState::kFailed);
-  EXPECT_NE(state_.reason.find("lifted"), std::string::npos) << state_.reason;
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kLifted});
   EXPECT_LT(gone_ms, 500);
   EXPECT_EQ(state_.displaced, 1);
   EXPECT_TRUE(state_.follow.hypotheses.empty());
@@ -66,7 +67,7 @@ TEST_F(StepTest, LiftedToWhereAllLooksTheSameItsSweepsTellIt) {
     see_posts(0.5);
     tick({permit("m1", 1, ++seq_)});
   }
-  EXPECT_NE(state_.reason.find("lifted"), std::string::npos) << state_.reason;
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kLifted});
   EXPECT_LT(now_ms_ - from_ms, 1000);
   EXPECT_EQ(state_.displaced, 1);
   EXPECT_FALSE(state_.kept);

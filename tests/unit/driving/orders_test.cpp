@@ -8,6 +8,8 @@
 namespace homeward::driving::orders_test {
 namespace {
 
+using wire::ReasonCode;
+
 using wire::DriveState;
 
 TEST_F(StepTest, WhatWasOrderedWhileTheProcessWasFrozenMovesNothing) {
@@ -20,20 +22,20 @@ TEST_F(StepTest, WhatWasOrderedWhileTheProcessWasFrozenMovesNothing) {
   EXPECT_EQ(state_.drive, DriveState::kIdle);
   ASSERT_EQ(outputs.messages.size(), 1U);
   ASSERT_TRUE(std::holds_alternative<wire::MissionRefused>(outputs.messages[0]));
-  EXPECT_NE(std::get<wire::MissionRefused>(outputs.messages[0]).reason.find("held up"), std::string::npos);
+  EXPECT_EQ(std::get<wire::MissionRefused>(outputs.messages[0]).reason, wire::Reason{ReasonCode::kWasHeldUp});
   expect_stays();
   set_off(1, seq_ + 1);  // that was two seconds later
 }
 
 TEST_F(StepTest, AStopIsAnsweredAndObeyedInTheSameStep) {
   set_off();
-  const Outputs outputs = tick({wire::StopOrder{"s7", 1, "", "anna"}});
+  const Outputs outputs = tick({wire::StopOrder{"s7", 1, std::nullopt, "anna"}});
   EXPECT_TRUE(stands(outputs));
   ASSERT_EQ(outputs.messages.size(), 1U);
   ASSERT_TRUE(std::holds_alternative<wire::Stopped>(outputs.messages[0]));
   EXPECT_EQ(std::get<wire::Stopped>(outputs.messages[0]).stop_id, "s7");
   EXPECT_EQ(state_.drive, DriveState::kStopped);
-  EXPECT_NE(state_.reason.find("anna"), std::string::npos);
+  EXPECT_EQ(state_.reason, (wire::Reason{ReasonCode::kStoppedBy, {{"by", "anna"}}}));
   expect_stays();
   EXPECT_TRUE(stands(tick({mission("m1", 1, 1)})));  // the mission of before the stop, once more
   EXPECT_EQ(state_.drive, DriveState::kStopped);
@@ -42,13 +44,13 @@ TEST_F(StepTest, AStopIsAnsweredAndObeyedInTheSameStep) {
 
 TEST_F(StepTest, AStopOfAnOlderEpochStopsTooAndIsAnsweredWhileStanding) {
   set_off(4, 1);
-  EXPECT_TRUE(stands(tick({wire::StopOrder{"s1", 2, "Enough.", "anna"}})));
-  EXPECT_EQ(state_.reason, "Enough.");
-  EXPECT_EQ(tick({wire::StopOrder{"s2", 4, "", "bert"}}).messages.size(), 1U);
+  EXPECT_TRUE(stands(tick({wire::StopOrder{"s1", 2, wire::in_words("Enough."), "anna"}})));
+  EXPECT_EQ(state_.reason, wire::in_words("Enough."));
+  EXPECT_EQ(tick({wire::StopOrder{"s2", 4, std::nullopt, "bert"}}).messages.size(), 1U);
 }
 
 TEST_F(StepTest, AMissionThatAStopHasOvertakenMovesNothing) {
-  tick({wire::StopOrder{"s1", 3, "Enough.", "anna", 7}});
+  tick({wire::StopOrder{"s1", 3, wire::in_words("Enough."), "anna", 7}});
   EXPECT_TRUE(stands(tick({mission("m1", 3, 6)})));
   EXPECT_TRUE(stands(tick({mission("m2", 2, 9)})));
   EXPECT_EQ(state_.drive, DriveState::kIdle);
@@ -73,7 +75,7 @@ TEST_F(StepTest, ANewConnectionStopsAndItsOlderMissionsMoveNothing) {
   set_off(1, 1);
   EXPECT_TRUE(stands(tick({wire::Welcome{"server", RobotId("r1"), 2, 200}})));
   EXPECT_EQ(state_.drive, DriveState::kStopped);
-  EXPECT_EQ(state_.reason, "The connection to the house was made anew.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kLinkMadeAnew});
   expect_stays();
   EXPECT_TRUE(stands(tick({mission("m1", 1, seq_ + 100)})));
   EXPECT_EQ(state_.drive, DriveState::kStopped);
@@ -96,7 +98,7 @@ TEST_F(StepTest, RefusesAMissionMadeWithOtherFeatures) {
   const auto& refused = std::get<wire::MissionRefused>(outputs.messages[0]);
   EXPECT_EQ(refused.mission.str(), "m9");
   EXPECT_EQ(refused.order, (wire::Order{5, 6}));
-  EXPECT_NE(refused.reason.find("rebuild"), std::string::npos);
+  EXPECT_EQ(refused.reason.code, ReasonCode::kFeaturesDiffer);
   EXPECT_EQ(state_.drive, DriveState::kIdle);
 }
 

@@ -8,6 +8,8 @@
 namespace homeward::driving::permitted_test {
 namespace {
 
+using wire::ReasonCode;
+
 using wire::DriveState;
 
 TEST_F(StepTest, ALinkThatIsDownStopsAtOnce) {
@@ -15,7 +17,7 @@ TEST_F(StepTest, ALinkThatIsDownStopsAtOnce) {
   link_up_ = false;
   EXPECT_TRUE(stands(tick()));
   EXPECT_EQ(state_.drive, DriveState::kStopped);
-  EXPECT_EQ(state_.reason, "The connection to the house is lost.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kLinkLost});
   expect_stays();
 }
 
@@ -25,7 +27,7 @@ TEST_F(StepTest, ASilentServerStopsWithinItsLimit) {
   const Milliseconds after_ms = until_stopped(false);
   EXPECT_GE(after_ms, config_.link_silence_ms);
   EXPECT_LE(after_ms, config_.link_silence_ms + kTick_ms);
-  EXPECT_EQ(state_.reason, "The house has fallen silent.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kServerSilent});
   expect_stays();
 }
 
@@ -96,7 +98,7 @@ TEST_F(StepTest, APermitThatIsNotRenewedRunsOut) {
   const Milliseconds after_ms = until_stopped(false);
   EXPECT_GE(after_ms, 1500);
   EXPECT_LE(after_ms, 1500 + kTick_ms);
-  EXPECT_EQ(state_.reason, "The permit to drive has run out.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kPermitOver});
   expect_stays();
 }
 
@@ -106,7 +108,7 @@ TEST_F(StepTest, ACameraThatFallsSilentStops) {
   const Milliseconds after_ms = until_stopped(true);
   EXPECT_GE(after_ms, config_.frame_silence_ms);
   EXPECT_LE(after_ms, config_.frame_silence_ms + kTick_ms);
-  EXPECT_EQ(state_.reason, "The camera gives no pictures.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kCameraSilent});
   expect_stays();
 }
 
@@ -123,7 +125,7 @@ TEST_F(StepTest, PicturesThatComeTooLateAreAsGoodAsNone) {
   inputs.picture = SeenPicture{now_ms_ - config_.frame_silence_ms, old, {}, pose_};
   EXPECT_TRUE(stands(step(state_, inputs, config_, now_ms_ + 10)));
   EXPECT_EQ(state_.drive, DriveState::kStopped);
-  EXPECT_EQ(state_.reason, "The camera gives no pictures.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kCameraSilent});
 }
 
 TEST_F(StepTest, AFirstPictureOfBeforeTheMissionIsNoReasonToStopNorToDrive) {
@@ -140,7 +142,7 @@ TEST_F(StepTest, AFirstPictureOfBeforeTheMissionIsNoReasonToStopNorToDrive) {
   // From now on old pictures are as good as none.
   picture_age_ms_ = config_.frame_silence_ms + kTick_ms;
   EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
-  EXPECT_EQ(state_.reason, "The camera gives no pictures.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kCameraSilent});
 }
 
 TEST_F(StepTest, PicturesThatAreAlwaysTooOldEndTheMissionWhenTheFirstOneIsDue) {
@@ -149,7 +151,7 @@ TEST_F(StepTest, PicturesThatAreAlwaysTooOldEndTheMissionWhenTheFirstOneIsDue) {
   const Milliseconds after_ms = until_stopped(true, 10'000);
   EXPECT_GE(after_ms, config_.first_frame_ms);
   EXPECT_LE(after_ms, config_.first_frame_ms + kTick_ms);
-  EXPECT_EQ(state_.reason, "The camera gives no pictures.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kCameraSilent});
   expect_stays();
 }
 
@@ -158,12 +160,12 @@ TEST_F(StepTest, ClocksThatAreAheadHideNoSilence) {
   set_off();
   pictures_ = false;
   EXPECT_LE(until_stopped(true), config_.frame_silence_ms + kTick_ms);
-  EXPECT_EQ(state_.reason, "The camera gives no pictures.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kCameraSilent});
   pictures_ = true;
   set_off(1, seq_ + 1);
   sweeps_ = false;
   EXPECT_LE(until_stopped(true), config_.scan_silence_ms + kTick_ms);
-  EXPECT_EQ(state_.reason, "The range sensor gives no readings.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kRangeSensorSilent});
 }
 
 TEST_F(StepTest, ARangeSensorThatFallsSilentStops) {
@@ -172,7 +174,7 @@ TEST_F(StepTest, ARangeSensorThatFallsSilentStops) {
   const Milliseconds after_ms = until_stopped(true);
   EXPECT_GE(after_ms, config_.scan_silence_ms);
   EXPECT_LE(after_ms, config_.scan_silence_ms + kTick_ms);
-  EXPECT_EQ(state_.reason, "The range sensor gives no readings.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kRangeSensorSilent});
   expect_stays();
 }
 

@@ -9,6 +9,7 @@ namespace homeward::driving::progress_test {
 namespace {
 
 using wire::DriveState;
+using wire::ReasonCode;
 
 TEST_F(StepTest, BesideADestinationThatMayNotBeDrivenIntoItArrivesAfterAWhile) {
   set_off();
@@ -63,7 +64,7 @@ TEST_F(StepTest, WhereItCannotTurnToTheHeadingOfItsDestinationItArrivesAndSaysSo
     tick({permit("m1", 1, ++seq_)});
   }
   EXPECT_EQ(state_.drive, DriveState::kArrived);
-  EXPECT_EQ(state_.reason, "I am there, but cannot turn to the right heading.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kHeadingNotTaken});
   EXPECT_GT(std::abs(wrap_angle(pose_.theta_rad - 1.2)), 0.3);
   expect_stays();
 }
@@ -114,7 +115,7 @@ TEST_F(StepTest, WhoHidesTheViewWhileRoomIsMadeForThemDoesNotEndTheMissionAndWho
   }
   EXPECT_LE(now_ms_ - on_the_way_ms, config_.blind_ms + 2 * kTick_ms);
   EXPECT_EQ(state_.drive, DriveState::kFailed);
-  EXPECT_NE(state_.reason.find("recognise"), std::string::npos) << state_.reason;
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kWayNotRecognised});
 }
 
 TEST_F(StepTest, TheLastDecimetreLeavesRoomBetweenTheRobotAndAWallBehindTheDestination) {
@@ -137,7 +138,7 @@ TEST_F(StepTest, AWayThatStaysBlockedFailsTheMission) {
   const Milliseconds after_ms = until_stopped(true, 10'000);
   EXPECT_GT(after_ms, 0);
   EXPECT_LE(after_ms, 2 * config_.stuck_ms);  // the nearest view may count as passed in the meantime
-  EXPECT_EQ(state_.reason, "The way is blocked.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kWayBlocked});
   expect_stays();
 }
 
@@ -152,7 +153,7 @@ TEST_F(StepTest, AWayOnWhichItOnlyGoesToAndFroIsBlockedAsWell) {
     see_wall_across(wall_m);
     tick({permit("m1", 1, ++seq_)});
   }
-  EXPECT_EQ(state_.reason, "The way is blocked.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kWayBlocked});
   EXPECT_GT(now_ms_ - from_ms, config_.stays_ms - 1000);
   EXPECT_LE(now_ms_ - from_ms, config_.stays_ms + 2000);
   expect_stays();
@@ -187,12 +188,12 @@ TEST_F(StepTest, WhereTheWayIsBlockedAndItMayBeElsewhereNoPartOfTheWayIsToBlame)
     EXPECT_EQ(state_.drive, DriveState::kFailed) << state_.reason;
   };
   blocked_with(0.2);
-  EXPECT_EQ(state_.reason, "The way is blocked; I may be elsewhere.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kWayBlockedOrElsewhere});
   EXPECT_TRUE(state_.astray);
   ASSERT_TRUE(state_.kept);
   EXPECT_NEAR(state_.kept->hypotheses.best()->map_from_robot.x_m, 20.0, 0.1) << "the next order begins with that";
   blocked_with(0.001);
-  EXPECT_EQ(state_.reason, "The way is blocked.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kWayBlocked});
   EXPECT_FALSE(state_.astray);
 }
 
@@ -204,7 +205,7 @@ TEST_F(StepTest, WhoGetsNowhereBecauseItDoesNotKnowWhereDoesNotCallTheWayBlocked
   covered_ = true;
   until_stopped(true, 10'000);
   EXPECT_EQ(state_.drive, DriveState::kFailed);
-  EXPECT_EQ(state_.reason, "I do not see clearly enough where it is.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kDestinationNotSeenClearly});
   expect_stays();
 }
 
@@ -222,7 +223,7 @@ TEST_F(StepTest, WhereSomebodyMovesInTheWayThatStaysBlockedItWaitsLonger) {
   }
   EXPECT_GT(now_ms_ - from_ms, config_.patience_ms - 1000);
   EXPECT_LE(now_ms_ - from_ms, config_.patience_ms + 2 * config_.stuck_ms);
-  EXPECT_EQ(state_.reason, "The way is blocked.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kWayBlocked});
 }
 
 TEST_F(StepTest, DrivesBackToADestinationThatItHasRolledPast) {

@@ -9,6 +9,7 @@ namespace homeward::driving::rider_test {
 namespace {
 
 using wire::DriveState;
+using wire::ReasonCode;
 
 class RiderTest : public StepTest {
  protected:
@@ -21,7 +22,7 @@ TEST_F(RiderTest, EndsAMissionInTheSameStepAndDrives) {
   hand_ = Motion{-0.1, 0.3};
   const Outputs outputs = tick({permit("m1", 1, ++seq_)});
   EXPECT_EQ(state_.drive, DriveState::kStopped);
-  EXPECT_EQ(state_.reason, "The rider has taken over.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kRiderTookOver});
   EXPECT_DOUBLE_EQ(outputs.motion.speed_mps, -0.1);
   EXPECT_DOUBLE_EQ(outputs.motion.turn_radps, 0.3);
 }
@@ -36,7 +37,7 @@ TEST_F(RiderTest, AHandOnTheJoystickEndsWhatMightBeSentOnAfterAFailedDrive) {
   hand_ = Motion{0.3, 0.0};
   tick();
   EXPECT_EQ(state_.drive, DriveState::kStopped);
-  EXPECT_EQ(state_.reason, kRiderTookOver);
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kRiderTookOver});
 }
 
 TEST_F(RiderTest, ReleasedItStandsAndNothingMovesByItself) {
@@ -129,7 +130,7 @@ TEST_F(RiderTest, AMissionIsRefusedWhileTheHandIsThere) {
   EXPECT_EQ(state_.drive, DriveState::kIdle);
   ASSERT_EQ(outputs.messages.size(), 1U);
   ASSERT_TRUE(std::holds_alternative<wire::MissionRefused>(outputs.messages[0]));
-  EXPECT_EQ(std::get<wire::MissionRefused>(outputs.messages[0]).reason, "The rider is steering with the joystick.");
+  EXPECT_EQ(std::get<wire::MissionRefused>(outputs.messages[0]).reason, wire::Reason{ReasonCode::kRiderSteers});
   hand_ = Motion{};
   expect_stays();
   EXPECT_TRUE(stands(tick({mission("m1", 1, 1)}))) << "what was refused is not taken up later";
@@ -138,7 +139,7 @@ TEST_F(RiderTest, AMissionIsRefusedWhileTheHandIsThere) {
 
 TEST_F(RiderTest, AStopFromTheHouseIsAnsweredAndTheRiderGoesOn) {
   hand_ = Motion{0.2, 0.0};
-  const Outputs outputs = tick({wire::StopOrder{"s1", 1, "", "anna"}});
+  const Outputs outputs = tick({wire::StopOrder{"s1", 1, std::nullopt, "anna"}});
   EXPECT_EQ(outputs.messages.size(), 1U);
   EXPECT_DOUBLE_EQ(outputs.motion.speed_mps, 0.2);
 }
@@ -151,7 +152,7 @@ TEST_F(RiderTest, AHandThatTheBaseObeysByItselfEndsTheMissionAndMovesNothing) {
   inputs.rider = RiderHand{now_ms_ + kTick_ms, true, {}};
   EXPECT_TRUE(stands(step(state_, inputs, config_, now_ms_ + kTick_ms)));
   EXPECT_EQ(state_.drive, DriveState::kStopped);
-  EXPECT_EQ(state_.reason, "The rider has taken over.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kRiderTookOver});
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "driving/step.hpp"
 #include "support/landmarks.hpp"
+#include "support/reason_printing.hpp"
 #include "wire/appearance_blob.hpp"
 
 namespace homeward::driving {

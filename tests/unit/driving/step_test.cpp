@@ -8,6 +8,8 @@
 namespace homeward::driving::step_test {
 namespace {
 
+using wire::ReasonCode;
+
 using wire::DriveState;
 
 TEST_F(StepTest, StandsWithoutAMission) {
@@ -41,7 +43,7 @@ TEST_F(StepTest, ALoopThatWasHeldUpStops) {
   now_ms_ += config_.loop_silence_ms;  // and the usual step on top of it
   EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
   EXPECT_EQ(state_.drive, DriveState::kStopped);
-  EXPECT_EQ(state_.reason, "The robot's computer was held up.");
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kComputerHeldUp});
   expect_stays();
   set_off(1, seq_ + 1);
 }

@@ -183,9 +183,7 @@ TEST(BuildMap, WhatCannotBeReadIsLeftOutAndNoted) {
   EXPECT_EQ(built->notes.skipped[1].where, "broken/1002.png");
   EXPECT_EQ(built->notes.skipped[1].code, ErrorCode::kIo);
   EXPECT_NE(built->notes.skipped[1].message.find("bath"), std::string::npos) << built->notes.skipped[1].message;
-  const auto words = notes_in_words(built->notes);
-  ASSERT_EQ(words.size(), 1U);
-  EXPECT_EQ(words[0].rfind("6 of 12 pictures", 0), 0U) << words[0];
+  EXPECT_TRUE(built->notes.warnings.empty());
   // The map is that of the pictures that are left.
   MemoryTour left("broken");
   for (std::size_t i = 0; i < 6; ++i) left.add(*good.read(i));

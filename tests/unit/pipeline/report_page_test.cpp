@@ -69,8 +69,8 @@ BuiltMap with_hypotheses(int count) {
   return map;
 }
 
-std::string page_of(const BuiltMap& map, int most_pictures = 60) {
-  const auto page = report_page(map, {&tour()}, {"1 May 2026", most_pictures, 1, 1});
+std::string page_of(const BuiltMap& map, int most_pictures = 60, const std::vector<ReportWarning>& warnings = {}) {
+  const auto page = report_page(map, {&tour()}, {"1 May 2026", most_pictures, 1, 1, warnings});
   EXPECT_TRUE(page) << page.error().message;
   const std::string html = page.value_or("");
   EXPECT_EQ(markup_problem(html), "");
@@ -155,8 +155,7 @@ TEST(ReportPage, EscapesWhatPeopleAndFilesAreCalled) {
   map.map.destinations[0].label = nasty;
   map.map.feature_config_id = nasty;
   map.notes.skipped.push_back({ErrorCode::kIo, nasty, nasty});
-  map.notes.warnings.push_back({ErrorCode::kInvalidInput, nasty, nasty});
-  const std::string page = page_of(map);
+  const std::string page = page_of(map, 60, {{nasty, nasty}});
   EXPECT_THAT(page, Not(HasSubstr("<script")));
   EXPECT_THAT(page,
               HasSubstr("<h1>&lt;script&gt;alert(&#39;&quot;&amp;\xEF\xBF\xBD\xEF\xBF\xBD&#39;)&lt;/script&gt;</h1>"));

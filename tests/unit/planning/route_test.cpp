@@ -142,25 +142,27 @@ D---E
   EXPECT_EQ(plan_route(map, request).error().where, "closed");
 }
 
+Way way_of(const map::Obstacle& obstacle) { return {obstacle.from, obstacle.to}; }
+
 TEST(PlanRoute, NamesWhatStandsInTheWay) {
   auto map = homeward::testing::ascii_map("A-B#C>D-E");
   RouteRequest request{.from = PlaceId("A"), .to = PlaceId("E"), .avoid = {PlaceId("D")}};
   request.closed = {{PlaceId("A"), PlaceId("B")}};
-  const NoRoute why = explain_no_route(map, request);
+  const map::NoRoute why = explain_no_route(map, request);
   EXPECT_TRUE(why.connected);
   ASSERT_EQ(why.obstacles.size(), 3U);
-  EXPECT_EQ(why.obstacles[0].kind, ObstacleKind::kClosed);
-  EXPECT_EQ(why.obstacles[1].kind, ObstacleKind::kBlocked);
-  EXPECT_EQ(why.obstacles[1].way, (Way{PlaceId("B"), PlaceId("C")}));
-  EXPECT_EQ(why.obstacles[2].kind, ObstacleKind::kAvoided);
-  EXPECT_EQ(why.obstacles[2].way.to, PlaceId("D"));
+  EXPECT_EQ(why.obstacles[0].kind, map::ObstacleKind::kClosed);
+  EXPECT_EQ(why.obstacles[1].kind, map::ObstacleKind::kBlocked);
+  EXPECT_EQ(way_of(why.obstacles[1]), (Way{PlaceId("B"), PlaceId("C")}));
+  EXPECT_EQ(why.obstacles[2].kind, map::ObstacleKind::kAvoided);
+  EXPECT_EQ(why.obstacles[2].to, PlaceId("D"));
   const std::string text = why_not(map, request);
   EXPECT_THAT(text, HasSubstr("from A (A) to B (B), which has just failed or is closed, the way from B (B) to C (C), "
                               "which is blocked and place D (D), which is to be avoided"));
-  const NoRoute back = explain_no_route(map, {.from = PlaceId("E"), .to = PlaceId("C"), .avoid = {}});
+  const map::NoRoute back = explain_no_route(map, {.from = PlaceId("E"), .to = PlaceId("C"), .avoid = {}});
   ASSERT_EQ(back.obstacles.size(), 1U);
-  EXPECT_EQ(back.obstacles[0].kind, ObstacleKind::kOneWay);
-  EXPECT_EQ(back.obstacles[0].way, (Way{PlaceId("D"), PlaceId("C")}));
+  EXPECT_EQ(back.obstacles[0].kind, map::ObstacleKind::kOneWay);
+  EXPECT_EQ(way_of(back.obstacles[0]), (Way{PlaceId("D"), PlaceId("C")}));
 }
 
 TEST(PlanRoute, NamesTheFewestObstacles) {
@@ -170,10 +172,10 @@ x   x
 D---E
 )");
   // Above two blocked edges, below two as well; with E to avoid the upper way has fewer.
-  const NoRoute why = explain_no_route(map, {.from = PlaceId("A"), .to = PlaceId("C"), .avoid = {PlaceId("E")}});
+  const map::NoRoute why = explain_no_route(map, {.from = PlaceId("A"), .to = PlaceId("C"), .avoid = {PlaceId("E")}});
   ASSERT_EQ(why.obstacles.size(), 2U);
-  EXPECT_EQ(why.obstacles[0].way, (Way{PlaceId("A"), PlaceId("B")}));
-  EXPECT_EQ(why.obstacles[1].way, (Way{PlaceId("B"), PlaceId("C")}));
+  EXPECT_EQ(way_of(why.obstacles[0]), (Way{PlaceId("A"), PlaceId("B")}));
+  EXPECT_EQ(way_of(why.obstacles[1]), (Way{PlaceId("B"), PlaceId("C")}));
 }
 
 TEST(PlanRoute, ByTimeAWeakShortcutAndTurnsCost) {

@@ -12,6 +12,7 @@
 #include "driving/follow.hpp"
 #include "recording/recorder.hpp"
 #include "support/painted_tour.hpp"
+#include "support/reason_printing.hpp"
 #include "support/scratch_folder.hpp"
 #include "wire/appearance_blob.hpp"
 
@@ -95,7 +96,8 @@ class RecordedDrive : public ::testing::Test {
   void drive(int ticks) {
     tick({mission("m1", 1)});
     for (int i = 1; i < ticks; ++i) tick();
-    if (state_.drive == wire::DriveState::kDriving) tick({wire::StopOrder{"s1", 1, "Stopped by hand.", "test"}});
+    if (state_.drive == wire::DriveState::kDriving)
+      tick({wire::StopOrder{"s1", 1, wire::Reason{wire::ReasonCode::kStoppedByHand}, "test"}});
   }
 
   [[nodiscard]] std::vector<std::filesystem::path> recordings() const {

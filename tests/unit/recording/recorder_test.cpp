@@ -81,13 +81,13 @@ TEST_F(RecorderTest, GoesOnWithoutPicturesWhenItIsFull) {
     recorder_->step(state_, inputs, sent.bytes, now_ms_);
   }
   ASSERT_EQ(state_.drive, wire::DriveState::kDriving) << state_.reason;
-  tick({wire::StopOrder{"s1", 1, "Stopped by hand.", "test"}});
+  tick({wire::StopOrder{"s1", 1, wire::Reason{wire::ReasonCode::kStoppedByHand}, "test"}});
   close_recorder();
   const Kept kept = read(recording());
   ASSERT_EQ(kept.steps.size(), static_cast<std::size_t>(enough) + 2);
   EXPECT_TRUE(kept.steps[3].picture->bytes);
   EXPECT_FALSE(kept.steps.back().picture->bytes);
-  EXPECT_EQ(kept.steps.back().reason, "Stopped by hand.");
+  EXPECT_EQ(kept.steps.back().reason, wire::Reason{wire::ReasonCode::kStoppedByHand});
   EXPECT_FALSE(kept.end->whole);
   EXPECT_THAT(kept.end->note, HasSubstr("no pictures after step"));
   EXPECT_LE(std::filesystem::file_size(recording()), 1U << 20);

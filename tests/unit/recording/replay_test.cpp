@@ -42,7 +42,7 @@ TEST_F(Replay, ReproducesEveryVectorDecisionAndCommand) {
   EXPECT_TRUE(replayed->complete);
   ASSERT_TRUE(replayed->why);
   EXPECT_EQ(replayed->why->state, "stopped");
-  EXPECT_EQ(replayed->why->reason, "Stopped by hand.");
+  EXPECT_EQ(replayed->why->reason, wire::Reason{wire::ReasonCode::kStoppedByHand});
   EXPECT_EQ(replayed->header.label, "end of the corridor");
 }
 
@@ -61,7 +61,7 @@ TEST_F(Replay, ReproducesARiderWhoTakesOver) {
   EXPECT_TRUE(replayed->complete);
   EXPECT_EQ(replayed->compared, 7);
   EXPECT_EQ(replayed->why->state, "stopped");
-  EXPECT_EQ(replayed->why->reason, "The rider has taken over.");
+  EXPECT_EQ(replayed->why->reason, wire::Reason{wire::ReasonCode::kRiderTookOver});
   SQLite::Database database(recording().string());
   const SQLite::Column deflected = database.execAndGet("SELECT sum(rider_deflected) FROM steps");
   EXPECT_EQ(deflected.getInt(), 1);
@@ -131,7 +131,7 @@ TEST_F(Replay, EndsWherePicturesWereLeftOut) {
   EXPECT_EQ(replayed->compared, 4);
   EXPECT_EQ(replayed->steps, 9);
   EXPECT_THAT(replayed->note, HasSubstr("up to step 4"));
-  EXPECT_EQ(replayed->why->reason, "Stopped by hand.") << "that is known without pictures";
+  EXPECT_EQ(replayed->why->reason, wire::Reason{wire::ReasonCode::kStoppedByHand}) << "that is known without pictures";
 }
 
 TEST_F(Replay, SaysThatARecordingWasCutOff) {

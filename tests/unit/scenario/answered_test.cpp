@@ -55,7 +55,7 @@ class Answered : public ::testing::Test {
   }
 
   /// How it ended, in the robot's words.
-  std::string drive(const std::string& answers) {
+  std::optional<wire::ReasonCode> drive(const std::string& answers) {
     SimulatedRobotConfig config;
     config.camera = camera_config_;
     auto robot = SimulatedRobot::create(world_, config, {2.0, 1.1, 0.0});
@@ -72,7 +72,7 @@ class Answered : public ::testing::Test {
     EXPECT_EQ(loop.state().asking.number, 1);
     EXPECT_LT(std::hypot(robot->vehicle().pose().x_m - kThere.x_m, robot->vehicle().pose().y_m - kThere.y_m), 0.3);
     ended_s_ = loop.elapsed_s();
-    return loop.stops().empty() ? "" : loop.stops().back().reason;
+    return loop.stops().empty() ? std::nullopt : std::optional(loop.stops().back().reason.code);
   }
 
   static constexpr Pose2 kThere{3.2, 1.1, 0.0};
@@ -85,9 +85,9 @@ class Answered : public ::testing::Test {
 };
 
 TEST_F(Answered, SomebodyAnswersTwoSecondsAfterItAsks) {
-  EXPECT_EQ(drive("right"), "I am not sure that this is lift, though somebody says so.");
+  EXPECT_EQ(drive("right"), wire::ReasonCode::kDestinationAffirmed);
   const double answered_s = ended_s_;
-  EXPECT_EQ(drive("nobody"), "I am not sure that this is lift.");
+  EXPECT_EQ(drive("nobody"), wire::ReasonCode::kDestinationUnsure);
   EXPECT_NEAR(ended_s_ - answered_s, 3.0, 0.25) << "it waits 5 s, and somebody answers after 2 s";
 }
 

@@ -118,12 +118,13 @@ TEST_F(AnswersTest, AfterANoItGoesOnAsAfterAnyDriveThatFailed) {
   agent.look(1);
   ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
   agent.question.reset();
-  agent.status(wire::DriveState::kFailed, order, 1, "Somebody says that this is not home.");
+  agent.status(wire::DriveState::kFailed, order, 1,
+               wire::Reason{wire::ReasonCode::kDestinationDenied, {{"destination", "home"}}});
   const auto second = agent.await<wire::MissionOrder>();
   ASSERT_TRUE(second) << mission_now(mission).dump();
   EXPECT_EQ(second->mission, order->mission);
-  const std::string reason = mission_now(mission).at("reason");
-  EXPECT_EQ(reason.find("Somebody says that this is not home. "), 0U) << reason;
+  const nlohmann::json reason = mission_now(mission).at("reason");
+  EXPECT_EQ(reason.at("parameters").at("because").at("code"), "destination_denied") << reason.dump();
 }
 
 }  // namespace

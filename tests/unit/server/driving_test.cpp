@@ -77,10 +77,10 @@ TEST_F(DrivingTest, AMissionIsPermittedUntilItArrives) {
   EXPECT_EQ(under_way.at("path_index"), 1);
   EXPECT_EQ(under_way.at("arrival_probability"), 0.125);
   agent.arrival_probability = 0.96875;
-  agent.status(wire::DriveState::kArrived, order, 2, "I am there, but cannot turn to the right heading.");
+  agent.status(wire::DriveState::kArrived, order, 2, wire::Reason{wire::ReasonCode::kHeadingNotTaken});
   const nlohmann::json arrived = wait_for_state(sent.json(), "arrived");
   EXPECT_EQ(arrived.at("state"), "arrived");
-  EXPECT_EQ(arrived.at("reason"), "I am there, but cannot turn to the right heading.");
+  EXPECT_EQ(arrived.at("reason").at("code"), "heading_not_taken");
   EXPECT_EQ(arrived.at("arrival_probability"), 0.96875);
   while (agent.await<wire::Permit>(milliseconds(150))) {
   }
@@ -114,7 +114,7 @@ TEST_F(DrivingTest, AStopOvertakesAndALostLinkStops) {
   EXPECT_EQ(told->epoch, order->order.epoch);
   EXPECT_GT(told->seq, order->order.seq) << "what it overtakes is void";
   EXPECT_EQ(mission_now(mission).at("state"), "stopped");
-  EXPECT_EQ(mission_now(mission).at("reason"), "a cat");
+  EXPECT_EQ(mission_now(mission).at("reason"), (json{{"code", "text"}, {"parameters", {{"text", "a cat"}}}}));
 
   agent.look(1);
   ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
@@ -170,7 +170,7 @@ TEST_F(DrivingTest, AFailedWayIsDrivenRoundWithoutAnotherTriedOnceMoreAndThenThe
   EXPECT_EQ(now.at("state"), "accepted");
   EXPECT_EQ(now.at("seq"), second->order.seq);
   EXPECT_EQ(now.at("path").size(), second->path.size());
-  EXPECT_NE(now.at("reason").get<std::string>().find("another way"), std::string::npos) << now.dump();
+  EXPECT_EQ(now.at("reason").at("code"), "takes_another_way") << now.dump();
 
   // What it still tells of the first way changes nothing.
   agent.status(wire::DriveState::kFailed, first, 1);
@@ -184,7 +184,7 @@ TEST_F(DrivingTest, AFailedWayIsDrivenRoundWithoutAnotherTriedOnceMoreAndThenThe
   ASSERT_TRUE(third) << mission_now(sent.json()).dump();
   EXPECT_GT(third->order, second->order);
   now = mission_now(sent.json());
-  EXPECT_NE(now.at("reason").get<std::string>().find("once more"), std::string::npos) << now.dump();
+  EXPECT_EQ(now.at("reason").at("code"), "tries_once_more") << now.dump();
   agent.status(wire::DriveState::kDriving, third, 1);
   wait_for_state(sent.json(), "driving");
   agent.look(1);
@@ -192,7 +192,10 @@ TEST_F(DrivingTest, AFailedWayIsDrivenRoundWithoutAnotherTriedOnceMoreAndThenThe
   agent.status(wire::DriveState::kFailed, third, 1);
   now = wait_for_state(sent.json(), "failed");
   EXPECT_EQ(now.at("state"), "failed");
-  EXPECT_NE(now.at("reason").get<std::string>().find("has just failed"), std::string::npos) << now.dump();
+  EXPECT_EQ(now.at("reason").at("code"), "no_way_on") << now.dump();
+  const json trouble = now.at("reason").at("parameters").at("trouble");
+  EXPECT_EQ(trouble.at("code"), "no_way");
+  EXPECT_NE(trouble.dump().find("obstacle_closed"), std::string::npos) << trouble.dump();
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(400)));
 }
 
@@ -216,12 +219,13 @@ TEST_F(DrivingTest, ARobotThatWentAstrayIsSentOnOverTheWayThatNothingIsWrongWith
     agent.look(1);
     ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
     agent.astray = true;
-    agent.status(wire::DriveState::kFailed, order, 1, "I am not on my way, but elsewhere.");
+    agent.status(wire::DriveState::kFailed, order, 1, wire::Reason{wire::ReasonCode::kOffTheWay});
     order = agent.await<wire::MissionOrder>();
     ASSERT_TRUE(order) << restart << mission_now(sent.json()).dump();
     EXPECT_EQ(order->path[1].place, over) << "no part of the way is to blame";
-    const auto reason = mission_now(sent.json()).at("reason").get<std::string>();
-    EXPECT_NE(reason.find("I go on from there"), std::string::npos) << reason;
+    const json reason = mission_now(sent.json()).at("reason");
+    EXPECT_EQ(reason.at("code"), "goes_on_from_there") << reason.dump();
+    EXPECT_EQ(reason.at("parameters").at("because").at("code"), "off_the_way");
   }
 }
 
@@ -244,7 +248,8 @@ TEST_F(DrivingTest, ARobotThatIsNotSureOfItsDestinationLooksAroundAndComesBack) 
     agent.status(wire::DriveState::kDriving, order, last);
     wait_for_state(sent.json(), "driving");
     agent.astray = true;
-    agent.status(wire::DriveState::kFailed, order, last, "I am not sure that this is the room.");
+    agent.status(wire::DriveState::kFailed, order, last,
+                 wire::Reason{wire::ReasonCode::kDestinationUnsure, {{"destination", "the room"}}});
   };
   for (int look = 0; look < 3; ++look) {
     give_up();
@@ -254,12 +259,12 @@ TEST_F(DrivingTest, ARobotThatIsNotSureOfItsDestinationLooksAroundAndComesBack) 
     EXPECT_EQ(order->path.front().place, there);
     EXPECT_EQ(order->path.back().place, there);
     EXPECT_TRUE(order->dock) << "it is the destination's own picture that it comes back to";
-    const auto reason = mission_now(sent.json()).at("reason").get<std::string>();
-    EXPECT_NE(reason.find("I look around and come back"), std::string::npos) << reason;
+    const json reason = mission_now(sent.json()).at("reason");
+    EXPECT_EQ(reason.at("code"), "looks_around_and_comes_back") << reason.dump();
   }
   give_up();
   const json now = wait_for_state(sent.json(), "failed");
-  EXPECT_EQ(now.at("reason"), "I am not sure that this is the room.");
+  EXPECT_EQ(now.at("reason").at("code"), "destination_unsure");
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(400)));
 }
 
@@ -285,7 +290,7 @@ TEST_F(DrivingTest, ARobotThatIsLostGoesOnFromWhereItIsLikeliest) {
   wait_for_state(sent.json(), "driving");
   agent.possible_places = {{second, 0.4}, {order->path.front().place, 0.3}};
   agent.astray = true;
-  agent.status(wire::DriveState::kFailed, order, 0, "I am not sure where I am.");
+  agent.status(wire::DriveState::kFailed, order, 0, wire::Reason{wire::ReasonCode::kPlaceUnsure});
   order = agent.await<wire::MissionOrder>();
   ASSERT_TRUE(order) << mission_now(sent.json()).dump();
   EXPECT_EQ(order->path.front().place, second);
@@ -342,7 +347,7 @@ TEST_F(DrivingTest, AMissionThatLastsTooLongIsStopped) {
   agent.status(wire::DriveState::kDriving, order, 1);
   wait_for_state(sent.json(), "driving");
   ASSERT_TRUE(agent.await<wire::StopOrder>(milliseconds(4000)));
-  EXPECT_EQ(wait_for_state(sent.json(), "stopped").at("reason"), "the mission has lasted too long");
+  EXPECT_EQ(wait_for_state(sent.json(), "stopped").at("reason").at("code"), "too_long");
 }
 
 TEST_F(DrivingTest, DashboardsHearEverythingInOrder) {

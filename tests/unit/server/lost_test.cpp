@@ -11,8 +11,9 @@ using std::chrono::milliseconds;
 using testing::Answer;
 using testing::DrivingTest;
 using testing::FakeAgent;
+using wire::ReasonCode;
 
-constexpr const char* kLooksAround = "The robot is not sure where it is; it looks around first.";
+const json kLooksAround = {{"code", "looks_around_first"}, {"parameters", json::object()}};
 
 /// A robot whose belief may be lost.
 class LostTest : public DrivingTest {
@@ -34,10 +35,10 @@ class LostTest : public DrivingTest {
     wait_for_state(sent.json(), "driving");
   }
   /// Sets off, gets lost, and gives up.
-  void give_up(const char* reason) {
+  void give_up(ReasonCode reason) {
     ASSERT_NO_FATAL_FAILURE(set_off());
     ASSERT_NO_FATAL_FAILURE(get_lost());
-    agent.status(wire::DriveState::kFailed, first, 1, reason);
+    agent.status(wire::DriveState::kFailed, first, 1, wire::Reason{reason});
   }
   void look(unsigned room) {
     agent.look(room);
@@ -103,7 +104,7 @@ TEST_F(LostTest, ALostRobotIsSentFromTheLikeliestPlaceAndLooksAroundFirst) {
   EXPECT_LT(order->surroundings->start_probability, 0.7) << "it drives nowhere before it knows more";
   EXPECT_LT(order->surroundings->start_probability, surely);
 
-  agent.status(wire::DriveState::kDriving, order, 0, "I am not sure where I am; I drive on a little and look.");
+  agent.status(wire::DriveState::kDriving, order, 0, wire::Reason{ReasonCode::kLooksAround});
   EXPECT_EQ(wait_for_state(sent.json(), "driving").at("reason"), kLooksAround);
   agent.estimate = wire::EstimateReport{order->path.front().place, 0.9};
   agent.status(wire::DriveState::kDriving, order, 0);
@@ -117,7 +118,7 @@ TEST_F(LostTest, AfterAFailedDriveALostRobotGoesOnFromItsOwnEstimate) {
   ASSERT_GE(first->path.size(), 3U);
   get_lost();
   agent.estimate = wire::EstimateReport{first->path[1].place, 0.85};
-  agent.status(wire::DriveState::kFailed, first, 2, "The way is blocked.");
+  agent.status(wire::DriveState::kFailed, first, 2, wire::Reason{ReasonCode::kWayBlocked});
   const auto second = agent.await<wire::MissionOrder>();
   ASSERT_TRUE(second) << mission_now(sent.json()).dump();
   EXPECT_EQ(second->mission, first->mission);
@@ -132,7 +133,7 @@ TEST_F(LostTest, AfterAFailedDriveTheRobotsOwnEstimateIsWhereItBegins) {
   ASSERT_FALSE(belief().at("lost").get<bool>());
   ASSERT_NE(belief().at("place"), first->path[1].place.str());
   agent.estimate = wire::EstimateReport{first->path[1].place, 0.97};
-  agent.status(wire::DriveState::kFailed, first, 2, "The way is blocked.");
+  agent.status(wire::DriveState::kFailed, first, 2, wire::Reason{ReasonCode::kWayBlocked});
   const auto second = agent.await<wire::MissionOrder>();
   ASSERT_TRUE(second && second->surroundings) << mission_now(sent.json()).dump();
   EXPECT_EQ(second->path.front().place, first->path[1].place);
@@ -143,7 +144,7 @@ TEST_F(LostTest, AfterADriveAtOddsWithTheBeliefBothAreAsProbable) {
   ASSERT_NO_FATAL_FAILURE(set_off());
   ASSERT_GE(first->path.size(), 3U);
   agent.estimate = wire::EstimateReport{first->path[1].place, 0.5};
-  agent.status(wire::DriveState::kFailed, first, 2, "I am not sure where I am: the map says another place.");
+  agent.status(wire::DriveState::kFailed, first, 2, wire::Reason{ReasonCode::kPlaceDeniedByMap});
   const auto second = agent.await<wire::MissionOrder>();
   ASSERT_TRUE(second && second->surroundings) << mission_now(sent.json()).dump();
   EXPECT_EQ(second->path.front().place.str(), belief().at("place").get<std::string>());
@@ -151,14 +152,16 @@ TEST_F(LostTest, AfterADriveAtOddsWithTheBeliefBothAreAsProbable) {
 }
 
 TEST_F(LostTest, AfterAFailedDriveWithNeitherBeliefNorEstimateItLooksForAWhileAndEnds) {
-  ASSERT_NO_FATAL_FAILURE(give_up("I am not sure where I am."));
+  ASSERT_NO_FATAL_FAILURE(give_up(ReasonCode::kPlaceUnsure));
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(1000)));
   EXPECT_EQ(mission_now(sent.json()).at("state"), "driving");
-  EXPECT_EQ(mission_now(sent.json()).at("reason"), "I am not sure where I am. I look where I am.");
+  const json reason = mission_now(sent.json()).at("reason");
+  EXPECT_EQ(reason.at("code"), "place_looked_for");
+  EXPECT_EQ(reason.at("parameters").at("because").at("code"), "place_unsure");
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(15'000)));
   const json now = wait_for_state(sent.json(), "failed");
   EXPECT_EQ(now.at("state"), "failed");
-  EXPECT_EQ(now.at("reason"), "I am not sure where I am.");
+  EXPECT_EQ(now.at("reason").at("code"), "place_unsure");
 }
 
 TEST_F(LostTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
@@ -168,7 +171,7 @@ TEST_F(LostTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
   const auto lift = [&] {
     agent.astray = true;
     ++agent.displaced;
-    agent.status(wire::DriveState::kFailed, order, 1, "Was I lifted? I look where I am.");
+    agent.status(wire::DriveState::kFailed, order, 1, wire::Reason{ReasonCode::kLifted});
   };
   const milliseconds stands(3300);
   lift();
@@ -180,7 +183,7 @@ TEST_F(LostTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(300))) << "it has not looked enough yet";
   json now = mission_now(sent.json());
   EXPECT_EQ(now.at("state"), "driving");
-  EXPECT_EQ(now.at("reason"), "Was I lifted? I look where I am.");
+  EXPECT_EQ(now.at("reason").at("code"), "lifted");
   look(2);
   order = agent.await<wire::MissionOrder>();
   ASSERT_TRUE(order) << mission_now(sent.json()).dump();
@@ -188,7 +191,7 @@ TEST_F(LostTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
   ASSERT_TRUE(order->surroundings);
   EXPECT_GT(order->surroundings->start_probability, 0.5);
   now = mission_now(sent.json());
-  EXPECT_NE(now.at("reason").get<std::string>().find("I go on from there"), std::string::npos) << now.dump();
+  EXPECT_EQ(now.at("reason").at("code"), "goes_on_from_there") << now.dump();
   // Put down where the map knows nothing, it is sent on from the likeliest place, and finds out for itself.
   agent.astray = false;
   agent.status(wire::DriveState::kDriving, order, 1);
@@ -207,13 +210,13 @@ TEST_F(LostTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
   lift();
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(16'000)));
   now = wait_for_state(sent.json(), "failed");
-  EXPECT_EQ(now.at("reason"), "Was I lifted? I look where I am.");
+  EXPECT_EQ(now.at("reason").at("code"), "lifted");
 }
 
 TEST_F(LostTest, LiftedWhileItIsLookedForItStands) {
-  ASSERT_NO_FATAL_FAILURE(give_up("I do not recognise the way any more."));
+  ASSERT_NO_FATAL_FAILURE(give_up(ReasonCode::kWayNotRecognised));
   ++agent.displaced;
-  agent.status(wire::DriveState::kFailed, first, 1, "I do not recognise the way any more.");
+  agent.status(wire::DriveState::kFailed, first, 1, wire::Reason{ReasonCode::kWayNotRecognised});
   look_while_it_stands(1);
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(400))) << "it may be in somebody's hands";
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(3000)));
@@ -222,16 +225,16 @@ TEST_F(LostTest, LiftedWhileItIsLookedForItStands) {
 }
 
 TEST_F(LostTest, TheRidersHandEndsWhatIsLookedFor) {
-  ASSERT_NO_FATAL_FAILURE(give_up("I do not recognise the way any more."));
+  ASSERT_NO_FATAL_FAILURE(give_up(ReasonCode::kWayNotRecognised));
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(300)));
-  agent.status(wire::DriveState::kStopped, first, 1, "The rider has taken over.");
+  agent.status(wire::DriveState::kStopped, first, 1, wire::Reason{ReasonCode::kRiderTookOver});
   const auto now = wait_for_state(sent.json(), "stopped");
   EXPECT_EQ(now.at("state"), "stopped");
-  EXPECT_EQ(now.at("reason"), "The rider has taken over.");
+  EXPECT_EQ(now.at("reason").at("code"), "rider_took_over");
 }
 
 TEST_F(LostTest, AfterAFailedDriveItIsSentOnOnceTheBeliefSaysWhereItIs) {
-  ASSERT_NO_FATAL_FAILURE(give_up("I do not recognise the way any more."));
+  ASSERT_NO_FATAL_FAILURE(give_up(ReasonCode::kWayNotRecognised));
   EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(400)));
   EXPECT_EQ(mission_now(sent.json()).at("state"), "driving");
   const auto second = sent_on_after_looks(12);
@@ -243,7 +246,7 @@ TEST_F(LostTest, AfterAFailedDriveItIsToldHowProbableItsStartIs) {
   ASSERT_NO_FATAL_FAILURE(set_off());
   agent.look(1);
   ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
-  agent.status(wire::DriveState::kFailed, first, 1, "The way is blocked.");
+  agent.status(wire::DriveState::kFailed, first, 1, wire::Reason{ReasonCode::kWayBlocked});
   const auto second = agent.await<wire::MissionOrder>();
   ASSERT_TRUE(second && second->surroundings) << mission_now(sent.json()).dump();
   EXPECT_EQ(second->surroundings->start_probability, belief().at("probability"));

@@ -209,7 +209,9 @@ TEST_F(TourTest, ABuildDoesWithoutPicturesThatWereDamagedAndSaysSo) {
   ASSERT_EQ(done.at("state"), "done") << done.dump();
   EXPECT_EQ(done.at("skipped"), 2);
   ASSERT_EQ(done.at("notes").size(), 1U);
-  EXPECT_NE(done.at("notes")[0].get<std::string>().find("2 of 9 pictures"), std::string::npos) << done.dump();
+  EXPECT_EQ(done.at("notes")[0].at("code"), "pictures_left_out_of") << done.dump();
+  EXPECT_EQ(done.at("notes")[0].at("parameters").at("left_out"), 2);
+  EXPECT_EQ(done.at("notes")[0].at("parameters").at("all"), 9);
   const std::string map = "/api/v1/maps/" + begun.at("map").at("id").get<std::string>();
   EXPECT_EQ(admin->get(map).json().at("images"), 7);
   EXPECT_TRUE(admin->get(map + "/graph").json().at("destinations").empty());

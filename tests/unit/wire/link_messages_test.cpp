@@ -36,14 +36,14 @@ std::vector<AgentMessage> agent_messages() {
   driving.astray = true;
   AgentStatus stopped;
   stopped.state = DriveState::kStopped;
-  stopped.reason = "The camera is silent.";
+  stopped.reason = Reason{ReasonCode::kCameraSilent};
   const Hello hello{"homeward-agent/0.1.0", "Chair", "a1b2", homeward::testing::sample_map().camera, 0.35, 0.8};
   return {hello,
           Frame{7, 12, {0xFF, 0xD8, 0x00, 0xFF}},
           driving,
           stopped,
           Stopped{"s1", 12},
-          MissionRefused{MissionId("m1"), {2, 9}, "Other features."},
+          MissionRefused{MissionId("m1"), {2, 9}, Reason{ReasonCode::kRiderSteers}},
           Frame{8, 13, {0xFF}, Pose2{1.5, -2.25, 0.5}}};
 }
 
@@ -79,7 +79,7 @@ std::vector<ServerMessage> server_messages() {
   return {Welcome{"homeward-server/0.1.0", RobotId("r1"), 2, 200},
           mission,
           Permit{MissionId("m1"), {2, 10}, 1500},
-          StopOrder{"s1", 2, "pressed", "anna"},
+          StopOrder{"s1", 2, in_words("pressed"), "anna"},
           BeliefReport{7, PlaceId("p1"), 0.9, false},
           BeliefReport{8, std::nullopt, 0.0, true},
           LinkError{"invalid_input", "'seq' is missing."},
@@ -282,11 +282,34 @@ TEST(LinkMessages, RefuseTheOtherDirection) {
 
 TEST(LinkMessages, RefuseAnotherVersion) {
   json hello = to_json(agent_messages()[0]);
-  hello["v"] = 2;
+  hello["v"] = kLinkVersion + 1;
   const auto refused = agent_message_from_json(hello);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kUnsupportedFormat);
   EXPECT_EQ(refused.error().where, "message/v");
+}
+
+TEST(LinkMessages, ReadTheWordsOfVersionOne) {
+  json stop = to_json(server_messages()[3]);
+  ASSERT_EQ(stop["type"], "stop");
+  stop["v"] = 1;
+  stop["reason"] = "pressed";
+  const auto read = server_message_from_json(stop);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(std::get<StopOrder>(*read).reason, in_words("pressed"));
+  stop["reason"] = "";
+  EXPECT_EQ(std::get<StopOrder>(server_message_from_json(stop).value()).reason, std::nullopt);
+}
+
+TEST(LinkMessages, RefuseReasonsThatNobodyKnows) {
+  json stop = to_json(server_messages()[3]);
+  ASSERT_EQ(stop["type"], "stop");
+  stop["reason"] = {{"code", "the_moon_is_full"}, {"parameters", json::object()}};
+  EXPECT_EQ(server_message_from_json(stop).error().where, "message/reason/code");
+  stop["reason"] = {{"code", "stopped_by"}, {"parameters", json::object()}};
+  EXPECT_EQ(server_message_from_json(stop).error().where, "message/reason/parameters/by");
+  stop["reason"] = "pressed";
+  EXPECT_EQ(server_message_from_json(stop).error().where, "message/reason");
 }
 
 TEST(LinkMessages, RefuseBytesThatAreNoMessage) {

@@ -118,7 +118,7 @@ export const answerQuestion = (
 export const stopRobot = (robot: string, key: string) =>
   call<{ stop_id: string }>(`/robots/${id(robot)}/stop`, {
     method: 'POST',
-    body: { reason: 'stopped from the dashboard' },
+    body: {},
     headers: { 'Idempotency-Key': key },
     signal: AbortSignal.timeout(2500),
   });

@@ -16,7 +16,7 @@ const robot: Robot = {
 };
 const mission: Mission = {
   format: 'homeward-mission',
-  version: 1,
+  version: 2,
   id: 'a',
   robot: 'r1',
   map: 'm1',

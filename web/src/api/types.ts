@@ -15,6 +15,7 @@ export type Lease = Schemas['Lease'];
 export type DriveState = Schemas['DriveState'];
 export type Robot = Schemas['Robot'];
 export type MapInfo = Schemas['MapInfo'];
+export type Reason = Schemas['Reason'];
 export type Problem = Schemas['Problem'];
 export type Job = Schemas['Job'];
 export type RefineMode = Schemas['RefineMode'];

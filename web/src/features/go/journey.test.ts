@@ -5,7 +5,7 @@ import { hindrance, journeyOf, placesToGo, progressOf } from './journey';
 
 const mission: Mission = {
   format: 'homeward-mission',
-  version: 1,
+  version: 2,
   id: 'one',
   robot: 'r',
   map: 'm',
@@ -43,7 +43,7 @@ describe('journeyOf', () => {
     });
     expect(journeyOf(robot, { kind: 'refused', target, reason: 'No route.' })).toMatchObject({
       phase: 'refused',
-      reason: 'No route.',
+      refusal: 'No route.',
     });
   });
 

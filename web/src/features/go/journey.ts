@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Mission, Robot } from '../../api/types';
+import type { Mission, Reason, Robot } from '../../api/types';
 
 /** What this page last asked of a robot, until the robot's mission tells the rest. */
 export type Command =
@@ -22,7 +22,8 @@ export interface Journey {
   phase: Phase;
   destination: string | null;
   place: string | null;
-  reason: string | null;
+  reason: Reason | null; // as the mission tells it
+  refusal: string | null; // what the server answered instead of a mission
   by: string | null;
   path: readonly string[];
   path_index: number;
@@ -40,7 +41,8 @@ export function journeyOf(robot: Robot, command: Command | undefined): Journey |
       phase: command.kind,
       destination: command.target.destination ?? null,
       place: command.target.place ?? null,
-      reason: command.kind === 'refused' ? command.reason : null,
+      reason: null,
+      refusal: command.kind === 'refused' ? command.reason : null,
       by: null,
       path: [],
       path_index: 0,
@@ -55,6 +57,7 @@ export function journeyOf(robot: Robot, command: Command | undefined): Journey |
     destination: mission.destination,
     place: mission.place,
     reason: mission.reason,
+    refusal: null,
     by: mission.by,
     path: mission.path,
     path_index: Math.min(Math.max(0, mission.path_index), Math.max(0, mission.path.length - 1)),

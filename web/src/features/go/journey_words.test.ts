@@ -10,6 +10,7 @@ const journey: Journey = {
   destination: 'kitchen',
   place: 'p5',
   reason: null,
+  refusal: null,
   by: 'anna',
   path: ['p1', 'p5'],
   path_index: 1,
@@ -37,7 +38,7 @@ describe('what a journey says', () => {
   });
 
   it('says what was not right where it arrived', () => {
-    const beside = { ...journey, reason: 'I am there, but cannot turn to the right heading.' };
+    const beside = { ...journey, reason: { code: 'heading_not_taken', parameters: {} } };
     expect(reasonOf(beside)).toBe('I am there, but cannot turn to the right heading.');
   });
 
@@ -61,8 +62,13 @@ describe('what a journey says', () => {
 
   it('is announced as whole sentences', () => {
     expect(announcement(journey, graph)).toBe('Arrived: South hall');
-    expect(announcement({ ...journey, reason: 'I cannot turn', arrival_probability: 0.96 }, graph)).toBe(
-      'Arrived: South hall. I cannot turn. I am quite sure that this is the south hall.',
+    expect(
+      announcement(
+        { ...journey, reason: { code: 'heading_not_taken', parameters: {} }, arrival_probability: 0.96 },
+        graph,
+      ),
+    ).toBe(
+      'Arrived: South hall. I am there, but cannot turn to the right heading. I am quite sure that this is the south hall.',
     );
   });
 

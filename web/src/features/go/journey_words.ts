@@ -3,6 +3,7 @@ import { sentence } from '../../api/problem';
 import type { Graph } from '../../api/types';
 import { nameOf, placeTitle, withArticle } from '../../lib/whereabouts';
 import { inSentence, titled } from '../../lib/words';
+import { reasonSentence } from '../../words/reasons';
 import type { Journey, Phase } from './journey';
 
 function destinationOf(journey: Journey, graph: Graph | null) {
@@ -44,7 +45,8 @@ export function heading(journey: Journey, graph: Graph | null): string {
 /** Why it ended without arriving, why it goes another way, or what was not right when it arrived; null: nothing. */
 export function reasonOf(journey: Journey): string | null {
   if (journey.phase === 'asking') return null;
-  return journey.reason ? sentence(journey.reason) : null;
+  if (journey.refusal) return sentence(journey.refusal);
+  return journey.reason ? reasonSentence(journey.reason) : null;
 }
 
 // Of ten arrivals said with 90 % one is somewhere else; of a hundred with 99 % one. Only the first is worth a look.

@@ -5,7 +5,7 @@ import { questionOf, questionWords, waitWords } from './question';
 
 const mission: Mission = {
   format: 'homeward-mission',
-  version: 1,
+  version: 2,
   id: 'one',
   robot: 'r',
   map: 'm',

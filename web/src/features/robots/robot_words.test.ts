@@ -9,7 +9,7 @@ const robot: Robot = {
   online: true,
   map: null,
   state: 'stopped',
-  reason: 'something is in the way',
+  reason: { code: 'way_blocked', parameters: {} },
   belief: null,
   mission: null,
   lease: null,
@@ -17,9 +17,9 @@ const robot: Robot = {
 };
 
 it('explains a stop, and says nothing of old reasons while driving', () => {
-  expect(whyStopped(robot)).toBe('Something is in the way.');
+  expect(whyStopped(robot)).toBe('The way is blocked.');
   expect(whyStopped({ ...robot, state: 'driving' })).toBeNull();
-  expect(whyStopped({ ...robot, reason: ' ' })).toBeNull();
+  expect(whyStopped({ ...robot, reason: null })).toBeNull();
 });
 
 it('never calls a robot that is not connected by its last state', () => {

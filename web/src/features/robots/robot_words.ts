@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import { sentence } from '../../api/problem';
 import type { DriveState, Robot } from '../../api/types';
+import { reasonSentence } from '../../words/reasons';
 
 const kStates: Readonly<Record<DriveState, string>> = {
   idle: 'Standing',
@@ -25,7 +25,7 @@ export function stateTone(robot: Robot): 'good' | 'warn' | 'bad' {
 export function whyStopped(robot: Robot): string | null {
   if (robot.state !== 'stopped' && robot.state !== 'failed') return null;
   const reason = robot.reason ?? robot.mission?.reason ?? null;
-  return reason === null || reason.trim() === '' ? null : sentence(reason);
+  return reason === null ? null : reasonSentence(reason);
 }
 
 /** A direction as people say it; angles are counter-clockwise from ahead. */

@@ -12,7 +12,12 @@ const job = (part: Partial<Job>): Job => ({
   error: null,
   skipped: 0,
   gained: 3,
-  notes: ['kitchen would gain 3 new appearances.'],
+  notes: [
+    {
+      code: 'place_would_gain',
+      parameters: { place: { code: 'place_named', parameters: { label: 'kitchen' } }, appearances: 3 },
+    },
+  ],
   created_us: 1,
   ...part,
 });

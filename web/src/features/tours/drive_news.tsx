@@ -7,7 +7,7 @@ import { Choice } from '../../components/field';
 import { Notice } from '../../components/notice';
 import { useCommand } from '../../lib/command';
 import { count } from '../../lib/words';
-import { newestJob } from './jobs';
+import { newestJob, noteWords } from './jobs';
 
 /** What is to be said of a job that refines a map; null when nothing is. */
 export function driveNews(job: Job): string | null {
@@ -17,9 +17,9 @@ export function driveNews(job: Job): string | null {
     case 'running':
       return 'Looking at what drives saw.';
     case 'offered':
-      return `${gained} from drives. ${job.notes.join(' ')}`;
+      return `${gained} from drives. ${noteWords(job)}`;
     case 'done':
-      return job.notes.length > 0 ? job.notes.join(' ') : null;
+      return job.notes.length > 0 ? noteWords(job) : null;
     case 'failed':
       return `Nothing was learnt from drives. ${sentence(job.error?.detail ?? job.error?.title ?? '')}`;
     case 'cancelled':

@@ -6,6 +6,7 @@ import type { Job, MapInfo } from '../../api/types';
 import { Bar, Notice } from '../../components/notice';
 import { useCommand } from '../../lib/command';
 import { percent } from '../../lib/words';
+import { reasonText } from '../../words/reasons';
 
 /** The newest job of a map that is of one of these kinds; null when there is none. */
 export function newestJob(
@@ -32,6 +33,11 @@ export function stageWords(job: Job): string {
   return kStages[stage] ?? sentence(stage).replace(/\.$/, '');
 }
 
+/** What a person should know of a job. */
+export function noteWords(job: Job): string {
+  return job.notes.map(reasonText).join(' ');
+}
+
 /** How the building of a map goes, why it ended without one, or what is to be known of the one that it made. */
 export function BuildProgress({ map, mayCancel }: { map: MapInfo; mayCancel: boolean }) {
   const job = newestJob(connection.value.house?.jobs ?? [], map.id);
@@ -40,7 +46,7 @@ export function BuildProgress({ map, mayCancel }: { map: MapInfo; mayCancel: boo
   const adds = job.kind === 'add';
   if (job.state === 'done')
     return job.notes.length > 0 ? (
-      <Notice tone={adds && job.skipped === 0 ? 'plain' : 'warn'}>{job.notes.join(' ')}</Notice>
+      <Notice tone={adds && job.skipped === 0 ? 'plain' : 'warn'}>{noteWords(job)}</Notice>
     ) : null;
   if (job.state === 'failed')
     return (
