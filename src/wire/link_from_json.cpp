@@ -43,7 +43,18 @@ std::optional<Reason> read_link_reason(ObjectReader& reader) {
   return words.empty() ? std::nullopt : std::optional(in_words(std::move(words)));
 }
 
-/// The same where there must be one.
+/// A stop whose reason cannot be read is still a stop.
+std::optional<Reason> read_stop_reason(ObjectReader& reader) {
+  const json& value = reader.value("reason");
+  if (value.is_string()) {
+    std::string words = reader.text("reason");
+    return words.empty() ? std::nullopt : std::optional(in_words(std::move(words)));
+  }
+  const auto reason = reason_from_json(value);
+  return reason ? std::optional(*reason) : std::nullopt;
+}
+
+/// The reason of a refusal, which must say one.
 Reason read_refusal(ObjectReader& reader) {
   auto reason = read_link_reason(reader);
   if (!reason) reader.problem("reason", "'reason' must say why.");
@@ -336,7 +347,7 @@ Result<ServerMessage> server_message_from_json(const json& value) {
           return Permit{MissionId(r.text("mission", 100)), read_order(r), r.integer("valid_for_ms", 1, 60'000)};
         }
         if (type == "stop") {
-          return StopOrder{r.text("stop_id", 100), r.integer("epoch", 0, kMost), read_link_reason(r), r.text("by", 200),
+          return StopOrder{r.text("stop_id", 100), r.integer("epoch", 0, kMost), read_stop_reason(r), r.text("by", 200),
                            r.has("seq") ? r.integer("seq", 0, kMost) : 0};
         }
         if (type == "belief") return read_belief(r);

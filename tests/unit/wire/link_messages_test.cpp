@@ -302,14 +302,26 @@ TEST(LinkMessages, ReadTheWordsOfVersionOne) {
 }
 
 TEST(LinkMessages, RefuseReasonsThatNobodyKnows) {
+  json refused = to_json(AgentMessage(MissionRefused{MissionId("m1"), {2, 9}, Reason{ReasonCode::kRiderSteers}}));
+  refused["reason"] = {{"code", "the_moon_is_full"}, {"parameters", json::object()}};
+  EXPECT_EQ(agent_message_from_json(refused).error().where, "message/reason/code");
+  refused["reason"] = {{"code", "stopped_by"}, {"parameters", json::object()}};
+  EXPECT_EQ(agent_message_from_json(refused).error().where, "message/reason/parameters/by");
+  refused["reason"] = "No.";
+  EXPECT_EQ(agent_message_from_json(refused).error().where, "message/reason");
+  refused["reason"] = nullptr;
+  EXPECT_EQ(agent_message_from_json(refused).error().where, "message/reason");
+}
+
+TEST(LinkMessages, AStopWhoseReasonCannotBeReadIsStillAStop) {
   json stop = to_json(server_messages()[3]);
   ASSERT_EQ(stop["type"], "stop");
-  stop["reason"] = {{"code", "the_moon_is_full"}, {"parameters", json::object()}};
-  EXPECT_EQ(server_message_from_json(stop).error().where, "message/reason/code");
-  stop["reason"] = {{"code", "stopped_by"}, {"parameters", json::object()}};
-  EXPECT_EQ(server_message_from_json(stop).error().where, "message/reason/parameters/by");
-  stop["reason"] = "pressed";
-  EXPECT_EQ(server_message_from_json(stop).error().where, "message/reason");
+  for (const json& reason : {json(7), json{{"code", "the_moon_is_full"}, {"parameters", json::object()}}}) {
+    stop["reason"] = reason;
+    const auto read = server_message_from_json(stop);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(std::get<StopOrder>(*read).reason, std::nullopt);
+  }
 }
 
 TEST(LinkMessages, RefuseBytesThatAreNoMessage) {
