@@ -165,7 +165,7 @@ Result<MissionResult> drive_from_here(const Setting& mission, const map::Destina
   }
   const auto order = server->order_from(**place);
   if (order) return drive_with(mission, *order, target, robot, *eye, *server);
-  result.stops.push_back({0.0, wire::reason_of(order.error()), {}});
+  result.stops.push_back({0.0, server->why_no_order(**place, order.error()), {}});
   return result;
 }
 

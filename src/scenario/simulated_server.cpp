@@ -5,9 +5,11 @@
 
 #include "driving/estimated_position.hpp"
 #include "planning/detour.hpp"
+#include "planning/no_route.hpp"
 #include "planning/second_look.hpp"
 #include "planning/surroundings.hpp"
 #include "wire/drive_terms.hpp"
+#include "wire/map_reasons.hpp"
 
 namespace homeward::scenario {
 namespace {
@@ -71,6 +73,16 @@ Result<wire::MissionOrder> SimulatedServer::order_from(const PlaceId& place, boo
   order.valid_for_ms = wire::kPermitValid_ms;
   order.speed_limit_mps = wire::kScenarioSpeedLimit_mps;
   return order;
+}
+
+wire::Reason SimulatedServer::why_no_order(const PlaceId& place, const Error& error) const {
+  planning::RouteRequest request;
+  request.from = place;
+  request.to = destination_->place;
+  request.closed = closed_;
+  // A second look needs more than a way.
+  if (error.code != ErrorCode::kNoRoute || planning::plan_route(*taught_->map, request)) return wire::reason_of(error);
+  return wire::reason_of(planning::explain_no_route(*taught_->map, request), *taught_->map);
 }
 
 /// Where the robot stands that was lifted: by what it sees now alone. Where that says little, the likeliest place.
@@ -184,7 +196,7 @@ Result<std::optional<wire::MissionOrder>> SimulatedServer::order_after(DriveLoop
   closed_.insert(closed_.end(), ways->begin(), ways->end());
   auto order = order_from(**here, second_look);
   if (!order) {
-    why = wire::reason_of(order.error());
+    why = why_no_order(**here, order.error());
     return std::nullopt;
   }
   ++(robot.astray || unsure ? restarts_ : detours_);

@@ -25,6 +25,8 @@ class SimulatedServer {
   /// The way to the destination, round what has failed; or a second look at it, from its own place. Errors: those of
   /// plan_detour and plan_second_look.
   Result<wire::MissionOrder> order_from(const PlaceId& place, bool second_look = false);
+  /// Why order_from gave none.
+  [[nodiscard]] wire::Reason why_no_order(const PlaceId& place, const Error& error) const;
   /// The next order after a drive that failed. Nothing: a person decides, and `why` may say what for.
   Result<std::optional<wire::MissionOrder>> order_after(DriveLoop& drive, std::optional<wire::Reason>& why);
   /// Where an order's pictures were truly taken, one for each of its views.
