@@ -13,6 +13,9 @@ export default defineConfig({
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 700,
   },
-  server: { proxy: { '/api': { target: mock, ws: true }, '/mock': mock } },
+  server: {
+    proxy: { '/api': { target: mock, ws: true }, '/mock': mock },
+    fs: { allow: ['.', '../proto'] }, // the catalogues of reasons
+  },
   test: { include: ['src/**/*.test.{ts,tsx}', 'dev/*.test.mjs'], environment: 'node' },
 });
