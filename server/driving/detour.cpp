@@ -3,6 +3,7 @@
 
 #include "map/lookup.hpp"
 #include "planning/detour.hpp"
+#include "planning/no_route.hpp"
 #include "planning/second_look.hpp"
 #include "planning/surroundings.hpp"
 #include "server/driving/driving.hpp"

@@ -30,7 +30,7 @@ namespace homeward::driving {
 struct DrivingState {
   wire::DriveState drive = wire::DriveState::kIdle;
   std::optional<wire::Reason> reason;  // why it stopped or failed, or drives otherwise than it was sent
-  wire::Order newest;  // the newest order obeyed
+  wire::Order newest;                  // the newest order obeyed
   std::int64_t least_epoch = 0;
   std::shared_ptr<const Mission> mission;
   Milliseconds permit_ends_ms = 0;

@@ -13,8 +13,9 @@
 namespace homeward::driving {
 
 /// Why the robot must not drive any more, for people: link, permit, pictures or sweeps are not fresh. Nothing: it may.
-std::optional<wire::ReasonCode> reason_to_stop(const DrivingState& state, const Inputs& inputs, const DrivingConfig& config,
-                                          Milliseconds now_ms, Milliseconds sensors_ms);
+std::optional<wire::ReasonCode> reason_to_stop(const DrivingState& state, const Inputs& inputs,
+                                               const DrivingConfig& config, Milliseconds now_ms,
+                                               Milliseconds sensors_ms);
 
 /// What is left of a motion that was chosen: within the speed limit, slower the longer something has been silent, not
 /// backwards where no sweep shows what is behind, and safe before what stands there (`made_safe`).

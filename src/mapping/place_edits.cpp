@@ -132,7 +132,8 @@ Status split_place(TopologicalMap& map, const ImageId& image_a, const std::vecto
     for (const int next : {at - 1, at + 1}) {
       if (next < 0 || next >= static_cast<int>(map.images.size())) continue;
       const Place* neighbour = map::find_place_of(map, map.images[static_cast<std::size_t>(next)].id);
-      if (neighbour != nullptr && neighbour->id != fresh_id) join_both_ways(map, fresh_id, neighbour->id, map::Decider::kPerson);
+      if (neighbour != nullptr && neighbour->id != fresh_id)
+        join_both_ways(map, fresh_id, neighbour->id, map::Decider::kPerson);
     }
   }
   if (map::find_edge(map, old_id, fresh_id) == nullptr) tidy_edges(map);

@@ -18,7 +18,7 @@
 #include "wire/reason_catalogue.hpp"
 #include "wire/reason_json.hpp"
 
-namespace homeward::wire {
+namespace homeward::wire::reasons_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -168,4 +168,4 @@ TEST(Reasons, DoNotLieInsideEachOtherWithoutEnd) {
 }
 
 }  // namespace
-}  // namespace homeward::wire
+}  // namespace homeward::wire::reasons_test

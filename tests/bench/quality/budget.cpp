@@ -54,8 +54,11 @@ struct Kept {
 /// `count` keeps.
 features::FeatureSet first_of(const features::FeatureSet& all, int count) {
   const int rows = std::min(count, all.size());
-  return {all.bearings.topRows(rows), all.scales_rad.head(rows), all.descriptors.topRows(rows),
-          all.colours.topRows(rows), {}};
+  return {all.bearings.topRows(rows),
+          all.scales_rad.head(rows),
+          all.descriptors.topRows(rows),
+          all.colours.topRows(rows),
+          {}};
 }
 
 Numbers sift_numbers(const Numbers& descriptors, int length) {
