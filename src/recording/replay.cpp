@@ -22,7 +22,6 @@ std::string shown(double value) {
 }
 std::string shown(std::int64_t value) { return std::to_string(value); }
 std::string shown(bool value) { return value ? "yes" : "no"; }
-std::string shown(const std::string& value) { return value; }
 std::string shown(const wire::Reason& value) { return wire::english(value); }
 std::string shown(wire::DriveState value) { return std::string(wire::drive_state_name(value)); }
 template <class T>
