@@ -12,6 +12,7 @@
 
 #include "map/no_route.hpp"
 #include "planning/no_route.hpp"
+#include "planning/route.hpp"
 #include "support/folders.hpp"
 #include "support/sample_map.hpp"
 #include "wire/map_reasons.hpp"

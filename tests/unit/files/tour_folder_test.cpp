@@ -113,13 +113,13 @@ TEST(TourFolder, NamesFileAndLineOfWhatIsWrong) {
     EXPECT_FALSE(opened) << file << ": " << text;
     return opened ? Error{} : opened.error();
   };
-  EXPECT_TRUE(scenario::error_of("times.csv", "name,time\n").where.ends_with("times.csv:1"));
-  EXPECT_TRUE(scenario::error_of("times.csv", "filename,t_us\na.PNG,1\nb.png,soon\n").where.ends_with("times.csv:3"));
-  EXPECT_TRUE(scenario::error_of("times.csv", "filename,t_us\na.PNG\n").where.ends_with("times.csv:2"));
+  EXPECT_TRUE(error_of("times.csv", "name,time\n").where.ends_with("times.csv:1"));
+  EXPECT_TRUE(error_of("times.csv", "filename,t_us\na.PNG,1\nb.png,soon\n").where.ends_with("times.csv:3"));
+  EXPECT_TRUE(error_of("times.csv", "filename,t_us\na.PNG\n").where.ends_with("times.csv:2"));
   EXPECT_TRUE(
-      scenario::error_of("odometry.csv", "t_us,x_m,y_m,theta_rad\n1,0,nan,0\n").where.ends_with("odometry.csv:2"));
+      error_of("odometry.csv", "t_us,x_m,y_m,theta_rad\n1,0,nan,0\n").where.ends_with("odometry.csv:2"));
   for (const char* text : {"{", "[]", R"({"marks":3})", R"({"marks":[{"image":"a.PNG"}]})"}) {
-    const Error error = scenario::error_of("tour.json", text);
+    const Error error = error_of("tour.json", text);
     EXPECT_EQ(error.code, ErrorCode::kInvalidInput);
     EXPECT_TRUE(error.where.ends_with("tour.json"));
   }
@@ -167,21 +167,21 @@ TEST(TourFolder, NamesLineAndColumnOfAWrongSweep) {
     return opened ? Error{} : opened.error();
   };
   for (const char* text : {"", "filename\n", "filename,r1\n", "name,r0\na.PNG,1\n"}) {
-    EXPECT_TRUE(scenario::error_of(text).where.ends_with("scans.csv:1")) << text;
+    EXPECT_TRUE(error_of(text).where.ends_with("scans.csv:1")) << text;
   }
-  EXPECT_TRUE(scenario::error_of("filename,r0,r1\na.PNG,1,1\nb.png,1\n").where.ends_with("scans.csv:3"));
-  EXPECT_TRUE(scenario::error_of("filename,r0\n,1\n").where.ends_with("scans.csv:2"));
+  EXPECT_TRUE(error_of("filename,r0,r1\na.PNG,1,1\nb.png,1\n").where.ends_with("scans.csv:3"));
+  EXPECT_TRUE(error_of("filename,r0\n,1\n").where.ends_with("scans.csv:2"));
   for (const char* cell : {"-1", "nan", "inf", "far", "1 ", "1e99"}) {
-    const Error error = scenario::error_of("filename,r0,r1\na.PNG,1," + std::string(cell) + "\n");
+    const Error error = error_of("filename,r0,r1\na.PNG,1," + std::string(cell) + "\n");
     EXPECT_EQ(error.code, ErrorCode::kInvalidInput) << cell;
     EXPECT_TRUE(error.where.ends_with("scans.csv:2")) << cell;
     EXPECT_NE(error.message.find("Column r1"), std::string::npos) << error.message;
   }
-  EXPECT_NE(scenario::error_of("filename,r0\na.PNG,1\na.PNG,2\n").message.find("already"), std::string::npos);
-  EXPECT_NE(scenario::error_of("filename,r0\na.PNG,1\n", "{}").where.find("scans.json"), std::string::npos);
+  EXPECT_NE(error_of("filename,r0\na.PNG,1\na.PNG,2\n").message.find("already"), std::string::npos);
+  EXPECT_NE(error_of("filename,r0\na.PNG,1\n", "{}").where.find("scans.json"), std::string::npos);
   std::string header = "filename";
   for (int i = 0; i <= 10'000; ++i) header += ",r" + std::to_string(i);
-  EXPECT_EQ(scenario::error_of(header + "\n").code, ErrorCode::kTooLarge);
+  EXPECT_EQ(error_of(header + "\n").code, ErrorCode::kTooLarge);
 }
 
 TEST(TourFolder, SaysWhenThereIsNothing) {

@@ -74,7 +74,7 @@ class Kidnapped : public ::testing::Test {
     config.blind_ms = 2000;
     config.stuck_ms = 6000;
     const ScenarioListener listener;
-    DriveLoop loop(robot, *eye_, FaultSchedule({{"kidnapped", 0.5, 0.0}}), config, listener, nullptr);
+    DriveLoop loop(robot, *eye_, FaultSchedule({{wire::FaultKind::kKidnapped, 0.5, 0.0}}), config, listener, nullptr);
     loop.kidnap_to([&]() -> Result<std::optional<Pose2>> {
       before_ = robot.vehicle().pose();
       odometry_ = robot.odometry();
