@@ -97,7 +97,7 @@ TEST_F(StoreDurability, AnEmptyFileBecomesADatabaseAndANewerOneIsRefused) {
   close();
   {
     SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
-    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 5);
+    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 6);
     EXPECT_EQ(database.execAndGet("PRAGMA journal_mode").getString(), "wal");
     database.exec("PRAGMA user_version = 999");
   }

@@ -133,7 +133,7 @@ TEST_F(StepTest, BetweenTwoPlacesThatLookTheSameItLooksAroundForAWhileAndThenGoe
   EXPECT_LT(nearest_m, 0.3) << "it goes where it was sent";
   EXPECT_LE(fastest_mps, 0.25) << "slowly";
   EXPECT_NE(state_.drive, DriveState::kArrived) << "and says nothing that it does not know";
-  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kPlaceUnsure});
+  EXPECT_EQ(state_.reason, (wire::Reason{ReasonCode::kDestinationAsked, {{"destination", "kitchen"}}}));
 }
 
 TEST_F(StepTest, AWallThatOneOfTwoPlacesHasNoRoomForTellsItWhereItIs) {
