@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include "imageio/decode.hpp"
+#include "map/lookup.hpp"
 #include "planning/detour.hpp"
 #include "server/driving/driving.hpp"
 #include "server/services/belief_view.hpp"
@@ -9,6 +10,31 @@
 
 namespace homeward::server {
 namespace {
+
+// What is said of where a robot is lets none drive before it has found out by itself: no more than an even chance.
+constexpr double kWordAlone = 0.5;
+
+// What forbids saying where it is, with the unit locked.
+Status may_be_placed(const RobotUnit& unit) {
+  const std::string where = "robots/" + unit.id.str();
+  if (!unit.map) return fail(ErrorCode::kConflict, "The robot has no map to be on.", where);
+  if (unit.under_way) return fail(ErrorCode::kConflict, "The robot is on its way; stop it first.", where);
+  // Until it connects it may be taken anywhere.
+  if (!unit.online()) return fail(ErrorCode::kRobotOffline, "The robot is not connected.", where);
+  return {};
+}
+
+// All places of the label, or the one of that id where there is no label. Errors: kUnknownPlace.
+Result<std::vector<PlaceId>> places_said(const map::TopologicalMap& map, const std::string& label, const PlaceId& place,
+                                         const MapId& map_id) {
+  std::vector<PlaceId> places = map::places_labelled(map, label);
+  if (label.empty() && map::find_place(map, place) != nullptr) places.push_back(place);
+  if (!places.empty()) return places;
+  return fail(
+      ErrorCode::kUnknownPlace,
+      label.empty() ? "The map has no place " + place.str() + "." : "The map has no place called '" + label + "'.",
+      "maps/" + map_id.str());
+}
 
 // An edit of names or blocked ways leaves the places as they are; the belief then goes on.
 bool same_places(const map::TopologicalMap& a, const map::TopologicalMap& b) {
@@ -51,7 +77,7 @@ void Driving::go_on_after_looking(const Unit& found) {
   const auto now = clock_.steady();
   const std::chrono::duration<double> stands_for = now - *unit.looks_since;
   if (unit.lifted && stands_for.count() < planning::kStandsAfterLift_s) {
-    unit.restart_tracking = true;  // what is seen in somebody's hands counts nothing
+    unit.forget_where();  // what is seen in somebody's hands counts nothing
     return;
   }
   if (++unit.looks < kLooks || (!unit.lifted && !unit.known_start(now))) return;
@@ -76,8 +102,8 @@ void Driving::hand_over_sights(RobotUnit& unit) {
   }));
 }
 
-void Driving::look(const Unit& unit) {
-  const auto began = clock_.steady();
+struct Driving::Look {
+  SteadyTime began;
   std::shared_ptr<const wire::Frame> frame;
   std::shared_ptr<Tracking> tracking;
   std::optional<MapId> map;
@@ -85,66 +111,122 @@ void Driving::look(const Unit& unit) {
   std::shared_ptr<AgentLink> link;
   bool new_odometry = false;
   std::optional<wire::EstimateReport> estimate;
-  {
-    const std::scoped_lock lock(unit->mutex);
-    frame = std::move(unit->waiting_frame);
-    unit->waiting_frame.reset();
-    if (unit->restart_tracking) unit->tracking.reset();
-    unit->restart_tracking = false;
-    tracking = unit->tracking;
-    new_odometry = std::exchange(unit->restart_odometry, false);
-    map = unit->map;
-    camera = unit->hello.camera;
-    link = unit->link;
-    estimate = unit->driving_estimate(began);
-  }
+  std::vector<PlaceId> said_places;
+  // What comes of it:
   PlaceId sure;
   double near_share = 0.0;
-  Result<wire::BeliefView> seen = fail(ErrorCode::kConflict, "The robot has no map.", "robots/" + unit->id.str());
-  if (frame && map && link) {
-    const auto look_once = [&]() -> Result<wire::BeliefView> {
-      auto fitting = tracking_for(tracking, *map, camera);
-      if (!fitting) return pass_on(fitting);
-      tracking = *fitting;
-      if (new_odometry) tracking->tracker.restart_odometry();
-      const auto picture = imageio::decode(frame->jpeg, "frame " + std::to_string(frame->seq));
-      if (!picture) return pass_on(picture);
-      auto belief = tracking->tracker.update(*picture, frame->odometry);
-      if (!belief) return pass_on(belief);
-      if (estimate) belief = tracking->tracker.hear(estimate->place, estimate->probability);
-      sure = pipeline::sure_place(*belief, {});
-      near_share = belief->near_share;
-      wire::BeliefView view = view_of(*belief);
-      view.ms = std::chrono::duration<double, std::milli>(clock_.steady() - began).count();
-      view.t_us = frame->t_us;
-      return view;
-    };
+
+  [[nodiscard]] bool complete() const { return frame && map && link; }
+};
+
+Driving::Look Driving::take_up(RobotUnit& unit) {
+  const auto now = clock_.steady();
+  Look look;
+  look.began = now;
+  look.frame = std::move(unit.waiting_frame);
+  unit.waiting_frame.reset();
+  if (unit.restart_tracking) unit.tracking.reset();
+  unit.restart_tracking = false;
+  look.tracking = unit.tracking;
+  look.new_odometry = std::exchange(unit.restart_odometry, false);
+  look.map = unit.map;
+  look.camera = unit.hello.camera;
+  look.link = unit.link;
+  look.estimate = unit.driving_estimate(now);
+  if (look.complete()) look.said_places = std::exchange(unit.said_places, {});
+  return look;
+}
+
+Result<wire::BeliefView> Driving::see(Look& look) {
+  auto fitting = tracking_for(look.tracking, *look.map, look.camera);
+  if (!fitting) return pass_on(fitting);
+  look.tracking = *fitting;
+  Tracking& tracking = *look.tracking;
+  if (look.new_odometry) tracking.tracker.restart_odometry();
+  if (!look.said_places.empty()) {
+    tracking.tracker.start_at(look.said_places);
+    tracking.by_word_alone = true;
+  }
+  const auto picture = imageio::decode(look.frame->jpeg, "frame " + std::to_string(look.frame->seq));
+  if (!picture) return pass_on(picture);
+  auto belief = tracking.tracker.update(*picture, look.frame->odometry);
+  if (!belief) return pass_on(belief);
+  if (look.estimate) belief = tracking.tracker.hear(look.estimate->place, look.estimate->probability);
+  look.sure = pipeline::sure_place(*belief, {});
+  if (!belief->lost) tracking.by_word_alone = false;
+  look.near_share = tracking.by_word_alone ? std::min(kWordAlone, belief->near_share) : belief->near_share;
+  wire::BeliefView view = view_of(*belief);
+  view.ms = std::chrono::duration<double, std::milli>(clock_.steady() - look.began).count();
+  view.t_us = look.frame->t_us;
+  return view;
+}
+
+void Driving::keep_seen(const Unit& unit, const Look& look, const Result<wire::BeliefView>& seen) {
+  if (!seen) {
+    unit->belief.reset();
+    return;
+  }
+  unit->belief = *seen;
+  unit->near_share = look.near_share;
+  unit->belief_at = clock_.steady();
+  if (unit->under_way && unit->sights.due(look.frame->t_us))
+    unit->sights.add(look.frame->t_us, look.sure, look.tracking->tracker.seen());
+  look.link->send(wire::BeliefReport{look.frame->seq, seen->place, seen->probability.value_or(0.0), seen->lost});
+  go_on_after_looking(unit);
+}
+
+void Driving::look(const Unit& unit) {
+  Look look = [&] {
+    const std::scoped_lock lock(unit->mutex);
+    return take_up(*unit);
+  }();
+  const std::string where = "robots/" + unit->id.str();
+  Result<wire::BeliefView> seen = fail(ErrorCode::kConflict, "The robot has no map.", where);
+  if (look.complete()) {
     try {
-      seen = look_once();
+      seen = see(look);
     } catch (const std::exception& exception) {
-      seen = fail(ErrorCode::kInternal, exception.what(), "robots/" + unit->id.str());
+      seen = fail(ErrorCode::kInternal, exception.what(), where);
     }
     if (!seen) spdlog::warn("robot {} cannot be localised: {}", unit->id.str(), seen.error().message);
   }
   const std::scoped_lock lock(unit->mutex);
   unit->looking = false;
-  unit->tracking = tracking;
-  // What was seen through a connection or in a map that is gone says nothing about now.
-  if (frame && unit->link == link && link && unit->map == map && !unit->restart_tracking) {
-    if (seen) {
-      unit->belief = *seen;
-      unit->near_share = near_share;
-      unit->belief_at = clock_.steady();
-      if (unit->under_way && unit->sights.due(frame->t_us))
-        unit->sights.add(frame->t_us, sure, tracking->tracker.seen());
-      link->send(wire::BeliefReport{frame->seq, seen->place, seen->probability.value_or(0.0), seen->lost});
-      go_on_after_looking(unit);
-    } else {
-      unit->belief.reset();
-    }
+  unit->tracking = look.tracking;
+  // What was seen through a connection or in a map that is gone, or before somebody said where the robot is, says
+  // nothing about now.
+  const bool of_now = unit->link == look.link && unit->map == look.map && !unit->restart_tracking;
+  if (look.frame && look.link && of_now && unit->said_places.empty()) {
+    keep_seen(unit, look, seen);
     tell(*unit);
   }
   begin_looking(unit);
+}
+
+Result<wire::RobotView> Driving::set_place(const RobotId& id, const SaidPlace& said) {
+  const auto found = find(id);
+  if (!found) return pass_on(found);
+  RobotUnit& unit = **found;
+  std::optional<MapId> map;
+  {
+    const std::scoped_lock lock(unit.mutex);
+    if (const Status status = may_be_placed(unit); !status) return pass_on(status);
+    map = unit.map;
+  }
+  const auto loaded = maps_.load(*map);
+  if (!loaded) return pass_on(loaded);
+  const auto places = places_said((*loaded)->map, said.label, said.place, *map);
+  if (!places) return pass_on(places);
+  const std::scoped_lock lock(unit.mutex);
+  if (const Status status = may_be_placed(unit); !status) return pass_on(status);
+  if (unit.map != map) {
+    return fail(ErrorCode::kConflict, "The robot was given another map just now.", "robots/" + id.str());
+  }
+  unit.said_places = *places;
+  unit.belief.reset();  // no mission begins from what was believed before
+  spdlog::info("robot {} is at {}, says {}", id.str(), said.label.empty() ? said.place.str() : said.label, said.by);
+  tell(unit);
+  return view(unit, clock_.steady());
 }
 
 }  // namespace homeward::server

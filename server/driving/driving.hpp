@@ -45,6 +45,15 @@ class Driving : public LinkListener {
   Result<wire::RobotView> get(const RobotId& id);
   /// Errors: also kConflict (it is driving).
   Result<wire::RobotView> set_map(const RobotId& id, const std::optional<MapId>& map);
+  /// Where a robot is, as a person says.
+  struct SaidPlace {
+    std::string label;  // of destinations and places, all of which are meant; or else, where it is empty,
+    PlaceId place;
+    std::string by;
+  };
+  /// Its belief begins anew there, with its next picture (localisation::Localiser::start_at). Errors: kNotFound,
+  /// kRobotOffline, kConflict (it has no map, or is driving), kUnknownPlace.
+  Result<wire::RobotView> set_place(const RobotId& id, const SaidPlace& said);
   /// The newest picture.
   Result<std::vector<std::uint8_t>> frame(const RobotId& id);
   [[nodiscard]] std::size_t online();
@@ -90,6 +99,7 @@ class Driving : public LinkListener {
     double length_m = 0.0;  // of the way
     bool again = false;     // a detour that is the way that failed, again
   };
+  struct Look;  // one picture in a worker's hands
 
   Result<Unit> find(const RobotId& id);
   std::vector<Unit> units();
@@ -116,7 +126,11 @@ class Driving : public LinkListener {
   void send_detour(const Unit& unit, const MissionId& mission, const wire::Reason& reason, int number);
   void heard_refusal(RobotUnit& unit, const wire::MissionRefused& refusal);
   void welcome(const Unit& unit, const std::shared_ptr<AgentLink>& link);
+  // Looks at the newest picture: takes it up, sees where it was taken, and keeps and tells what has shown.
   void look(const Unit& unit);
+  Look take_up(RobotUnit& unit);
+  Result<wire::BeliefView> see(Look& look);
+  void keep_seen(const Unit& unit, const Look& look, const Result<wire::BeliefView>& seen);
   Result<std::shared_ptr<Tracking>> tracking_for(std::shared_ptr<Tracking> present, const MapId& map,
                                                  const camera::CameraConfig& camera);
   Result<Plan> plan(const Unit& unit, const MissionRequest& request);

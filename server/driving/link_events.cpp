@@ -55,7 +55,7 @@ void Driving::heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& li
     // counts its odometry from somewhere else.
     const bool soon = unit->gone_at && clock_.steady() - *unit->gone_at < kTrackingKept;
     const bool same_camera = wire::camera_to_json(unit->hello.camera) == wire::camera_to_json(hello.camera);
-    if (!(unit->link || soon) || !same_camera) unit->restart_tracking = true;
+    if (!(unit->link || soon) || !same_camera) unit->forget_where();
     if (unit->hello.session != hello.session) {
       unit->restart_odometry = true;
       unit->displaced = 0;  // another program counts anew; the same one must not be taken for lifted again
@@ -96,7 +96,7 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
   const bool lifted = now.displaced > unit.displaced;
   if (lifted) {
     spdlog::info("robot {} was moved without its wheels", unit.id.str());
-    unit.restart_tracking = true;
+    unit.forget_where();
     unit.belief.reset();
     // It was not put down yet: what was seen in somebody's hands says nothing of where it will stand.
     if (unit.under_way && (unit.looks_since || unit.looking_for_detour)) {

@@ -40,6 +40,7 @@ struct Lease {
 struct Tracking {
   MapId map_id;
   pipeline::BeliefTracker tracker;
+  bool by_word_alone = false;  // somebody said where the robot is, and no picture has borne it out yet
 };
 
 /// What the server knows of one robot. `mutex` guards everything but `id`.
@@ -63,10 +64,12 @@ struct RobotUnit {
   std::shared_ptr<const wire::Frame> waiting_frame;  // the newest one that was not looked at
   std::shared_ptr<Tracking> tracking;                // the worker's while `looking`
   bool restart_tracking = false;
-  std::int64_t displaced = 0;     // as the robot told last
-  bool restart_odometry = false;  // the robot's odometry began anew
+  std::vector<PlaceId> said_places;  // where it is, as a person has said since the last look; the belief begins there
+  std::int64_t displaced = 0;        // as the robot told last
+  bool restart_odometry = false;     // the robot's odometry began anew
   std::optional<wire::BeliefView> belief;
-  /// Of that belief: in the first of its places and the neighbours of it, also where it is lost.
+  /// Of that belief: in the first of its places and the neighbours of it, also where it is lost; at most an even chance
+  /// while nothing but a person's word says so.
   double near_share = 0.0;
   SteadyTime belief_at;
 
@@ -96,6 +99,11 @@ struct RobotUnit {
   DriveSights sights;                    // of this mission
   std::optional<std::int64_t> answered;  // number of the question of this mission that somebody has answered last
 
+  /// What was seen up to now, and what somebody said of where it is, says nothing of where it is from now on.
+  void forget_where() {
+    restart_tracking = true;
+    said_places.clear();
+  }
   [[nodiscard]] bool online() const { return link != nullptr && welcomed; }
   /// Whether this lease is the one that lives. Errors: kLeaseHeld.
   [[nodiscard]] Status holds_lease(const std::string& lease_id, SteadyTime now) const {

@@ -125,7 +125,7 @@ Result<wire::RobotView> Driving::set_map(const RobotId& id, const std::optional<
     if (robot.under_way) stop_robot(robot, "", {wire::ReasonCode::kAnotherMap}, "server");
     robot.map = map;
     robot.belief.reset();
-    robot.restart_tracking = true;
+    robot.forget_where();
   }
   tell(robot);
   return view(robot, clock_.steady());

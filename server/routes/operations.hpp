@@ -66,6 +66,7 @@ inline constexpr std::array kOperations = [] {
       Operation{"add_robot", "POST", "/api/v1/robots", kInstaller, Lane::kWork, kMaxJsonBody, true},
       Operation{"get_robot", "GET", "/api/v1/robots/{robot}", kViewer, Lane::kWork, kMaxJsonBody},
       Operation{"set_robot_map", "PUT", "/api/v1/robots/{robot}/map", kInstaller, Lane::kWork, kMaxJsonBody},
+      Operation{"set_robot_place", "PUT", "/api/v1/robots/{robot}/place", kRider, Lane::kWork, kMaxJsonBody},
       Operation{"take_lease", "POST", "/api/v1/robots/{robot}/lease", kRider, Lane::kWork, kMaxJsonBody, true},
       Operation{"keep_lease", "PUT", "/api/v1/robots/{robot}/lease", kRider, Lane::kWork, kMaxJsonBody, true},
       Operation{"release_lease", "DELETE", "/api/v1/robots/{robot}/lease", kRider, Lane::kWork, kMaxJsonBody},

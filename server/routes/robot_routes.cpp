@@ -53,6 +53,24 @@ Response set_map(Driving& driving, const Request& request) {
   return robot_response(driving.set_map(robot_in(request), map));
 }
 
+Response set_place(Driving& driving, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  Driving::SaidPlace said;
+  if (reader.has("label")) {
+    said.label = reader.text("label", 200);
+    if (said.label.empty()) reader.problem("label", "A label is not empty.");
+    if (reader.has("place")) reader.problem("place", "A robot is at a place or at a label, not both.");
+  } else {
+    said.place = PlaceId(reader.text("place", 100));
+    if (said.place.empty()) reader.problem("place", "The id of a place, or else a label.");
+  }
+  if (const Status status = reader.finish(); !status) return problem_of(status);
+  said.by = request.caller.name;
+  return robot_response(driving.set_place(robot_in(request), said));
+}
+
 Response take_lease(Driving& driving, const Request& request) {
   const auto body = json_body(request);
   if (!body) return not_json(body.error());
@@ -155,6 +173,7 @@ void add_robot_routes(Router& router, Driving& driving, db::Store& store, const 
   router.add({operation("add_robot"), [d, db, time](Request& request) { return add_robot(*d, *db, *time, request); }});
   router.add({operation("get_robot"), [d](Request& request) { return robot_response(d->get(robot_in(request))); }});
   router.add({operation("set_robot_map"), [d](Request& request) { return set_map(*d, request); }});
+  router.add({operation("set_robot_place"), [d](Request& request) { return set_place(*d, request); }});
   router.add({operation("take_lease"), [d](Request& request) { return take_lease(*d, request); }});
   router.add({operation("keep_lease"), [d](Request& request) { return keep_lease(*d, request); }});
   router.add({operation("release_lease"), [d](Request& request) { return release_lease(*d, request); }});

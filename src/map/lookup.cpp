@@ -16,18 +16,22 @@ Place* find_place(TopologicalMap& map, const PlaceId& id) {
 
 std::vector<PlaceId> places_named(const TopologicalMap& map, const std::string& name) {
   if (find_place(map, PlaceId(name)) != nullptr) return {PlaceId(name)};
-  std::vector<PlaceId> named;
+  return places_labelled(map, name);
+}
+
+std::vector<PlaceId> places_labelled(const TopologicalMap& map, const std::string& label) {
+  std::vector<PlaceId> labelled;
+  if (label.empty()) return labelled;  // as places are that nobody named
   const auto add = [&](const PlaceId& place) {
-    if (std::ranges::find(named, place) == named.end()) named.push_back(place);
+    if (std::ranges::find(labelled, place) == labelled.end()) labelled.push_back(place);
   };
-  if (name.empty()) return named;  // as places are that nobody named
   for (const Destination& destination : map.destinations) {
-    if (destination.label == name) add(destination.place);
+    if (destination.label == label) add(destination.place);
   }
   for (const Place& place : map.places) {
-    if (place.label == name) add(place.id);
+    if (place.label == label) add(place.id);
   }
-  return named;
+  return labelled;
 }
 
 const Place* find_place_of(const TopologicalMap& map, const ImageId& image) {

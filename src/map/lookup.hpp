@@ -15,9 +15,11 @@ namespace homeward::map {
 const Place* find_place(const TopologicalMap& map, const PlaceId& id);
 Place* find_place(TopologicalMap& map, const PlaceId& id);
 
-/// The places that a person may mean: the one with this id; else those of destinations with this label, then those with
-/// this label, each once. Empty: there is none.
+/// The places that a person may mean: the one with this id; else those of this label. Empty: there is none.
 std::vector<PlaceId> places_named(const TopologicalMap& map, const std::string& name);
+
+/// Those of destinations with this label, then those with this label, each once. Empty: there is none.
+std::vector<PlaceId> places_labelled(const TopologicalMap& map, const std::string& label);
 
 /// The place that holds this image, or null.
 const Place* find_place_of(const TopologicalMap& map, const ImageId& image);

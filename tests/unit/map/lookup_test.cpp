@@ -22,6 +22,8 @@ TEST(PlacesNamed, AreThoseOfAnIdOrElseOfALabel) {
   EXPECT_EQ(places_named(map, "kitchen"), (std::vector<PlaceId>{PlaceId("C"), PlaceId("A")}));
   map.places[1].label = "A";  // an id comes before labels
   EXPECT_EQ(places_named(map, "A"), std::vector<PlaceId>{PlaceId("A")});
+  EXPECT_EQ(places_labelled(map, "A"), std::vector<PlaceId>{PlaceId("B")});
+  EXPECT_TRUE(places_labelled(map, "C").empty()) << "an id is no label";
   EXPECT_TRUE(places_named(map, "cellar").empty());
   map.places[1].label = "";
   EXPECT_TRUE(places_named(map, "").empty()) << "places without a label have no name";
