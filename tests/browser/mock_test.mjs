@@ -215,6 +215,62 @@ const checks = [
     }),
   ],
   [
+    'a person says by keyboard where a chair is that does not know it, and it begins there',
+    withHouse(
+      async (page, house) => {
+        const lost = { updates: 3, place: null, probability: null, top: [], lost: true };
+        house.steer({ do: 'robot', set: { belief: lost } });
+        const asking = page.getByTestId('said-place');
+        const offer = page.getByRole('button', { name: 'Say where Chair is' });
+        await offer.focus();
+        await page.keyboard.press('Enter');
+        await asking.getByRole('heading', { name: 'Where is Chair?' }).waitFor();
+        const here = asking.getByRole('button', { name: 'Chair is here' });
+        assert.ok(await here.isDisabled(), 'nothing is chosen yet');
+        assert.ok(!(await sticksOut(page)), 'the page is wider than a phone');
+        assert.deepEqual(await findings(page), []);
+        await page.keyboard.press('Tab');
+        await page.keyboard.press('Space');
+        await page.keyboard.press('ArrowDown');
+        assert.ok(await asking.getByRole('radio', { name: 'Kitchen' }).isChecked());
+        await shoot(page, out, 'said-place');
+        house.steer({ do: 'robot', set: { online: false } });
+        await asking.waitFor({ state: 'detached' }); // nobody would hear it
+        house.steer({ do: 'robot', set: { online: true } });
+        await offer.click();
+        await asking.getByRole('button', { name: 'Cancel' }).click();
+        await offer.click();
+        await asking.getByRole('radio', { name: 'Kitchen' }).check();
+        await here.click();
+        await page.getByText('I take it that I am in the kitchen, unless I see something else.').waitFor();
+        await page.getByText('I am in the kitchen.', { exact: true }).waitFor();
+        assert.deepEqual(house.said, { place: 'p5', by: 'ben' });
+        // Where it knows the way, it is offered quietly; what goes wrong is told.
+        await page.getByRole('button', { name: 'Chair is somewhere else' }).click();
+        await asking.getByRole('radio', { name: 'Bathroom' }).check();
+        for (const one of [...house.graph.places, ...house.graph.destinations])
+          if (one.label === 'bathroom') one.label = 'bath'; // renamed a moment ago
+        await here.click();
+        await asking.getByRole('alert').getByText("The map has no place 'bathroom'.").waitFor();
+        await destination(page, 'Hall').click();
+        await asking.waitFor({ state: 'detached' }); // it drives
+        assert.equal(await page.getByRole('button', { name: 'Chair is somewhere else' }).count(), 0);
+        await phaseIs(page, 'arrived');
+      },
+      { name: 'ben', size: kPhone },
+    ),
+  ],
+  [
+    'a viewer says nothing of where the chair is',
+    withHouse(
+      async (page) => {
+        await page.getByText('I am in the hall.').waitFor();
+        assert.equal(await page.getByRole('button', { name: 'Chair is somewhere else' }).count(), 0);
+      },
+      { name: 'vera' },
+    ),
+  ],
+  [
     'a chair that is not certain of its destination asks, and a yes makes it arrive',
     withHouse(
       async (page, house) => {

@@ -65,6 +65,10 @@ describe('the mock server', () => {
     expect([answered.status, problemsOf('mission', answered.body)]).toEqual([202, []]);
     const late = await ask('POST', `robots/${robot.id}/missions/${mission.id}/answer`, answer);
     expect([late.status, late.body.code]).toEqual([409, 'conflict']);
+    const put = await ask('PUT', `robots/${robot.id}/place`, { label: 'kitchen' });
+    expect([put.status, put.body.belief, problemsOf('robot', put.body)]).toEqual([200, null, []]);
+    const nowhere = await ask('PUT', `robots/${robot.id}/place`, { label: 'cellar' });
+    expect([nowhere.status, nowhere.body.code]).toEqual([404, 'unknown_place']);
     const refused = await ask('GET', 'maps/none/graph');
     expect([refused.status, problemsOf('problem', refused.body)]).toEqual([404, []]);
     const { body: built } = await ask('POST', 'maps', { name: 'second', tours: ['t1'] });

@@ -233,6 +233,23 @@ function setMap(house, { body, args }) {
   return { body: house.shown(robot) };
 }
 
+function setPlace(house, { user, body, args }) {
+  const robot = house.find(house.robots, args[0]);
+  if (robot.map === null) throw new Refusal(409, 'conflict', 'The robot has no map to be on.');
+  if (['accepted', 'driving'].includes(robot.mission?.state))
+    throw new Refusal(409, 'conflict', 'The robot is on its way; stop it first.');
+  if (!robot.online) throw new Refusal(409, 'robot_offline', 'The robot is not connected.');
+  const { destinations, places } = house.graph;
+  const place =
+    body.label === undefined
+      ? places.find((one) => one.id === body.place)?.id
+      : (destinations.find((one) => one.label === body.label)?.place ??
+        places.find((one) => one.label === body.label)?.id);
+  if (!place) throw new Refusal(404, 'unknown_place', `The map has no place '${body.label ?? body.place}'.`);
+  house.put(robot, place, user.name);
+  return { body: house.shown(robot) };
+}
+
 function addUser(house, { body }) {
   if (house.users.some((one) => one.name === body.name))
     throw new Refusal(409, 'conflict', `there is a ${body.name} already`);
@@ -278,6 +295,7 @@ export const kRoutes = [
   [/^GET robots$/, 'viewer', (house) => ({ body: { robots: house.robots.map((one) => house.shown(one)) } })],
   [/^POST robots$/, 'installer', addRobot],
   [/^PUT robots\/([^/]+)\/map$/, 'installer', setMap],
+  [/^PUT robots\/([^/]+)\/place$/, 'rider', setPlace],
   [/^POST robots\/([^/]+)\/lease$/, 'rider', takeLease],
   [/^PUT robots\/([^/]+)\/lease$/, 'rider', keepLease],
   [/^DELETE robots\/([^/]+)\/lease$/, 'rider', releaseLease],

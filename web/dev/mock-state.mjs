@@ -238,6 +238,17 @@ export class House {
     robot.state = robot.mission.state;
     this.tellRobot(robot);
   }
+  /** Somebody says where the robot is; with its next picture it believes it. */
+  put(robot, place, by) {
+    this.said = { place, by };
+    robot.belief = null;
+    this.tellRobot(robot);
+    setTimeout(() => {
+      const top = [{ place, probability: 0.72 }];
+      robot.belief = { updates: 1, place, probability: 0.93, top, lost: false };
+      this.tellRobot(robot);
+    }, this.step_ms);
+  }
   halt(robot, reason) {
     clearInterval(robot.timer);
     robot.question = null;

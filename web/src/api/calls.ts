@@ -99,6 +99,9 @@ export const addRobot = (body: { name: string }) =>
   call<{ id: string; name: string; token: string }>('/robots', { method: 'POST', body });
 export const assignMap = (robot: string, map: string | null) =>
   call<unknown>(`/robots/${id(robot)}/map`, { method: 'PUT', body: { map } });
+/** A person says where a robot is: at one of the places that carry this label. */
+export const setPlace = (robot: string, label: string) =>
+  call<Robot>(`/robots/${id(robot)}/place`, { method: 'PUT', body: { label } });
 export const takeLease = (robot: string, take_over: boolean) =>
   call<{ lease: Lease }>(`/robots/${id(robot)}/lease`, { method: 'POST', body: { take_over } });
 export const keepLease = (robot: string, lease_id: string) =>

@@ -16,6 +16,8 @@ import { JourneyCard } from './journey_card';
 import { announcement } from './journey_words';
 import { LeasePrompt, WhoDrives } from './lease_prompt';
 import { QuestionCard } from './question_card';
+import { mayBeSaid } from './said_place';
+import { SaidPlaceCard } from './said_place_card';
 import { WhereaboutsCard } from './whereabouts_card';
 
 const kHereProbability = 0.5;
@@ -46,7 +48,8 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
   const newest = journeyOf(robot, command);
   const journey = newest && newest.id !== null && hidden.value.has(newest.id) ? null : newest;
   const held = command?.kind === 'held' ? command : null;
-  const barrier = hindrance(robot, connected.value, atLeast(me.value?.role, 'rider'));
+  const mayDrive = atLeast(me.value?.role, 'rider');
+  const barrier = hindrance(robot, connected.value, mayDrive);
   const go = (target: Target, take_over = false) => {
     void send(robot.id, target, take_over);
     // What becomes of it is told at the top; on a phone that may be out of sight.
@@ -76,7 +79,7 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
       <p class="hidden-text" role="status">
         {journey && announcement(journey, graph)}
       </p>
-      <QuestionCard robot={robot} mayAnswer={atLeast(me.value?.role, 'rider')} />
+      <QuestionCard robot={robot} mayAnswer={mayDrive} />
       <div id="go-top" class={journey ? 'go-top two' : 'go-top'}>
         <WhereaboutsCard robot={robot} graph={graph} />
         {journey && (
@@ -88,6 +91,9 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
           />
         )}
       </div>
+      {graph && mayBeSaid(robot, connected.value, mayDrive) && (
+        <SaidPlaceCard key={robot.id} robot={robot} graph={graph} />
+      )}
       <WhoDrives robot={robot} />
       <section class="stack" aria-label="Places to go to">
         {graph ? (
