@@ -125,7 +125,7 @@ const checks = [
         await press();
         await page.getByTestId('stop-word').getByText('Chair has stopped.').waitFor();
         await phaseIs(page, 'stopped');
-        await journey(page).getByText('Anna pressed stop.').waitFor();
+        await journey(page).getByText('Stopped by Anna.').waitFor();
         assert.equal(house.robots[0].state, 'stopped');
       }
     }),
