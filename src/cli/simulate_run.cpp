@@ -109,7 +109,7 @@ Status run(const SimulateRunOptions& options) {
   if (!text) return pass_on(text);
   const auto scenario = wire::parse_scenario(*text, options.scenario);
   if (!scenario) return pass_on(scenario);
-  const auto told = [](const std::string& what) { std::cerr << what << " ...\n"; };
+  const auto log = [](const std::string& what) { std::cerr << what << " ...\n"; };
   const auto done = [&](const scenario::MissionResult& result) {
     if (options.json) {
       std::cout << to_json(result).dump() << std::endl;
@@ -117,7 +117,7 @@ Status run(const SimulateRunOptions& options) {
       print(result);
     }
   };
-  scenario::ScenarioListener listener{told, done, {}};
+  scenario::ScenarioListener listener{log, done, {}};
   std::ofstream trace;
   if (!options.trace.empty()) {
     trace.open(options.trace);

@@ -28,7 +28,7 @@ bool may_begin(const driving::Inputs& inputs) {
 }  // namespace
 
 Result<std::unique_ptr<Recorder>> Recorder::create(const RecordingOptions& options, const Robot& robot,
-                                                   std::function<void(const std::string&)> told) {
+                                                   std::function<void(const std::string&)> log) {
   constexpr std::int64_t kLeast = 1 << 20;
   if (options.limit_bytes < kLeast || options.folder_limit_bytes < options.limit_bytes) {
     return fail(ErrorCode::kInvalidInput,
@@ -36,17 +36,17 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const RecordingOptions& optio
                 options.folder.string());
   }
   if (const Status made = files::make_folder(options.folder); !made) return pass_on(made);
-  return std::unique_ptr<Recorder>(new Recorder(options, robot, std::move(told)));
+  return std::unique_ptr<Recorder>(new Recorder(options, robot, std::move(log)));
 }
 
-Recorder::Recorder(const RecordingOptions& options, Robot robot, std::function<void(const std::string&)> told)
+Recorder::Recorder(const RecordingOptions& options, Robot robot, std::function<void(const std::string&)> log)
     : options_(options),
       robot_(std::move(robot)),
       camera_json_(wire::camera_to_json(robot_.camera).dump()),
       features_json_(features_to_json(robot_.features)),
       driving_json_(driving_to_json(robot_.driving)),
       feature_config_id_(features::feature_config_id(robot_.features)),
-      thread_(options, std::move(told)) {}
+      thread_(options, std::move(log)) {}
 
 Recorder::~Recorder() {
   if (recording_) thread_.finish({false, "The program ended while the robot was driving."});

@@ -27,9 +27,9 @@ class Recorder {
     driving::DrivingConfig driving;
   };
 
-  /// `told`: what is worth a line in a log; called from any thread. Errors: kInvalidInput (limits that cannot be), kIo.
+  /// `log`: what is worth a line in a log; called from any thread. Errors: kInvalidInput (limits that cannot be), kIo.
   static Result<std::unique_ptr<Recorder>> create(const RecordingOptions& options, const Robot& robot,
-                                                  std::function<void(const std::string&)> told);
+                                                  std::function<void(const std::string&)> log);
   /// A recording that is open ends here, and says that the robot was still driving.
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -41,7 +41,7 @@ class Recorder {
                         driving::Milliseconds now_ms);
 
  private:
-  Recorder(const RecordingOptions& options, Robot robot, std::function<void(const std::string&)> told);
+  Recorder(const RecordingOptions& options, Robot robot, std::function<void(const std::string&)> log);
   void begin(const driving::DrivingState& before, const driving::DrivingState& state);
 
   RecordingOptions options_;

@@ -31,7 +31,7 @@ Kept kept(const fs::path& file) {
 
 }  // namespace
 
-void make_room(const fs::path& folder, std::int64_t most_bytes, const std::function<void(const std::string&)>& told) {
+void make_room(const fs::path& folder, std::int64_t most_bytes, const std::function<void(const std::string&)>& log) {
   std::vector<Kept> recordings;
   std::int64_t bytes = 0;
   std::error_code error;
@@ -50,7 +50,7 @@ void make_room(const fs::path& folder, std::int64_t most_bytes, const std::funct
     std::error_code ignored;
     for (const char* ending : kBeside) fs::remove(oldest.file.string() + ending, ignored);
     bytes -= oldest.bytes;
-    told("removed the oldest recording, " + oldest.file.filename().string() + ", to make room");
+    log("removed the oldest recording, " + oldest.file.filename().string() + ", to make room");
   }
 }
 

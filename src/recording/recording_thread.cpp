@@ -28,8 +28,8 @@ std::int64_t size_of(const db::RecordedStep& step) {
 
 }  // namespace
 
-RecordingThread::RecordingThread(RecordingOptions options, std::function<void(const std::string&)> told)
-    : options_(std::move(options)), told_(std::move(told)), thread_([this] { run(); }) {}
+RecordingThread::RecordingThread(RecordingOptions options, std::function<void(const std::string&)> log)
+    : options_(std::move(options)), log_(std::move(log)), thread_([this] { run(); }) {}
 
 RecordingThread::~RecordingThread() {
   {
@@ -118,7 +118,7 @@ void RecordingThread::open(const Begin& begin) {
   if (writer_) close({false, "Another recording was begun."});
   number_ = begin.number;
   full_ = false;
-  make_room(options_.folder, options_.folder_limit_bytes - options_.limit_bytes, told_);
+  make_room(options_.folder, options_.folder_limit_bytes - options_.limit_bytes, log_);
   file_ = new_recording_file(options_.folder, options_.name, begin.header);
   auto writer = db::RecordingWriter::create(file_, begin.header, begin.sweep_before);
   if (!writer) return give_up(writer.error());
@@ -135,7 +135,7 @@ void RecordingThread::write_steps(std::vector<db::RecordedStep>& steps) {
     if (!full_ && bytes > pictures_limit) {
       full_ = true;
       pictures_until_ = step.seq - 1;
-      told_(file_.filename().string() + " is full: from here on it is without pictures");
+      log_(file_.filename().string() + " is full: from here on it is without pictures");
     }
     if (full_ && step.picture) step.picture->bytes = nullptr;
   }
@@ -157,11 +157,11 @@ void RecordingThread::close(db::RecordingEnd end) {
   }
   const Status finished = writer_->finish(end);
   writer_.reset();
-  told_(finished ? "recorded " + file_.string() : finished.error().message + " (" + file_.string() + ")");
+  log_(finished ? "recorded " + file_.string() : finished.error().message + " (" + file_.string() + ")");
 }
 
 void RecordingThread::give_up(const Error& error) {
-  told_(error.message + " The mission goes on without recording. (" + error.where + ")");
+  log_(error.message + " The mission goes on without recording. (" + error.where + ")");
   // The note may find no place any more; without it the recording counts as cut off.
   if (writer_) (void)writer_->finish({false, "The recording was given up: " + error.message});
   writer_.reset();

@@ -30,7 +30,7 @@ struct RecordingOptions {
 /// recording with a note and nothing else.
 class RecordingThread {
  public:
-  RecordingThread(RecordingOptions options, std::function<void(const std::string&)> told);
+  RecordingThread(RecordingOptions options, std::function<void(const std::string&)> log);
   /// Writes what still waits.
   ~RecordingThread();
   RecordingThread(const RecordingThread&) = delete;
@@ -58,7 +58,7 @@ class RecordingThread {
   void give_up(const Error& error);
 
   RecordingOptions options_;
-  std::function<void(const std::string&)> told_;
+  std::function<void(const std::string&)> log_;
   // Of the thread alone.
   std::unique_ptr<db::RecordingWriter> writer_;
   std::filesystem::path file_;

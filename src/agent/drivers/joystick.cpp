@@ -36,7 +36,7 @@ int open_device(const std::string& device) { return ::open(device.c_str(), O_RDO
 }  // namespace
 
 Result<std::unique_ptr<Joystick>> Joystick::open(const std::string& device,
-                                                 std::function<void(const std::string&)> told) {
+                                                 std::function<void(const std::string&)> log) {
   const int descriptor = open_device(device);
   if (descriptor < 0) {
     const ErrorCode code = errno == ENOENT || errno == ENODEV || errno == ENXIO ? ErrorCode::kNotFound : ErrorCode::kIo;
@@ -47,11 +47,11 @@ Result<std::unique_ptr<Joystick>> Joystick::open(const std::string& device,
     ::close(descriptor);
     return fail(ErrorCode::kInvalidInput, "A joystick is a device such as /dev/input/js0.", device);
   }
-  return std::unique_ptr<Joystick>(new Joystick(device, descriptor, std::move(told)));
+  return std::unique_ptr<Joystick>(new Joystick(device, descriptor, std::move(log)));
 }
 
-Joystick::Joystick(std::string device, int descriptor, std::function<void(const std::string&)> told)
-    : device_(std::move(device)), told_(std::move(told)), descriptor_(descriptor) {}
+Joystick::Joystick(std::string device, int descriptor, std::function<void(const std::string&)> log)
+    : device_(std::move(device)), log_(std::move(log)), descriptor_(descriptor) {}
 
 Joystick::~Joystick() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -77,18 +77,18 @@ std::optional<driving::RiderHand> Joystick::read(const driving::Body& body, driv
   driving::RiderHand hand{said_ms, std::exchange(touched_, false) || !at_rest, {}};
   rested_ = rested_ || at_rest;
   if (!there_) {
-    told_("the joystick " + device_ + (rested_ ? " is there" : " is there, but not at rest: release it"));
+    log_("the joystick " + device_ + (rested_ ? " is there" : " is there, but not at rest: release it"));
     there_ = true;
   }
   const bool doubted = rested_ && !at_rest && now_ms - spoke_ms_ > kHeld_ms;
-  if (doubted && !doubted_) told_("the joystick " + device_ + " has been deflected without a change for 10 s: move it");
+  if (doubted && !doubted_) log_("the joystick " + device_ + " has been deflected without a change for 10 s: move it");
   doubted_ = doubted;
   if (rested_ && !at_rest && !doubted) hand.wanted = {forward * body.max_speed_mps, left * body.max_turn_radps};
   return hand;
 }
 
 void Joystick::forget(driving::Milliseconds now_ms) {
-  if (there_) told_("the joystick " + device_ + " is gone");
+  if (there_) log_("the joystick " + device_ + " is gone");
   ::close(descriptor_);
   descriptor_ = -1;
   tried_ms_ = now_ms;
@@ -117,7 +117,7 @@ void Joystick::take_event() {
   std::memcpy(&event, event_.data(), sizeof event);
   have_ = 0;
   spoke_ = true;
-  // What stands when the device comes is told as events marked as initial.
+  // What stands when the device comes is sent as events marked as initial.
   if ((event.type & ~JS_EVENT_INIT) != JS_EVENT_AXIS || event.number >= axes_.size()) return;
   axes_[event.number] = std::clamp(event.value / kFullDeflection, -1.0, 1.0);
   touched_ = touched_ || beyond_dead_zone(axes_[event.number]) != 0.0;

@@ -17,10 +17,9 @@ namespace homeward::agent {
 /// forward is up, axis 0 turns. It may be unplugged and plugged in again at any time.
 class Joystick {
  public:
-  /// `told` hears of it coming and going. Errors: kNotFound, kIo (it may not be read), kInvalidInput (neither a device
-  /// nor a pipe).
-  static Result<std::unique_ptr<Joystick>> open(const std::string& device,
-                                                std::function<void(const std::string&)> told);
+  /// `log` gets a line when it comes or goes. Errors: kNotFound, kIo (it may not be read), kInvalidInput (neither a
+  /// device nor a pipe).
+  static Result<std::unique_ptr<Joystick>> open(const std::string& device, std::function<void(const std::string&)> log);
   ~Joystick();
   Joystick(const Joystick&) = delete;
   Joystick& operator=(const Joystick&) = delete;
@@ -34,23 +33,23 @@ class Joystick {
                                          driving::Milliseconds said_ms);
 
  private:
-  Joystick(std::string device, int descriptor, std::function<void(const std::string&)> told);
+  Joystick(std::string device, int descriptor, std::function<void(const std::string&)> log);
   bool drain();
   void forget(driving::Milliseconds now_ms);
   void take_event();
 
   std::string device_;
-  std::function<void(const std::string&)> told_;
+  std::function<void(const std::string&)> log_;
   int descriptor_ = -1;
   driving::Milliseconds tried_ms_ = 0;
   std::array<std::uint8_t, 8> event_{};  // as much of one as has come
   std::size_t have_ = 0;
   std::array<double, 2> axes_{};        // -1..1
-  bool there_ = false;                  // and that was told
+  bool there_ = false;                  // and that was logged
   bool touched_ = false;                // deflected at some moment since the last reading
   bool spoke_ = false;                  // since the last reading
-  driving::Milliseconds spoke_ms_ = 0;  // when it last told of a change
-  bool doubted_ = false;                // it has been deflected for too long, and that was told
+  driving::Milliseconds spoke_ms_ = 0;  // when it last sent a change
+  bool doubted_ = false;                // it has been deflected for too long, and that was logged
   bool rested_ = false;                 // it has been at rest since it came
 };
 

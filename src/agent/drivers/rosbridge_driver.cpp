@@ -58,7 +58,7 @@ std::string shown(std::string text) {
 struct Feed {
   driving::Milliseconds arrived_ms = 0;
   RosStamp stamp_us;
-  bool missed = false;  // its absence was told
+  bool missed = false;  // its absence was logged
 
   /// Whether this is a new message, not one that a bridge or node said before.
   bool take(RosStamp stamp, driving::Milliseconds now) {
@@ -73,23 +73,23 @@ struct Feed {
 class RosbridgeDriver final : public driving::Driver {
  public:
   RosbridgeDriver(wire::RosbridgeFile robot, camera::CameraConfig camera, const ServerAddress& address,
-                  std::function<void(const std::string&)> told)
+                  std::function<void(const std::string&)> log)
       : robot_(std::move(robot)),
         camera_(std::move(camera)),
         body_(body_of(robot_.body)),
-        told_(std::move(told)),
+        log_(std::move(log)),
         range_feeds_(robot_.ranges.size()),
         ring_(robot_.ranges) {
     body_.vague_ranges = !ring_.empty();
     if (const int deaf_deg = ring_.unheard_deg(); !robot_.scan && deaf_deg > 0) {
-      told_("the ring of range sensors hears nothing in " + std::to_string(deaf_deg) +
-            " of the 360 degrees around the robot: whoever steps in there is not seen");
+      log_("the ring of range sensors hears nothing in " + std::to_string(deaf_deg) +
+           " of the 360 degrees around the robot: whoever steps in there is not seen");
     }
     JsonSocket::Events events;
     events.greeting = [this] { return greeting(); };
     events.arrived = [this](std::string_view text) { arrived(text); };
     events.lost = [this] { lost(); };
-    events.told = told_;
+    events.log = log_;
     socket_ = std::make_unique<JsonSocket>(address, kMaxRosMessageBytes, std::move(events));
     publisher_ = std::jthread([this](const std::stop_token& stop) { publish(stop); });
   }
@@ -228,9 +228,9 @@ class RosbridgeDriver final : public driving::Driver {
       }
     }
     if (blind_beyond_m > kBlindBeyond_m && !std::exchange(blindness_told_, true)) {
-      told_("the scanner on " + robot_.scan->topic + " is blind to what is nearer than its range_min, up to " +
-            std::to_string(std::lround(100.0 * blind_beyond_m)) +
-            " cm beyond the body: whoever steps in there is not seen; add a scanner that sees them");
+      log_("the scanner on " + robot_.scan->topic + " is blind to what is nearer than its range_min, up to " +
+           std::to_string(std::lround(100.0 * blind_beyond_m)) +
+           " cm beyond the body: whoever steps in there is not seen; add a scanner that sees them");
     }
     if (blind) complain({ErrorCode::kEmptyInput, "The sweep saw nothing at all.", robot_.scan->topic});
   }
@@ -270,15 +270,15 @@ class RosbridgeDriver final : public driving::Driver {
   void tell_status(const RosStatus& status) {
     if (status.level != "error" && status.level != "warning") return;
     const int count = ++statuses_;
-    if (std::has_single_bit(static_cast<unsigned>(count))) told_("the rosbridge says: " + shown(status.text));
+    if (std::has_single_bit(static_cast<unsigned>(count))) log_("the rosbridge says: " + shown(status.text));
   }
 
   /// Tells of the first, second, fourth, eighth ... message that is of no use.
   void complain(const Error& error) {
     const int count = ++useless_;
     if (!std::has_single_bit(static_cast<unsigned>(count))) return;
-    told_(std::to_string(count) + (count == 1 ? " message" : " messages") +
-          " of no use; the last: " + shown(error.message) + " (" + shown(error.where) + ")");
+    log_(std::to_string(count) + (count == 1 ? " message" : " messages") +
+         " of no use; the last: " + shown(error.message) + " (" + shown(error.where) + ")");
   }
 
   void publish(const std::stop_token& stop) {
@@ -320,14 +320,14 @@ class RosbridgeDriver final : public driving::Driver {
         if (feed->missed || now_ms() - since_ms < kSuspicious_ms) continue;
         feed->missed = true;
       }
-      told_("nothing comes on " + topic->topic + " (" + topic->type + ")");
+      log_("nothing comes on " + topic->topic + " (" + topic->type + ")");
     }
   }
 
   wire::RosbridgeFile robot_;
   camera::CameraConfig camera_;
   driving::Body body_;
-  std::function<void(const std::string&)> told_;
+  std::function<void(const std::string&)> log_;
   bool blindness_told_ = false;  // of the socket's thread alone
   std::atomic<int> useless_{0};
   std::atomic<int> statuses_{0};
@@ -363,7 +363,7 @@ class RosbridgeDriver final : public driving::Driver {
 }  // namespace
 
 Result<std::unique_ptr<driving::Driver>> make_rosbridge_driver(const std::string& file,
-                                                               std::function<void(const std::string&)> told) {
+                                                               std::function<void(const std::string&)> log) {
   const auto text = files::read_text(file);
   if (!text) return pass_on(text);
   auto robot = wire::parse_rosbridge(*text, file);
@@ -378,7 +378,7 @@ Result<std::unique_ptr<driving::Driver>> make_rosbridge_driver(const std::string
   }
   auto camera = files::read_camera(std::filesystem::path(file).parent_path() / robot->camera);
   if (!camera) return pass_on(camera);
-  return std::make_unique<RosbridgeDriver>(std::move(*robot), std::move(*camera), *address, std::move(told));
+  return std::make_unique<RosbridgeDriver>(std::move(*robot), std::move(*camera), *address, std::move(log));
 }
 
 }  // namespace homeward::agent

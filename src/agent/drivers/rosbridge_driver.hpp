@@ -10,8 +10,8 @@
 namespace homeward::agent {
 
 /// Any ROS 1 or ROS 2 robot through its rosbridge WebSocket server: Twist out; LaserScan, Range, Odometry and
-/// CompressedImage in. `file`: its description (format "homeward-rosbridge"). `told` hears of connections and of
-/// messages that cannot be read, for a log, from threads of the driver.
+/// CompressedImage in. `file`: its description (format "homeward-rosbridge"). `log` is told of connections and of
+/// messages that cannot be read, from threads of the driver.
 ///
 /// Times are those of receipt, by the machine's steady clock, so that no clock of the robot can make old things look
 /// fresh; what was taken when is matched among the robot's own stamps. Sweeps are withheld, so that the agent stops,
@@ -19,6 +19,6 @@ namespace homeward::agent {
 /// lost connection until the agent has stood still. Errors: kNotFound, kInvalidInput (also of a ring that does not hear
 /// what is ahead and has no scanner beside it), kUnsupportedFormat, naming file and field.
 Result<std::unique_ptr<driving::Driver>> make_rosbridge_driver(const std::string& file,
-                                                               std::function<void(const std::string&)> told);
+                                                               std::function<void(const std::string&)> log);
 
 }  // namespace homeward::agent

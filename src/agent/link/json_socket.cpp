@@ -72,7 +72,7 @@ struct JsonSocket::Impl {
 
   void run(const std::stop_token& stop) {
     auto backoff = kFirstPause;
-    std::string told_before;
+    std::string logged_before;
     while (!stop.stop_requested()) {
       Connection connection;
       try {
@@ -95,8 +95,8 @@ struct JsonSocket::Impl {
       if (connection.open) events.lost();
       const std::string what = (connection.open ? "connection lost: " : "no connection: ") + connection.end;
       // A robot that is switched off is said once, not every two seconds.
-      if (what != told_before) events.told(what);
-      told_before = what;
+      if (what != logged_before) events.log(what);
+      logged_before = what;
       backoff = connection.open ? kFirstPause : std::min<std::chrono::milliseconds>(backoff * 2, kLongestPause);
       std::unique_lock lock(mutex);
       pause.wait_for(lock, stop, backoff, [] { return false; });
@@ -146,7 +146,7 @@ struct JsonSocket::Impl {
     }
     answered_ms = now_ms();
     up = true;
-    events.told("connected to " + address.host_header());
+    events.log("connected to " + address.host_header());
     write_next(c);
     read_next(c);
     ping(c);

@@ -20,8 +20,8 @@ class JsonSocket {
     /// Asked on each new connection: the texts to begin with.
     std::function<std::vector<std::string>()> greeting;
     std::function<void(std::string_view)> arrived;
-    std::function<void()> lost;                    // a connection ended that had been made
-    std::function<void(const std::string&)> told;  // connections made and lost, for a log
+    std::function<void()> lost;                   // a connection ended that had been made
+    std::function<void(const std::string&)> log;  // connections made and lost
   };
   /// The events are called from the socket's thread. Texts above `max_message_bytes` end the connection.
   JsonSocket(ServerAddress address, std::size_t max_message_bytes, Events events);

@@ -41,7 +41,7 @@ struct LinkClient::Impl {
   RobotId robot;
   std::string token;
   wire::Hello hello;
-  std::function<void(const std::string&)> told;
+  std::function<void(const std::string&)> log;
 
   std::atomic<bool> up{false};
   bool welcomed = false;  // the server welcomed this connection; of the connection's thread alone
@@ -75,7 +75,7 @@ struct LinkClient::Impl {
         frame.reset();
       }
       if (stop.stop_requested()) return;
-      told((was_up ? "connection lost: " : "no connection: ") + end);
+      log((was_up ? "connection lost: " : "no connection: ") + end);
       if (Clock::now() - begun > std::chrono::seconds(5)) backoff = std::chrono::milliseconds(200);
       std::unique_lock lock(mutex);
       pause.wait_for(lock, stop, backoff, [] { return false; });
@@ -149,7 +149,7 @@ struct LinkClient::Impl {
         if (!message) return close("the server sent what is no message: " + message.error().message);
         if (std::holds_alternative<wire::Welcome>(*message)) {
           up = welcomed = true;
-          told("connected to " + address.host_header());
+          log("connected to " + address.host_header());
         }
         {
           const std::lock_guard lock(mutex);
@@ -215,13 +215,13 @@ struct LinkClient::Impl {
 };
 
 LinkClient::LinkClient(ServerAddress address, RobotId robot, std::string token, wire::Hello hello,
-                       std::function<void(const std::string&)> told)
+                       std::function<void(const std::string&)> log)
     : impl_(std::make_unique<Impl>()) {
   impl_->address = std::move(address);
   impl_->robot = std::move(robot);
   impl_->token = std::move(token);
   impl_->hello = std::move(hello);
-  impl_->told = std::move(told);
+  impl_->log = std::move(log);
   impl_->thread = std::jthread([impl = impl_.get()](const std::stop_token& stop) { impl->run(stop); });
 }
 

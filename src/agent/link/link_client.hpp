@@ -17,9 +17,9 @@ namespace homeward::agent {
 /// called from any thread and never wait for the network.
 class LinkClient {
  public:
-  /// `told`, called from the link's thread, hears of connections made and lost.
+  /// `log`, called from the link's thread, gets a line for each connection made and lost.
   LinkClient(ServerAddress address, RobotId robot, std::string token, wire::Hello hello,
-             std::function<void(const std::string&)> told);
+             std::function<void(const std::string&)> log);
   ~LinkClient();
   LinkClient(const LinkClient&) = delete;
   LinkClient& operator=(const LinkClient&) = delete;

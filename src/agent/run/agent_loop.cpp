@@ -109,7 +109,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
 
   std::unique_ptr<Joystick> joystick;
   if (!options.joystick.empty()) {
-    auto opened = Joystick::open(options.joystick, options.told);
+    auto opened = Joystick::open(options.joystick, options.log);
     if (!opened) return pass_on(opened);
     joystick = std::move(*opened);
   }
@@ -122,7 +122,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
   hello.radius_m = std::min(wire::kMostRadius_m, swept_radius_m(config.body.outline));
   hello.max_speed_mps = config.body.max_speed_mps;
   const StandStill at_the_end(driver);
-  LinkClient link(options.server, options.robot, options.token, std::move(hello), options.told);
+  LinkClient link(options.server, options.robot, options.token, std::move(hello), options.log);
   std::int64_t frame_seq = 0;
   Looker looker(driver, *eye, now_ms, [&](const recording::CameraPicture& picture) {
     if (link.up()) link.send(wire::Frame{++frame_seq, now_us(), *picture.bytes, picture.odometry});
@@ -130,13 +130,13 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
   std::unique_ptr<recording::Recorder> recorder;
   if (options.record) {
     auto created = recording::Recorder::create(
-        *options.record, {name_with_version(kProgram), driver.camera(), features, config}, options.told);
+        *options.record, {name_with_version(kProgram), driver.camera(), features, config}, options.log);
     if (!created) return pass_on(created);
     recorder = std::move(*created);
   }
 
   if (!run_in_real_time()) {
-    options.told(
+    options.log(
         "other programs on this computer may hold up the loop that drives, and then the robot stops: permit this "
         "program "
         "to run in real time (CAP_SYS_NICE, or a real-time priority limit of 10)");
@@ -144,8 +144,8 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
   driving::DrivingState state;
   std::int64_t status_seq = 0;
   driving::Milliseconds status_ms = 0;
-  wire::DriveState told_state = wire::DriveState::kIdle;
-  bool told_question = false;
+  wire::DriveState reported_state = wire::DriveState::kIdle;
+  bool reported_question = false;
   auto next_cycle = Clock::now();
   while (!stop.stop_requested()) {
     if (auto trouble = looker.trouble()) return tl::unexpected<Error>(*trouble);
@@ -177,19 +177,19 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
     }
     looker.set_looking(state.drive == wire::DriveState::kDriving);
     looker.set_features_wanted(driving::wants_features(state.follow));
-    const bool changed = state.drive != told_state;
+    const bool changed = state.drive != reported_state;
     if (changed)
-      options.told(std::string(wire::drive_state_name(state.drive)) +
-                   (state.reason ? ": " + wire::english(*state.reason) : ""));
-    told_state = state.drive;
+      options.log(std::string(wire::drive_state_name(state.drive)) +
+                  (state.reason ? ": " + wire::english(*state.reason) : ""));
+    reported_state = state.drive;
     const bool asks = driving::open_question(state, config, reading.t_ms).has_value();
-    const bool asks_anew = asks != std::exchange(told_question, asks);
+    const bool asks_anew = asks != std::exchange(reported_question, asks);
     if (changed || asks_anew || now - status_ms >= wire::kStatusEvery_ms) {
       status_ms = now;
       link.send(status_of(state, config, reading, ++status_seq));
     }
     if (Clock::now() >= next_cycle) next_cycle = std::max(next_cycle + kCycle, Clock::now());
-    // What is heard is obeyed at once, and its silence counts from when it came.
+    // What is received is obeyed at once, and its silence counts from when it came.
     link.wait_for_message(next_cycle);
   }
   return {};

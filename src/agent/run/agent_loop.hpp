@@ -19,7 +19,7 @@ struct AgentOptions {
   RobotId robot;
   std::string token;
   std::string robot_name;
-  std::function<void(const std::string&)> told;       // what happens, for a log; called from any thread
+  std::function<void(const std::string&)> log;        // what happens; called from any thread
   std::optional<recording::RecordingOptions> record;  // each mission in a file of its own
   std::string joystick = {};                          // the rider's, at this machine (/dev/input/js0); empty: none
 };

@@ -44,13 +44,13 @@ void add_driver_options(CLI::App& command, DriverOptions& options, const std::ve
 
 Result<std::unique_ptr<driving::Driver>> make_driver(const DriverOptions& options,
                                                      const std::vector<FurtherDriver>& further,
-                                                     std::function<void(const std::string&)> heard) {
+                                                     std::function<void(const std::string&)> log) {
   for (const FurtherDriver& driver : further) {
     if (driver.name == options.driver) return driver.make(options.camera);
   }
   if (options.driver == "rosbridge") {
     if (const auto error = missing(options, "--rosbridge", options.rosbridge_file)) return tl::unexpected(*error);
-    return make_rosbridge_driver(options.rosbridge_file, std::move(heard));
+    return make_rosbridge_driver(options.rosbridge_file, std::move(log));
   }
   if (options.driver == "folder") {
     if (const auto error = missing(options, "--images", options.folder.folder)) return tl::unexpected(*error);

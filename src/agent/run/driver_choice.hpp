@@ -40,10 +40,10 @@ struct FurtherDriver {
 /// them is the usual one then.
 void add_driver_options(CLI::App& command, DriverOptions& options, const std::vector<FurtherDriver>& further);
 
-/// The robot that was chosen. `heard` hears of what happens, for a log. Errors: those of the driver; kInvalidInput when
+/// The robot that was chosen. `log` is called with each line for a log. Errors: those of the driver; kInvalidInput when
 /// an option that it needs is missing.
 Result<std::unique_ptr<driving::Driver>> make_driver(const DriverOptions& options,
                                                      const std::vector<FurtherDriver>& further,
-                                                     std::function<void(const std::string&)> heard);
+                                                     std::function<void(const std::string&)> log);
 
 }  // namespace homeward::agent

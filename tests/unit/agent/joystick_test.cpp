@@ -32,7 +32,7 @@ class JoystickTest : public ::testing::Test {
     writer_ = -1;
   }
   void open() {
-    auto opened = Joystick::open(device_, [this](const std::string& what) { told_ += what + "\n"; });
+    auto opened = Joystick::open(device_, [this](const std::string& what) { log_ += what + "\n"; });
     ASSERT_TRUE(opened) << opened.error().message;
     joystick_ = std::move(*opened);
   }
@@ -56,7 +56,7 @@ class JoystickTest : public ::testing::Test {
   std::string device_;
   std::unique_ptr<Joystick> joystick_;
   driving::Body body_;
-  std::string told_;
+  std::string log_;
   driving::Milliseconds now_ms_ = 10'000;
   int writer_ = -1;
 };
@@ -97,7 +97,7 @@ TEST_F(JoystickTest, HeldForTenSecondsWithoutAWordItWantsNoMotionUntilItIsMoved)
   const driving::RiderHand said = hand();
   EXPECT_TRUE(said.deflected) << "no mission sets off under a hand, or under a dead battery";
   EXPECT_DOUBLE_EQ(said.wanted.speed_mps, 0.0);
-  EXPECT_THAT(told_, HasSubstr("move it"));
+  EXPECT_THAT(log_, HasSubstr("move it"));
   push(1, -20001);
   EXPECT_GT(hand().wanted.speed_mps, 0.2);
 }
@@ -142,7 +142,7 @@ TEST_F(JoystickTest, DeflectedWhenItComesItEndsMissionsButWantsNoMotionUntilItWa
   open();
   EXPECT_TRUE(hand().deflected);
   EXPECT_DOUBLE_EQ(hand().wanted.speed_mps, 0.0);
-  EXPECT_THAT(told_, HasSubstr("release it"));
+  EXPECT_THAT(log_, HasSubstr("release it"));
   push(1, 0);
   EXPECT_FALSE(hand().deflected);
   push(1, -30000);
@@ -156,7 +156,7 @@ TEST_F(JoystickTest, UnpluggedItIsReleasedAndIsFoundAgain) {
   EXPECT_TRUE(hand().deflected);
   unplug();
   EXPECT_FALSE(read());
-  EXPECT_THAT(told_, HasSubstr("gone"));
+  EXPECT_THAT(log_, HasSubstr("gone"));
   for (int k = 0; k < 60; ++k) EXPECT_FALSE(read());  // it looks for it meanwhile
   plug_in();
   for (int k = 0; k < 30; ++k) read();

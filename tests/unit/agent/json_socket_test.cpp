@@ -37,7 +37,7 @@ class StalledSocketTest : public ::testing::Test {
     };
     events.arrived = [](std::string_view) {};
     events.lost = [] {};
-    events.told = [](const std::string&) {};
+    events.log = [](const std::string&) {};
     socket_.emplace(ServerAddress{false, "127.0.0.1", std::to_string(peer_.port())}, 1 << 20, std::move(events));
     ASSERT_TRUE(eventually([this] { return socket_->up(); }));
   }

@@ -55,7 +55,7 @@ TEST_F(RosbridgeDriverTest, PassesOverPicturesThatCannotBeRead) {
   const auto none = driver_->next_picture(stop.get_token());
   ASSERT_TRUE(none);
   EXPECT_FALSE(*none);
-  EXPECT_TRUE(told("of no use"));
+  EXPECT_TRUE(logged("of no use"));
   bridge_->publish("/image", picture_message(stamp_us_ += 1000, sample_jpeg()));
   EXPECT_TRUE(picture());
 }
@@ -113,7 +113,7 @@ TEST_F(RosbridgeDriverTest, StandsAfterALostConnectionUntilTheAgentHasStoodStill
   const auto since = heard_since(cut);
   EXPECT_FALSE(since.empty()) << "a base that was left moving must be told to stand";
   for (const Heard& one : since) EXPECT_TRUE(one.zero());
-  EXPECT_TRUE(told("connection lost"));
+  EXPECT_TRUE(logged("connection lost"));
   // The agent has stopped; a newer mission may move the robot again.
   driver_->command({});
   EXPECT_TRUE(sweeps_come(4s));
@@ -191,7 +191,7 @@ TEST_F(RosbridgeDriverTest, RepeatedAndBlindSweepsAreNone) {
     std::this_thread::sleep_for(60ms);
     EXPECT_FALSE(driver_->read().scan);
   }
-  EXPECT_TRUE(told("saw nothing at all"));
+  EXPECT_TRUE(logged("saw nothing at all"));
 }
 
 TEST_F(RosbridgeDriverTest, OutlivesWhatIsNoMessage) {
@@ -200,21 +200,21 @@ TEST_F(RosbridgeDriverTest, OutlivesWhatIsNoMessage) {
         std::string(100'000, '['), std::string("{\"op\":\"status\",\"level\":\"error\",\"msg\":\"bad\\nnews\"}")}) {
     bridge_->send_raw(text);
   }
-  EXPECT_TRUE(eventually([&] { return told("of no use") && told("bad?news"); }));
+  EXPECT_TRUE(eventually([&] { return logged("of no use") && logged("bad?news"); }));
   EXPECT_TRUE(sweeps_come(4s));
   EXPECT_EQ(bridge_->connections(), 1);
 }
 
 TEST_F(RosbridgeDriverTest, EndsAConnectionWhoseMessageIsTooLarge) {
   bridge_->send_raw("{\"op\":\"" + std::string(kMaxRosMessageBytes + 1, 'a') + "\"}");
-  EXPECT_TRUE(eventually([&] { return told("larger than allowed") && bridge_->connections() == 2; }));
+  EXPECT_TRUE(eventually([&] { return logged("larger than allowed") && bridge_->connections() == 2; }));
   driver_->command({});
   EXPECT_TRUE(sweeps_come(4s));
 }
 
 TEST_F(RosbridgeDriverTest, WaitsForARobotThatIsNotThere) {
   bridge_.reset();
-  ASSERT_TRUE(eventually([&] { return told("connection lost"); }));
+  ASSERT_TRUE(eventually([&] { return logged("connection lost"); }));
   driver_->command({0.4, 0.0});
   EXPECT_FALSE(driver_->read().scan);
   std::stop_source stop;
@@ -224,22 +224,22 @@ TEST_F(RosbridgeDriverTest, WaitsForARobotThatIsNotThere) {
 
 TEST(RosbridgeFiles, AreRefusedWithWhatIsWrong) {
   const ScratchFolder folder;
-  const auto told = [](const std::string&) {};
-  EXPECT_EQ(make_rosbridge_driver("/nowhere/robot.json", told).error().code, ErrorCode::kNotFound);
+  const auto log = [](const std::string&) {};
+  EXPECT_EQ(make_rosbridge_driver("/nowhere/robot.json", log).error().code, ErrorCode::kNotFound);
   json robot = wire::rosbridge_to_json(sample_rosbridge());
   const std::string file = folder.put("robot.json", robot.dump()).string();
-  const auto without_camera = make_rosbridge_driver(file, told);
+  const auto without_camera = make_rosbridge_driver(file, log);
   EXPECT_EQ(without_camera.error().code, ErrorCode::kNotFound);
   EXPECT_NE(without_camera.error().where.find("camera.json"), std::string::npos);
   robot["rider"] = {{"topic", "/cmd_vel"}, {"type", "geometry_msgs/Twist"}, {"motion", "own"}};
   folder.put("robot.json", robot.dump());
-  const auto echo = make_rosbridge_driver(file, told);
+  const auto echo = make_rosbridge_driver(file, log);
   EXPECT_EQ(echo.error().code, ErrorCode::kInvalidInput);
   EXPECT_NE(echo.error().where.find("rider"), std::string::npos);
   robot.erase("rider");
   robot["address"] = "ws://robot:port";
   folder.put("robot.json", robot.dump());
-  EXPECT_EQ(make_rosbridge_driver(file, told).error().where, "ws://robot:port");
+  EXPECT_EQ(make_rosbridge_driver(file, log).error().where, "ws://robot:port");
 }
 
 }  // namespace

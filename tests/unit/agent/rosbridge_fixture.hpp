@@ -67,7 +67,7 @@ class RosbridgeDriverTest : public ::testing::Test {
     folder_.put("robot.json", wire::rosbridge_to_json(robot).dump());
     auto driver = make_rosbridge_driver((folder_.path() / "robot.json").string(), [this](const std::string& what) {
       const std::lock_guard lock(mutex_);
-      told_.push_back(what);
+      log_.push_back(what);
     });
     EXPECT_TRUE(driver) << (driver ? "" : driver.error().message + " " + driver.error().where);
     driver_ = std::move(*driver);
@@ -86,9 +86,9 @@ class RosbridgeDriverTest : public ::testing::Test {
     }
     return result;
   }
-  bool told(const std::string& part) {
+  bool logged(const std::string& part) {
     const std::lock_guard lock(mutex_);
-    return std::any_of(told_.begin(), told_.end(),
+    return std::any_of(log_.begin(), log_.end(),
                        [&](const std::string& what) { return what.find(part) != std::string::npos; });
   }
   /// Sends odometry and a sweep, as a live robot does ten times a second.
@@ -131,7 +131,7 @@ class RosbridgeDriverTest : public ::testing::Test {
   ScratchFolder folder_;
   std::mutex mutex_;
   std::vector<Heard> heard_;
-  std::vector<std::string> told_;
+  std::vector<std::string> log_;
   std::unique_ptr<RosbridgeServer> bridge_;
   std::unique_ptr<driving::Driver> driver_;
   std::int64_t stamp_us_ = 50'000'000;  // the robot's clock has nothing to do with ours

@@ -59,7 +59,7 @@ TEST_F(RiderOnABridge, NoiseIsNoHandAndNonsenseIsNoWord) {
   push(0.004, -0.009);
   EXPECT_TRUE(says(false, {}));
   bridge_->publish("/joy_vel", {{"linear", {{"x", nullptr}}}, {"angular", {{"z", 0.0}}}});
-  EXPECT_TRUE(eventually([&] { return told("of no use"); }));
+  EXPECT_TRUE(eventually([&] { return logged("of no use"); }));
   EXPECT_TRUE(says(false, {}));
 }
 

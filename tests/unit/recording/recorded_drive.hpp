@@ -36,7 +36,7 @@ class RecordedDrive : public ::testing::Test {
   void open_recorder() {
     auto created = Recorder::create(options_, robot_, [this](const std::string& what) {
       const std::lock_guard lock(mutex_);
-      told_ += what + "\n";
+      log_ += what + "\n";
     });
     ASSERT_TRUE(created) << created.error().message;
     recorder_ = std::move(*created);
@@ -114,9 +114,9 @@ class RecordedDrive : public ::testing::Test {
   void change(const std::string& sql) const {
     SQLite::Database(recording().string(), SQLite::OPEN_READWRITE).exec(sql);
   }
-  std::string told() {
+  std::string log() {
     const std::lock_guard lock(mutex_);
-    return told_;
+    return log_;
   }
 
   homeward::testing::ScratchFolder folder_;
@@ -134,7 +134,7 @@ class RecordedDrive : public ::testing::Test {
 
  private:
   std::mutex mutex_;
-  std::string told_;
+  std::string log_;
 };
 
 }  // namespace homeward::recording

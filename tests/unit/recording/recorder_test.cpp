@@ -91,7 +91,7 @@ TEST_F(RecorderTest, GoesOnWithoutPicturesWhenItIsFull) {
   EXPECT_FALSE(kept.end->whole);
   EXPECT_THAT(kept.end->note, HasSubstr("no pictures after step"));
   EXPECT_LE(std::filesystem::file_size(recording()), 1U << 20);
-  EXPECT_THAT(told(), HasSubstr("without pictures"));
+  EXPECT_THAT(log(), HasSubstr("without pictures"));
 }
 
 TEST_F(RecorderTest, DrivesOnWhenTheDiskIsTooSlow) {
@@ -118,7 +118,7 @@ TEST_F(RecorderTest, DrivesOnWhenNothingCanBeWritten) {
   for (int i = 0; i < 6; ++i) speed_mps = tick().motion.speed_mps;
   EXPECT_GT(speed_mps, 0.05) << state_.reason;
   close_recorder();
-  EXPECT_THAT(told(), HasSubstr("The mission goes on without recording."));
+  EXPECT_THAT(log(), HasSubstr("The mission goes on without recording."));
 }
 
 TEST_F(RecorderTest, RecordsTheNextMissionAfterOneThatCouldNotBeWritten) {
@@ -144,10 +144,10 @@ TEST_F(RecorderTest, MakesRoomByRemovingTheOldest) {
   const auto now = std::filesystem::file_time_type::clock::now();
   std::filesystem::last_write_time(options_.folder / "b.hwrec", now - std::chrono::hours(3));
   std::filesystem::last_write_time(options_.folder / "a.hwrec", now - std::chrono::hours(2));
-  std::string told;
-  make_room(options_.folder, 1'300'000, [&](const std::string& what) { told += what; });
-  EXPECT_THAT(told, HasSubstr("b.hwrec"));
-  EXPECT_THAT(told, Not(HasSubstr("a.hwrec")));
+  std::string log;
+  make_room(options_.folder, 1'300'000, [&](const std::string& what) { log += what; });
+  EXPECT_THAT(log, HasSubstr("b.hwrec"));
+  EXPECT_THAT(log, Not(HasSubstr("a.hwrec")));
   EXPECT_FALSE(std::filesystem::exists(options_.folder / "b.hwrec"));
   EXPECT_FALSE(std::filesystem::exists(options_.folder / "b.hwrec-wal"));
   EXPECT_TRUE(std::filesystem::exists(options_.folder / "a.hwrec"));
