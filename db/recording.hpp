@@ -27,10 +27,10 @@ struct RecordingHeader {
   std::string camera_json;
   std::string features_json;
   std::string driving_json;
-  std::string before_json;  // what the heart remembered before the first step
+  std::string before_json;  // what the driving step remembered before the first step
 };
 
-/// One sweep of range sensors; its members are those of the heart's scan.
+/// One sweep of range sensors; its members are those of driving::Scan.
 struct RecordedSweep {
   std::int64_t taken_ms = 0;
   double angle_min_rad = 0.0;
@@ -40,7 +40,7 @@ struct RecordedSweep {
   Pose2 robot_from_scan = {};
 };
 
-/// A picture that the heart was given: the bytes of the JPEG or PNG that the eye looked at.
+/// A picture that the driving step was given: the bytes of the JPEG or PNG that features were extracted from.
 struct RecordedPicture {
   std::int64_t taken_ms = 0;
   Pose2 odometry;
@@ -74,7 +74,7 @@ struct RecordedTracks {
   friend bool operator==(const RecordedTracks&, const RecordedTracks&) = default;
 };
 
-/// One step of the heart: all that went in and what came out. Numbers come back bit for bit.
+/// One driving step: all that went in and what came out. Numbers come back bit for bit.
 struct RecordedStep {
   std::int64_t seq = 0;  // 1, 2, ...
   // In.
@@ -82,7 +82,7 @@ struct RecordedStep {
   std::optional<std::int64_t> sensors_ms;
   Pose2 odometry;
   bool link_up = false;
-  std::vector<wire::ServerMessage> heard;
+  std::vector<wire::ServerMessage> received;
   std::optional<RecordedSweep> sweep;
   std::optional<RecordedPicture> picture;
   std::optional<RecordedRider> rider = {};
@@ -98,7 +98,7 @@ struct RecordedStep {
   std::optional<RecordedVector> vector;
   std::optional<RecordedTracks> tracks = {};  // beside a vector; recordings before version 3 lack it
   std::optional<double> min_range_m;
-  std::vector<wire::AgentMessage> said;
+  std::vector<wire::AgentMessage> sent;
 };
 
 /// How a recording ended. One that was cut off has no end.

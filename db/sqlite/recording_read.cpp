@@ -227,11 +227,11 @@ class SqliteRecordingReader final : public RecordingReader {
       if (sender == "server") {
         auto message = wire::decode_server_message(blob(cbor));
         if (!message) refuse_step(step.seq, "a message (" + message.error().message + ")");
-        step.heard.push_back(std::move(*message));
+        step.received.push_back(std::move(*message));
       } else if (sender == "agent") {
         auto message = wire::decode_agent_message(blob(cbor));
         if (!message) refuse_step(step.seq, "a message (" + message.error().message + ")");
-        step.said.push_back(std::move(*message));
+        step.sent.push_back(std::move(*message));
       } else {
         refuse_step(step.seq, "who sent a message");
       }
@@ -273,7 +273,7 @@ class SqliteRecordingReader final : public RecordingReader {
     step.picture = picture_of(step.seq);
     if (integer(row, 10) != 0 && !step.sweep) refuse_lack(step.seq, "sweep");
     if (integer(row, 11) != 0 && !step.picture) refuse_lack(step.seq, "picture");
-    const auto messages = static_cast<std::int64_t>(step.heard.size() + step.said.size());
+    const auto messages = static_cast<std::int64_t>(step.received.size() + step.sent.size());
     if (integer(row, 12) != messages) refuse_lack(step.seq, "message");
     return step;
   }

@@ -143,14 +143,14 @@ class SqliteRecordingWriter final : public RecordingWriter {
         step.covered, of_vector(&RecordedVector::bearing_rad), of_vector(&RecordedVector::turn_rad),
         of_vector(&RecordedVector::confidence), of_vector(&RecordedVector::parallax_rad),
         of_vector(&RecordedVector::inliers), step.min_range_m, step.sweep.has_value(), step.picture.has_value(),
-        step.heard.size() + step.said.size(), of_rider(&RecordedRider::deflected), of_rider(&RecordedRider::speed_mps),
-        of_rider(&RecordedRider::turn_radps), of_tracks(&RecordedTracks::tracked),
+        step.received.size() + step.sent.size(), of_rider(&RecordedRider::deflected),
+        of_rider(&RecordedRider::speed_mps), of_rider(&RecordedRider::turn_radps), of_tracks(&RecordedTracks::tracked),
         of_tracks(&RecordedTracks::recovered), of_tracks(&RecordedTracks::lost));
     bind_bytes(insert, 31, exact);
     insert.exec();
     int position = 0;
-    for (const wire::ServerMessage& message : step.heard) put_message(step.seq, position++, "server", message);
-    for (const wire::AgentMessage& message : step.said) put_message(step.seq, position++, "agent", message);
+    for (const wire::ServerMessage& message : step.received) put_message(step.seq, position++, "server", message);
+    for (const wire::AgentMessage& message : step.sent) put_message(step.seq, position++, "agent", message);
     if (step.sweep) put_sweep(step.seq, *step.sweep);
     if (step.picture) put_picture(step.seq, *step.picture);
   }

@@ -32,7 +32,7 @@ void put_outcome(db::RecordedStep& step, const driving::DrivingState& state, con
     step.tracks = db::RecordedTracks{tracks.tracked, tracks.recovered, tracks.lost};
   }
   step.min_range_m = state.min_range_m;
-  step.said = outputs.messages;
+  step.sent = outputs.messages;
 }
 
 db::RecordedStep to_recorded(std::int64_t seq, const driving::Inputs& inputs, const PictureBytes& bytes,
@@ -44,7 +44,7 @@ db::RecordedStep to_recorded(std::int64_t seq, const driving::Inputs& inputs, co
   step.sensors_ms = inputs.sensors_now_ms;
   step.odometry = inputs.odometry;
   step.link_up = inputs.link_up;
-  step.heard = inputs.messages;
+  step.received = inputs.messages;
   if (inputs.scan) step.sweep = to_recorded(*inputs.scan);
   if (inputs.picture)
     step.picture = db::RecordedPicture{inputs.picture->taken_ms, inputs.picture->odometry, bytes,
@@ -62,7 +62,7 @@ driving::Inputs inputs_of(const db::RecordedStep& step) {
   inputs.sensors_now_ms = step.sensors_ms;
   inputs.odometry = step.odometry;
   inputs.link_up = step.link_up;
-  inputs.messages = step.heard;
+  inputs.messages = step.received;
   if (step.sweep) inputs.scan = from_recorded(*step.sweep);
   if (step.rider) {
     inputs.rider =

@@ -16,7 +16,7 @@ std::int64_t size_of(const db::RecordedStep& step) {
   std::size_t bytes = 500;
   if (step.picture && step.picture->bytes) bytes += step.picture->bytes->size();
   if (step.sweep) bytes += step.sweep->ranges_m.size() * sizeof(float);
-  for (const wire::ServerMessage& message : step.heard) {
+  for (const wire::ServerMessage& message : step.received) {
     bytes += 100;
     const auto* order = std::get_if<wire::MissionOrder>(&message);
     if (order == nullptr) continue;

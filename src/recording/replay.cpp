@@ -13,7 +13,7 @@
 namespace homeward::recording {
 namespace {
 
-constexpr std::size_t kMostDifferencesTold = 10;
+constexpr std::size_t kMostDifferencesReported = 10;
 
 std::string shown(double value) {
   char text[40];
@@ -47,9 +47,9 @@ bool same_message(const wire::AgentMessage& then, const wire::AgentMessage& now)
   const auto* refused_then = std::get_if<wire::MissionRefused>(&then);
   const auto* refused_now = std::get_if<wire::MissionRefused>(&now);
   if (refused_then != nullptr && refused_now != nullptr && same_words(refused_then->reason, refused_now->reason)) {
-    wire::MissionRefused told = *refused_then;
-    told.reason = refused_now->reason;
-    return wire::encode(wire::AgentMessage(told)) == wire::encode(now);
+    wire::MissionRefused expected = *refused_then;
+    expected.reason = refused_now->reason;
+    return wire::encode(wire::AgentMessage(expected)) == wire::encode(now);
   }
   return wire::encode(then) == wire::encode(now);
 }
@@ -84,9 +84,9 @@ class Comparison {
     }
     one("speed_mps", then.speed_mps, now.speed_mps);
     one("turn_radps", then.turn_radps, now.turn_radps);
-    one("messages", then.said.size(), now.said.size());
-    for (std::size_t i = 0; i < std::min(then.said.size(), now.said.size()); ++i) {
-      one("messages/" + std::to_string(i), same_message(then.said[i], now.said[i]), true);
+    one("messages", then.sent.size(), now.sent.size());
+    for (std::size_t i = 0; i < std::min(then.sent.size(), now.sent.size()); ++i) {
+      one("messages/" + std::to_string(i), same_message(then.sent[i], now.sent[i]), true);
     }
   }
 
@@ -98,7 +98,7 @@ class Comparison {
   void one(const std::string& what, const T& then, const T& now) {
     if (same(then, now)) return;
     ++result_.differences;
-    if (result_.differing.size() < kMostDifferencesTold) {
+    if (result_.differing.size() < kMostDifferencesReported) {
       result_.differing.push_back({step_, what, shown(then), shown(now)});
     }
   }

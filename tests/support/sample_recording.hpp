@@ -21,7 +21,7 @@ inline db::RecordedStep sample_recorded_step(std::int64_t seq) {
   step.sensors_ms = 700 + 40 * seq;
   step.odometry = {-0.0, 1.0 / 3.0, 5e-324};
   step.link_up = true;
-  step.heard = {wire::Permit{MissionId("m1"), {3, seq}, 1500}};
+  step.received = {wire::Permit{MissionId("m1"), {3, seq}, 1500}};
   step.sweep =
       db::RecordedSweep{690 + 40 * seq, -0.0, 0.1, 12.0, {1.5F, std::numeric_limits<float>::infinity(), -0.0F}};
   step.picture = db::RecordedPicture{
@@ -35,7 +35,7 @@ inline db::RecordedStep sample_recorded_step(std::int64_t seq) {
   step.vector = db::RecordedVector{-0.0, 0.25, 0.9, 0.05, std::nullopt, 80, 40};
   step.tracks = db::RecordedTracks{60, 3, 12};
   step.min_range_m = 1.5;
-  step.said = {wire::Stopped{"s1", 0}};
+  step.sent = {wire::Stopped{"s1", 0}};
   return step;
 }
 

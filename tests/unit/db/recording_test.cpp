@@ -35,7 +35,7 @@ class RecordingFile : public ::testing::Test {
     steps.back().reason = wire::Reason{wire::ReasonCode::kServerSilent};
     steps.back().link_up = false;
     steps.back().picture.reset();
-    steps.back().heard.clear();
+    steps.back().received.clear();
     ASSERT_TRUE((*writer)->append(steps));
     ASSERT_TRUE((*writer)->finish(end));
   }
@@ -93,10 +93,10 @@ TEST_F(RecordingFile, GivesEveryNumberBackBitForBit) {
   ASSERT_TRUE(step.picture && step.picture->bytes);
   EXPECT_EQ(*step.picture->bytes, *expected.picture->bytes);
   EXPECT_EQ(bits(step.picture->odometry.y_m), bits(-0.0));
-  ASSERT_EQ(step.heard.size(), 1U);
-  EXPECT_EQ(wire::encode(step.heard[0]), wire::encode(expected.heard[0]));
-  ASSERT_EQ(step.said.size(), 1U);
-  EXPECT_EQ(wire::encode(step.said[0]), wire::encode(expected.said[0]));
+  ASSERT_EQ(step.received.size(), 1U);
+  EXPECT_EQ(wire::encode(step.received[0]), wire::encode(expected.received[0]));
+  ASSERT_EQ(step.sent.size(), 1U);
+  EXPECT_EQ(wire::encode(step.sent[0]), wire::encode(expected.sent[0]));
 }
 
 TEST_F(RecordingFile, IsOneFileOnceItEnded) {
