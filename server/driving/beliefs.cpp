@@ -151,7 +151,7 @@ Result<wire::BeliefView> Driving::see(Look& look) {
   if (!picture) return pass_on(picture);
   auto belief = tracking.tracker.update(*picture, look.frame->odometry);
   if (!belief) return pass_on(belief);
-  if (look.estimate) belief = tracking.tracker.hear(look.estimate->place, look.estimate->probability);
+  if (look.estimate) belief = tracking.tracker.apply_estimate(look.estimate->place, look.estimate->probability);
   look.sure = pipeline::sure_place(*belief, {});
   if (!belief->lost) tracking.by_word_alone = false;
   look.near_share = tracking.by_word_alone ? std::min(kWordAlone, belief->near_share) : belief->near_share;

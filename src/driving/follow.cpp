@@ -28,7 +28,7 @@ void drive_on(FollowState& state, const Pose2& odometry, const FollowConfig& con
   const Pose2 step = inverse(state.odometry) * odometry;
   const double driven_m = std::hypot(step.x_m, step.y_m);
   state.blind_m += driven_m;
-  state.unheard_m += driven_m;
+  state.since_belief_m += driven_m;
   state.odometry = odometry;
   if (state.view.known()) state.view.drift(driven_m, config.track);
   state.hypotheses.predict(step);
@@ -161,17 +161,17 @@ bool take_local_map(FollowState& state, const VisualPath& path, const Result<hom
 
 /// The server's belief is one more piece of evidence: of the whole map, but by the same pictures, so that it counts
 /// little, and only once for a stretch of the way.
-void hear_belief(FollowState& state, const VisualPath& path) {
+void apply_belief(FollowState& state, const VisualPath& path) {
   constexpr double kSure = 0.8;
   constexpr double kOdds = 3.0;
   constexpr double kWithin_m = 2.0;
   constexpr double kApart_m = 1.0;
   if (!state.belief || state.belief->probability < kSure || state.hypotheses.empty()) return;
-  if (state.unheard_m < kApart_m) return;
-  state.unheard_m = 0.0;
+  if (state.since_belief_m < kApart_m) return;
+  state.since_belief_m = 0.0;
   std::optional<Vector2> at_m;
   if (state.belief->view) at_m = position(path.pose(*state.belief->view));
-  state.hypotheses.hear(at_m, kWithin_m, kOdds, std::min(kMostOfOthersWord, state.belief->probability));
+  state.hypotheses.apply_odds(at_m, kWithin_m, kOdds, std::min(kMostByOthers, state.belief->probability));
 }
 
 void end_picture(FollowState& state, const VisualPath& path, const FollowConfig& config, FollowResult& result) {
@@ -208,7 +208,7 @@ FollowResult follow_path(FollowState& state, const VisualPath& path, const featu
   state.hypotheses.weigh(sightings);
   result.recognised =
       std::ranges::any_of(sightings, [](const ViewSighting& sighting) { return sighting.direction || sighting.pose; });
-  hear_belief(state, path);
+  apply_belief(state, path);
   const bool agrees = std::ranges::any_of(sightings, [&](const ViewSighting& sighting) {
     return sighting.direction && sighting.direction->confidence >= config.believe && state.hypotheses.agrees(sighting);
   });

@@ -8,9 +8,9 @@
 
 namespace homeward::driving {
 
-/// No more probable than that is where the robot is by what others say alone: they have seen the same pictures, and two
-/// halves of a building may look alike.
-inline constexpr double kMostOfOthersWord = 0.85;
+/// No more probable than that is where the robot is by the estimates of others alone: they are of the same pictures,
+/// and two halves of a building may look alike.
+inline constexpr double kMostByOthers = 0.85;
 
 /// How a robot finds out where it is on its path, and homes to the views of it.
 struct FollowConfig {

@@ -29,7 +29,7 @@ struct FollowState {
   Pose2 odometry;                      // at the latest picture
   bool begun = false;
   double blind_m = 0.0;                 // driven since the last answer that was believed
-  double unheard_m = 1e9;               // and since the belief was heard
+  double since_belief_m = 1e9;          // and since the belief was applied
   std::optional<Pose2> ways_seen_from;  // odometry, when a sweep was last compared with the ways of tours
   homing::VisualHoming visual;          // to the view homed to
   int visual_index = -1;                // which one that is

@@ -19,8 +19,8 @@ FollowState begun_from(const std::optional<KeptEstimate>& kept, const VisualPath
   const PoseHypotheses& known = kept->hypotheses;
   follow.hypotheses = PoseHypotheses(config.pose, known.all(), known.elsewhere(), known.unweighed_m());
   const Pose2& begins = path.pose(0);
-  follow.hypotheses.hear(Eigen::Vector2d(begins.x_m, begins.y_m), kWithin_m, kOdds,
-                         std::min(kMostOfOthersWord, path.start_probability));
+  follow.hypotheses.apply_odds(Eigen::Vector2d(begins.x_m, begins.y_m), kWithin_m, kOdds,
+                               std::min(kMostByOthers, path.start_probability));
   follow.odometry = kept->odometry;
   follow.ways_seen_from = kept->odometry;  // what stands on them has been weighed
   follow.begun = true;

@@ -296,7 +296,7 @@ void PoseHypotheses::weigh(std::span<const double> log_odds) {
   settle();
 }
 
-void PoseHypotheses::hear(const std::optional<Vector2>& point_m, double radius_m, double odds, double most) {
+void PoseHypotheses::apply_odds(const std::optional<Vector2>& point_m, double radius_m, double odds, double most) {
   const auto is_there = [&](const PoseHypothesis& one) {
     return point_m && (position(one.map_from_robot) - *point_m).norm() <= radius_m;
   };

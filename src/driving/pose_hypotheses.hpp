@@ -46,7 +46,7 @@ class PoseHypotheses {
   /// Somebody else says that the robot is within `radius_m` of a point of the map, or, without one, at a place that is
   /// none of those that were compared. `odds`: how many times more probable that makes it, but no more probable than
   /// `most`: who says so has seen the same pictures, and is as sure as that.
-  void hear(const std::optional<Eigen::Vector2d>& point_m, double radius_m, double odds, double most);
+  void apply_odds(const std::optional<Eigen::Vector2d>& point_m, double radius_m, double odds, double most);
 
   /// What a local map says between two pictures that are recognised: moves the hypotheses, weighs nothing.
   void refine(const ViewSighting& sighting);

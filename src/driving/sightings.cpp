@@ -90,7 +90,7 @@ std::vector<ComparedView> compare_views(const FollowState& state, const VisualPa
   // At first it is where the path begins, if those are right who say so; else at one of the views that look like it.
   constexpr double kElsewhereShare = 0.02;
   constexpr double kOfOthers = 0.5;
-  const double start_probability = std::min(kMostOfOthersWord, path.start_probability);
+  const double start_probability = std::min(kMostByOthers, path.start_probability);
   const double elsewhere_share = std::max(kElsewhereShare, kOfOthers * (1.0 - start_probability));
   constexpr double kBelievedShare = 0.05;  // the server's belief, where it is sure
   const PoseHypothesis* best = state.hypotheses.best();

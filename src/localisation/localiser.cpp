@@ -244,7 +244,7 @@ Belief Localiser::update(const features::Appearance& seen, const std::optional<P
   return state.report(nothing_seen);
 }
 
-Belief Localiser::hear(const PlaceId& place, double probability) {
+Belief Localiser::apply_estimate(const PlaceId& place, double probability) {
   State& state = *state_;
   const Known& known = *state.known;
   const map::Place* named = map::find_place(*known.map, place);
@@ -252,8 +252,8 @@ Belief Localiser::hear(const PlaceId& place, double probability) {
     const int index = static_cast<int>(named - known.map->places.data());
     std::vector<int> places = known.neighbours[at(index)];
     places.push_back(index);
-    state.belief.hear(places, std::pow(known.config.heard_odds, state.news),
-                      std::min(known.config.heard_most, probability));
+    state.belief.apply_odds(places, std::pow(known.config.estimate_odds, state.news),
+                            std::min(known.config.heard_most, probability));
   }
   return state.report(state.showed_nothing);
 }

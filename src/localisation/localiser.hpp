@@ -28,7 +28,7 @@ struct LocaliserConfig {
   int min_features = 20;                  // a picture with fewer says nothing
   double spot_radius_m = 0.2;             // pictures taken so near to each other, by odometry, are of one spot
   double same_view = 0.5;                 // and say nothing new when they differ by less, in usual distances
-  double heard_odds = 20.0;               // an estimate of the way driven weighs so much, for each independent picture,
+  double estimate_odds = 20.0;            // an estimate of the way driven weighs so much, for each independent picture,
   double heard_above = 0.9;               // from so probable on,
   double heard_most = 0.97;               // and makes nothing more probable than that
   double start_share = 0.9;               // of the belief, for where a person says that the robot is, and beside it
@@ -72,8 +72,8 @@ class Localiser {
 
   /// The robot's own estimate, which is of the same pictures and of the way driven, says that it is at a place of the
   /// map. Call it after `update`. What is not probable enough, or of no place of the map, says nothing. Where pictures
-  /// speak more clearly for another place than `heard_odds`, the belief stays with them. Ours.
-  Belief hear(const PlaceId& place, double probability);
+  /// speak more clearly for another place than `estimate_odds`, the belief stays with them. Ours.
+  Belief apply_estimate(const PlaceId& place, double probability);
 
   /// Odometry counts anew: what it said up to now does not belong to what it says next. The belief stays.
   void restart_odometry();

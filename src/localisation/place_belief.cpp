@@ -98,7 +98,7 @@ void PlaceBelief::weigh(std::span<const PlaceShare> seen, double floor, double e
   forget_small();
 }
 
-void PlaceBelief::hear(std::span<const int> places, double odds, double most) {
+void PlaceBelief::apply_odds(std::span<const int> places, double odds, double most) {
   double there = 0.0;
   for (const int place : places) there += of(place);
   if (there <= 0.0 || there >= most || most >= 1.0) return;

@@ -48,7 +48,7 @@ class PlaceBelief {
 
   /// Somebody says that the robot is at one of these places, each named once: `odds` multiplies the odds of that, but
   /// makes it no more probable than `most`.
-  void hear(std::span<const int> places, double odds, double most);
+  void apply_odds(std::span<const int> places, double odds, double most);
 
   [[nodiscard]] double of(int place) const;
   [[nodiscard]] double elsewhere() const { return elsewhere_; }

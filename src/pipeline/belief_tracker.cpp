@@ -51,8 +51,8 @@ localisation::Belief BeliefTracker::update(features::Appearance seen, const std:
   return state_->localiser.update(state_->seen, odometry);
 }
 
-localisation::Belief BeliefTracker::hear(const PlaceId& place, double probability) {
-  return state_->localiser.hear(place, probability);
+localisation::Belief BeliefTracker::apply_estimate(const PlaceId& place, double probability) {
+  return state_->localiser.apply_estimate(place, probability);
 }
 
 void BeliefTracker::restart() { state_->localiser.restart(); }

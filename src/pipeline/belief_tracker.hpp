@@ -33,8 +33,8 @@ class BeliefTracker {
   Result<localisation::Belief> update(const Image& picture, const std::optional<Pose2>& odometry = std::nullopt);
   /// The same of a picture whose features are known already, by an eye with this map's feature settings.
   localisation::Belief update(features::Appearance seen, const std::optional<Pose2>& odometry = std::nullopt);
-  /// The robot's own estimate, after the update by the same picture; see localisation::Localiser::hear.
-  localisation::Belief hear(const PlaceId& place, double probability);
+  /// The robot's own estimate, after the update by the same picture; see localisation::Localiser::apply_estimate.
+  localisation::Belief apply_estimate(const PlaceId& place, double probability);
   void restart();
   /// A person says where the robot is; see localisation::Localiser::start_at.
   void start_at(const std::vector<PlaceId>& places);

@@ -207,7 +207,7 @@ Result<std::optional<wire::MissionOrder>> SimulatedServer::order_after(DriveLoop
 wire::BeliefReport SimulatedServer::believe(const features::Appearance& seen, const Pose2& odometry,
                                             const std::optional<wire::EstimateReport>& estimate) {
   belief_ = tracker_.update(seen, odometry);
-  if (estimate) belief_ = tracker_.hear(estimate->place, estimate->probability);
+  if (estimate) belief_ = tracker_.apply_estimate(estimate->place, estimate->probability);
   wire::BeliefReport report;
   report.lost = belief_.lost;
   report.place = place_of(belief_);

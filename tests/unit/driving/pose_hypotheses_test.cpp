@@ -368,11 +368,11 @@ PoseHypotheses undecided() {
 TEST(PoseHypotheses, AnothersWordMakesNothingMoreProbableThanHeIsSureOfIt) {
   PoseHypotheses hypotheses = undecided();
   const Eigen::Vector2d there_m(1.0, 20.0);
-  for (int k = 0; k < 5; ++k) hypotheses.hear(there_m, 3.0, 3.0, 0.84);
+  for (int k = 0; k < 5; ++k) hypotheses.apply_odds(there_m, 3.0, 3.0, 0.84);
   double there = 0.0;
   for (const PoseHypothesis& one : hypotheses.all()) there += one.map_from_robot.y_m > 10.0 ? one.weight : 0.0;
   EXPECT_NEAR(there, 0.84, 1e-6);
-  hypotheses.hear(there_m, 3.0, 3.0, 0.6);
+  hypotheses.apply_odds(there_m, 3.0, 3.0, 0.6);
   EXPECT_NEAR(hypotheses.best_probability(), there, 0.05) << "and nothing less probable";
 }
 
@@ -382,7 +382,7 @@ TEST(PoseHypotheses, AnothersWordMovesTheWeightsByItsOdds) {
   const Eigen::Vector2d there_m(1.0, 20.0);
   const double before = hypotheses.probability_within(there_m, 3.0);
   ASSERT_NEAR(before, 0.5, 0.1);
-  hypotheses.hear(there_m, 3.0, 3.0, 1.0);
+  hypotheses.apply_odds(there_m, 3.0, 3.0, 1.0);
   const double odds = hypotheses.probability_within(there_m, 3.0) / hypotheses.probability_within(here_m, 3.0);
   EXPECT_NEAR(odds, 3.0 * before / (1.0 - before), 0.3);
 }
@@ -393,7 +393,7 @@ TEST(PoseHypotheses, AWordOfAPlaceThatNobodyThoughtOfMakesItLessSure) {
   PoseHypotheses hypotheses = corridor.hypotheses_;
   const double before = hypotheses.best_probability();
   const double elsewhere = hypotheses.elsewhere();
-  hypotheses.hear(std::nullopt, 2.0, 3.0, 1.0);
+  hypotheses.apply_odds(std::nullopt, 2.0, 3.0, 1.0);
   EXPECT_LT(hypotheses.best_probability(), before);
   EXPECT_GT(hypotheses.elsewhere(), elsewhere);
 }

@@ -49,14 +49,14 @@ TEST(LocaliserWithOdometry, HearsWhichOfTwoLookAlikesItIsFromTheRobotThatDroveTh
   const map::TopologicalMap map = measured_corridor({2, 7});  // C and H look the same
   Localiser localiser(map, {});
   localiser.update(seen_at(2, 0.05, 0.0), Pose2{});
-  const Belief belief = localiser.hear(PlaceId("H"), 0.95);
+  const Belief belief = localiser.apply_estimate(PlaceId("H"), 0.95);
   EXPECT_EQ(best(belief), "H");
   EXPECT_GT(probability_of(belief, "H"), 0.8);
   EXPECT_LE(belief.near_share, 0.95 + 1e-9);
   Localiser unsure(map, {});
   const Belief before = unsure.update(seen_at(2, 0.05, 0.0), Pose2{});
-  EXPECT_EQ(probability_of(unsure.hear(PlaceId("H"), 0.89), "H"), probability_of(before, "H"));
-  EXPECT_EQ(probability_of(unsure.hear(PlaceId("nowhere"), 1.0), "H"), probability_of(before, "H"));
+  EXPECT_EQ(probability_of(unsure.apply_estimate(PlaceId("H"), 0.89), "H"), probability_of(before, "H"));
+  EXPECT_EQ(probability_of(unsure.apply_estimate(PlaceId("nowhere"), 1.0), "H"), probability_of(before, "H"));
 }
 
 TEST(LocaliserWithOdometry, WhatItHearsDoesNotOutweighPicturesThatAreClear) {
@@ -64,7 +64,7 @@ TEST(LocaliserWithOdometry, WhatItHearsDoesNotOutweighPicturesThatAreClear) {
   Belief belief;
   for (int k = 0; k < 6; ++k) {
     localiser.update(seen_at(3, 0.1 * k, 0.0), Pose2{0.5 * k, 0.0, 0.0});
-    belief = localiser.hear(PlaceId("I"), 0.97);
+    belief = localiser.apply_estimate(PlaceId("I"), 0.97);
   }
   EXPECT_EQ(best(belief), "D");
 }
@@ -77,7 +77,7 @@ TEST(LocaliserWithOdometry, StandingStillItHearsLess) {
     belief = localiser.update(seen_at(2, 0.05, 0.0), Pose2{1.0, 0.0, 0.0});
     for (int k = 0; k < looks; ++k) {
       localiser.update(seen_at(2, 0.05, 0.0), Pose2{1.0, 0.0, 0.0});
-      belief = localiser.hear(PlaceId("H"), 0.95);
+      belief = localiser.apply_estimate(PlaceId("H"), 0.95);
     }
     return probability_of(belief, "C");
   };
@@ -91,7 +91,7 @@ TEST(LocaliserWithOdometry, UnderACoveredLensItHearsNothing) {
   Localiser localiser(measured_corridor(), {});
   localiser.update(seen_at(3, 0.05, 0.0), Pose2{});
   localiser.update(features::Appearance{}, Pose2{0.5, 0.0, 0.0});
-  const Belief belief = localiser.hear(PlaceId("I"), 0.97);
+  const Belief belief = localiser.apply_estimate(PlaceId("I"), 0.97);
   EXPECT_EQ(best(belief), "D");
   EXPECT_TRUE(belief.lost);
 }

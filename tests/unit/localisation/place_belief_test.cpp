@@ -192,15 +192,15 @@ TEST(PlaceBelief, WhatIsHeardMultipliesTheOddsOfPlacesUpToWhatItMayMakeThem) {
   const double before = odds();
   const double of_others = belief.of(2) / belief.elsewhere();
   const std::vector<int> there = {6, 5};  // 6 is as improbable as all that were not seen
-  belief.hear(there, 4.0, 0.97);
+  belief.apply_odds(there, 4.0, 0.97);
   EXPECT_NEAR(odds(), 4.0 * before, 1e-9);
   EXPECT_NEAR(sum_of(belief, 8), 1.0, 1e-12);
   EXPECT_NEAR(belief.of(2) / belief.elsewhere(), of_others, 1e-9) << "of the others it says nothing";
-  belief.hear(there, 1e9, 0.8);
+  belief.apply_odds(there, 1e9, 0.8);
   EXPECT_NEAR(belief.of(5) + belief.of(6), 0.8, 1e-9);
-  belief.hear(there, 4.0, 0.5);
+  belief.apply_odds(there, 4.0, 0.5);
   EXPECT_NEAR(belief.of(5) + belief.of(6), 0.8, 1e-9) << "it makes nothing less probable";
-  belief.hear({}, 4.0, 0.9);
+  belief.apply_odds({}, 4.0, 0.9);
   EXPECT_NEAR(sum_of(belief, 8), 1.0, 1e-12);
 }
 
