@@ -6,17 +6,17 @@ namespace homeward::driving {
 void ask(Asking& asking, std::int64_t now_ms) {
   ++asking.number;
   asking.since_ms = now_ms;
-  asking.said.reset();
+  asking.answer.reset();
 }
 
 void withdraw(Asking& asking) {
   asking.since_ms.reset();
-  asking.said.reset();
+  asking.answer.reset();
 }
 
-bool hear(Asking& asking, std::int64_t question, bool here) {
-  if (!asking.since_ms || asking.said || question != asking.number) return false;
-  asking.said = here;
+bool take_answer(Asking& asking, std::int64_t question, bool here) {
+  if (!asking.since_ms || asking.answer || question != asking.number) return false;
+  asking.answer = here;
   return true;
 }
 

@@ -16,7 +16,7 @@ constexpr double kAnswerOdds = 19.0;
 struct Asking {
   std::int64_t number = 0;               // of the latest question; they count on over missions
   std::optional<std::int64_t> since_ms;  // nothing: it asks nothing
-  std::optional<bool> said;              // by the first person who answered
+  std::optional<bool> answer;            // by the first person who answered
 };
 
 /// Asks; a question that was open is void.
@@ -26,6 +26,6 @@ void ask(Asking& asking, std::int64_t now_ms);
 void withdraw(Asking& asking);
 
 /// Somebody answers a question. Whether that counts: an answer to another question, or a second one, is void.
-bool hear(Asking& asking, std::int64_t question, bool here);
+bool take_answer(Asking& asking, std::int64_t question, bool here);
 
 }  // namespace homeward::driving

@@ -100,7 +100,7 @@ struct Clerk {
 
   void operator()(const wire::Answer& answer) const {
     if (state.drive != wire::DriveState::kDriving || answer.mission != state.mission->id) return;
-    if (!hear(state.asking, answer.question, answer.here)) return;
+    if (!take_answer(state.asking, answer.question, answer.here)) return;
     const VisualPath& path = state.mission->path;
     const Pose2& there = path.pose(path.size() - 1);
     state.follow.hypotheses.weigh_within({there.x_m, there.y_m}, config.follow.arrived_within_m,

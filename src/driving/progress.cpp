@@ -93,10 +93,10 @@ bool ask_people(DrivingState& state, bool certain, const DrivingConfig& config, 
   // Whoever comes to answer may stand before the camera; and it makes no way because it does not want to.
   state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = now_ms;
   state.stays_since_ms.reset();
-  if (state.asking.said && *state.asking.said) {
+  if (state.asking.answer && *state.asking.answer) {
     // Whoever says so may be getting out: nothing drives on from here by itself.
     end_mission(state, wire::DriveState::kStopped, of_destination(ReasonCode::kDestinationAffirmed, *state.mission));
-  } else if (state.asking.said) {
+  } else if (state.asking.answer) {
     // Where it takes itself to be there all the same, a person decides.
     state.astray =
         arrival_probability(state.follow, state.mission->path, config.follow) < config.progress.denied_astray_below;
@@ -117,7 +117,7 @@ void note_nearness(DrivingState& state, const DrivingConfig& config, Millisecond
     return;
   }
   state.near_since_ms.reset();
-  if (!state.asking.said) stop_asking(state);  // what somebody has said is heard first
+  if (!state.asking.answer) stop_asking(state);  // an answer is dealt with first
 }
 
 /// A heading is taken only where it stays certain that this is the destination.
@@ -131,7 +131,7 @@ void leave_dock_where_unsure(DrivingState& state, const DrivingConfig& config, M
 bool has_arrived(const DrivingState& state, bool certain, const DrivingConfig& config, Milliseconds now_ms) {
   const bool near_enough = certain && state.near_since_ms && now_ms - *state.near_since_ms > config.near_ms;
   const bool confirmed = certain && state.asking.since_ms;  // by an answer, or by what it has seen since it asks
-  const bool denied = state.asking.said == false;
+  const bool denied = state.asking.answer == false;
   // What the latest picture said of its end may be older than what speaks against it.
   const bool at_end = state.seen.at_end && certain;
   return (at_end || near_enough || confirmed) && !denied;
@@ -209,7 +209,7 @@ void judge_progress(DrivingState& state, const DrivingConfig& config, Millisecon
   note_nearness(state, config, now_ms);
   leave_dock_where_unsure(state, config, now_ms);
   const bool certain =
-      is_certain_of_arrival(state.follow, state.mission->path, config.follow, state.asking.said == true);
+      is_certain_of_arrival(state.follow, state.mission->path, config.follow, state.asking.answer == true);
   if (!state.docking && has_arrived(state, certain, config, now_ms)) {
     arrive(state, now_ms);
     if (!state.docking) return;

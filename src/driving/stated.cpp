@@ -38,7 +38,7 @@ std::vector<wire::EstimateReport> stated_places(const DrivingState& state) {
 
 std::optional<wire::QuestionReport> open_question(const DrivingState& state, const DrivingConfig& config,
                                                   Milliseconds now_ms) {
-  if (!state.mission || !state.asking.since_ms || state.asking.said) return std::nullopt;
+  if (!state.mission || !state.asking.since_ms || state.asking.answer) return std::nullopt;
   const VisualPath& path = state.mission->path;
   const Milliseconds left_ms = std::max<Milliseconds>(0, config.asks_ms - (now_ms - *state.asking.since_ms));
   return wire::QuestionReport{state.asking.number, path.place_of(path.size() - 1), state.mission->label,

@@ -12,7 +12,7 @@ namespace homeward::agent {
 namespace {
 
 constexpr driving::Milliseconds kOldest_ms = 400;  // no more than the agent bears without sweeps
-constexpr double kGap_rad = radians(5.0);          // beside a cone, which counts as heard
+constexpr double kGap_rad = radians(5.0);          // beside a cone, which counts as covered
 constexpr double kBehind_rad = kPi / 3.0;          // to both sides of straight back
 constexpr double kAhead_rad = kPi / 6.0;           // and of straight ahead
 
@@ -24,17 +24,17 @@ driving::SonarMap map_of(const std::vector<wire::RosRangeSensor>& sensors) {
   return driving::SonarMap(config);
 }
 
-bool is_heard(const std::vector<wire::RosRangeSensor>& sensors, double direction_rad) {
+bool is_covered(const std::vector<wire::RosRangeSensor>& sensors, double direction_rad) {
   return std::ranges::any_of(sensors, [&](const wire::RosRangeSensor& sensor) {
     return std::abs(wrap_angle(direction_rad - sensor.robot_from_sensor.theta_rad)) <= 0.5 * sensor.cone_rad + kGap_rad;
   });
 }
 
-/// Whether all directions so far to both sides of one are heard.
-bool hears_about(const std::vector<wire::RosRangeSensor>& sensors, double direction_rad, double aside_rad) {
+/// Whether all directions so far to both sides of one are covered.
+bool covers_sector(const std::vector<wire::RosRangeSensor>& sensors, double direction_rad, double aside_rad) {
   const auto most = static_cast<int>(std::floor(degrees(aside_rad) + 1e-6));
   for (int degree = -most; degree <= most; ++degree) {
-    if (!is_heard(sensors, direction_rad + radians(degree))) return false;
+    if (!is_covered(sensors, direction_rad + radians(degree))) return false;
   }
   return true;
 }
@@ -63,48 +63,48 @@ driving::Scan about_the_robot(const std::vector<Eigen::Vector2d>& points_m, int 
 }  // namespace
 
 RangeRing::RangeRing(std::vector<wire::RosRangeSensor> sensors)
-    : sensors_(std::move(sensors)), map_(map_of(sensors_)), heard_(sensors_.size()) {
-  hears_behind_ = hears_about(sensors_, kPi, kBehind_rad);
+    : sensors_(std::move(sensors)), map_(map_of(sensors_)), latest_(sensors_.size()) {
+  covers_behind_ = covers_sector(sensors_, kPi, kBehind_rad);
 }
 
-bool RangeRing::hears_ahead() const { return hears_about(sensors_, 0.0, kAhead_rad); }
+bool RangeRing::covers_ahead() const { return covers_sector(sensors_, 0.0, kAhead_rad); }
 
-int RangeRing::unheard_deg() const {
+int RangeRing::uncovered_deg() const {
   int count = 0;
-  for (int degree = 0; degree < 360; ++degree) count += is_heard(sensors_, radians(degree)) ? 0 : 1;
+  for (int degree = 0; degree < 360; ++degree) count += is_covered(sensors_, radians(degree)) ? 0 : 1;
   return count;
 }
 
-void RangeRing::hear(const RosRange& range, driving::Milliseconds now, const Pose2& odometry) {
-  heard_[range.sensor] = Heard{range, now, odometry};
+void RangeRing::add(const RosRange& range, driving::Milliseconds now, const Pose2& odometry) {
+  latest_[range.sensor] = Reading{range, now, odometry};
 }
 
 std::optional<RingSweep> RangeRing::sweep(driving::Milliseconds now, const Pose2& odometry) {
   RingSweep sweep{{}, now, odometry};
   std::vector<driving::SonarReading> readings;
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
-    if (!heard_[i] || now - heard_[i]->at_ms > kOldest_ms) return std::nullopt;
-    sweep.taken_ms = std::min(sweep.taken_ms, heard_[i]->at_ms);
+    if (!latest_[i] || now - latest_[i]->at_ms > kOldest_ms) return std::nullopt;
+    sweep.taken_ms = std::min(sweep.taken_ms, latest_[i]->at_ms);
     // The robot has moved since.
-    const Pose2 robot_from_sonar = inverse(odometry) * (heard_[i]->odometry * sensors_[i].robot_from_sensor);
+    const Pose2 robot_from_sonar = inverse(odometry) * (latest_[i]->odometry * sensors_[i].robot_from_sensor);
     readings.push_back(
-        {robot_from_sonar, heard_[i]->range.range_m,
-         driving::SonarCone{0.5 * sensors_[i].cone_rad, static_cast<double>(heard_[i]->range.range_min_m),
+        {robot_from_sonar, latest_[i]->range.range_m,
+         driving::SonarCone{0.5 * sensors_[i].cone_rad, static_cast<double>(latest_[i]->range.range_min_m),
                             sensors_[i].range_max_m}});
   }
   if (readings.empty()) return std::nullopt;
   sweep.scan = map_.update(readings, odometry);
-  if (!hears_behind_) {
+  if (!covers_behind_) {
     sweep.scan = about_the_robot(driving::hit_points(sweep.scan), static_cast<int>(sweep.scan.ranges_m.size()),
                                  sweep.scan.range_max_m, false);
   }
-  heard_.assign(sensors_.size(), std::nullopt);
+  latest_.assign(sensors_.size(), std::nullopt);
   return sweep;
 }
 
 void RangeRing::forget() {
   map_ = map_of(sensors_);
-  heard_.assign(sensors_.size(), std::nullopt);
+  latest_.assign(sensors_.size(), std::nullopt);
 }
 
 driving::Scan with_ring(const driving::Scan& scan, const RingSweep& ring, const Pose2& robot) {

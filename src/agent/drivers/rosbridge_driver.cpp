@@ -81,8 +81,8 @@ class RosbridgeDriver final : public driving::Driver {
         range_feeds_(robot_.ranges.size()),
         ring_(robot_.ranges) {
     body_.vague_ranges = !ring_.empty();
-    if (const int deaf_deg = ring_.unheard_deg(); !robot_.scan && deaf_deg > 0) {
-      log_("the ring of range sensors hears nothing in " + std::to_string(deaf_deg) +
+    if (const int uncovered_deg = ring_.uncovered_deg(); !robot_.scan && uncovered_deg > 0) {
+      log_("the ring of range sensors covers nothing in " + std::to_string(uncovered_deg) +
            " of the 360 degrees around the robot: whoever steps in there is not seen");
     }
     JsonSocket::Events events;
@@ -249,7 +249,7 @@ class RosbridgeDriver final : public driving::Driver {
   /// The mutex is held.
   void take_range(const RosRange& range, driving::Milliseconds now) {
     if (odom_.arrived_ms == 0 || !range_feeds_[range.sensor].take(range.stamp_us, now)) return;
-    ring_.hear(range, now, track_.at(range.stamp_us));
+    ring_.add(range, now, track_.at(range.stamp_us));
     auto round = ring_.sweep(now, track_.at(std::nullopt));
     if (!round) return;
     if (robot_.scan) {
@@ -370,10 +370,10 @@ Result<std::unique_ptr<driving::Driver>> make_rosbridge_driver(const std::string
   if (!robot) return pass_on(robot);
   const auto address = parse_websocket_address(robot->address);
   if (!address) return pass_on(address);
-  if (!robot->scan && !RangeRing(robot->ranges).hears_ahead()) {
+  if (!robot->scan && !RangeRing(robot->ranges).covers_ahead()) {
     return fail(
         ErrorCode::kInvalidInput,
-        "A ring without a scanner must hear all within 30 degrees of straight ahead, where the robot drives to.",
+        "A ring without a scanner must cover all within 30 degrees of straight ahead, where the robot drives to.",
         file + "/ranges");
   }
   auto camera = files::read_camera(std::filesystem::path(file).parent_path() / robot->camera);

@@ -19,7 +19,7 @@ RosRange says(std::size_t sensor, float range_m) { return {std::nullopt, sensor,
 
 /// All sensors say the same.
 void all_say(RangeRing& ring, std::size_t sensors, float range_m, driving::Milliseconds now, const Pose2& odometry) {
-  for (std::size_t i = 0; i < sensors; ++i) ring.hear(says(i, range_m), now, odometry);
+  for (std::size_t i = 0; i < sensors; ++i) ring.add(says(i, range_m), now, odometry);
 }
 
 double nearest_m(const driving::Scan& scan, double direction_rad, double within_rad) {
@@ -34,10 +34,10 @@ double nearest_m(const driving::Scan& scan, double direction_rad, double within_
 TEST(RangeRing, MakesASweepOnceEverySensorHasSpoken) {
   RangeRing ring(sample_ring(9));
   for (std::size_t i = 0; i < 8; ++i) {
-    ring.hear(says(i, i == 0 ? 1.0F : kNothing), 1000 + static_cast<driving::Milliseconds>(10 * i), {});
+    ring.add(says(i, i == 0 ? 1.0F : kNothing), 1000 + static_cast<driving::Milliseconds>(10 * i), {});
     EXPECT_FALSE(ring.sweep(1100, {})) << i;
   }
-  ring.hear(says(8, kNothing), 1090, {});
+  ring.add(says(8, kNothing), 1090, {});
   const auto sweep = ring.sweep(1100, {});
   ASSERT_TRUE(sweep);
   EXPECT_EQ(sweep->taken_ms, 1000) << "as old as the oldest of its readings";
@@ -55,16 +55,16 @@ TEST(RangeRing, WithOneSensorSilentThereIsNoSweep) {
     all_say(ring, 8, 2.0F, now, {});  // the ninth is dead
     EXPECT_FALSE(ring.sweep(now, {})) << now;
   }
-  ring.hear(says(8, 2.0F), 4000, {});
+  ring.add(says(8, 2.0F), 4000, {});
   EXPECT_TRUE(ring.sweep(4000, {}));
 }
 
 TEST(RangeRing, WhatWasSaidTooLongAgoDoesNotCount) {
   RangeRing ring(sample_ring(9));
-  ring.hear(says(0, 2.0F), 1000, {});
-  for (std::size_t i = 1; i < 9; ++i) ring.hear(says(i, 2.0F), 1500, {});
+  ring.add(says(0, 2.0F), 1000, {});
+  for (std::size_t i = 1; i < 9; ++i) ring.add(says(i, 2.0F), 1500, {});
   EXPECT_FALSE(ring.sweep(1500, {}));
-  ring.hear(says(0, 2.0F), 1510, {});
+  ring.add(says(0, 2.0F), 1510, {});
   EXPECT_TRUE(ring.sweep(1510, {}));
   all_say(ring, 9, 2.0F, 1600, {});
   ring.forget();
@@ -74,7 +74,7 @@ TEST(RangeRing, WhatWasSaidTooLongAgoDoesNotCount) {
 TEST(RangeRing, PlacesReadingsWhereTheRobotWas) {
   RangeRing ring(sample_ring(9));
   all_say(ring, 9, kNothing, 1000, {});
-  ring.hear(says(0, 1.0F), 1000, {});
+  ring.add(says(0, 1.0F), 1000, {});
   const auto sweep = ring.sweep(1100, {0.1, 0.0, 0.0});  // it has driven on by 0.1 m
   ASSERT_TRUE(sweep);
   EXPECT_NEAR(nearest_m(sweep->scan, 0.0, 0.1), 1.2, 0.05);
@@ -83,22 +83,22 @@ TEST(RangeRing, PlacesReadingsWhereTheRobotWas) {
 TEST(RangeRing, LooksBehindOnlyWhereItHearsAllOfThat) {
   // Five sensors: from 20 degrees to the right of ahead over the left to straight back, and nothing on the other side.
   RangeRing front(sample_ring(5));
-  EXPECT_GT(front.unheard_deg(), 120);
+  EXPECT_GT(front.uncovered_deg(), 120);
   all_say(front, 5, 1.0F, 1000, {});
   const auto sweep = front.sweep(1000, {});
   ASSERT_TRUE(sweep);
   EXPECT_FALSE(driving::looks_behind(sweep->scan));
   EXPECT_NEAR(nearest_m(sweep->scan, 0.0, 0.1), 1.3, 0.05);
   EXPECT_NEAR(nearest_m(sweep->scan, radians(80.0), 0.1), 1.3, 0.05);
-  EXPECT_EQ(RangeRing(sample_ring(9)).unheard_deg(), 0);
-  EXPECT_TRUE(RangeRing(sample_ring(9)).hears_ahead());
-  EXPECT_FALSE(front.hears_ahead()) << "not 30 degrees to both sides";
+  EXPECT_EQ(RangeRing(sample_ring(9)).uncovered_deg(), 0);
+  EXPECT_TRUE(RangeRing(sample_ring(9)).covers_ahead());
+  EXPECT_FALSE(front.covers_ahead()) << "not 30 degrees to both sides";
 }
 
 TEST(RangeRing, BesideAScannerTheNearestOfBothCounts) {
   RangeRing ring(sample_ring(9));
   all_say(ring, 9, kNothing, 1000, {});
-  ring.hear(says(0, 0.7F), 1000, {});
+  ring.add(says(0, 0.7F), 1000, {});
   const auto heard = ring.sweep(1000, {});
   ASSERT_TRUE(heard);
   driving::Scan scan;  // 180 degrees ahead, everything 5 m off
@@ -112,7 +112,7 @@ TEST(RangeRing, BesideAScannerTheNearestOfBothCounts) {
   EXPECT_GT(nearest_m(both, kPi, 1.0), 1e6);
   EXPECT_TRUE(driving::looks_behind(both)) << "as the ring does";
   RangeRing few(sample_ring(1));
-  few.hear(says(0, 0.7F), 1000, {});
+  few.add(says(0, 0.7F), 1000, {});
   EXPECT_FALSE(driving::looks_behind(with_ring(scan, *few.sweep(1000, {}), {})));
 }
 
