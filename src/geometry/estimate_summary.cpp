@@ -31,7 +31,7 @@ double median_parallax_rad(const TiltedMotion& motion, std::span<const Correspon
 
 Result<PlanarEstimate> summarise(std::span<const Correspondence> correspondences, MotionFit fit, double max_error_rad) {
   constexpr std::size_t kFewest = 3;
-  const SignVotes sign = settle_sign(correspondences, fit);
+  const SignEvidence sign = settle_sign(correspondences, fit);
   PlanarEstimate estimate;
   estimate.inliers = matches_within(max_error_rad, fit.motion, correspondences);
   if (estimate.inliers.size() < kFewest) {

@@ -21,16 +21,16 @@ void orient(const MatchRows& matches, double bound_rad, TiltedMotion& motion) {
   matches.errors(EpipolarError(motion), errors_rad);
   const Eigen::Vector3d in_current = motion.direction();
   const Eigen::Vector3d in_target = motion.rotation().transpose() * in_current;
-  double votes = 0.0;
+  double evidence = 0.0;
   for (std::size_t i = 0; i < errors_rad.size(); ++i) {
     if (std::abs(errors_rad[i]) > 2.0 * bound_rad) continue;
     const double here = matches.matches()[i].current.dot(in_current);
     const double there = matches.matches()[i].target.dot(in_target);
     const double parallax = std::sqrt(std::max(kLeastSine2, 1.0 - there * there)) * here -
                             std::sqrt(std::max(kLeastSine2, 1.0 - here * here)) * there;
-    votes += std::clamp(parallax / bound_rad, -1.0, 1.0);
+    evidence += std::clamp(parallax / bound_rad, -1.0, 1.0);
   }
-  if (votes >= 0.0) return;
+  if (evidence >= 0.0) return;
   motion.planar.direction_rad = wrap_angle(motion.planar.direction_rad + kPi);
   motion.elevation_rad = -motion.elevation_rad;
 }
