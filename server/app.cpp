@@ -111,16 +111,16 @@ struct App::Parts {
     snapshot.robots = driving.list();
     if (const auto all = store->jobs()) {
       // Finished ones from long ago are history, and drives that taught nothing are no news.
-      std::vector<wire::JobView> told;
+      std::vector<wire::JobView> shown;
       for (const wire::JobView& job : *all) {
         const bool no_news =
             job.kind == wire::JobKind::kRefine && job.state == wire::JobState::kDone && job.notes.empty();
-        if (!no_news) told.push_back(job);
+        if (!no_news) shown.push_back(job);
       }
-      const std::size_t first = told.size() > 50 ? told.size() - 50 : 0;
-      for (std::size_t i = first; i < told.size(); ++i) {
-        const auto now = jobs.get(told[i].id);
-        snapshot.jobs.push_back(now ? *now : told[i]);
+      const std::size_t first = shown.size() > 50 ? shown.size() - 50 : 0;
+      for (std::size_t i = first; i < shown.size(); ++i) {
+        const auto now = jobs.get(shown[i].id);
+        snapshot.jobs.push_back(now ? *now : shown[i]);
       }
     }
     if (const auto all = store->maps()) {

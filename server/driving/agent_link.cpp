@@ -62,7 +62,7 @@ void AgentLink::on_message(std::span<const std::uint8_t> bytes, bool text) {
   const bool hello = std::holds_alternative<wire::Hello>(*message);
   if (hello == greeted_) return refuse("invalid_input", hello ? "One hello is enough." : "The first message is hello.");
   greeted_ = true;
-  listener_.heard(shared_from_this(), std::move(*message));
+  listener_.received(shared_from_this(), std::move(*message));
 }
 
 std::optional<Outgoing> AgentLink::next_message() {

@@ -14,11 +14,11 @@ namespace homeward::server {
 
 class AgentLink;
 
-/// Hears what agents say. Called on the socket thread; must not wait.
+/// Receives what agents send. Called on the socket thread; must not wait.
 class LinkListener {
  public:
   virtual ~LinkListener() = default;
-  virtual void heard(const std::shared_ptr<AgentLink>& link, wire::AgentMessage message) = 0;
+  virtual void received(const std::shared_ptr<AgentLink>& link, wire::AgentMessage message) = 0;
   virtual void closed(const std::shared_ptr<AgentLink>& link) = 0;
 };
 

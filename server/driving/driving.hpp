@@ -88,7 +88,7 @@ class Driving : public LinkListener {
 
   /// The near end of a new link.
   std::shared_ptr<SocketHandler> open_link(const RobotId& id);
-  void heard(const std::shared_ptr<AgentLink>& link, wire::AgentMessage message) override;
+  void received(const std::shared_ptr<AgentLink>& link, wire::AgentMessage message) override;
   void closed(const std::shared_ptr<AgentLink>& link) override;
 
  private:
@@ -112,8 +112,8 @@ class Driving : public LinkListener {
   void stop_robot(RobotUnit& unit, const std::string& stop_id, const wire::Reason& reason, const std::string& by);
   void begin_looking(const Unit& unit);
 
-  void heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello);
-  void heard_status(const Unit& unit, wire::AgentStatus status);
+  void received_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello);
+  void received_status(const Unit& unit, wire::AgentStatus status);
   // After one more picture of a robot that was lifted, or is not known where after a drive that failed; with the unit
   // locked: sends it on from where it stands, once that has shown.
   void go_on_after_looking(const Unit& unit);
@@ -124,7 +124,7 @@ class Driving : public LinkListener {
   // `no_way` says why no way leads there.
   Result<Plan> plan_detour(const Unit& unit, const MissionId& mission, int number, std::optional<wire::Reason>& no_way);
   void send_detour(const Unit& unit, const MissionId& mission, const wire::Reason& reason, int number);
-  void heard_refusal(RobotUnit& unit, const wire::MissionRefused& refusal);
+  void received_refusal(RobotUnit& unit, const wire::MissionRefused& refusal);
   void welcome(const Unit& unit, const std::shared_ptr<AgentLink>& link);
   // Looks at the newest picture: takes it up, sees where it was taken, and keeps and tells what has shown.
   void look(const Unit& unit);

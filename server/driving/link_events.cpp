@@ -25,10 +25,10 @@ std::shared_ptr<SocketHandler> Driving::open_link(const RobotId& id) {
   return std::make_shared<AgentLink>(*this, id, clock_);
 }
 
-void Driving::heard(const std::shared_ptr<AgentLink>& link, wire::AgentMessage message) {
+void Driving::received(const std::shared_ptr<AgentLink>& link, wire::AgentMessage message) {
   const auto found = find(link->robot());
   if (!found) return link->close(kClosePolicy, "this robot was removed");
-  if (auto* hello = std::get_if<wire::Hello>(&message)) return heard_hello(*found, link, std::move(*hello));
+  if (auto* hello = std::get_if<wire::Hello>(&message)) return received_hello(*found, link, std::move(*hello));
   RobotUnit& unit = **found;
   const std::scoped_lock lock(unit.mutex);
   if (unit.link != link) return;  // an older connection, on its way out
@@ -37,15 +37,15 @@ void Driving::heard(const std::shared_ptr<AgentLink>& link, wire::AgentMessage m
     unit.waiting_frame = unit.frame;
     begin_looking(*found);
   } else if (auto* status = std::get_if<wire::AgentStatus>(&message)) {
-    heard_status(*found, std::move(*status));
+    received_status(*found, std::move(*status));
   } else if (auto* refusal = std::get_if<wire::MissionRefused>(&message)) {
-    heard_refusal(unit, *refusal);
+    received_refusal(unit, *refusal);
   } else if (auto* stopped = std::get_if<wire::Stopped>(&message)) {
     spdlog::info("robot {} has stopped for stop {}", unit.id.str(), stopped->stop_id);
   }
 }
 
-void Driving::heard_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello) {
+void Driving::received_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello) {
   {
     const std::scoped_lock lock(unit->mutex);
     if (unit->under_way) stop_robot(*unit, "", {ReasonCode::kRobotConnectedAnew}, "server");
@@ -88,7 +88,7 @@ void Driving::welcome(const Unit& unit, const std::shared_ptr<AgentLink>& link) 
   tell(*unit);
 }
 
-void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
+void Driving::received_status(const Unit& found, wire::AgentStatus status) {
   RobotUnit& unit = *found;
   unit.status_at = clock_.steady();
   unit.status = std::move(status);
@@ -166,7 +166,7 @@ void Driving::heard_status(const Unit& found, wire::AgentStatus status) {
   tell(unit);
 }
 
-void Driving::heard_refusal(RobotUnit& unit, const wire::MissionRefused& refusal) {
+void Driving::received_refusal(RobotUnit& unit, const wire::MissionRefused& refusal) {
   if (!unit.under_way || unit.mission->id != refusal.mission) return;
   end_mission(unit, wire::MissionState::kRefused, refusal.reason);
   tell(unit);

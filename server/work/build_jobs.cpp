@@ -27,7 +27,7 @@ BuildJobs::BuildJobs(db::Store& store, MapService& maps, EventHub& events, const
   } else {
     spdlog::error("unfinished jobs cannot be read: {}", unfinished.error().message);
   }
-  // Drives that were kept just before the server ended, and no job had heard of.
+  // Drives that were kept just before the server ended, and no job knew of.
   if (const auto known = store_.maps()) {
     for (const db::MapRecord& map : *known) look_for_drives(map.id);
   }
@@ -247,11 +247,11 @@ Result<wire::JobState> BuildJobs::build(wire::JobView& job, const std::stop_toke
 }
 
 pipeline::ProgressSink BuildJobs::progress_of(wire::JobView& job) {
-  return [this, &job, told = clock_.steady() - kTellEvery](const pipeline::BuildProgress& now) mutable {
+  return [this, &job, reported_at = clock_.steady() - kTellEvery](const pipeline::BuildProgress& now) mutable {
     const auto time = clock_.steady();
     const bool next_stage = now.stage != job.stage;
-    if (!next_stage && time - told < kTellEvery) return;
-    told = time;
+    if (!next_stage && time - reported_at < kTellEvery) return;
+    reported_at = time;
     job.stage = now.stage;
     job.share = kBuildShare * std::clamp(now.share, 0.0, 1.0);
     tell(job);

@@ -37,7 +37,7 @@ Status answer_each(const PicturePairs& pairs, const std::string& command, const 
   }
   const std::filesystem::path folder = std::filesystem::path(pairs.pairs).parent_path();
   for (const std::vector<std::string>& row : table->rows) {
-    if (const Status told = answer(row[*current], row[*target], folder); !told) return told;
+    if (const Status answered = answer(row[*current], row[*target], folder); !answered) return answered;
   }
   return {};
 }

@@ -106,13 +106,13 @@ void add_edges(const TopologicalMap& map, Numbers& numbers, std::vector<Link>& l
   const auto places = place_indices(map);
   // Of a way whose direction nobody knows one edge counts: out and back, each taken to lead ahead, would pull each
   // other short.
-  std::set<std::pair<PlaceId, PlaceId>> told;
+  std::set<std::pair<PlaceId, PlaceId>> counted;
   for (const Edge& edge : map.edges) {
-    if (edge.bearing_rad) told.insert(std::minmax(edge.from, edge.to));
+    if (edge.bearing_rad) counted.insert(std::minmax(edge.from, edge.to));
   }
   for (const Edge& edge : map.edges) {
     if (edge.shortcut) continue;  // what it says, it has from a layout
-    if (!edge.bearing_rad && !told.insert(std::minmax(edge.from, edge.to)).second) continue;
+    if (!edge.bearing_rad && !counted.insert(std::minmax(edge.from, edge.to)).second) continue;
     const auto ends = ends_of(edge, places);
     if (!ends || ends->from == ends->to) continue;
     double length_m = edge.length_m;

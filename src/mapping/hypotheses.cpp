@@ -154,18 +154,19 @@ void collect_evidence(std::span<LoopHypothesis> hypotheses, std::span<const Subc
   const auto position = [&](int subcluster) {
     return position_of[static_cast<std::size_t>(subclusters[static_cast<std::size_t>(subcluster)].prototype)];
   };
-  HypothesisGrid speaking(config.neighbour_threshold_images);
+  HypothesisGrid counted(config.neighbour_threshold_images);
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-    // The way is one witness: each hypothesis has heard it once, so neighbours only pass on what they look like.
+    // The way is one piece of evidence, which each hypothesis has had once, so neighbours only pass on what they look
+    // like.
     if (hypotheses[i].way.verdict == TrackVerdict::kContradicts) continue;
-    speaking.add(i, position(hypotheses[i].a), position(hypotheses[i].b));
+    counted.add(i, position(hypotheses[i].a), position(hypotheses[i].b));
   }
   for (LoopHypothesis& hypothesis : hypotheses) {
     hypothesis.after = hypothesis.before;
     const bool excluded = hypothesis.way.verdict == TrackVerdict::kContradicts;
-    const auto heard =
-        excluded ? std::vector<std::size_t>() : speaking.around(position(hypothesis.a), position(hypothesis.b));
-    for (const std::size_t other : heard) {
+    const auto nearby =
+        excluded ? std::vector<std::size_t>() : counted.around(position(hypothesis.a), position(hypothesis.b));
+    for (const std::size_t other : nearby) {
       const LoopHypothesis& neighbour = hypotheses[other];
       if (&neighbour == &hypothesis) continue;
       const double distance = std::abs(position(hypothesis.a) - position(neighbour.a)) +

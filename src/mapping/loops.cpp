@@ -200,9 +200,9 @@ class Judgement {
 };
 
 std::vector<int> Judgement::decide_by(std::vector<LoopHypothesis>& hypotheses, const Witnesses& witnesses) const {
-  std::vector<LoopHypothesis> told;  // why loops were believed that are taken back
+  std::vector<LoopHypothesis> taken_back;  // why loops were believed that are taken back
   for (LoopHypothesis& hypothesis : hypotheses) {
-    if (hypothesis.taken_back) told.push_back(hypothesis);
+    if (hypothesis.taken_back) taken_back.push_back(hypothesis);
     hypothesis.before = hypothesis.after = evidence(hypothesis.similarity, config_.hypotheses.own_weight);
     hypothesis.reliability = 1.0;
   }
@@ -228,7 +228,7 @@ std::vector<int> Judgement::decide_by(std::vector<LoopHypothesis>& hypotheses, c
   if (!config_.sources.neighbours) asked.neighbour_threshold_images = 0.0;
   collect_evidence(hypotheses, parts_, positions_, asked);
   std::vector<int> place_of_part = merge_accepted(static_cast<int>(parts_.size()), hypotheses, apart_);
-  auto next = told.begin();
+  auto next = taken_back.begin();
   for (LoopHypothesis& hypothesis : hypotheses) {
     if (!hypothesis.taken_back) continue;
     hypothesis.before = next->before;

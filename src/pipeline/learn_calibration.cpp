@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kRunLength = 3;
 constexpr std::size_t kMostRuns = 100;
 
-/// The place of each image; -1 for one that a person took out, -2 for prototypes, which the map has by heart.
+/// The place of each image; -1 for one that a person took out, -2 for prototypes, whose places the map knows.
 constexpr int kPrototype = -2;
 std::vector<int> place_of_images(const map::TopologicalMap& map) {
   std::vector<int> place_of(map.images.size(), -1);
@@ -89,22 +89,22 @@ Result<std::vector<localisation::CalibrationSample>> samples_of(const map::Topol
 }
 
 /// So many samples with beliefs as these hold, evenly drawn, of which a calibration is true.
-std::vector<localisation::CalibrationSample> samples_as_told(const map::BeliefCalibration& calibration,
-                                                             std::span<const localisation::CalibrationSample> like,
-                                                             std::size_t count) {
+std::vector<localisation::CalibrationSample> calibrated_samples(const map::BeliefCalibration& calibration,
+                                                                std::span<const localisation::CalibrationSample> like,
+                                                                std::size_t count) {
   std::vector<double> shares;
   for (const localisation::CalibrationSample& sample : like) shares.push_back(sample.near_share);
   std::ranges::sort(shares);
-  std::vector<localisation::CalibrationSample> told;
+  std::vector<localisation::CalibrationSample> samples;
   double right = 0.5;  // so many are to be right up to here, and not yet said
   for (std::size_t i = 0; i < count; ++i) {
     const double share = shares[i * shares.size() / count];
     right += localisation::calibrated(calibration, share);
     const bool near = right >= 1.0;
     if (near) right -= 1.0;
-    told.push_back({share, near});
+    samples.push_back({share, near});
   }
-  return told;
+  return samples;
 }
 
 }  // namespace
@@ -131,8 +131,8 @@ Result<map::BeliefCalibration> relearn_calibration(const map::TopologicalMap& ma
   if (samples->empty()) return map.calibration;
   const auto asked = std::ranges::count_if(std::span(place_of).first(old), [](int place) { return place >= 0; });
   const std::size_t before = std::min(static_cast<std::size_t>(asked), kMostRuns * kRunLength);
-  const std::vector<localisation::CalibrationSample> told = samples_as_told(map.calibration, *samples, before);
-  samples->insert(samples->end(), told.begin(), told.end());
+  const std::vector<localisation::CalibrationSample> earlier = calibrated_samples(map.calibration, *samples, before);
+  samples->insert(samples->end(), earlier.begin(), earlier.end());
   return localisation::fit_calibration(*samples);
 }
 

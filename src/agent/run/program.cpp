@@ -113,11 +113,11 @@ Status upload(const UploadCommand& options) {
   const auto token = read_token(options.server.token_file);
   if (!token) return pass_on(token);
   RestClient server(*address, *token);
-  int told = -1;
+  int reported = -1;
   const auto progress = [&](double share) {
     const int tenths = static_cast<int>(share * 10.0);
-    if (tenths == told) return;
-    told = tenths;
+    if (tenths == reported) return;
+    reported = tenths;
     std::fprintf(stderr, "uploading: %d %%\n", tenths * 10);
   };
   const auto tour = upload_tour(server, options.upload, progress);

@@ -189,11 +189,12 @@ std::string draw_strip(const BuiltMap& built, const ReportFacts& facts) {
 }
 
 std::string draw_masses(const map::Masses& masses, const std::string& words) {
-  const std::string told = words + ": for " + number(masses.is_true, 2) + ", unknown " + number(masses.unknown, 2) +
-                           ", against " + number(masses.is_false, 2);
+  const std::string label = words + ": for " + number(masses.is_true, 2) + ", unknown " + number(masses.unknown, 2) +
+                            ", against " + number(masses.is_false, 2);
   const double yes = 200.0 * std::clamp(masses.is_true, 0.0, 1.0);
   const double no = 200.0 * std::clamp(masses.is_false, 0.0, 1.0);
-  return "<svg class=\"masses\" viewBox=\"0 0 200 12\" preserveAspectRatio=\"none\" role=\"img\" aria-label=\"" + told +
+  return "<svg class=\"masses\" viewBox=\"0 0 200 12\" preserveAspectRatio=\"none\" role=\"img\" aria-label=\"" +
+         label +
          "\" xmlns=\"http://www.w3.org/2000/svg\"><rect class=\"unknown\" width=\"200\" height=\"12\"/>"
          "<rect class=\"for\" width=\"" +
          number(yes, 1) + "\" height=\"12\"/><rect class=\"against\" x=\"" + number(200.0 - no, 1) + "\" width=\"" +
@@ -209,18 +210,18 @@ std::string draw_visits(const ReportFacts& facts) {
   }
   while (places.size() > 1 && places.back() == 0) places.pop_back();
   const int most = std::max(1, *std::ranges::max_element(places));
-  std::string told;
+  std::string label;
   std::string svg;
   for (int i = 0; i < static_cast<int>(places.size()); ++i) {
     const std::string often = i == 0 ? "once" : std::to_string(i + 1) + (i + 1 == kMost ? " times or more" : " times");
     const double top = kBar * i;
-    told += (i == 0 ? "" : ", ") + std::to_string(places[at(i)]) + " " + often;
+    label += (i == 0 ? "" : ", ") + std::to_string(places[at(i)]) + " " + often;
     svg += words(118.0, top + 16.0, "end", often) + "<rect class=\"bar\" x=\"126\" y=\"" + number(top + 4.0, 0) +
            "\" width=\"" + number(320.0 * places[at(i)] / most, 1) + "\" height=\"16\"/>" +
            words(132.0 + 320.0 * places[at(i)] / most, top + 16.0, "start", std::to_string(places[at(i)]));
   }
   return "<svg class=\"bars\" viewBox=\"0 0 500 " + number(kBar * static_cast<double>(places.size()), 0) +
-         "\" role=\"img\" aria-label=\"Places by number of visits: " + told +
+         "\" role=\"img\" aria-label=\"Places by number of visits: " + label +
          "\" xmlns=\"http://www.w3.org/2000/svg\">" + svg + "</svg>\n";
 }
 

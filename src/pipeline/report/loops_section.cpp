@@ -150,7 +150,7 @@ std::string loops_section(const BuiltMap& built, const ReportFacts& facts,
       std::to_string(kMostLines) +
       " of them. The masses tell how much speaks for one place, how much against, and how much nobody knows, before "
       "and "
-      "after the hypotheses nearby were heard.</p>\n";
+      "after the evidence of the hypotheses nearby.</p>\n";
   const auto images = map::image_indices(map);
   const auto ends = [&](int index) { return ends_text(map, facts, images, map.hypotheses[at(index)]); };
   if (pictures.size() < map.hypotheses.size()) {
