@@ -59,7 +59,7 @@ class MovingObstacleTest : public ::testing::Test {
   std::normal_distribution<double> noise_m_{0.0, 0.01};
 };
 
-TEST_F(MovingObstacleTest, NothingStirsWhileTheRobotStandsOrTurnsBeforeAThing) {
+TEST_F(MovingObstacleTest, NothingMovesWhileTheRobotStandsOrTurnsBeforeAThing) {
   for (int k = 0; k < 200; ++k) {
     if (k >= 100) pose_.theta_rad += 0.12 * std::sin(0.05 * k);
     sweep();
@@ -67,7 +67,7 @@ TEST_F(MovingObstacleTest, NothingStirsWhileTheRobotStandsOrTurnsBeforeAThing) {
   }
 }
 
-TEST_F(MovingObstacleTest, NothingStirsWhileTheRobotDrivesByAThing) {
+TEST_F(MovingObstacleTest, NothingMovesWhileTheRobotDrivesByAThing) {
   for (int k = 0; k < 100; ++k) {
     pose_ = {-2.0 + 0.03 * k, -0.6, 0.01 * k};
     sweep();
@@ -118,7 +118,7 @@ TEST_F(MovingObstacleTest, ASweepWithoutRaysOrStepsSaysNothing) {
   EXPECT_FALSE(state_.seen_ms);
 }
 
-TEST_F(MovingObstacleTest, WhatStirsFarOffDoesNotStandInTheWay) {
+TEST_F(MovingObstacleTest, WhatMovesFarOffDoesNotStandInTheWay) {
   pose_.x_m = -3.0;
   for (int k = 0; k < 60; ++k) {
     person_.x() = 1.2 + std::sin(0.3 * k);

@@ -27,7 +27,7 @@ TEST(MemoryJson, KeepsWhatOutlivesTheBeginningOfAMission) {
   EXPECT_EQ(read->drive, wire::DriveState::kIdle) << "there is no mission before the first step";
 }
 
-TEST(MemoryJson, KeepsTheWayBackAndWhoStirredToTheLastBit) {
+TEST(MemoryJson, KeepsTheWayBackAndTheMovingObstacleToTheLastBit) {
   constexpr float kNothing_m = std::numeric_limits<float>::infinity();
   driving::DrivingState before;
   before.refuses_until_ms = 4711;
