@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { ComponentType } from 'preact';
 import { useEffect } from 'preact/hooks';
-import { connection, findOutWho, me, meError, newBuild, now_ms, wantGraph } from './api/house';
+import { connection, findOutWho, me, meError, newBuild, now_ms, wantGraph } from './api/server';
 import { Brand } from './components/brand';
 import { Icon } from './components/icons';
 import { Notice, Waiting } from './components/notice';

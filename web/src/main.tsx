@@ -4,7 +4,7 @@ import '@fontsource/atkinson-hyperlegible/latin-700.css';
 import '@fontsource/atkinson-hyperlegible/latin-ext-400.css';
 import '@fontsource/atkinson-hyperlegible/latin-ext-700.css';
 import { render } from 'preact';
-import { startHouse } from './api/house';
+import { startServerConnection } from './api/server';
 import { App } from './app';
 import './styles/tokens.css';
 import './styles/base.css';
@@ -14,6 +14,6 @@ import './styles/go.css';
 import './styles/map.css';
 import './styles/pages.css';
 
-startHouse();
+startServerConnection();
 const root = document.getElementById('app');
 if (root) render(<App />, root);

@@ -77,14 +77,14 @@ describe('EventSocket', () => {
     events.subscribe(listen);
     sockets[0]?.say(snapshot(1));
     sockets[0]?.onclose?.({ code: 1006 });
-    expect(views.at(-1)).toMatchObject({ state: 'offline', house: { seq: 1 } });
+    expect(views.at(-1)).toMatchObject({ state: 'offline', server: { seq: 1 } });
     timers.shift()?.call();
     expect(sockets).toHaveLength(2);
     sockets[1]?.say({ type: 'map', v: 1, seq: 2, map: { id: 'm' } }); // a change without its snapshot
     expect(sockets[1]?.closed).toBe(true);
     timers.shift()?.call();
     sockets[2]?.say(snapshot(9));
-    expect(views.at(-1)).toMatchObject({ state: 'live', house: { seq: 9 } });
+    expect(views.at(-1)).toMatchObject({ state: 'live', server: { seq: 9 } });
   });
 
   it('waits longer after each failure, up to a bound, and starts small again once live', () => {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import { applyEvent, type HouseState } from './house_state';
-import type { HouseEvent } from './types';
+import { applyEvent, type ServerState } from './server_state';
+import type { ServerEvent } from './types';
 
 export type ConnectionState = 'closed' | 'connecting' | 'live' | 'offline';
 
@@ -20,7 +20,7 @@ export interface EventSocketOptions {
 
 export interface EventSocketView {
   state: ConnectionState;
-  house: HouseState | null;
+  server: ServerState | null;
   last_message_ms: number | null;
 }
 
@@ -38,7 +38,7 @@ export class EventSocket {
   private socket_: SocketLike | null = null;
   private cancelRetry_: (() => void) | null = null;
   private failures_ = 0;
-  private view_: EventSocketView = { state: 'closed', house: null, last_message_ms: null };
+  private view_: EventSocketView = { state: 'closed', server: null, last_message_ms: null };
 
   constructor(private readonly options_: EventSocketOptions) {}
 
@@ -54,7 +54,7 @@ export class EventSocket {
     return () => {
       if (!this.listeners_.delete(listener) || this.listeners_.size > 0) return;
       this.drop();
-      this.view_ = { state: 'closed', house: null, last_message_ms: null };
+      this.view_ = { state: 'closed', server: null, last_message_ms: null };
     };
   }
 
@@ -74,7 +74,7 @@ export class EventSocket {
   private connect(): void {
     this.cancelRetry_?.();
     this.cancelRetry_ = null;
-    this.change({ state: this.view_.house ? this.view_.state : 'connecting' });
+    this.change({ state: this.view_.server ? this.view_.state : 'connecting' });
     const socket = this.options_.open();
     this.socket_ = socket;
     socket.onmessage = (event) => this.receive(event.data);
@@ -87,18 +87,18 @@ export class EventSocket {
 
   private receive(data: unknown): void {
     const event = parseEvent(data);
-    const house = event ? applyEvent(this.socketHouse_, event, this.options_.now_ms()) : 'gap';
-    if (house === 'gap') {
+    const server = event ? applyEvent(this.socketState_, event, this.options_.now_ms()) : 'gap';
+    if (server === 'gap') {
       this.reconnect();
       return;
     }
-    this.socketHouse_ = house;
+    this.socketState_ = server;
     this.failures_ = 0;
-    this.change({ state: 'live', house, last_message_ms: this.options_.now_ms() });
+    this.change({ state: 'live', server, last_message_ms: this.options_.now_ms() });
   }
 
   // The state that this connection has told; what an earlier one told stays on screen until then, marked as old.
-  private socketHouse_: HouseState | null = null;
+  private socketState_: ServerState | null = null;
 
   private drop(): void {
     this.cancelRetry_?.();
@@ -112,7 +112,7 @@ export class EventSocket {
   }
 
   private lost(): void {
-    this.socketHouse_ = null;
+    this.socketState_ = null;
     const pause_ms = Math.min(kLongestRetryMs, kFirstRetryMs * 2 ** this.failures_);
     this.failures_ += 1;
     this.change({ state: 'offline' });
@@ -128,13 +128,13 @@ export class EventSocket {
 }
 
 /** A message as an event; null when it is none. Unknown kinds pass, so that a newer server can add some. */
-export function parseEvent(data: unknown): HouseEvent | null {
+export function parseEvent(data: unknown): ServerEvent | null {
   if (typeof data !== 'string') return null;
   try {
     const value: unknown = JSON.parse(data);
     if (typeof value !== 'object' || value === null) return null;
     const { type, seq } = value as { type?: unknown; seq?: unknown };
-    return typeof type === 'string' && typeof seq === 'number' ? (value as HouseEvent) : null;
+    return typeof type === 'string' && typeof seq === 'number' ? (value as ServerEvent) : null;
   } catch {
     return null;
   }

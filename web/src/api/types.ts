@@ -29,4 +29,4 @@ export type Tour = Schemas['Tour'];
 export type Sweep = Schemas['Sweep'];
 export type Edit = Schemas['Edit'];
 export type LoggedEdit = Schemas['LoggedEdit'];
-export type HouseEvent = Schemas['HouseEvent'];
+export type ServerEvent = Schemas['ServerEvent'];

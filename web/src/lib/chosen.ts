@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { computed, signal } from '@preact/signals';
-import { connection, graphs, now_ms } from '../api/house';
-import { statusAgeMs } from '../api/house_state';
+import { connection, graphs, now_ms } from '../api/server';
+import { statusAgeMs } from '../api/server_state';
 import type { MapInfo, Robot } from '../api/types';
 
 const kKey = 'homeward.robot';
@@ -25,8 +25,8 @@ export function choose(robot: string): void {
   }
 }
 
-export const robots = computed<readonly Robot[]>(() => connection.value.house?.robots ?? []);
-export const maps = computed<readonly MapInfo[]>(() => connection.value.house?.maps ?? []);
+export const robots = computed<readonly Robot[]>(() => connection.value.server?.robots ?? []);
+export const maps = computed<readonly MapInfo[]>(() => connection.value.server?.maps ?? []);
 export const connected = computed(() => connection.value.state === 'live');
 
 /** The robot that Go and STOP are about: the chosen one, else the first that is connected, else the first. */
@@ -48,5 +48,5 @@ export const chosenGraph = computed(() => {
 /** Milliseconds since the chosen robot was last heard of. */
 export const chosenAge = computed<number | null>(() => {
   const robot = chosen.value;
-  return robot ? statusAgeMs(robot, connection.value.house?.heard_ms[robot.id], now_ms.value) : null;
+  return robot ? statusAgeMs(robot, connection.value.server?.heard_ms[robot.id], now_ms.value) : null;
 });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
-import { findOutWho } from '../../api/house';
+import { findOutWho } from '../../api/server';
 import { Brand } from '../../components/brand';
 import { TextField } from '../../components/field';
 import { Notice } from '../../components/notice';

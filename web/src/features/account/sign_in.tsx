@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
-import { me, wasSignedOut } from '../../api/house';
+import { me, wasSignedOut } from '../../api/server';
 import { Brand } from '../../components/brand';
 import { TextField } from '../../components/field';
 import { Notice } from '../../components/notice';

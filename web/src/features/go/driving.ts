@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { signal } from '@preact/signals';
 import * as calls from '../../api/calls';
-import { connection, me } from '../../api/house';
+import { connection, me } from '../../api/server';
 import { asProblem } from '../../api/problem';
 import type { Lease } from '../../api/types';
 import { isActive, journeyOf, type Command, type Target } from './journey';
@@ -54,7 +54,7 @@ async function start(robot: string, lease_id: string, target: Target) {
 }
 
 function holderOf(robot: string): string | null {
-  return connection.peek().house?.robots.find((one) => one.id === robot)?.lease?.holder ?? null;
+  return connection.peek().server?.robots.find((one) => one.id === robot)?.lease?.holder ?? null;
 }
 
 async function ensureLease(robot: string, take_over: boolean): Promise<string> {
@@ -96,7 +96,7 @@ function drop(robot: string): void {
 async function renew(robot: string): Promise<void> {
   const held = leases.get(robot);
   if (!held) return;
-  const told = connection.peek().house?.robots.find((one) => one.id === robot);
+  const told = connection.peek().server?.robots.find((one) => one.id === robot);
   const journey = told ? journeyOf(told, commands.peek()[robot]) : null;
   const busy = journey !== null && (isActive(journey.phase) || journey.phase === 'asking');
   held.idle_since_ms = busy ? null : (held.idle_since_ms ?? Date.now());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { me } from '../../api/house';
+import { me } from '../../api/server';
 import { Icon } from '../../components/icons';
 import { Notice } from '../../components/notice';
 import { maps, robots } from '../../lib/chosen';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { signal } from '@preact/signals';
-import { connection, graphs, me, wantGraph } from '../../api/house';
+import { connection, graphs, me, wantGraph } from '../../api/server';
 import type { Graph, MapInfo, Robot } from '../../api/types';
 import { Notice, Waiting } from '../../components/notice';
 import { RobotPicker } from '../../components/robot_picker';
@@ -32,7 +32,7 @@ function hide(robot: string, journey: Journey): void {
 
 export function GoPage() {
   const robot = chosen.value;
-  if (connection.value.house === null) return <Waiting what="Asking the house …" />;
+  if (connection.value.server === null) return <Waiting what="Asking the server …" />;
   if (!robot)
     return (
       <>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { me } from '../../api/house';
+import { me } from '../../api/server';
 import type { Robot } from '../../api/types';
 import { Notice } from '../../components/notice';
 import type { Command } from './journey';

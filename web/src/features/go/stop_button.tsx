@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect } from 'preact/hooks';
-import { connection, now_ms } from '../../api/house';
+import { connection, now_ms } from '../../api/server';
 import { chosen, robots } from '../../lib/chosen';
 import { stop, stopState } from './stop';
 import { stopWords } from './stop_words';
@@ -24,7 +24,7 @@ export function StopButton() {
 
   const robot = chosen.value;
   if (!robot) return null;
-  const words = stopWords(stopState.value, robot, connection.value.house?.heard_ms[robot.id], now_ms.value);
+  const words = stopWords(stopState.value, robot, connection.value.server?.heard_ms[robot.id], now_ms.value);
   return (
     <section class="stop-dock" aria-label="Stop">
       <p class={words?.bad ? 'stop-word bad' : 'stop-word'} role="alert" data-testid="stop-word">

@@ -2,7 +2,7 @@
 import { signal } from '@preact/signals';
 import { useEffect, useMemo, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
-import { connection, graphs, me, wantGraph } from '../../api/house';
+import { connection, graphs, me, wantGraph } from '../../api/server';
 import { asProblem } from '../../api/problem';
 import type { Edit, Graph, MapInfo } from '../../api/types';
 import { Notice, Waiting } from '../../components/notice';
@@ -31,7 +31,7 @@ export function MapPage() {
   useEffect(() => {
     if (map && map.revision > 0) wantGraph(map);
   }, [map]);
-  if (connection.value.house === null) return <Waiting what="Asking the house …" />;
+  if (connection.value.server === null) return <Waiting what="Asking the server …" />;
   return (
     <>
       <div class="row apart">

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
-import { connection, me, now_ms } from '../../api/house';
-import { statusAgeMs } from '../../api/house_state';
+import { connection, me, now_ms } from '../../api/server';
+import { statusAgeMs } from '../../api/server_state';
 import type { Robot } from '../../api/types';
 import { Choice, TextField } from '../../components/field';
 import { Notice, Waiting } from '../../components/notice';
@@ -16,7 +16,7 @@ import { directionWord, stateTone, stateWord, whyStopped } from './robot_words';
 
 export function RobotsPage() {
   const mayInstall = atLeast(me.value?.role, 'installer');
-  if (connection.value.house === null) return <Waiting what="Asking the house …" />;
+  if (connection.value.server === null) return <Waiting what="Asking the server …" />;
   return (
     <>
       <h1>Robots</h1>
@@ -56,7 +56,7 @@ function RobotCard({ robot, mayInstall }: { robot: Robot; mayInstall: boolean })
 }
 
 function Facts({ robot }: { robot: Robot }) {
-  const age = statusAgeMs(robot, connection.value.house?.heard_ms[robot.id], now_ms.value);
+  const age = statusAgeMs(robot, connection.value.server?.heard_ms[robot.id], now_ms.value);
   const map =
     maps.value.find((one) => one.id === robot.map)?.name ?? (robot.map === null ? 'None' : robot.map);
   const { speed_mps = null, min_range_m = null, home = null } = robot.online ? robot : {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as calls from '../../api/calls';
-import { connection, me } from '../../api/house';
+import { connection, me } from '../../api/server';
 import { useCommand } from '../../lib/command';
 import { Notice } from '../../components/notice';
 import { atLeast } from '../../lib/roles';
@@ -18,7 +18,7 @@ export function SettingsPage() {
       <Account />
       {atLeast(user.role, 'admin') && <Users />}
       {atLeast(user.role, 'installer') && <Tokens />}
-      <p class="soft small">House server build: {connection.value.house?.build ?? 'unknown'}</p>
+      <p class="soft small">House server build: {connection.value.server?.build ?? 'unknown'}</p>
     </>
   );
 }

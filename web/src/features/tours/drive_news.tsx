@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as calls from '../../api/calls';
-import { connection } from '../../api/house';
+import { connection } from '../../api/server';
 import { sentence } from '../../api/problem';
 import type { Job, MapInfo, RefineMode } from '../../api/types';
 import { Choice } from '../../components/field';
@@ -29,7 +29,7 @@ export function driveNews(job: Job): string | null {
 
 /** What drives would teach a map, to be taken or discarded, or what they taught it. */
 export function DriveNews({ map, mayTake }: { map: MapInfo; mayTake: boolean }) {
-  const job = newestJob(connection.value.house?.jobs ?? [], map.id, ['refine']);
+  const job = newestJob(connection.value.server?.jobs ?? [], map.id, ['refine']);
   const { busy, problem, run } = useCommand();
   const news = job && driveNews(job);
   if (!job || !news) return null;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as calls from '../../api/calls';
-import { connection } from '../../api/house';
+import { connection } from '../../api/server';
 import { sentence } from '../../api/problem';
 import type { Job, MapInfo } from '../../api/types';
 import { Bar, Notice } from '../../components/notice';
@@ -40,7 +40,7 @@ export function noteWords(job: Job): string {
 
 /** How the building of a map goes, why it ended without one, or what is to be known of the one that it made. */
 export function BuildProgress({ map, mayCancel }: { map: MapInfo; mayCancel: boolean }) {
-  const job = newestJob(connection.value.house?.jobs ?? [], map.id);
+  const job = newestJob(connection.value.server?.jobs ?? [], map.id);
   const { busy, problem, run } = useCommand();
   if (!job) return null;
   const adds = job.kind === 'add';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as calls from '../../api/calls';
-import { me, socket } from '../../api/house';
+import { me, socket } from '../../api/server';
 import type { MapInfo, Tour } from '../../api/types';
 import { Loading } from '../../components/loading';
 import { Notice } from '../../components/notice';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
-import { applyEvent, statusAgeMs, type HouseState } from './house_state';
+import { applyEvent, statusAgeMs, type ServerState } from './server_state';
 import type { Mission, Robot } from './types';
 
 const robot: Robot = {
@@ -34,7 +34,7 @@ const mission: Mission = {
   by: 'anna',
 };
 
-function started(): HouseState {
+function started(): ServerState {
   const state = applyEvent(
     null,
     { type: 'snapshot', v: 1, seq: 7, build: 'b', robots: [robot], jobs: [], maps: [] },

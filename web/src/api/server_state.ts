@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { HouseEvent, Job, MapInfo, Robot } from './types';
+import type { ServerEvent, Job, MapInfo, Robot } from './types';
 
 /** Everything that the events tell, with when each robot was last heard of (this browser's clock). */
-export interface HouseState {
+export interface ServerState {
   readonly seq: number;
   readonly build: string;
   readonly robots: readonly Robot[];
@@ -15,7 +15,11 @@ export interface HouseState {
  * What an event makes of the state; 'gap' when the snapshot must be asked for. Each change tells its thing whole, and a slow
  * reader gets only the newest of each, so numbers may be left out; what is older than the snapshot is in it already.
  */
-export function applyEvent(state: HouseState | null, event: HouseEvent, now_ms: number): HouseState | 'gap' {
+export function applyEvent(
+  state: ServerState | null,
+  event: ServerEvent,
+  now_ms: number,
+): ServerState | 'gap' {
   if (event.type === 'snapshot') {
     return {
       seq: event.seq,

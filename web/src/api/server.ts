@@ -11,7 +11,7 @@ export const me = signal<User | null | undefined>(undefined);
 export const wasSignedOut = signal(false);
 /** Why it could not be found out who is signed in. */
 export const meError = signal<ProblemError | null>(null);
-export const connection = signal<EventSocketView>({ state: 'closed', house: null, last_message_ms: null });
+export const connection = signal<EventSocketView>({ state: 'closed', server: null, last_message_ms: null });
 /** A clock for ages on screen; one second is enough for people. */
 export const now_ms = signal(Date.now());
 /** True when the server was replaced by another build while this page was open. */
@@ -44,7 +44,7 @@ export async function findOutWho(): Promise<void> {
 const kSilenceMs = 12_000;
 
 /** Starts clock, events and their watchdog; called once by main. */
-export function startHouse(): void {
+export function startServerConnection(): void {
   calls.whenSignedOut(() => {
     if (me.peek()) wasSignedOut.value = true;
     me.value = null;
@@ -56,7 +56,7 @@ export function startHouse(): void {
     if (me.value && !unsubscribe) {
       unsubscribe = socket.subscribe((view) => {
         connection.value = view;
-        const build = view.house?.build ?? null;
+        const build = view.server?.build ?? null;
         firstBuild ??= build;
         if (build !== null && build !== firstBuild) newBuild.value = true;
       });
