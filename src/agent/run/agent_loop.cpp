@@ -28,6 +28,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kCycle = std::chrono::milliseconds(wire::kAgentCycle_ms);
 constexpr const char* kProgram = "homeward-agent";
+constexpr const char* kNotInRealTime =
+    "other programs on this computer may hold up the loop that drives, and then the robot stops: permit this program "
+    "to run in real time (CAP_SYS_NICE, or a real-time priority limit of 10)";
 
 /// Goes on while the machine sleeps, unlike the steady clock: one that wakes up knows that its permit has run out.
 driving::Milliseconds now_ms() {
@@ -95,6 +98,79 @@ class StandStill {
   driving::Driver& driver_;
 };
 
+/// What the driver's sensors say.
+driving::Inputs sensed(const driving::Reading& reading) {
+  driving::Inputs inputs;
+  inputs.odometry = reading.odometry;
+  inputs.sensors_now_ms = reading.t_ms;
+  if (reading.scan) inputs.scan = {reading.scan_t_ms.value_or(reading.t_ms), *reading.scan};
+  return inputs;
+}
+
+/// Messages of the driving step, which knows no time of day.
+void send(LinkClient& link, const std::vector<wire::AgentMessage>& messages) {
+  for (wire::AgentMessage message : messages) {
+    if (auto* stopped = std::get_if<wire::Stopped>(&message)) stopped->t_us = now_us();
+    link.send(message);
+  }
+}
+
+/// The joystick of the options; nothing if they name none.
+Result<std::unique_ptr<Joystick>> open_joystick(const AgentOptions& options) {
+  if (options.joystick.empty()) return std::unique_ptr<Joystick>();
+  return Joystick::open(options.joystick, options.log);
+}
+
+/// What writes recordings; nothing if the options want none.
+Result<std::unique_ptr<recording::Recorder>> open_recorder(const AgentOptions& options,
+                                                           const camera::CameraConfig& camera,
+                                                           const features::FeatureConfig& features,
+                                                           const driving::DrivingConfig& config) {
+  if (!options.record) return std::unique_ptr<recording::Recorder>();
+  return recording::Recorder::create(*options.record, {name_with_version(kProgram), camera, features, config},
+                                     options.log);
+}
+
+wire::Hello hello_of(const AgentOptions& options, const camera::CameraConfig& camera, const driving::Body& body) {
+  wire::Hello hello;
+  hello.agent = name_with_version(kProgram);
+  hello.robot_name = options.robot_name;
+  hello.session = random_session();
+  hello.camera = camera;
+  hello.radius_m = std::min(wire::kMostRadius_m, swept_radius_m(body.outline));
+  hello.max_speed_mps = body.max_speed_mps;
+  return hello;
+}
+
+/// Says in the log and to the server how the robot fares: at each change, and every so often.
+class Reporting {
+ public:
+  Reporting(const AgentOptions& options, LinkClient& link) : options_(options), link_(link) {}
+
+  void report(const driving::DrivingState& state, const driving::DrivingConfig& config, const driving::Reading& reading,
+              driving::Milliseconds now) {
+    const bool changed = state.drive != state_;
+    if (changed)
+      options_.log(std::string(wire::drive_state_name(state.drive)) +
+                   (state.reason ? ": " + wire::english(*state.reason) : ""));
+    state_ = state.drive;
+    const bool asks = driving::open_question(state, config, reading.t_ms).has_value();
+    const bool asks_anew = asks != std::exchange(asks_, asks);
+    if (changed || asks_anew || now - sent_ms_ >= wire::kStatusEvery_ms) {
+      sent_ms_ = now;
+      link_.send(status_of(state, config, reading, ++seq_));
+    }
+  }
+
+ private:
+  const AgentOptions& options_;
+  LinkClient& link_;
+  std::int64_t seq_ = 0;
+  driving::Milliseconds sent_ms_ = 0;
+  wire::DriveState state_ = wire::DriveState::kIdle;
+  bool asks_ = false;
+};
+
 }  // namespace
 
 Status run_agent(driving::Driver& driver, const AgentOptions& options, const std::stop_token& stop) {
@@ -107,52 +183,28 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
   config.body = driver.body();
   config.feature_config_id = features::feature_config_id(features);
 
-  std::unique_ptr<Joystick> joystick;
-  if (!options.joystick.empty()) {
-    auto opened = Joystick::open(options.joystick, options.log);
-    if (!opened) return pass_on(opened);
-    joystick = std::move(*opened);
-  }
+  const auto joystick = open_joystick(options);
+  if (!joystick) return pass_on(joystick);
 
-  wire::Hello hello;
-  hello.agent = name_with_version(kProgram);
-  hello.robot_name = options.robot_name;
-  hello.session = random_session();
-  hello.camera = driver.camera();
-  hello.radius_m = std::min(wire::kMostRadius_m, swept_radius_m(config.body.outline));
-  hello.max_speed_mps = config.body.max_speed_mps;
   const StandStill at_the_end(driver);
-  LinkClient link(options.server, options.robot, options.token, std::move(hello), options.log);
+  LinkClient link(options.server, options.robot, options.token, hello_of(options, driver.camera(), config.body),
+                  options.log);
   std::int64_t frame_seq = 0;
   Looker looker(driver, *eye, now_ms, [&](const recording::CameraPicture& picture) {
     if (link.up()) link.send(wire::Frame{++frame_seq, now_us(), *picture.bytes, picture.odometry});
   });
-  std::unique_ptr<recording::Recorder> recorder;
-  if (options.record) {
-    auto created = recording::Recorder::create(
-        *options.record, {name_with_version(kProgram), driver.camera(), features, config}, options.log);
-    if (!created) return pass_on(created);
-    recorder = std::move(*created);
-  }
+  const auto recorder = open_recorder(options, driver.camera(), features, config);
+  if (!recorder) return pass_on(recorder);
 
-  if (!run_in_real_time()) {
-    options.log(
-        "other programs on this computer may hold up the loop that drives, and then the robot stops: permit this "
-        "program "
-        "to run in real time (CAP_SYS_NICE, or a real-time priority limit of 10)");
-  }
+  if (!run_in_real_time()) options.log(kNotInRealTime);
   driving::DrivingState state;
-  std::int64_t status_seq = 0;
-  driving::Milliseconds status_ms = 0;
-  wire::DriveState reported_state = wire::DriveState::kIdle;
-  bool reported_question = false;
+  Reporting reporting(options, link);
   auto next_cycle = Clock::now();
   while (!stop.stop_requested()) {
     if (auto trouble = looker.trouble()) return tl::unexpected<Error>(*trouble);
     const driving::Reading reading = driver.read();
-    driving::Inputs inputs;
-    inputs.odometry = reading.odometry;
-    inputs.rider = rider_hand(reading, joystick.get(), config.body);
+    driving::Inputs inputs = sensed(reading);
+    inputs.rider = rider_hand(reading, joystick->get(), config.body);
     inputs.link_up = link.up();
     inputs.messages = link.take_messages();
     recording::PictureBytes picture;
@@ -161,33 +213,18 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
       picture = std::move(looked_at->bytes);
     }
     const driving::Milliseconds now = now_ms();
-    inputs.sensors_now_ms = reading.t_ms;
-    if (reading.scan) inputs.scan = {reading.scan_t_ms.value_or(reading.t_ms), *reading.scan};
     for (const wire::ServerMessage& message : inputs.messages) {
       if (const auto* welcome = std::get_if<wire::Welcome>(&message)) looker.set_show_period(welcome->frame_period_ms);
     }
     const driving::Outputs outputs =
-        recorder ? recorder->step(state, inputs, picture, now) : driving::step(state, inputs, config, now);
+        *recorder ? (*recorder)->step(state, inputs, picture, now) : driving::step(state, inputs, config, now);
     // Frozen while it thought, it must not do what it thought before; the next step says why it stopped.
     const bool held_up = now_ms() - now > config.loop_silence_ms;
     driver.command(held_up ? driving::Motion{} : outputs.motion);
-    for (wire::AgentMessage message : outputs.messages) {
-      if (auto* stopped = std::get_if<wire::Stopped>(&message)) stopped->t_us = now_us();
-      link.send(message);
-    }
+    send(link, outputs.messages);
     looker.set_looking(state.drive == wire::DriveState::kDriving);
     looker.set_features_wanted(driving::wants_features(state.follow));
-    const bool changed = state.drive != reported_state;
-    if (changed)
-      options.log(std::string(wire::drive_state_name(state.drive)) +
-                  (state.reason ? ": " + wire::english(*state.reason) : ""));
-    reported_state = state.drive;
-    const bool asks = driving::open_question(state, config, reading.t_ms).has_value();
-    const bool asks_anew = asks != std::exchange(reported_question, asks);
-    if (changed || asks_anew || now - status_ms >= wire::kStatusEvery_ms) {
-      status_ms = now;
-      link.send(status_of(state, config, reading, ++status_seq));
-    }
+    reporting.report(state, config, reading, now);
     if (Clock::now() >= next_cycle) next_cycle = std::max(next_cycle + kCycle, Clock::now());
     // What is received is obeyed at once, and its silence counts from when it came.
     link.wait_for_message(next_cycle);
