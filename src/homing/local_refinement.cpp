@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 
 namespace homeward::homing {
 namespace {
@@ -91,6 +92,37 @@ Eigen::Matrix<double, 2, 3> across(const Eigen::Vector3d& bearing, double spread
   return rows;
 }
 
+/// Levenberg-Marquardt; whether it converged to numbers. `order`: which parameters are eliminated first.
+bool solve(ceres::Problem& problem, const std::shared_ptr<ceres::ParameterBlockOrdering>& order) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.linear_solver_ordering = order;
+  options.max_num_iterations = 12;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return summary.IsSolutionUsable();
+}
+
+/// The covariance of one pose of a solved problem; nothing where it is no numbers.
+std::optional<Eigen::Matrix3d> covariance_of(ceres::Problem& problem, const std::array<double, 3>& pose) {
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::SPARSE_QR;
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+  options.num_threads = 1;
+  ceres::Covariance covariance(options);
+  std::array<double, 9> values{};
+  const std::vector<std::pair<const double*, const double*>> wanted = {{pose.data(), pose.data()}};
+  if (!covariance.Compute(wanted, &problem) ||
+      !covariance.GetCovarianceBlock(pose.data(), pose.data(), values.data())) {
+    return std::nullopt;
+  }
+  const Eigen::Matrix3d result = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data());
+  if (!result.allFinite()) return std::nullopt;
+  return result;
+}
+
 constexpr double kLoss = 2.0;  // standard deviations beyond which a bearing loses weight
 
 }  // namespace
@@ -138,30 +170,11 @@ std::optional<RefinementResult> refine_local_map(RefinementProblem& given) {
   }
   for (auto& pose : poses) order->AddElementToGroup(pose.data(), 1);
 
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_SCHUR;
-  options.linear_solver_ordering = order;
-  options.max_num_iterations = 12;
-  options.num_threads = 1;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable()) return std::nullopt;
+  if (!solve(problem, order)) return std::nullopt;
+  const auto covariance = covariance_of(problem, poses.back());
+  if (!covariance) return std::nullopt;
 
-  RefinementResult result;
-  ceres::Covariance::Options covariance_options;
-  covariance_options.algorithm_type = ceres::SPARSE_QR;
-  covariance_options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
-  covariance_options.num_threads = 1;
-  ceres::Covariance covariance(covariance_options);
-  std::array<double, 9> values{};
-  const std::vector<std::pair<const double*, const double*>> wanted = {{poses.back().data(), poses.back().data()}};
-  if (!covariance.Compute(wanted, &problem) ||
-      !covariance.GetCovarianceBlock(poses.back().data(), poses.back().data(), values.data())) {
-    return std::nullopt;
-  }
-  result.covariance = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data());
-  if (!result.covariance.allFinite()) return std::nullopt;
+  RefinementResult result{*covariance, 0};
   for (auto* block : last_blocks) {
     double cost = 0.0;
     std::array<double, 2> residual{};

@@ -126,6 +126,32 @@ Result<TargetSeen> VisualHoming::update(const features::Appearance& current, con
   return seen;
 }
 
+TargetSeen VisualHoming::seen_by_map(const LocalPose& pose, const std::vector<Sighting>& all,
+                                     const std::vector<int>& inliers, const std::optional<Pose2>& odometry,
+                                     const tracking::TrackingFrame& frame) {
+  misses_ = 0;
+  LocalPose best = pose;
+  if (map_.wants(pose.target_from_robot)) {
+    const std::vector<Sighting> agreeing = map_.agreeing(all, pose.target_from_robot);
+    if (const auto refined = map_.add(agreeing, odometry, pose.target_from_robot)) {
+      best = *refined;
+      constexpr double kOddsOfAgreeing = 0.7;  // natural logarithm
+      constexpr double kMostOdds = 5.0;
+      log_odds_ = std::min(kMostOdds, log_odds_ + kOddsOfAgreeing);
+    }
+  } else {
+    best.covariance += map_.last_covariance();
+  }
+  std::vector<Sighting> agreeing;
+  agreeing.reserve(inliers.size());
+  for (const int inlier : inliers) agreeing.push_back(all[static_cast<std::size_t>(inlier)]);
+  if (frame.has_value()) tracks_.anchor(frame, agreeing);
+  keep(best, odometry);
+  TargetSeen seen = answer(best, nullptr, static_cast<int>(all.size()));
+  seen.tracks = tracks_.counts();
+  return seen;
+}
+
 Result<TargetSeen> VisualHoming::recognise(const features::Appearance& current, const features::Appearance& target,
                                            const std::optional<Pose2>& odometry,
                                            const std::optional<DistancePrior>& prior,
@@ -140,29 +166,7 @@ Result<TargetSeen> VisualHoming::recognise(const features::Appearance& current, 
                        config_.columns);
     std::vector<int> inliers;
     const auto pose = map_.pose_of(all, expected(odometry), seed, &inliers);
-    if (pose) {
-      misses_ = 0;
-      LocalPose best = *pose;
-      if (map_.wants(pose->target_from_robot)) {
-        const std::vector<Sighting> agreeing = map_.agreeing(all, pose->target_from_robot);
-        if (const auto refined = map_.add(agreeing, odometry, pose->target_from_robot)) {
-          best = *refined;
-          constexpr double kOddsOfAgreeing = 0.7;  // natural logarithm
-          constexpr double kMostOdds = 5.0;
-          log_odds_ = std::min(kMostOdds, log_odds_ + kOddsOfAgreeing);
-        }
-      } else {
-        best.covariance += map_.last_covariance();
-      }
-      std::vector<Sighting> agreeing;
-      agreeing.reserve(inliers.size());
-      for (const int inlier : inliers) agreeing.push_back(all[static_cast<std::size_t>(inlier)]);
-      if (frame.has_value()) tracks_.anchor(frame, agreeing);
-      keep(best, odometry);
-      TargetSeen seen = answer(best, nullptr, static_cast<int>(all.size()));
-      seen.tracks = tracks_.counts();
-      return seen;
-    }
+    if (pose) return seen_by_map(*pose, all, inliers, odometry, frame);
     if (++misses_ < config_.patience) {
       return fail(ErrorCode::kTooLittleSupport,
                   "The picture does not agree with what is known of the target's features.");

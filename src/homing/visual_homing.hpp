@@ -88,6 +88,9 @@ class VisualHoming {
   [[nodiscard]] TargetSeen answer(const LocalPose& pose, const HomeVector* fresh, int matches) const;
   [[nodiscard]] std::optional<Pose2> expected(const std::optional<Pose2>& odometry) const;
   void keep(const LocalPose& pose, const std::optional<Pose2>& odometry);
+  /// The target by a pose against the map: the map grows with what agrees, and tracks begin. `inliers`: of `all`.
+  TargetSeen seen_by_map(const LocalPose& pose, const std::vector<Sighting>& all, const std::vector<int>& inliers,
+                         const std::optional<Pose2>& odometry, const tracking::TrackingFrame& frame);
   Result<TargetSeen> recognise(const features::Appearance& current, const features::Appearance& target,
                                const std::optional<Pose2>& odometry, const std::optional<DistancePrior>& prior,
                                const tracking::TrackingFrame& frame, std::uint64_t seed);

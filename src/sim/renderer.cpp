@@ -91,6 +91,20 @@ std::vector<float> texels_per_metre(const Scene& scene, const std::vector<MipTex
   return result;
 }
 
+/// What a ray shows where one of these `things`, each in its own light, is nearer than what it has met. `hit`: where
+/// the ray meets one of them.
+template <class Thing, class HitThing>
+void hide_behind(const std::vector<Thing>& things, const std::vector<Eigen::Array3f>& light_on, const HitThing& hit,
+                 const Eigen::Vector3f& viewpoint_m, const Eigen::Vector3f& direction, float& nearest_m,
+                 Eigen::Array3f& light) {
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    const auto met = hit(things[i], viewpoint_m, direction);
+    if (!met || met->distance_m >= nearest_m) continue;
+    nearest_m = met->distance_m;
+    light = met->albedo * light_on[i];
+  }
+}
+
 }  // namespace
 
 struct LitWorld::Parts {
@@ -279,18 +293,8 @@ Image Renderer::render(const Pose2& robot, const std::vector<Person>& people, st
           light = parts.shade(*hits[i], packet.directions[i]);
           nearest_m = hits[i]->distance_m;
         }
-        for (std::size_t p = 0; p < people.size(); ++p) {
-          const auto met = hit_person(people[p], viewpoint_m, packet.directions[i]);
-          if (!met || met->distance_m >= nearest_m) continue;
-          nearest_m = met->distance_m;
-          light = met->albedo * person_light[p];
-        }
-        for (std::size_t b = 0; b < boxes.size(); ++b) {
-          const auto met = hit_box(boxes[b], viewpoint_m, packet.directions[i]);
-          if (!met || met->distance_m >= nearest_m) continue;
-          nearest_m = met->distance_m;
-          light = met->albedo * box_light[b];
-        }
+        hide_behind(people, person_light, hit_person, viewpoint_m, packet.directions[i], nearest_m, light);
+        hide_behind(boxes, box_light, hit_box, viewpoint_m, packet.directions[i], nearest_m, light);
         const int pixel = parts.pixels[first + i];
         std::uint8_t* target = image.data.data() + static_cast<std::size_t>(pixel) * 3;
         for (unsigned band = 0; band < 3; ++band) {
