@@ -110,6 +110,86 @@ std::optional<Fit> fit(const Differences& d) {
   return result;
 }
 
+constexpr int kCells = 4;       // of a descriptor, in a row and in a column
+constexpr int kDirections = 8;  // of the gradient, of each cell
+
+/// Histograms of directions with a margin of one cell and one direction, which takes what falls outside.
+using RowOfCells = std::array<std::array<float, kDirections + 2>, kCells + 2>;
+using Cells = std::array<RowOfCells, kCells + 2>;
+
+/// Differences of the neighbours of each pixel of a window, row by row.
+void gradients(const cv::Mat& picture, const cv::Rect& window, float* across, float* down) {
+  for (int r = 0; r < window.height; ++r) {
+    const float* above = picture.ptr<float>(window.y + r - 1) + window.x;
+    const float* here = picture.ptr<float>(window.y + r) + window.x;
+    const float* below = picture.ptr<float>(window.y + r + 1) + window.x;
+    float* row_across = across + static_cast<std::ptrdiff_t>(r) * window.width;
+    float* row_down = down + static_cast<std::ptrdiff_t>(r) * window.width;
+    for (int i = 0; i < window.width; ++i) {
+      row_across[i] = here[i + 1] - here[i - 1];
+      row_down[i] = below[i] - above[i];
+    }
+  }
+}
+
+/// The histograms of one row of `count` pixels, each shared out among the nearest two cells and directions.
+RowOfCells row_histogram(const float* angle_deg, const float* magnitude, const float* column_weight,
+                         const float* column_share, const int* column_cell, int count) {
+  RowOfCells of_row{};
+  for (int i = 0; i < count; ++i) {
+    const float direction = angle_deg[i] * (kDirections / 360.0F);
+    const int lower_direction = static_cast<int>(direction);
+    const float direction_share = direction - static_cast<float>(lower_direction);
+    const float amount = magnitude[i] * column_weight[i];
+    const float right = amount * column_share[i];
+    const float left = amount - right;
+    const auto cell = static_cast<std::size_t>(column_cell[i]);
+    const auto d = static_cast<std::size_t>(lower_direction);
+    of_row[cell][d] += left * (1.0F - direction_share);
+    of_row[cell][d + 1] += left * direction_share;
+    of_row[cell + 1][d] += right * (1.0F - direction_share);
+    of_row[cell + 1][d + 1] += right * direction_share;
+  }
+  return of_row;
+}
+
+/// Shares a row's histograms out between the cells above and below it; `share`: what those below get.
+void add_row(const RowOfCells& of_row, float weight, float share, RowOfCells& above, RowOfCells& below) {
+  for (std::size_t c = 0; c < of_row.size(); ++c) {
+    for (std::size_t d = 0; d < of_row[c].size(); ++d) {
+      const float amount = weight * of_row[c][d];
+      above[c][d] += (1.0F - share) * amount;
+      below[c][d] += share * amount;
+    }
+  }
+}
+
+/// The cells as a descriptor: directions wrap at the end, and square roots of shares are taken.
+void finish(Cells& cells, float* descriptor) {
+  float squares = 0.0F;
+  float* out = descriptor;
+  for (std::size_t r = 1; r <= kCells; ++r) {
+    for (std::size_t c = 1; c <= kCells; ++c) {
+      auto& directions = cells[r][c];
+      directions[0] += directions[kDirections];
+      directions[1] += directions[kDirections + 1];
+      for (std::size_t d = 0; d < kDirections; ++d, ++out) {
+        *out = directions[d];
+        squares += directions[d] * directions[d];
+      }
+    }
+  }
+  // No single gradient may dominate (Lowe 2004, §6.1): glare and lamps.
+  const float highest = 0.2F * std::sqrt(squares);
+  float sum = 0.0F;
+  for (int d = 0; d < UprightSift::kDescriptorLength; ++d) {
+    descriptor[d] = std::min(descriptor[d], highest);
+    sum += descriptor[d];
+  }
+  if (sum <= 1e-12F) return;
+  for (int d = 0; d < UprightSift::kDescriptorLength; ++d) descriptor[d] = std::sqrt(descriptor[d] / sum);
+}
+
 }  // namespace
 
 UprightSift::UprightSift(const cv::Mat& grey) {
@@ -222,8 +302,6 @@ SiftPoint UprightSift::widened(SiftPoint point) const {
 }
 
 void UprightSift::describe(const SiftPoint& point, float* descriptor) const {
-  constexpr int kCells = 4;
-  constexpr int kDirections = 8;
   constexpr float kCellPerSigma = 3.0F;
   std::fill_n(descriptor, kDescriptorLength, 0.0F);
   const cv::Mat& picture = octaves_[static_cast<std::size_t>(point.octave)][static_cast<std::size_t>(point.layer)];
@@ -262,21 +340,10 @@ void UprightSift::describe(const SiftPoint& point, float* descriptor) const {
     column_share[i] = place - lower;
     column_weight[i] = weight(cells);
   }
-  for (int r = 0; r < rows; ++r) {
-    const float* above = picture.ptr<float>(first_row + r - 1) + first_column;
-    const float* here = picture.ptr<float>(first_row + r) + first_column;
-    const float* below = picture.ptr<float>(first_row + r + 1) + first_column;
-    float* row_across = across + static_cast<std::ptrdiff_t>(r) * count;
-    float* row_down = down + static_cast<std::ptrdiff_t>(r) * count;
-    for (int i = 0; i < count; ++i) {
-      row_across[i] = here[i + 1] - here[i - 1];
-      row_down[i] = below[i] - above[i];
-    }
-  }
+  gradients(picture, cv::Rect(first_column, first_row, count, rows), across, down);
   cv::hal::fastAtan32f(down, across, angles_deg, pixels, true);
   cv::hal::magnitude32f(across, down, magnitudes, pixels);
-  // A margin of one cell and one direction takes what falls outside; directions wrap at the end.
-  std::array<std::array<std::array<float, kDirections + 2>, kCells + 2>, kCells + 2> cells{};
+  Cells cells{};
   for (int row = first_row; row <= last_row; ++row) {
     const float* angle_deg = angles_deg + static_cast<std::ptrdiff_t>(row - first_row) * count;
     const float* magnitude = magnitudes + static_cast<std::ptrdiff_t>(row - first_row) * count;
@@ -286,51 +353,11 @@ void UprightSift::describe(const SiftPoint& point, float* descriptor) const {
     const auto row_cell = static_cast<std::size_t>(lower + 1.0F);  // with the margin
     const float row_share = place - lower;
     const float row_weight = weight(from_centre);
-    std::array<std::array<float, kDirections + 2>, kCells + 2> of_row{};
-    for (int i = 0; i < count; ++i) {
-      const float direction = angle_deg[i] * (kDirections / 360.0F);
-      const int lower_direction = static_cast<int>(direction);
-      const float direction_share = direction - static_cast<float>(lower_direction);
-      const float amount = magnitude[i] * column_weight[i];
-      const float right = amount * column_share[i];
-      const float left = amount - right;
-      const auto cell = static_cast<std::size_t>(column_cell[static_cast<std::size_t>(i)]);
-      const auto d = static_cast<std::size_t>(lower_direction);
-      of_row[cell][d] += left * (1.0F - direction_share);
-      of_row[cell][d + 1] += left * direction_share;
-      of_row[cell + 1][d] += right * (1.0F - direction_share);
-      of_row[cell + 1][d + 1] += right * direction_share;
-    }
-    for (std::size_t c = 0; c < of_row.size(); ++c) {
-      for (std::size_t d = 0; d < of_row[c].size(); ++d) {
-        const float amount = row_weight * of_row[c][d];
-        cells[row_cell][c][d] += (1.0F - row_share) * amount;
-        cells[row_cell + 1][c][d] += row_share * amount;
-      }
-    }
+    const RowOfCells of_row =
+        row_histogram(angle_deg, magnitude, column_weight, column_share, column_cell.data(), count);
+    add_row(of_row, row_weight, row_share, cells[row_cell], cells[row_cell + 1]);
   }
-  float squares = 0.0F;
-  float* out = descriptor;
-  for (std::size_t r = 1; r <= kCells; ++r) {
-    for (std::size_t c = 1; c <= kCells; ++c) {
-      auto& directions = cells[r][c];
-      directions[0] += directions[kDirections];
-      directions[1] += directions[kDirections + 1];
-      for (std::size_t d = 0; d < kDirections; ++d, ++out) {
-        *out = directions[d];
-        squares += directions[d] * directions[d];
-      }
-    }
-  }
-  // No single gradient may dominate (Lowe 2004, §6.1): glare and lamps.
-  const float highest = 0.2F * std::sqrt(squares);
-  float sum = 0.0F;
-  for (int d = 0; d < kDescriptorLength; ++d) {
-    descriptor[d] = std::min(descriptor[d], highest);
-    sum += descriptor[d];
-  }
-  if (sum <= 1e-12F) return;
-  for (int d = 0; d < kDescriptorLength; ++d) descriptor[d] = std::sqrt(descriptor[d] / sum);
+  finish(cells, descriptor);
 }
 
 }  // namespace homeward::features
