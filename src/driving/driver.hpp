@@ -24,7 +24,7 @@ struct Reading {
   double speed_mps = 0.0;
   std::optional<Scan> scan;               // a new sweep, when there is one
   std::optional<Milliseconds> scan_t_ms;  // when it was taken; nothing: now
-  std::optional<RiderHand> rider = {};    // the newest word of the rider's joystick, where the robot has one
+  std::optional<RiderHand> rider = {};    // the newest reading of the rider's joystick, where the robot has one
 };
 
 /// A picture with the odometry of the moment at which it was taken, of a robot that has it.

@@ -46,7 +46,7 @@ struct Inputs {
   std::vector<wire::ServerMessage> messages;  // in the order of their arrival
   bool link_up = false;
   std::optional<Milliseconds> sensors_now_ms;  // by the sensors' clock; nothing: it is the machine's own
-  std::optional<RiderHand> rider;              // the newest word of the joystick, when there is one
+  std::optional<RiderHand> rider;              // the newest reading of the joystick, when there is one
 };
 
 }  // namespace homeward::driving

@@ -25,7 +25,7 @@ std::optional<KeptEstimate> keep_estimate(const FollowState& follow, const Visua
                                           std::int64_t revision, std::int64_t now_ms);
 
 /// How the next mission begins: with the kept estimate, where that is of the same map and at most `lives_ms` old; that
-/// the path begins elsewhere is a word of somebody who has seen the same pictures. Else with nothing known.
+/// the path begins elsewhere is by somebody who has seen the same pictures. Else with nothing known.
 /// Ours, because orders that follow each other are one drive.
 FollowState begun_from(const std::optional<KeptEstimate>& kept, const VisualPath& path, const MapId& map,
                        std::int64_t revision, const FollowConfig& config, std::int64_t now_ms, std::int64_t lives_ms);

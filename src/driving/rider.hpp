@@ -12,7 +12,7 @@ namespace homeward::driving {
 
 /// Why a mission ends when the rider takes the joystick.
 
-/// Whether the rider's hand is on the joystick now. A word that is too old, or of a time to come, is of no hand.
+/// Whether the rider's hand is on the joystick now. A reading that is too old, or of a time to come, is of no hand.
 bool rider_steers(const Inputs& inputs, const DrivingConfig& config, Milliseconds sensors_ms);
 
 /// The motion that the rider wants, made safe by a fresh sweep while the body turns by `turning_radps`. Without one the

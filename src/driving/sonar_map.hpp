@@ -10,7 +10,7 @@
 
 namespace homeward::driving {
 
-/// What one ultrasound sensor hears in, as in SonarConfig.
+/// The cone that one ultrasound sensor measures in, as in SonarConfig.
 struct SonarCone {
   double half_cone_rad = 0.0;
   double range_min_m = 0.0;
@@ -27,7 +27,7 @@ struct SonarReading {
 struct SonarConfig {
   double half_cone_rad = 0.2618;  // 30 degrees in all
   double range_min_m = 0.2;       // nearer things read as this
-  double range_max_m = 3.0;       // of the sensor that hears farthest
+  double range_max_m = 3.0;       // of the sensor that measures farthest
   double tolerance_m = 0.03;      // of a reading
   double half_arc_m = 0.15;       // from the middle of an arc on no more than this counts
 };
@@ -37,7 +37,7 @@ struct SonarConfig {
 /// as things until another reading's cone shows part of it to be free (arcs and cones: Elfes, "Sonar-based real-world
 /// mapping and navigation", IEEE J. Robotics and Automation 3(3), 1987, section III, here without probabilities: what
 /// may be there counts as there). Of arcs far away only the middle counts, or no door would seem open; on the way there
-/// they are heard again from so near that all of them counts. Nor does what was seen to be free a moment ago, if the
+/// they are measured again from so near that all of them counts. Nor does what was seen to be free a moment ago, if the
 /// rest of the arc can be where the thing is.
 class SonarMap {
  public:

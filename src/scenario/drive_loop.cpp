@@ -46,7 +46,7 @@ Status DriveLoop::run(wire::MissionOrder order, std::vector<Pose2> way) {
   halted_ = false;
   const double began_s = elapsed_s();
   while (elapsed_s() < kLongest_s && !is_ended_) {
-    if (elapsed_s() > began_s) hear_server(!on(FaultKind::kLinkLost));
+    if (elapsed_s() > began_s) receive_from_server(!on(FaultKind::kLinkLost));
     if (const Status cycled = cycle(); !cycled) return cycled;
     if (state_.drive != wire::DriveState::kDriving && !moves(robot_)) break;
   }
@@ -62,7 +62,7 @@ Status DriveLoop::watch() {
   const double now_s = elapsed_s();
   const double until_s = std::max(now_s + kWatch_s, std::min(faults_.ends_s(now_s) + 1.0, now_s + kLongestWatch_s));
   while (elapsed_s() < until_s) {
-    hear_server(!on(FaultKind::kLinkLost));
+    receive_from_server(!on(FaultKind::kLinkLost));
     if (const Status cycled = cycle(); !cycled) return cycled;
   }
   close_stop();
@@ -73,16 +73,16 @@ Result<std::optional<DrivenPicture>> DriveLoop::look_again() {
   constexpr int kCycles = 3;
   newest_.reset();
   for (int cycle_number = 0; cycle_number < kCycles; ++cycle_number) {
-    hear_server(!on(FaultKind::kLinkLost));
+    receive_from_server(!on(FaultKind::kLinkLost));
     if (const Status cycled = cycle(); !cycled) return pass_on(cycled);
   }
   return newest_;
 }
 
 /// What the server says in one cycle. It goes on permitting a mission that has ended: no permit may revive one.
-void DriveLoop::hear_server(bool link_up) {
+void DriveLoop::receive_from_server(bool link_up) {
   if (!link_up) return;
-  if (elapsed_s() - heard_s_ <= kHeardWithin_s)
+  if (elapsed_s() - last_received_s_ <= kHeardWithin_s)
     messages_.emplace_back(
         wire::Permit{order_.mission, {order_.order.epoch, ++order_.order.seq}, wire::kPermitValid_ms});
   answer_question();
@@ -122,7 +122,7 @@ Status DriveLoop::cycle() {
     if (ended_ && ended_(trace(*outputs))) is_ended_ = true;
     robot_.command(outputs->motion);
     commanded_s_ = elapsed_s();
-    if (link_up) heard_s_ = elapsed_s();
+    if (link_up) last_received_s_ = elapsed_s();
   }
   move(frozen);
   return {};

@@ -82,7 +82,7 @@ class DriveLoop {
  private:
   Status cycle();
   Result<driving::Outputs> step_once(bool link_up);
-  void hear_server(bool link_up);
+  void receive_from_server(bool link_up);
   void answer_question();
   void place_boxes();
   Status kidnap();
@@ -123,8 +123,8 @@ class DriveLoop {
   std::optional<double> apart_since_s_;
   double belief_apart_s_ = 0.0;
   driving::Milliseconds now_ms_ = 0;
-  double commanded_s_ = 0.0;  // the last command that reached the base
-  double heard_s_ = 0.0;      // when the server last heard of the agent
+  double commanded_s_ = 0.0;      // the last command that reached the base
+  double last_received_s_ = 0.0;  // when the server last received of the agent
   double stands_since_s_ = 0.0;
   bool stopped_by_hand_ = false;
   bool halted_ = false;  // stopped, and no order since

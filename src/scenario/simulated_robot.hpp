@@ -26,7 +26,7 @@ namespace homeward::scenario {
 /// fits between two of them: a single plane at 0.3 m sees the legs of a table and not its top, and nine planes missed
 /// tops by up to 0.25 m.
 sim::LaserConfig safety_scanner();
-/// A ring of ultrasound sensors that hears as high up.
+/// A ring of ultrasound sensors that measures as high up.
 sim::UltrasoundConfig safety_ring();
 
 struct SimulatedRobotConfig {

@@ -53,9 +53,9 @@ std::vector<float> ultrasound(const RayScene& rays, const Pose2& robot, const st
       }
     }
     const float error_m = noise_m(random);
-    const bool heard = static_cast<double>(range_m) <= config.range_max_m;
-    ranges_m.push_back(heard ? std::max(static_cast<float>(config.range_min_m), range_m + error_m)
-                             : std::numeric_limits<float>::infinity());
+    const bool echoes = static_cast<double>(range_m) <= config.range_max_m;
+    ranges_m.push_back(echoes ? std::max(static_cast<float>(config.range_min_m), range_m + error_m)
+                              : std::numeric_limits<float>::infinity());
   }
   return ranges_m;
 }

@@ -38,7 +38,7 @@ struct RosRider {
 struct RosRangeSensor {
   RosTopic topic;  // of its own
   Pose2 robot_from_sensor;
-  double cone_rad = 0.0;     // all that it hears in is so wide
+  double cone_rad = 0.0;     // all that it measures in is so wide
   double range_max_m = 0.0;  // and so deep; what it says beyond is nothing
 };
 

@@ -33,7 +33,7 @@ inline wire::RosbridgeFile sample_rosbridge(unsigned short port = 9090) {
 }
 
 /// Ultrasound sensors with cones of 40 degrees looking outwards from a circle, topics /sonar/0, ..., the first ahead
-/// and each the next to the left. Nine of them hear all round.
+/// and each the next to the left. Nine of them cover all round.
 inline std::vector<wire::RosRangeSensor> sample_ring(int sensors, double apart_rad = radians(40.0),
                                                      double radius_m = 0.3) {
   std::vector<wire::RosRangeSensor> ring;

@@ -69,7 +69,7 @@ std::optional<driving::RiderHand> Joystick::read(const driving::Body& body, driv
     forget(now_ms);
     return std::nullopt;
   }
-  if (std::exchange(spoke_, false) || !there_) spoke_ms_ = now_ms;
+  if (std::exchange(changed_, false) || !there_) changed_ms_ = now_ms;
   const double forward = -beyond_dead_zone(axes_[1]);
   const double left = -beyond_dead_zone(axes_[0]);
   const bool at_rest = forward == 0.0 && left == 0.0;
@@ -80,7 +80,7 @@ std::optional<driving::RiderHand> Joystick::read(const driving::Body& body, driv
     log_("the joystick " + device_ + (rested_ ? " is there" : " is there, but not at rest: release it"));
     there_ = true;
   }
-  const bool doubted = rested_ && !at_rest && now_ms - spoke_ms_ > kHeld_ms;
+  const bool doubted = rested_ && !at_rest && now_ms - changed_ms_ > kHeld_ms;
   if (doubted && !doubted_) log_("the joystick " + device_ + " has been deflected without a change for 10 s: move it");
   doubted_ = doubted;
   if (rested_ && !at_rest && !doubted) hand.wanted = {forward * body.max_speed_mps, left * body.max_turn_radps};
@@ -94,7 +94,7 @@ void Joystick::forget(driving::Milliseconds now_ms) {
   tried_ms_ = now_ms;
   have_ = 0;
   axes_ = {};
-  there_ = rested_ = touched_ = spoke_ = doubted_ = false;
+  there_ = rested_ = touched_ = changed_ = doubted_ = false;
 }
 
 /// Takes what has come; false when the device is gone.
@@ -116,7 +116,7 @@ void Joystick::take_event() {
   js_event event{};
   std::memcpy(&event, event_.data(), sizeof event);
   have_ = 0;
-  spoke_ = true;
+  changed_ = true;
   // What stands when the device comes is sent as events marked as initial.
   if ((event.type & ~JS_EVENT_INIT) != JS_EVENT_AXIS || event.number >= axes_.size()) return;
   axes_[event.number] = std::clamp(event.value / kFullDeflection, -1.0, 1.0);

@@ -44,13 +44,13 @@ class Joystick {
   driving::Milliseconds tried_ms_ = 0;
   std::array<std::uint8_t, 8> event_{};  // as much of one as has come
   std::size_t have_ = 0;
-  std::array<double, 2> axes_{};        // -1..1
-  bool there_ = false;                  // and that was logged
-  bool touched_ = false;                // deflected at some moment since the last reading
-  bool spoke_ = false;                  // since the last reading
-  driving::Milliseconds spoke_ms_ = 0;  // when it last sent a change
-  bool doubted_ = false;                // it has been deflected for too long, and that was logged
-  bool rested_ = false;                 // it has been at rest since it came
+  std::array<double, 2> axes_{};          // -1..1
+  bool there_ = false;                    // and that was logged
+  bool touched_ = false;                  // deflected at some moment since the last reading
+  bool changed_ = false;                  // since the last reading
+  driving::Milliseconds changed_ms_ = 0;  // when it last sent a change
+  bool doubted_ = false;                  // it has been deflected for too long, and that was logged
+  bool rested_ = false;                   // it has been at rest since it came
 };
 
 }  // namespace homeward::agent

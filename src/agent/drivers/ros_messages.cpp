@@ -247,7 +247,7 @@ std::vector<std::string> ros_greeting(const wire::RosbridgeFile& robot) {
       {"op", "advertise"}, {"id", "homeward:cmd_vel"}, {"topic", robot.cmd_vel.topic}, {"type", robot.cmd_vel.type}}
                       .dump());
   if (robot.rider) {
-    // Each word of the hand, at once.
+    // Each reading of the joystick, at once.
     texts.push_back(json{
         {"op", "subscribe"},
         {"id", "homeward:" + robot.rider->topic.topic},

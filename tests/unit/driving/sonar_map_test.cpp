@@ -41,7 +41,7 @@ TEST(SonarMap, ASensorMayHaveAConeOfItsOwn) {
   EXPECT_LT(nearest_m(scan, -0.02, 0.02), 0.71);
   EXPECT_GT(nearest_m(scan, 0.12, kPi), 100.0);
   const Scan beyond = SonarMap().update({{{0.15, 0.0, 0.0}, 1.2F, narrow}}, {});
-  EXPECT_TRUE(hit_points(beyond).empty()) << "farther than it hears";
+  EXPECT_TRUE(hit_points(beyond).empty()) << "farther than it measures";
 }
 
 TEST(SonarMap, TakesOnlyTheMiddleOfAnArcFarAway) {
