@@ -22,9 +22,9 @@ struct Reading {
   Milliseconds t_ms = 0;  // by the driver's clock: the machine's steady one, or simulated time
   Pose2 odometry;
   double speed_mps = 0.0;
-  std::optional<Scan> scan;               // a new sweep, when there is one
-  std::optional<Milliseconds> scan_t_ms;  // when it was taken; nothing: now
-  std::optional<RiderHand> rider = {};    // the newest reading of the rider's joystick, where the robot has one
+  std::optional<Scan> scan;                   // a new sweep, when there is one
+  std::optional<Milliseconds> scan_t_ms;      // when it was taken; nothing: now
+  std::optional<JoystickReading> rider = {};  // the newest reading of the rider's joystick, where the robot has one
 };
 
 /// A picture with the odometry of the moment at which it was taken, of a robot that has it.

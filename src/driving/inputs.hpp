@@ -32,7 +32,7 @@ struct SeenScan {
 
 /// What the rider's own joystick says. A deflected one may want no motion of the agent: the base obeys it by itself, or
 /// it has not been at rest yet.
-struct RiderHand {
+struct JoystickReading {
   Milliseconds said_ms = 0;  // by the sensors' clock
   bool deflected = false;
   Motion wanted;
@@ -46,7 +46,7 @@ struct Inputs {
   std::vector<wire::ServerMessage> messages;  // in the order of their arrival
   bool link_up = false;
   std::optional<Milliseconds> sensors_now_ms;  // by the sensors' clock; nothing: it is the machine's own
-  std::optional<RiderHand> rider;              // the newest reading of the joystick, when there is one
+  std::optional<JoystickReading> rider;        // the newest reading of the joystick, when there is one
 };
 
 }  // namespace homeward::driving

@@ -11,7 +11,7 @@ bool rider_steers(const Inputs& inputs, const DrivingConfig& config, Millisecond
          std::abs(sensors_ms - inputs.rider->said_ms) <= config.rider_silence_ms;
 }
 
-Motion rider_motion(const RiderHand& hand, const std::optional<SeenScan>& scan,
+Motion rider_motion(const JoystickReading& hand, const std::optional<SeenScan>& scan,
                     const std::vector<Eigen::Vector2d>& points_m, double turning_radps, const DrivingConfig& config,
                     Milliseconds sensors_ms) {
   if (!std::isfinite(hand.wanted.speed_mps) || !std::isfinite(hand.wanted.turn_radps)) return {};

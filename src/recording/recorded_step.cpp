@@ -65,8 +65,8 @@ driving::Inputs inputs_of(const db::RecordedStep& step) {
   inputs.messages = step.received;
   if (step.sweep) inputs.scan = from_recorded(*step.sweep);
   if (step.rider) {
-    inputs.rider =
-        driving::RiderHand{step.rider->said_ms, step.rider->deflected, {step.rider->speed_mps, step.rider->turn_radps}};
+    inputs.rider = driving::JoystickReading{
+        step.rider->said_ms, step.rider->deflected, {step.rider->speed_mps, step.rider->turn_radps}};
   }
   return inputs;
 }

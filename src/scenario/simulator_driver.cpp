@@ -112,7 +112,7 @@ class SimulatorDriver final : public driving::Driver {
   SimulatedRobot robot_;
   SimulatedRobotConfig config_;
   driving::Body body_;
-  std::function<std::optional<driving::RiderHand>(driving::Milliseconds)> rider_;
+  std::function<std::optional<driving::JoystickReading>(driving::Milliseconds)> rider_;
   std::ofstream truth_;
   std::mutex mutex_;
   std::condition_variable_any pause_;

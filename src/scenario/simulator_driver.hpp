@@ -21,7 +21,7 @@ struct SimulatorDriverConfig {
   std::string truth_file;  // empty: none. Else JSON lines with the true pose, the command, collisions so far
   int people = 0;
   std::uint64_t seed = 1;
-  std::function<std::optional<driving::RiderHand>(driving::Milliseconds)> rider =
+  std::function<std::optional<driving::JoystickReading>(driving::Milliseconds)> rider =
       {};  // the joystick at a simulated time; empty: none
 };
 

@@ -19,7 +19,7 @@ constexpr double kDeadZone = 0.15;  // of full deflection; springs and noise sta
 constexpr double kFullDeflection = 32767.0;
 constexpr driving::Milliseconds kTryAgain_ms = 1000;
 constexpr driving::Milliseconds kHeld_ms =
-    10'000;                        // without a word; a hand hardly keeps a stick so still, a dead battery does
+    10'000;                        // without a message; a hand hardly keeps a stick so still, a dead battery does
 constexpr int kMostEvents = 1000;  // at one time: no device says more between two cycles
 
 static_assert(sizeof(js_event) == 8);
@@ -57,8 +57,8 @@ Joystick::~Joystick() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-std::optional<driving::RiderHand> Joystick::read(const driving::Body& body, driving::Milliseconds now_ms,
-                                                 driving::Milliseconds said_ms) {
+std::optional<driving::JoystickReading> Joystick::read(const driving::Body& body, driving::Milliseconds now_ms,
+                                                       driving::Milliseconds said_ms) {
   if (descriptor_ < 0) {
     if (now_ms - tried_ms_ < kTryAgain_ms) return std::nullopt;
     tried_ms_ = now_ms;
@@ -74,7 +74,7 @@ std::optional<driving::RiderHand> Joystick::read(const driving::Body& body, driv
   const double left = -beyond_dead_zone(axes_[0]);
   const bool at_rest = forward == 0.0 && left == 0.0;
   // A touch that is over already counts too.
-  driving::RiderHand hand{said_ms, std::exchange(touched_, false) || !at_rest, {}};
+  driving::JoystickReading hand{said_ms, std::exchange(touched_, false) || !at_rest, {}};
   rested_ = rested_ || at_rest;
   if (!there_) {
     log_("the joystick " + device_ + (rested_ ? " is there" : " is there, but not at rest: release it"));

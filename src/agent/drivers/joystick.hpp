@@ -27,10 +27,10 @@ class Joystick {
   /// What it says now, full deflection being the body's greatest speed; nothing while it is not there. Never waits.
   /// `now_ms`: by a clock that never jumps, for looking whether it is back; `said_ms`: what the hand is stamped with.
   /// One that is deflected when it comes wants no motion until it has been at rest once: it may lie on its side. Nor
-  /// does one that has been deflected for 10 s without a word: a device tells of changes only, and so does a wireless
-  /// one whose battery died under the rider's hand.
-  std::optional<driving::RiderHand> read(const driving::Body& body, driving::Milliseconds now_ms,
-                                         driving::Milliseconds said_ms);
+  /// does one that has been deflected for 10 s without a message: a device tells of changes only, and so does a
+  /// wireless one whose battery died under the rider's hand.
+  std::optional<driving::JoystickReading> read(const driving::Body& body, driving::Milliseconds now_ms,
+                                               driving::Milliseconds said_ms);
 
  private:
   Joystick(std::string device, int descriptor, std::function<void(const std::string&)> log);

@@ -264,7 +264,7 @@ class RosbridgeDriver final : public driving::Driver {
   void take_hand(const driving::Motion& motion, driving::Milliseconds now) {
     const bool deflected = std::abs(motion.speed_mps) > kAtRest_mps || std::abs(motion.turn_radps) > kAtRest_radps;
     touched_ = touched_ || deflected;
-    rider_ = driving::RiderHand{now, deflected, deflected && robot_.rider->relayed ? motion : driving::Motion{}};
+    rider_ = driving::JoystickReading{now, deflected, deflected && robot_.rider->relayed ? motion : driving::Motion{}};
   }
 
   void tell_status(const RosStatus& status) {
@@ -345,7 +345,7 @@ class RosbridgeDriver final : public driving::Driver {
   std::optional<driving::Scan> sweep_;
   driving::Milliseconds sweep_ms_ = 0;  // when it was taken
   std::optional<RosPicture> picture_;
-  std::optional<driving::RiderHand> rider_;
+  std::optional<driving::JoystickReading> rider_;
   bool touched_ = false;  // the hand was there at some moment since the last reading
   driving::Motion command_;
   driving::Milliseconds commanded_ms_ = 0;

@@ -77,10 +77,10 @@ wire::AgentStatus status_of(const driving::DrivingState& state, const driving::D
   return status;
 }
 
-/// What the rider's hand says: of two joysticks the one that is deflected.
-std::optional<driving::RiderHand> rider_hand(const driving::Reading& reading, Joystick* joystick,
-                                             const driving::Body& body) {
-  std::optional<driving::RiderHand> hand = reading.rider;
+/// What the rider's joystick says: of two joysticks the one that is deflected.
+std::optional<driving::JoystickReading> joystick_reading(const driving::Reading& reading, Joystick* joystick,
+                                                         const driving::Body& body) {
+  std::optional<driving::JoystickReading> hand = reading.rider;
   if (joystick == nullptr) return hand;
   const auto own = joystick->read(body, now_ms(), reading.t_ms);
   return own && (!hand || own->deflected) ? own : hand;
@@ -204,7 +204,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
     if (auto trouble = looker.trouble()) return tl::unexpected<Error>(*trouble);
     const driving::Reading reading = driver.read();
     driving::Inputs inputs = sensed(reading);
-    inputs.rider = rider_hand(reading, joystick->get(), config.body);
+    inputs.rider = joystick_reading(reading, joystick->get(), config.body);
     inputs.link_up = link.up();
     inputs.messages = link.take_messages();
     recording::PictureBytes picture;

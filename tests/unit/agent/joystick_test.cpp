@@ -41,15 +41,15 @@ class JoystickTest : public ::testing::Test {
     ASSERT_EQ(::write(writer_, &event, sizeof event), static_cast<ssize_t>(sizeof event));
   }
   void push(int axis, int value) const { say(JS_EVENT_AXIS, axis, value); }
-  std::optional<driving::RiderHand> read() {
+  std::optional<driving::JoystickReading> read() {
     now_ms_ += 40;
     return joystick_->read(body_, now_ms_, 5);
   }
   /// What must be there.
-  driving::RiderHand hand() {
+  driving::JoystickReading hand() {
     const auto said = read();
     EXPECT_TRUE(said);
-    return said.value_or(driving::RiderHand{});
+    return said.value_or(driving::JoystickReading{});
   }
 
   homeward::testing::ScratchFolder folder_;
@@ -66,7 +66,7 @@ TEST_F(JoystickTest, FullDeflectionIsTheBodysGreatestSpeed) {
   EXPECT_FALSE(hand().deflected);
   push(1, -32767);  // up
   push(0, 32767);   // to the right
-  const driving::RiderHand said = hand();
+  const driving::JoystickReading said = hand();
   EXPECT_TRUE(said.deflected);
   EXPECT_EQ(said.said_ms, 5);
   EXPECT_DOUBLE_EQ(said.wanted.speed_mps, 0.5);
@@ -77,7 +77,7 @@ TEST_F(JoystickTest, AHeldOneSaysSoAtEachReadingAndAReleasedOneIsAtRest) {
   open();
   read();
   push(1, 20000);
-  const driving::RiderHand said = hand();
+  const driving::JoystickReading said = hand();
   EXPECT_LT(said.wanted.speed_mps, -0.2);
   EXPECT_GT(said.wanted.speed_mps, -0.4);
   for (int k = 0; k < 20; ++k) EXPECT_TRUE(hand().deflected);  // no further event comes
@@ -94,7 +94,7 @@ TEST_F(JoystickTest, HeldForTenSecondsWithoutAWordItWantsNoMotionUntilItIsMoved)
   now_ms_ += 9'000;
   EXPECT_GT(hand().wanted.speed_mps, 0.2);
   now_ms_ += 1'000;
-  const driving::RiderHand said = hand();
+  const driving::JoystickReading said = hand();
   EXPECT_TRUE(said.deflected) << "no mission sets off under a hand, or under a dead battery";
   EXPECT_DOUBLE_EQ(said.wanted.speed_mps, 0.0);
   EXPECT_THAT(log_, HasSubstr("move it"));
@@ -107,7 +107,7 @@ TEST_F(JoystickTest, ATouchBetweenTwoReadingsIsNotMissed) {
   read();
   push(0, 20000);
   push(0, 0);
-  const driving::RiderHand said = hand();
+  const driving::JoystickReading said = hand();
   EXPECT_TRUE(said.deflected);
   EXPECT_DOUBLE_EQ(said.wanted.turn_radps, 0.0);
   EXPECT_FALSE(hand().deflected);

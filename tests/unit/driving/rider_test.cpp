@@ -149,7 +149,7 @@ TEST_F(RiderTest, AHandThatTheBaseObeysByItselfEndsTheMissionAndMovesNothing) {
   Inputs inputs;
   inputs.link_up = true;
   inputs.odometry = pose_;
-  inputs.rider = RiderHand{now_ms_ + kTick_ms, true, {}};
+  inputs.rider = JoystickReading{now_ms_ + kTick_ms, true, {}};
   EXPECT_TRUE(stands(step(state_, inputs, config_, now_ms_ + kTick_ms)));
   EXPECT_EQ(state_.drive, DriveState::kStopped);
   EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kRiderTookOver});

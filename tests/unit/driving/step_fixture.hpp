@@ -77,7 +77,8 @@ class StepTest : public ::testing::Test {
       inputs.scan = SeenScan{now_ms_ - sweep_age_ms_, scan};
     }
     if (hand_)
-      inputs.rider = RiderHand{now_ms_ - hand_age_ms_, hand_->speed_mps != 0.0 || hand_->turn_radps != 0.0, *hand_};
+      inputs.rider =
+          JoystickReading{now_ms_ - hand_age_ms_, hand_->speed_mps != 0.0 || hand_->turn_radps != 0.0, *hand_};
     const Outputs outputs = step(state_, inputs, config_, now_ms_);
     const double seconds = static_cast<double>(kTick_ms) / 1000.0;
     pose_ = pose_ * Pose2{outputs.motion.speed_mps * seconds, 0.0, outputs.motion.turn_radps * seconds};

@@ -130,7 +130,7 @@ class RecordedDrive : public ::testing::Test {
   std::int64_t seq_ = 1;
   Pose2 pose_;
   bool pictures_ = true;
-  std::optional<driving::RiderHand> hand_;
+  std::optional<driving::JoystickReading> hand_;
 
  private:
   std::mutex mutex_;

@@ -48,11 +48,11 @@ TEST_F(Replay, ReproducesEveryVectorDecisionAndCommand) {
 
 TEST_F(Replay, ReproducesARiderWhoTakesOver) {
   open_recorder();
-  hand_ = driving::RiderHand{};  // a joystick is there, at rest
+  hand_ = driving::JoystickReading{};  // a joystick is there, at rest
   tick({mission("m1", 1)});
   for (int i = 0; i < 5; ++i) tick();
   ASSERT_EQ(state_.drive, wire::DriveState::kDriving) << state_.reason;
-  hand_ = driving::RiderHand{0, true, {1.0 / 7.0, -0.1}};
+  hand_ = driving::JoystickReading{0, true, {1.0 / 7.0, -0.1}};
   EXPECT_DOUBLE_EQ(tick().motion.speed_mps, 1.0 / 7.0);
   close_recorder();
   const auto replayed = result();
