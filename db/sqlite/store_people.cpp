@@ -50,7 +50,7 @@ Token token_of(SQLite::Statement& row) {
   refuse(ErrorCode::kNotFound, "There is no person with this id.", "users/" + id.str());
 }
 
-/// A house without an admin could never be changed again.
+/// A server without an admin could never be changed again.
 void keep_an_admin(SQLite::Database& database) {
   SQLite::Statement row = prepared(database, "SELECT count(*) FROM users WHERE role = 'admin'");
   row.executeStep();
