@@ -16,7 +16,7 @@ wire::Reason why_refused(const wire::MissionOrder& order, const DrivingConfig& c
 }
 
 /// Obeys one message after the other.
-struct Clerk {
+struct OrderHandler {
   DrivingState& state;
   bool rider_steers;
   const DrivingConfig& config;
@@ -115,7 +115,7 @@ void obey(DrivingState& state, const std::vector<wire::ServerMessage>& messages,
           const DrivingConfig& config, Milliseconds now_ms, Outputs& outputs) {
   for (const wire::ServerMessage& message : messages) {
     state.last_message_ms = now_ms;
-    std::visit(Clerk{state, rider_steers, config, now_ms, outputs}, message);
+    std::visit(OrderHandler{state, rider_steers, config, now_ms, outputs}, message);
   }
 }
 

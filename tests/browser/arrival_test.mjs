@@ -53,12 +53,12 @@ async function drive(page) {
 
   let active = false; // what the page says of an earlier journey does not count
   let pictured = false;
-  let told = '';
+  let shown = '';
   for (const until = performance.now() + kArrivalMs; performance.now() < until;) {
     const takeOver = page.getByRole('button', { name: 'Take over' });
     if ((await takeOver.count()) > 0) await takeOver.click();
     const { phase, words } = await journeyOf(page);
-    if (words !== told) say((told = words));
+    if (words !== shown) say((shown = words));
     if (phase === 'asking' || phase === 'accepted' || phase === 'driving') {
       if (phase === 'driving' && !pictured) {
         pictured = true;
@@ -73,7 +73,7 @@ async function drive(page) {
     }
     await page.waitForTimeout(kPollMs);
   }
-  throw new Error(`no arrival within ${kArrivalMs / 1000} s; the page says: ${told}`);
+  throw new Error(`no arrival within ${kArrivalMs / 1000} s; the page says: ${shown}`);
 }
 
 /** The map of the real house: drawn, with the destination among its places. */

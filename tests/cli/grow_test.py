@@ -48,18 +48,18 @@ class Grow(CliTest):
     def test_a_tour_joins_a_map(self):
         before = self.good_map().read_bytes()
         pictures = len(list(self.second_tour().glob("*.jpg")))
-        told = json.loads(self.result_of(*self.add("--json")))
+        result = json.loads(self.result_of(*self.add("--json")))
         self.assertEqual(self.good_map("again.map").read_bytes(), before)
         self.assertEqual((self.folder / "good.map").read_bytes(), before)
         old, grown = self.inspect("good.map"), self.inspect("grown.map")
-        added = told["added"]
+        added = result["added"]
         self.assertEqual(added["images"], pictures)
         self.assertEqual(grown["images"], old["images"] + pictures)
         self.assertEqual(len(grown["places"]), len(old["places"]) + added["places"])
         self.assertEqual(len(grown["edges"]), len(old["edges"]) + added["edges"])
-        self.assertEqual(told["places"], len(grown["places"]))
-        self.assertEqual(told["components"], grown["components"])
-        self.assertEqual(told["skipped"], [])
+        self.assertEqual(result["places"], len(grown["places"]))
+        self.assertEqual(result["components"], grown["components"])
+        self.assertEqual(result["skipped"], [])
         for place, kept in zip(old["places"], grown["places"]):
             for key in ("id", "label", "prototype", "features"):
                 self.assertEqual(kept[key], place[key])
@@ -89,9 +89,9 @@ class Grow(CliTest):
         self.good_map()
         self.result_of("simulate", "tour", "--world", "house:4", "--rooms", "hall,kitchen", "--step-m", 1, "--camera",
                        "equirectangular", "--out", "elsewhere")
-        told = self.result_of(*self.add(tour="elsewhere"))
+        result = self.result_of(*self.add(tour="elsewhere"))
         for text in ("2 parts", "of tour", "of elsewhere", "Drive a tour that passes through both"):
-            self.assertIn(text, told)
+            self.assertIn(text, result)
         self.assertIn("2 parts", self.result_of("map", "inspect", "grown.map"))
         components = self.inspect("grown.map")["components"]
         self.assertEqual([part["tours"] for part in components], [["tour"], ["elsewhere"]])
@@ -100,11 +100,11 @@ class Grow(CliTest):
     def test_several_tours_make_one_map(self):
         self.tour()
         self.second_tour()
-        told = json.loads(self.result_of("map", "build", "--tour", "tour", "--tour", "second", "--camera", "tour/camera.json",
-                                         "--out", "both.map", "--json"))
+        result = json.loads(self.result_of("map", "build", "--tour", "tour", "--tour", "second", "--camera",
+                                           "tour/camera.json", "--out", "both.map", "--json"))
         pictures = len(list(self.folder.glob("*/*.jpg")))
-        self.assertEqual(told["images"], pictures)
-        self.assertEqual({tour for part in told["components"] for tour in part["tours"]}, {"tour", "second"})
+        self.assertEqual(result["images"], pictures)
+        self.assertEqual({tour for part in result["components"] for tour in part["tours"]}, {"tour", "second"})
         (self.folder / "in").mkdir()
         shutil.copytree(self.folder / "tour", self.folder / "in" / "tour")
         self.assert_refused(2, ["named tour", "in/tour"], "map", "build", "--tour", "tour", "--tour", "in/tour", "--camera",
@@ -142,9 +142,9 @@ class Grow(CliTest):
     def test_a_drive_in_the_same_light_changes_nothing(self):
         self.good_map()
         before = self.inspect("good.map")
-        told = json.loads(self.result_of("map", "refine", "--map", "good.map", "--images", self.shared / "tour", "--out",
-                                         "refined.map", "--json"))
-        self.assertEqual(told["gained"], [])
+        result = json.loads(self.result_of("map", "refine", "--map", "good.map", "--images", self.shared / "tour", "--out",
+                                           "refined.map", "--json"))
+        self.assertEqual(result["gained"], [])
         self.assertEqual(self.inspect("refined.map"), before)
 
     def test_refining_adds_nothing_but_appearances(self):

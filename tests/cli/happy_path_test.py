@@ -123,12 +123,12 @@ class HappyPath(CliTest):
         localise = ("localise", "--map", "good.map", "--images", self.shared / "tour")
         uniform = self.lines_of(*localise)
         first = place_of[uniform[0]["image"]]
-        told = self.lines_of(*localise, "--start", first)
+        output = self.lines_of(*localise, "--start", first)
 
         def share(line, place):
             return sum(entry["probability"] for entry in line["top"] if entry["place"] == place)
 
-        self.assertGreaterEqual(share(told[0], first), share(uniform[0], first))
+        self.assertGreaterEqual(share(output[0], first), share(uniform[0], first))
         # Told wrong, it comes to what it sees all the same.
         wrong = self.lines_of(*localise, "--start", place_of[uniform[-1]["image"]])
         right = sum(answer["place"] == place_of[answer["image"]] for answer in wrong)
@@ -272,9 +272,9 @@ class HappyPath(CliTest):
 
     def test_reports_on_a_map_in_one_page(self):
         self.tour()
-        told = self.result_of("map", "build", "--tour", "tour", "--camera", "tour/camera.json", "--out", "told.map", "--name",
-                              "Ward <3> & hall", "--report", "new/report", "--report-pictures", 3)
-        self.assertIn("report: new/report/report.html", told)
+        output = self.result_of("map", "build", "--tour", "tour", "--camera", "tour/camera.json", "--out", "told.map", "--name",
+                                "Ward <3> & hall", "--report", "new/report", "--report-pictures", 3)
+        self.assertIn("report: new/report/report.html", output)
         self.assertEqual([file.name for file in (self.folder / "new" / "report").iterdir()], ["report.html"])
         text = (self.folder / "new" / "report" / "report.html").read_text(encoding="utf-8")
         self.assertLess(len(text), 3_000_000)

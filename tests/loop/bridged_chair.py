@@ -179,10 +179,10 @@ class BridgedChair:
         """Seconds until the robot was told to stand for good, and until it stood, since then."""
         time.sleep(seconds)
         after = self.truths(since_us)
-        told = [i for i, t in enumerate(after) if t["commanded_mps"] != 0 or t["commanded_radps"] != 0]
+        commanded = [i for i, t in enumerate(after) if t["commanded_mps"] != 0 or t["commanded_radps"] != 0]
         moving = [i for i, t in enumerate(after) if abs(t["speed_mps"]) > AT_REST or abs(t["turn_radps"]) > AT_REST]
-        if not moving or max([*told, *moving]) + 1 >= len(after):
+        if not moving or max([*commanded, *moving]) + 1 >= len(after):
             raise Failed("it stood before anything happened" if not moving else "it never stood")
         def at(last):
             return (after[last[-1] + 1 if last else 0]["t_us"] - since_us) / 1e6
-        return at(told), at(moving)
+        return at(commanded), at(moving)

@@ -33,8 +33,8 @@ class Frozen(unittest.TestCase):
         permitted = subprocess.run(["chrt", "-r", "10", "true"], stderr=subprocess.DEVNULL).returncode == 0
         policies = {os.sched_getscheduler(int(thread)) & ~os.SCHED_RESET_ON_FORK
                     for thread in os.listdir(f"/proc/{self.chair.processes['agent'].pid}/task")}
-        told = "permit this program to run in real time" in self.chair.log("agent")
-        self.assertEqual((os.SCHED_RR in policies, told), (permitted, not permitted))
+        logged = "permit this program to run in real time" in self.chair.log("agent")
+        self.assertEqual((os.SCHED_RR in policies, logged), (permitted, not permitted))
         self.assertIn(os.SCHED_OTHER, policies, "what only looks must not hold up what steers")
 
     def freeze(self, seconds):

@@ -57,11 +57,11 @@ def main():
     for run in (1, 2):
         witness.begin()
         code = subprocess.call(command)
-        told = f"the machine stood still for {witness.worst_s:.2f} s at most, at {witness.worst_at}"
-        print(told, flush=True)
+        report = f"the machine stood still for {witness.worst_s:.2f} s at most, at {witness.worst_at}"
+        print(report, flush=True)
         if code == 0 or witness.worst_s < STOOD_STILL_S or run == 2:
             break
-        print(f"=== failed with {code} while {told}: once more", flush=True)
+        print(f"=== failed with {code} while {report}: once more", flush=True)
     sys.exit(code)
 
 

@@ -130,12 +130,12 @@ std::vector<const map::Place*> starts_of(const scenario::TaughtWorld& taught, co
 }
 
 Ending drive(const scenario::TaughtWorld& taught, scenario::SimulatedRobot& robot, const pipeline::Eye& eye,
-             const map::Destination& destination, const PlaceId& told, Kind kind, const Options& options) {
+             const map::Destination& destination, const PlaceId& stated, Kind kind, const Options& options) {
   constexpr double kShort_m = 1.0;
   const Pose2& target = taught.destination_poses.at(destination.label);
   scenario::SimulatedServer server = or_die(scenario::SimulatedServer::create(taught, destination));
   or_die(server.find_place(robot));
-  wire::MissionOrder order = or_die(server.order_from(told));
+  wire::MissionOrder order = or_die(server.order_from(stated));
   if (order.surroundings) order.surroundings->start_probability = options.start_probability;
   driving::DrivingConfig config;
   config.body = scenario::body_of(sim::disc_profile());
@@ -221,9 +221,9 @@ int run(const Options& options) {
         const map::Destination& destination = taught.map->destinations[random() % taught.map->destinations.size()];
         const auto starts = starts_of(taught, taught.destination_poses.at(destination.label));
         if (starts.empty()) continue;
-        const map::Place& told = *starts[random() % starts.size()];
+        const map::Place& stated = *starts[random() % starts.size()];
         robot_config.seed = random();
-        Pose2 start = taught.picture_poses.at(told.prototype);
+        Pose2 start = taught.picture_poses.at(stated.prototype);
         start.x_m += kBeside_m * unit(random);
         start.y_m += kBeside_m * unit(random);
         start.theta_rad = wrap_angle(start.theta_rad + kBeside_rad * unit(random));
@@ -238,7 +238,7 @@ int run(const Options& options) {
         }
         ++count;
         if (options.only > 0 && count != options.only) break;
-        endings.push_back(drive(taught, robot, eye, destination, told.id, kind, options));
+        endings.push_back(drive(taught, robot, eye, destination, stated.id, kind, options));
         print(endings.back());
         break;
       }

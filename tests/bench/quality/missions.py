@@ -97,7 +97,7 @@ def drive(options, case):
     part.rename(out)
 
 
-def told(case, results):
+def figures_of(case, results):
     count, share, _ = CASES[case]
     right = [one for one in results if one["arrived"] and one["final_error_m"] <= 0.3]
     errors = sorted(one["final_error_m"] for one in results if one["arrived"])
@@ -139,7 +139,7 @@ def main():
     notes = []
     for number, case in enumerate(cases):
         results = [json.loads(line) for line in (options.work / f"{case}.jsonl").read_text().splitlines()]
-        figures, wrong, held = told(case, results)
+        figures, wrong, held = figures_of(case, results)
         holds = holds and held
         if number == 0:
             print("| missions | " + " | ".join(figures) + " |\n|" + "---|" * (len(figures) + 1))

@@ -99,8 +99,8 @@ class Teller {
  public:
   Teller(std::size_t images, std::string stage) : images_(images), stage_(std::move(stage)) {}
   void operator()(double share) {
-    if (share - told_ < 0.05) return;
-    told_ = share;
+    if (share - reported_ < 0.05) return;
+    reported_ = share;
     std::cerr << images_ << " images, " << stage_ << ": " << std::lround(100.0 * share) << " %, "
               << std::lround(seconds_since(start_)) << " s, peak " << peak_mib() << " MiB\n";
   }
@@ -108,7 +108,7 @@ class Teller {
  private:
   std::size_t images_;
   std::string stage_;
-  double told_ = 0.0;
+  double reported_ = 0.0;
   Clock::time_point start_ = Clock::now();
 };
 

@@ -237,7 +237,7 @@ TEST(PlanarEstimate, BrokenBearingsAmongGoodOnesAreLeftOut) {
 TEST(PlanarEstimate, ListensToWhatLooksMoreLikelyRight) {
   // Of 120 matches some 10 are right. Where looks say nothing these are often lost.
   int blind = 0;
-  int told = 0;
+  int right = 0;
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     PlanarScene scene = planar_scene(120, 0.92, 0.002, 2.0, 500 + seed);
     const auto without = estimate_planar_motion(scene.correspondences, {}, seed);
@@ -248,10 +248,10 @@ TEST(PlanarEstimate, ListensToWhatLooksMoreLikelyRight) {
       scene.correspondences[i].odds = unique ? 6.0 : 0.3;
     }
     const auto with = estimate_planar_motion(scene.correspondences, {}, seed);
-    told += with && direction_error_deg(with->motion, scene.truth) < 10.0 ? 1 : 0;
+    right += with && direction_error_deg(with->motion, scene.truth) < 10.0 ? 1 : 0;
   }
-  EXPECT_GE(told, 26);
-  EXPECT_LE(blind, told - 4);
+  EXPECT_GE(right, 26);
+  EXPECT_LE(blind, right - 4);
 }
 
 TEST(PlanarEstimate, LooksAloneAreNoEvidence) {

@@ -154,20 +154,20 @@ TEST(LocaliserWithOdometry, KeepsLookingWhereItIsLost) {
 
 TEST(LocaliserWithOdometry, ANewCountOfOdometryKeepsTheBeliefAndForgetsTheWay) {
   const map::TopologicalMap map = measured_corridor({4, 7});
-  Localiser told(map, {});
-  Localiser untold(map, {});
-  for (Localiser* localiser : {&told, &untold}) localiser->update(seen_at(3, 0.05, 0.0), Pose2{4.0, 0.0, 0.0});
-  told.restart_odometry();
+  Localiser restarted(map, {});
+  Localiser other(map, {});
+  for (Localiser* localiser : {&restarted, &other}) localiser->update(seen_at(3, 0.05, 0.0), Pose2{4.0, 0.0, 0.0});
+  restarted.restart_odometry();
   // The count begins at zero again: to one who was not told, that is a drive of four metres.
-  const Belief next = told.update(seen_at(4, 0.05, 0.0), Pose2{});
+  const Belief next = restarted.update(seen_at(4, 0.05, 0.0), Pose2{});
   EXPECT_EQ(next.updates, 2);
   EXPECT_EQ(best(next), "E");
   EXPECT_GT(next.top.front().probability, 0.9);
-  const Belief misled = untold.update(seen_at(4, 0.05, 0.0), Pose2{});
+  const Belief misled = other.update(seen_at(4, 0.05, 0.0), Pose2{});
   EXPECT_EQ(best(misled), "H");
   EXPECT_GT(probability_of(next, "E"), probability_of(misled, "E"));
   // From here on the new count tells the way.
-  EXPECT_EQ(best(told.update(seen_at(5, 0.05, 0.0), Pose2{1.0, 0.0, 0.0})), "F");
+  EXPECT_EQ(best(restarted.update(seen_at(5, 0.05, 0.0), Pose2{1.0, 0.0, 0.0})), "F");
 }
 
 TEST(LocaliserWithOdometry, APictureWithoutOdometryIsAsBefore) {

@@ -156,10 +156,10 @@ TEST_F(Grow, ATourElsewhereStaysAPartOfItsOwnAndThatIsTold) {
   EXPECT_EQ(parts[0].tours, std::vector<std::string>{"t0"});
   EXPECT_EQ(parts[1].tours, std::vector<std::string>{"new"});
   EXPECT_EQ(parts[0].places.size(), map_.places.size());
-  const std::string told = map::tell_parts(parts);
-  EXPECT_NE(told.find("2 parts"), std::string::npos) << told;
-  EXPECT_NE(told.find("of new"), std::string::npos) << told;
-  EXPECT_NE(told.find("Drive a tour that passes through both"), std::string::npos) << told;
+  const std::string text = map::tell_parts(parts);
+  EXPECT_NE(text.find("2 parts"), std::string::npos) << text;
+  EXPECT_NE(text.find("of new"), std::string::npos) << text;
+  EXPECT_NE(text.find("Drive a tour that passes through both"), std::string::npos) << text;
 }
 
 TEST_F(Grow, APersonsWordStands) {

@@ -106,13 +106,13 @@ TEST_F(DrivingTest, AStopOvertakesAndALostLinkStops) {
   const auto asked = steady_clock::now();
   const Answer stop = viewer.post(root + "/stop", {{"reason", "a cat"}});
   EXPECT_EQ(stop.status, 202);
-  const auto told = agent.await<wire::StopOrder>();
-  ASSERT_TRUE(told);
+  const auto stop_order = agent.await<wire::StopOrder>();
+  ASSERT_TRUE(stop_order);
   EXPECT_LT(steady_clock::now() - asked, milliseconds(1000));
-  EXPECT_EQ(told->stop_id, stop.json().at("stop_id"));
-  EXPECT_EQ(told->by, "vera");
-  EXPECT_EQ(told->epoch, order->order.epoch);
-  EXPECT_GT(told->seq, order->order.seq) << "what it overtakes is void";
+  EXPECT_EQ(stop_order->stop_id, stop.json().at("stop_id"));
+  EXPECT_EQ(stop_order->by, "vera");
+  EXPECT_EQ(stop_order->epoch, order->order.epoch);
+  EXPECT_GT(stop_order->seq, order->order.seq) << "what it overtakes is void";
   EXPECT_EQ(mission_now(mission).at("state"), "stopped");
   EXPECT_EQ(mission_now(mission).at("reason"), (json{{"code", "text"}, {"parameters", {{"text", "a cat"}}}}));
 

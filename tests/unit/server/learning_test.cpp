@@ -45,8 +45,8 @@ class LearningTest : public testing::DrivingTest {
                 101);
       const auto snapshot = page.receive();
       if (!snapshot) return json();
-      const json told = json::parse(*snapshot);
-      for (const json& job : told.at("jobs")) {
+      const json state = json::parse(*snapshot);
+      for (const json& job : state.at("jobs")) {
         if (job.at("kind") == "refine") newest = job;
       }
       if (!newest.is_null() && newest.at("state") != "queued" && newest.at("state") != "running") return newest;

@@ -96,8 +96,8 @@ function drop(robot: string): void {
 async function renew(robot: string): Promise<void> {
   const held = leases.get(robot);
   if (!held) return;
-  const told = connection.peek().server?.robots.find((one) => one.id === robot);
-  const journey = told ? journeyOf(told, commands.peek()[robot]) : null;
+  const reported = connection.peek().server?.robots.find((one) => one.id === robot);
+  const journey = reported ? journeyOf(reported, commands.peek()[robot]) : null;
   const busy = journey !== null && (isActive(journey.phase) || journey.phase === 'asking');
   held.idle_since_ms = busy ? null : (held.idle_since_ms ?? Date.now());
   try {

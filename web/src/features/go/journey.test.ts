@@ -56,8 +56,8 @@ describe('journeyOf', () => {
       created_us: 200,
     };
     expect(journeyOf(robot, { kind: 'sent', target, mission: sent })).toMatchObject({ phase: 'accepted' });
-    const told = { ...robot, mission: { ...sent, state: 'arrived' as const } };
-    expect(journeyOf(told, { kind: 'sent', target, mission: sent })).toMatchObject({ phase: 'arrived' });
+    const reported = { ...robot, mission: { ...sent, state: 'arrived' as const } };
+    expect(journeyOf(reported, { kind: 'sent', target, mission: sent })).toMatchObject({ phase: 'arrived' });
   });
 
   it('shows what somebody else asked for later', () => {

@@ -66,9 +66,9 @@ export function journeyOf(robot: Robot, command: Command | undefined): Journey |
 }
 
 /** The robot's word counts for the same mission; of two missions the later one. */
-function newest(told: Mission | null, sent: Mission | null): Mission | null {
-  if (!told || !sent) return told ?? sent;
-  return told.id !== sent.id && sent.created_us > told.created_us ? sent : told;
+function newest(reported: Mission | null, sent: Mission | null): Mission | null {
+  if (!reported || !sent) return reported ?? sent;
+  return reported.id !== sent.id && sent.created_us > reported.created_us ? sent : reported;
 }
 
 /** How many places are still ahead; the robot drives to the one at path_index. */
