@@ -17,8 +17,6 @@ LONG_FUNCTIONS: dict[tuple[str, str], tuple[int, str]] = {
     ("server/routes/operations.hpp", "kOperations"): (100, "a table, one row for each operation of the API"),
     ("server/http/http_server.cpp", "HttpServer::State::exchange"): (
         80, "one request from head to answer in the order of the protocol; each of its ways out ends the coroutine"),
-    ("server/driving/beliefs.cpp", "Driving::look"): (
-        75, "what it takes under the lock, computes without it and puts back under it are one transaction"),
     ("server/driving/link_events.cpp", "Driving::received_status"): (
         85, "one switch over the robot's states, whose cases share what was decided before it"),
     ("src/agent/link/link_client.cpp", "serve"): (
