@@ -33,6 +33,7 @@ sources=(
   src/geometry/match_row_loops.cpp
   src/geometry/match_rows.cpp
   src/geometry/tilted_motion.cpp
+  src/geometry/tilted_refinement.cpp
   src/matching/dot.cpp
   src/matching/nearest.cpp
   src/matching/nearest_columns.cpp

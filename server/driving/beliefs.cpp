@@ -145,6 +145,7 @@ Result<wire::BeliefView> Driving::see(Look& look) {
   if (look.new_odometry) tracking.tracker.restart_odometry();
   if (!look.said_places.empty()) {
     tracking.tracker.start_at(look.said_places);
+    look.said_places.clear();
     tracking.by_word_alone = true;
   }
   const auto picture = imageio::decode(look.frame->jpeg, "frame " + std::to_string(look.frame->seq));
@@ -164,6 +165,8 @@ Result<wire::BeliefView> Driving::see(Look& look) {
 void Driving::keep_seen(const Unit& unit, const Look& look, const Result<wire::BeliefView>& seen) {
   if (!seen) {
     unit->belief.reset();
+    // What somebody said waits for a look that comes to it.
+    if (unit->said_places.empty() && !unit->restart_tracking) unit->said_places = look.said_places;
     return;
   }
   unit->belief = *seen;

@@ -4,6 +4,7 @@
 #include "map/lookup.hpp"
 #include "planning/detour.hpp"
 #include "planning/no_route.hpp"
+#include "planning/route.hpp"
 #include "planning/second_look.hpp"
 #include "planning/surroundings.hpp"
 #include "server/driving/driving.hpp"
@@ -98,7 +99,9 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
   const auto detour =
       second_look_m ? second_look_at(map, asked, *second_look_m) : planning::plan_detour(map, asked, !fails_again);
   if (!detour) {
-    if (detour.error().code == ErrorCode::kNoRoute)
+    // A second look needs more than a way: there may be one all the same.
+    const auto way = planning::plan_route(map, asked);
+    if (detour.error().code == ErrorCode::kNoRoute && !way && way.error().code == ErrorCode::kNoRoute)
       no_way = wire::reason_of(planning::explain_no_route(map, asked), map);
     return pass_on(detour);
   }

@@ -19,6 +19,7 @@ struct MovingObstacle {
 };
 
 /// One sweep more, taken at `odometry`. Something has moved when it stands where a second ago the sweep looked through.
+/// Ours, because somebody is worth waiting for and a thing is not.
 void watch(MovingObstacle& state, const Scan& scan, const Pose2& odometry, std::int64_t now_ms);
 
 }  // namespace homeward::driving

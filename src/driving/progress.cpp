@@ -2,7 +2,6 @@
 #include "driving/progress.hpp"
 
 #include <cmath>
-#include <string>
 
 #include "driving/end_mission.hpp"
 #include "driving/estimated_position.hpp"

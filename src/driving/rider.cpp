@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 namespace homeward::driving {
+
 bool rider_steers(const Inputs& inputs, const DrivingConfig& config, Milliseconds sensors_ms) {
   return inputs.rider && inputs.rider->deflected &&
          std::abs(sensors_ms - inputs.rider->said_ms) <= config.rider_silence_ms;

@@ -10,8 +10,6 @@
 
 namespace homeward::driving {
 
-/// Why a mission ends when the rider takes the joystick.
-
 /// Whether the rider's hand is on the joystick now. A reading that is too old, or of a time to come, is of no hand.
 bool rider_steers(const Inputs& inputs, const DrivingConfig& config, Milliseconds sensors_ms);
 

@@ -58,7 +58,6 @@ struct RosbridgeFile {
 };
 
 /// As version 1 what version 1 can say, for older readers.
-
 nlohmann::json rosbridge_to_json(const RosbridgeFile& file);
 
 /// Strict. Errors: kInvalidInput, kUnsupportedFormat; each names the field.

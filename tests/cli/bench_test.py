@@ -40,7 +40,8 @@ class BenchLocalise(CliTest):
         self.assertEqual(json.loads((self.folder / "kept" / "tables.json").read_text()), result)
         table = (self.folder / "kept" / "curves.csv").read_text().splitlines()
         self.assertEqual(table[0].split(","), ["along_m"] + result["measures"])
-        self.assertEqual([float(line.split(",")[0]) for line in table[1:]], result["figure_3_6"]["along_m"])
+        self.assertEqual([float(line.split(",")[0]) for line in table[1:]],
+                         [round(along_m, 6) for along_m in result["figure_3_6"]["along_m"]])
         svg = ElementTree.fromstring((self.folder / "kept" / "curves.svg").read_text())
         curves = [path for path in svg.iter("{http://www.w3.org/2000/svg}path") if path.get("class") == "curve"]
         self.assertEqual(len(curves), len(result["measures"]))
