@@ -116,8 +116,7 @@ TEST(TourFolder, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_TRUE(error_of("times.csv", "name,time\n").where.ends_with("times.csv:1"));
   EXPECT_TRUE(error_of("times.csv", "filename,t_us\na.PNG,1\nb.png,soon\n").where.ends_with("times.csv:3"));
   EXPECT_TRUE(error_of("times.csv", "filename,t_us\na.PNG\n").where.ends_with("times.csv:2"));
-  EXPECT_TRUE(
-      error_of("odometry.csv", "t_us,x_m,y_m,theta_rad\n1,0,nan,0\n").where.ends_with("odometry.csv:2"));
+  EXPECT_TRUE(error_of("odometry.csv", "t_us,x_m,y_m,theta_rad\n1,0,nan,0\n").where.ends_with("odometry.csv:2"));
   for (const char* text : {"{", "[]", R"({"marks":3})", R"({"marks":[{"image":"a.PNG"}]})"}) {
     const Error error = error_of("tour.json", text);
     EXPECT_EQ(error.code, ErrorCode::kInvalidInput);
