@@ -18,7 +18,7 @@
 #include "server/routes/socket_routes.hpp"
 #include "server/routes/tour_routes.hpp"
 #include "server/work/build_jobs.hpp"
-#include "wire/drive_terms.hpp"
+#include "wire/lease_durations.hpp"
 
 namespace homeward::server {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "imageio/decode.hpp"
 #include "map/lookup.hpp"
-#include "planning/detour.hpp"
+#include "planning/retry_policy.hpp"
 #include "server/driving/driving.hpp"
 #include "server/services/belief_view.hpp"
 #include "wire/appearance_blob.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "db/secrets.hpp"
 #include "server/driving/driving.hpp"
-#include "wire/drive_terms.hpp"
+#include "wire/lease_durations.hpp"
 
 namespace homeward::server {
 namespace {

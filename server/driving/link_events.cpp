@@ -6,7 +6,7 @@
 #include "core/version.hpp"
 #include "server/driving/driving.hpp"
 #include "wire/camera_json.hpp"
-#include "wire/drive_terms.hpp"
+#include "wire/lease_durations.hpp"
 
 namespace homeward::server {
 namespace {

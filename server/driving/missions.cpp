@@ -5,12 +5,13 @@
 
 #include "db/secrets.hpp"
 #include "map/lookup.hpp"
-#include "planning/detour.hpp"
+#include "planning/retry_policy.hpp"
 #include "planning/route.hpp"
 #include "planning/surroundings.hpp"
 #include "server/driving/driving.hpp"
-#include "wire/drive_terms.hpp"
+#include "wire/lease_durations.hpp"
 #include "wire/mission_order.hpp"
+#include "wire/speed_limit.hpp"
 
 namespace homeward::server {
 namespace {
@@ -135,7 +136,7 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
   mission.epoch = unit.epoch;
   mission.seq = ++unit.seq;
   planned->order.order = {unit.epoch, unit.seq};
-  planned->order.speed_limit_mps = std::min(wire::kServerSpeedLimit_mps, unit.hello.max_speed_mps);
+  planned->order.speed_limit_mps = std::min(wire::kSpeedLimit_mps, unit.hello.max_speed_mps);
   unit.mission = mission;
   unit.under_way = true;
   unit.closed.clear();

@@ -5,7 +5,7 @@
 #include "server/auth/tokens.hpp"
 #include "server/http/access.hpp"
 #include "server/http/json_body.hpp"
-#include "server/routes/operations.hpp"
+#include "server/routes/operation_roles.hpp"
 
 namespace homeward::server {
 namespace {

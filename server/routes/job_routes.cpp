@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/routes/job_routes.hpp"
 
-#include "server/routes/operations.hpp"
+#include "server/routes/operation_roles.hpp"
 #include "wire/job_json.hpp"
 
 namespace homeward::server {

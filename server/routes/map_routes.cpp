@@ -6,7 +6,7 @@
 #include "map/layout.hpp"
 #include "map/lookup.hpp"
 #include "server/http/json_body.hpp"
-#include "server/routes/operations.hpp"
+#include "server/routes/operation_roles.hpp"
 #include "server/routes/route_answer.hpp"
 #include "wire/graph_json.hpp"
 #include "wire/json_write.hpp"

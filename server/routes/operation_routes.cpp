@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/routes/operation_routes.hpp"
 
-#include "server/routes/operations.hpp"
+#include "server/routes/operation_roles.hpp"
 
 #include "core/markup.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "server/auth/tokens.hpp"
 #include "server/http/json_body.hpp"
-#include "server/routes/operations.hpp"
+#include "server/routes/operation_roles.hpp"
 #include "wire/mission_json.hpp"
 #include "wire/robot_json.hpp"
 

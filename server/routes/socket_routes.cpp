@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/routes/socket_routes.hpp"
 
-#include "server/routes/operations.hpp"
+#include "server/routes/operation_roles.hpp"
 
 namespace homeward::server {
 namespace {

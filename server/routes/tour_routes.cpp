@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "server/http/json_body.hpp"
-#include "server/routes/operations.hpp"
+#include "server/routes/operation_roles.hpp"
 #include "wire/camera_json.hpp"
 #include "wire/scans_json.hpp"
 #include "wire/tour_json.hpp"

@@ -8,7 +8,7 @@
 #include "driving/follow.hpp"
 #include "driving/stated.hpp"
 #include "recording/recorder.hpp"
-#include "wire/drive_terms.hpp"
+#include "wire/lease_durations.hpp"
 
 namespace homeward::scenario {
 namespace {
@@ -234,17 +234,17 @@ void DriveLoop::move(bool frozen) {
   const bool must_rest = halted_;
   bool moved = false;
   for (int part = 0; part < kParts; ++part) {
-    const double at_s = elapsed_s() + wire::kScenarioCycle_s * part / kParts;
+    const double at_s = elapsed_s() + kScenarioCycle_s * part / kParts;
     if (frozen && at_s - commanded_s_ >= kCommandLife_s) robot_.command({});
-    robot_.advance(wire::kScenarioCycle_s / kParts);
+    robot_.advance(kScenarioCycle_s / kParts);
     if (!moves(robot_)) continue;
     moved = true;
-    stands_since_s_ = at_s + wire::kScenarioCycle_s / kParts;
+    stands_since_s_ = at_s + kScenarioCycle_s / kParts;
   }
   if (must_rest && moved) ++moved_after_stop_;
   // The base has stopped by itself: that, too, only an order may end.
   if (frozen && !moved && elapsed_s() - commanded_s_ >= kCommandLife_s) halted_ = true;
-  now_ms_ += static_cast<driving::Milliseconds>(1000.0 * wire::kScenarioCycle_s);
+  now_ms_ += static_cast<driving::Milliseconds>(1000.0 * kScenarioCycle_s);
 }
 
 /// How long after the fault the wheels stood, for the latest stop.

@@ -23,6 +23,9 @@ class Recorder;
 
 namespace homeward::scenario {
 
+/// The cycle of the simulated server and of the robot in it, in simulated time.
+inline constexpr double kScenarioCycle_s = 0.1;
+
 /// A picture of the drive with the odometry where it was taken.
 struct DrivenPicture {
   Image picture;

@@ -19,8 +19,8 @@ std::vector<MissionPlan> plan_missions(const wire::ScenarioFile& scenario, std::
   std::vector<MissionPlan> plans;
   for (std::size_t entry = 0; entry < scenario.missions.size(); ++entry) {
     const wire::ScenarioMission& mission = scenario.missions[entry];
-    MissionPlan plan{mission.from,   mission.to, mission.light, mission.people, mission.moved_furniture,
-                     mission.faults, 0,          entry,         mission.answers};
+    MissionPlan plan{mission.from,   mission.to, mission.light, mission.people,  mission.moved_furniture,
+                     mission.faults, 0,          entry,         mission.answers, scenario.speed_limit_mps};
     const int count = std::max(1, mission.random);
     for (int i = 0; i < count; ++i) {
       if (mission.random > 0) {

@@ -21,6 +21,7 @@ struct MissionPlan {
   std::uint64_t seed = 1;
   std::size_t entry = 0;           // of the scenario's missions
   std::string answers = "nobody";  // what somebody says whom the robot asks (bystander.hpp)
+  double speed_limit_mps = wire::kSpeedLimit_mps;
 };
 
 /// How many missions a scenario has, those at random counted one by one.

@@ -19,7 +19,6 @@
 #include "sim/floor.hpp"
 #include "sim/moved_furniture.hpp"
 #include "sim/tour_path.hpp"
-#include "wire/drive_terms.hpp"
 
 namespace homeward::scenario {
 namespace {
@@ -40,7 +39,7 @@ MissionResult result_of(DriveLoop& drive) {
   }
   result.stops = drive.stops();
   result.duration_s = ended_s;
-  result.vectors_per_s = drive.vectors() / std::max(wire::kScenarioCycle_s, ended_s);
+  result.vectors_per_s = drive.vectors() / std::max(kScenarioCycle_s, ended_s);
   result.moved_after_stop = drive.moved_after_stop();
   result.kidnapped_at_s = drive.kidnapped_at_s();
   result.noticed_after_s = drive.noticed_after_s();
@@ -154,7 +153,7 @@ Result<MissionResult> drive_from_here(const Setting& mission, const map::Destina
                                       SimulatedRobot& robot) {
   const auto eye = pipeline::Eye::create(mission.taught.camera, mission.taught.map->feature_config);
   if (!eye) return pass_on(eye);
-  auto server = SimulatedServer::create(mission.taught, destination);
+  auto server = SimulatedServer::create(mission.taught, destination, mission.plan.speed_limit_mps);
   if (!server) return pass_on(server);
   const auto place = server->find_place(robot);
   if (!place) return pass_on(place);

@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include "driving/estimated_position.hpp"
-#include "planning/detour.hpp"
 #include "planning/no_route.hpp"
+#include "planning/retry_policy.hpp"
 #include "planning/second_look.hpp"
 #include "planning/surroundings.hpp"
-#include "wire/drive_terms.hpp"
+#include "wire/lease_durations.hpp"
 #include "wire/map_reasons.hpp"
 
 namespace homeward::scenario {
@@ -22,10 +22,11 @@ std::optional<PlaceId> place_of(const localisation::Belief& belief) {
 
 }  // namespace
 
-Result<SimulatedServer> SimulatedServer::create(const TaughtWorld& taught, const map::Destination& destination) {
+Result<SimulatedServer> SimulatedServer::create(const TaughtWorld& taught, const map::Destination& destination,
+                                                double speed_limit_mps) {
   auto tracker = pipeline::BeliefTracker::create(taught.map, taught.camera);
   if (!tracker) return pass_on(tracker);
-  return SimulatedServer(taught, destination, std::move(*tracker));
+  return SimulatedServer(taught, destination, speed_limit_mps, std::move(*tracker));
 }
 
 Result<std::optional<PlaceId>> SimulatedServer::find_place(SimulatedRobot& robot) {
@@ -71,7 +72,7 @@ Result<wire::MissionOrder> SimulatedServer::order_from(const PlaceId& place, boo
   order.order = {1, ++orders_ * kOrderStep};
   order.map = MapId("taught");
   order.valid_for_ms = wire::kPermitValid_ms;
-  order.speed_limit_mps = wire::kScenarioSpeedLimit_mps;
+  order.speed_limit_mps = speed_limit_mps_;
   return order;
 }
 

@@ -17,8 +17,10 @@ namespace homeward::scenario {
 /// looks again and gives an order for another way, as `planning::detour_after` decides.
 class SimulatedServer {
  public:
-  /// `destination` must be of the map of `taught`, which outlives this. Errors: those of BeliefTracker::create.
-  static Result<SimulatedServer> create(const TaughtWorld& taught, const map::Destination& destination);
+  /// `destination` must be of the map of `taught`, which outlives this. `speed_limit_mps`: of its orders. Errors: those
+  /// of BeliefTracker::create.
+  static Result<SimulatedServer> create(const TaughtWorld& taught, const map::Destination& destination,
+                                        double speed_limit_mps);
 
   /// Looks at where the robot stands: the likeliest place, however unlikely. Nothing: there is nothing to be seen.
   Result<std::optional<PlaceId>> find_place(SimulatedRobot& robot);
@@ -42,11 +44,13 @@ class SimulatedServer {
   void begin_by_belief();
   std::optional<PlaceId> believed_start(const driving::DrivingState& robot, bool sees, bool& unsure);
   Result<std::optional<PlaceId>> look_anew(DriveLoop& drive);
-  SimulatedServer(const TaughtWorld& taught, const map::Destination& destination, pipeline::BeliefTracker tracker)
-      : taught_(&taught), destination_(&destination), tracker_(std::move(tracker)) {}
+  SimulatedServer(const TaughtWorld& taught, const map::Destination& destination, double speed_limit_mps,
+                  pipeline::BeliefTracker tracker)
+      : taught_(&taught), destination_(&destination), speed_limit_mps_(speed_limit_mps), tracker_(std::move(tracker)) {}
 
   const TaughtWorld* taught_;
   const map::Destination* destination_;
+  double speed_limit_mps_;
   pipeline::BeliefTracker tracker_;
   std::vector<PlaceId> path_;
   std::vector<planning::Way> closed_;

@@ -15,7 +15,7 @@
 #include "core/pose2.hpp"
 #include "core/result.hpp"
 #include "core/time.hpp"
-#include "wire/drive_terms.hpp"
+#include "wire/lease_durations.hpp"
 #include "wire/reason.hpp"
 
 namespace homeward::wire {

@@ -109,6 +109,7 @@ Result<ScenarioFile> scenario_from_json(const json& value, const std::string& pa
   read_camera(reader, scenario);
   if (reader.has("robot")) scenario.robot = reader.choice("robot", {"disc", "chair"});
   if (reader.has("ranges")) scenario.ranges = reader.choice("ranges", {"laser", "ultrasound"});
+  if (reader.has("speed_limit_mps")) scenario.speed_limit_mps = reader.number("speed_limit_mps", 0.05, 2.0);
   read_tour(reader, scenario);
   const std::vector<json> missions = reader.array("missions", 10'000);
   for (std::size_t i = 0; i < missions.size(); ++i) {

@@ -10,6 +10,7 @@
 #include "camera/camera_config.hpp"
 #include "core/enum_names.hpp"
 #include "core/result.hpp"
+#include "wire/speed_limit.hpp"
 
 namespace homeward::wire {
 
@@ -60,6 +61,7 @@ struct ScenarioFile {
   std::string camera_file;                     // ... or a camera.json relative to the scenario
   std::string robot = "disc";                  // "disc" or "chair"
   std::string ranges = "laser";                // or "ultrasound"
+  double speed_limit_mps = kSpeedLimit_mps;    // of its missions
   std::vector<std::string> tour_rooms;
   bool tours_all_rooms = false;  // in place of `tour_rooms`: every room of the world, the next always the nearest one
   std::string tour_light = "day";

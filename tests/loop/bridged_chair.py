@@ -23,7 +23,8 @@ FULL = 32767
 
 
 class BridgedChair:
-    def __init__(self, binaries, web, port, base_timeout_s):
+    def __init__(self, binaries, web, port, base_timeout_s, under_way_mps=UNDER_WAY_MPS):
+        self.under_way_mps = under_way_mps
         self.binaries, self.web, self.port = pathlib.Path(binaries).resolve(), pathlib.Path(web).resolve(), port
         self.scratch = tempfile.TemporaryDirectory(prefix="homeward-chair-")
         self.data = pathlib.Path(self.scratch.name)
@@ -156,7 +157,7 @@ class BridgedChair:
                 break
         renewed = time.monotonic()
         end = renewed + 60
-        while abs(self.truth()["speed_mps"]) < UNDER_WAY_MPS:
+        while abs(self.truth()["speed_mps"]) < self.under_way_mps:
             if time.monotonic() > end or self.mission()["state"] not in ("accepted", "driving"):
                 return False
             if time.monotonic() - renewed > 1:

@@ -20,13 +20,13 @@
 #include "driving/step.hpp"
 #include "pipeline/eye.hpp"
 #include "recording/recorder.hpp"
-#include "wire/drive_terms.hpp"
+#include "wire/lease_durations.hpp"
 
 namespace homeward::agent {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto kCycle = std::chrono::milliseconds(wire::kAgentCycle_ms);
+constexpr auto kCycle = std::chrono::milliseconds(40);
 constexpr const char* kProgram = "homeward-agent";
 constexpr const char* kNotInRealTime =
     "other programs on this computer may hold up the loop that drives, and then the robot stops: permit this program "

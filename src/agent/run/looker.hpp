@@ -12,7 +12,7 @@
 #include "driving/inputs.hpp"
 #include "pipeline/eye.hpp"
 #include "recording/look.hpp"
-#include "wire/drive_terms.hpp"
+#include "wire/lease_durations.hpp"
 
 namespace homeward::agent {
 

@@ -3,9 +3,9 @@
 """How soon the robot is told to stand, and stands, after a stop request and after each kind of silence.
 
 The real server and agent and a simulated robot behind a rosbridge, each a program of its own; every time the robot is
-under way on a mission (above 0.2 m/s). Measured on the robot: from just before the request is sent, the key is pressed
+under way on a mission (above 0.2 m/s, or --above). Measured on the robot: from just before the request is sent, the key is pressed
 or the signal is given, to the first moment at which its wheels are told zero for good, and to that at which it stands.
-usage: stop_latency.py BIN_FOLDER WEB_FOLDER [--runs N] [--json FILE]
+usage: stop_latency.py BIN_FOLDER WEB_FOLDER [--runs N] [--above MPS] [--only CASE] [--json FILE]
 Ends with 1 when a bound does not hold.
 """
 import argparse
@@ -19,7 +19,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tests" / "loop"))
-from bridged_chair import FULL, BridgedChair  # noqa: E402
+from bridged_chair import FULL, UNDER_WAY_MPS, BridgedChair  # noqa: E402
 
 BASE_TIMEOUT_S = 0.2
 STOP_BOUND_S = 0.2     # to the zero at the driver
@@ -102,10 +102,11 @@ def main():
     parser.add_argument("binaries")
     parser.add_argument("web")
     parser.add_argument("--runs", type=int, default=5)
+    parser.add_argument("--above", type=float, default=UNDER_WAY_MPS, metavar="MPS")
     parser.add_argument("--only", choices=list(CASES), action="append")
     parser.add_argument("--json")
     options = parser.parse_args()
-    chair = BridgedChair(options.binaries, options.web, 18485, BASE_TIMEOUT_S)
+    chair = BridgedChair(options.binaries, options.web, 18485, BASE_TIMEOUT_S, options.above)
     results = {}
     try:
         latencies = Latencies(chair)

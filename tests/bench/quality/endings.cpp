@@ -133,7 +133,8 @@ Ending drive(const scenario::TaughtWorld& taught, scenario::SimulatedRobot& robo
              const map::Destination& destination, const PlaceId& stated, Kind kind, const Options& options) {
   constexpr double kShort_m = 1.0;
   const Pose2& target = taught.destination_poses.at(destination.label);
-  scenario::SimulatedServer server = or_die(scenario::SimulatedServer::create(taught, destination));
+  scenario::SimulatedServer server =
+      or_die(scenario::SimulatedServer::create(taught, destination, wire::kSpeedLimit_mps));
   or_die(server.find_place(robot));
   wire::MissionOrder order = or_die(server.order_from(stated));
   if (order.surroundings) order.surroundings->start_probability = options.start_probability;

@@ -94,13 +94,17 @@ TEST(Bystander, SaysTheTruthOrYesOrNothing) {
   EXPECT_FALSE(answers_named("wrong", there));
 }
 
-TEST(MissionPlan, TakesOverWhoAnswers) {
+TEST(MissionPlan, TakesOverWhoAnswersAndHowFastItMayBe) {
   wire::ScenarioFile scenario;
   wire::ScenarioMission mission;
   mission.random = 2;
   mission.answers = "right";
   scenario.missions = {mission};
-  for (const MissionPlan& plan : plan_missions(scenario, {"hall", "kitchen"})) EXPECT_EQ(plan.answers, "right");
+  scenario.speed_limit_mps = 0.3;
+  for (const MissionPlan& plan : plan_missions(scenario, {"hall", "kitchen"})) {
+    EXPECT_EQ(plan.answers, "right");
+    EXPECT_EQ(plan.speed_limit_mps, 0.3);
+  }
 }
 
 /// A robot in the generated offices.

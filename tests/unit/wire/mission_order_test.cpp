@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "planning/route_request.hpp"
 #include "support/ascii_map.hpp"
 #include "support/sample_map.hpp"
 #include "wire/appearance_blob.hpp"
+#include "wire/speed_limit.hpp"
 
 namespace homeward::wire::mission_order_test {
 namespace {
@@ -194,6 +196,8 @@ TEST(AddSurroundings, OfTheLayoutOfAMapGoesOverTheLink) {
   ASSERT_TRUE(again) << again.error().message << " at " << again.error().where;
   EXPECT_EQ(std::get<MissionOrder>(*again).surroundings->path.size(), 2U);
 }
+
+TEST(SpeedLimit, IsThePaceThatRoutesAreTimedBy) { EXPECT_EQ(planning::TravelModel{}.speed_mps, kSpeedLimit_mps); }
 
 }  // namespace
 }  // namespace homeward::wire::mission_order_test

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planning/detour.hpp"
+#include "planning/retry_policy.hpp"
 
 #include <gtest/gtest.h>
 
 #include "support/ascii_map.hpp"
 
-namespace homeward::planning::detour_test {
+namespace homeward::planning::retry_policy_test {
 namespace {
 
 using Ways = std::vector<Way>;
@@ -16,7 +16,7 @@ FailedDrive failed(std::int64_t index, const char* here) {
   return {{PlaceId("p1"), PlaceId("p2"), PlaceId("p3"), PlaceId("p4")}, index, PlaceId(here), PlaceId("p4"), 0};
 }
 
-TEST(Detour, ClosesTheEdgeThatWasDrivenAndTheNextWhereTheRobotIsFurther) {
+TEST(RetryPolicy, ClosesTheEdgeThatWasDrivenAndTheNextWhereTheRobotIsFurther) {
   EXPECT_EQ(failed_ways(failed(1, "p1")), (Ways{way("p1", "p2"), way("p2", "p1")}));
   EXPECT_EQ(failed_ways(failed(2, "p9")), (Ways{way("p2", "p3"), way("p3", "p2")}));
   EXPECT_EQ(failed_ways(failed(2, "p3")), (Ways{way("p2", "p3"), way("p3", "p2"), way("p3", "p4"), way("p4", "p3")}));
@@ -28,7 +28,7 @@ TEST(Detour, ClosesTheEdgeThatWasDrivenAndTheNextWhereTheRobotIsFurther) {
   EXPECT_TRUE(failed_ways(short_one).empty());
 }
 
-TEST(Detour, IsLookedForThreeTimesAtMost) {
+TEST(RetryPolicy, IsLookedForThreeTimesAtMost) {
   FailedDrive drive = failed(1, "p1");
   for (drive.detours = 0; drive.detours < 3; ++drive.detours) {
     EXPECT_EQ(detour_after(drive), failed_ways(drive)) << drive.detours;
@@ -36,21 +36,21 @@ TEST(Detour, IsLookedForThreeTimesAtMost) {
   EXPECT_FALSE(detour_after(drive));
 }
 
-TEST(Detour, IsNotLookedForAtTheDestinationOrWithoutAnEdgeToBlame) {
+TEST(RetryPolicy, IsNotLookedForAtTheDestinationOrWithoutAnEdgeToBlame) {
   EXPECT_FALSE(detour_after(failed(3, "p4")));
   FailedDrive short_one = failed(0, "p1");
   short_one.path.resize(1);
   EXPECT_FALSE(detour_after(short_one));
 }
 
-TEST(Detour, ClosesNothingWhereTheRobotWasSentFromElsewhereThanItStood) {
+TEST(RetryPolicy, ClosesNothingWhereTheRobotWasSentFromElsewhereThanItStood) {
   EXPECT_EQ(detour_after(failed(0, "p9")), Ways());
   FailedDrive often = failed(0, "p9");
   often.detours = 3;
   EXPECT_FALSE(detour_after(often));
 }
 
-TEST(Detour, OfARobotThatWentAstrayClosesNothingAndIsNoDetour) {
+TEST(RetryPolicy, OfARobotThatWentAstrayClosesNothingAndIsNoDetour) {
   FailedDrive astray = failed(2, "p9");
   astray.astray = true;
   astray.detours = 3;
@@ -63,7 +63,7 @@ TEST(Detour, OfARobotThatWentAstrayClosesNothingAndIsNoDetour) {
   EXPECT_EQ(detour_after(there), Ways()) << "somebody has lifted it there";
 }
 
-TEST(Detour, OfARobotThatIsUnsureIsLookedForThreeTimesAtMost) {
+TEST(RetryPolicy, OfARobotThatIsUnsureIsLookedForThreeTimesAtMost) {
   FailedDrive unsure = failed(3, "p4");
   unsure.unsure = true;
   for (unsure.unsure_restarts = 0; unsure.unsure_restarts < 3; ++unsure.unsure_restarts) {
@@ -72,7 +72,7 @@ TEST(Detour, OfARobotThatIsUnsureIsLookedForThreeTimesAtMost) {
   EXPECT_FALSE(detour_after(unsure));
 }
 
-TEST(Detour, GoesRoundWhatIsClosed) {
+TEST(RetryPolicy, GoesRoundWhatIsClosed) {
   const auto map = homeward::testing::ascii_map(R"(
 A-B
 | |
@@ -85,7 +85,7 @@ C-D
   EXPECT_FALSE(detour->again);
 }
 
-TEST(Detour, FailsAgainWhereAllThatFailedIsClosedAlready) {
+TEST(RetryPolicy, FailsAgainWhereAllThatFailedIsClosedAlready) {
   const Ways closed = {way("A", "B"), way("B", "A"), way("C", "D"), way("D", "C")};
   EXPECT_FALSE(fails_again({}, Ways{way("A", "B"), way("B", "A")}));
   EXPECT_TRUE(fails_again(closed, Ways{way("C", "D"), way("D", "C")}));
@@ -94,7 +94,7 @@ TEST(Detour, FailsAgainWhereAllThatFailedIsClosedAlready) {
   EXPECT_FALSE(fails_again(closed, {})) << "nothing is to blame";
 }
 
-TEST(Detour, TriesTheOnlyWayOnceMore) {
+TEST(RetryPolicy, TriesTheOnlyWayOnceMore) {
   const auto map = homeward::testing::ascii_map("A-B-C");
   const RouteRequest request{
       .from = PlaceId("A"), .to = PlaceId("C"), .avoid = {}, .closed = {way("A", "B"), way("B", "A")}};
@@ -107,7 +107,7 @@ TEST(Detour, TriesTheOnlyWayOnceMore) {
   EXPECT_EQ(enough.error().code, ErrorCode::kNoRoute);
 }
 
-TEST(Detour, DoesNotTryAgainWhereThereWasNeverAWay) {
+TEST(RetryPolicy, DoesNotTryAgainWhereThereWasNeverAWay) {
   const auto map = homeward::testing::ascii_map("A-B C-D");
   const auto none =
       plan_detour(map, {.from = PlaceId("A"), .to = PlaceId("D"), .avoid = {}, .closed = {way("A", "B")}}, true);
@@ -121,4 +121,4 @@ TEST(LongestMission, IsTenMinutesAndMoreForLongWays) {
 }
 
 }  // namespace
-}  // namespace homeward::planning::detour_test
+}  // namespace homeward::planning::retry_policy_test

@@ -2,15 +2,16 @@
 #include <spdlog/spdlog.h>
 
 #include "map/lookup.hpp"
-#include "planning/detour.hpp"
 #include "planning/no_route.hpp"
+#include "planning/retry_policy.hpp"
 #include "planning/route.hpp"
 #include "planning/second_look.hpp"
 #include "planning/surroundings.hpp"
 #include "server/driving/driving.hpp"
-#include "wire/drive_terms.hpp"
+#include "wire/lease_durations.hpp"
 #include "wire/map_reasons.hpp"
 #include "wire/mission_order.hpp"
+#include "wire/speed_limit.hpp"
 
 namespace homeward::server {
 namespace {
@@ -156,7 +157,7 @@ void Driving::send_detour(const Unit& found, const MissionId& mission, const wir
   planned->mission.epoch = unit.epoch;
   planned->mission.seq = ++unit.seq;
   planned->order.order = {unit.epoch, unit.seq};
-  planned->order.speed_limit_mps = std::min(wire::kServerSpeedLimit_mps, unit.hello.max_speed_mps);
+  planned->order.speed_limit_mps = std::min(wire::kSpeedLimit_mps, unit.hello.max_speed_mps);
   unit.mission = planned->mission;
   unit.mission_at = now;
   // Another way may be far longer; there are three at most.

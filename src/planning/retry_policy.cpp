@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planning/detour.hpp"
+#include "planning/retry_policy.hpp"
 
 #include <algorithm>
 
