@@ -31,6 +31,8 @@ esac
 
 say() { printf '\n== %s (%s)\n' "$1" "$(date +%H:%M:%S)"; }
 jobs="$(nproc)"
+# One of the tests goes in real time and mostly waits (cmake/HomewardTests.cmake).
+tests_at_once="$((jobs + 1))"
 
 configure() {  # configure PRESET [OPTION...]
   local preset="$1"; shift
@@ -76,7 +78,7 @@ if [ "$what" = all ]; then
   configure tsan
   build tsan server_tests
   TSAN_OPTIONS="suppressions=$PWD/tests/support/tsan.supp history_size=4" \
-    ctest --preset tsan -R '^server/' -j "$jobs" --no-tests=error
+    ctest --preset tsan -R '^server/' -j "$tests_at_once" --no-tests=error
 
   say "Unit tests for the address and undefined behaviour sanitizers"
   configure asan
@@ -88,4 +90,4 @@ fi
 say "All tests"
 configure release -DHOMEWARD_UNIT_TESTS_IN="${unit_tests:-}"
 build release
-ctest --preset release -j "$jobs" --no-tests=error
+ctest --preset release -j "$tests_at_once" --no-tests=error
