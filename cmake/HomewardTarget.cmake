@@ -4,9 +4,7 @@ option(HOMEWARD_ASAN "Address and undefined behaviour sanitizers" OFF)
 option(HOMEWARD_TSAN "Thread sanitizer" OFF)
 option(HOMEWARD_TIDY "Run clang-tidy on every source" OFF)
 option(HOMEWARD_NATIVE "Use the instructions of this machine's processor" OFF)
-set(HOMEWARD_TEST_BATCH
-    4
-    CACHE STRING "How many files of tests are compiled as one")
+option(HOMEWARD_BATCHES "Compile some sources of a folder at once" ON)
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
@@ -137,10 +135,43 @@ function(_homeward_finish target)
   endif()
 endfunction()
 
-# homeward_add_library(name SOURCES a.cpp ... [PUBLIC targets] [PRIVATE targets]): target homeward_<name>, alias
-# homeward::<name>. Without sources it is headers only.
+# homeward_batches(result name size a.cpp ...): gives in `result` sources of the build that include `size` of these files of
+# this folder each, so that headers that all of them read are compiled less often; all but what is generated, which is named
+# by its whole path. Not CMake's own UNITY_BUILD: its sources name files by where they lie on this machine, so the compiler
+# cache would find none of them in another folder.
+function(homeward_batches result name size)
+  set(files ${ARGN})
+  if(NOT HOMEWARD_BATCHES OR size LESS 2)
+    set(${result} ${files} PARENT_SCOPE)
+    return()
+  endif()
+  set(sources ${files})
+  list(FILTER sources INCLUDE REGEX "^/")
+  list(FILTER files EXCLUDE REGEX "^/")
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  set(begin 0)
+  list(LENGTH files count)
+  while(begin LESS count)
+    list(SUBLIST files ${begin} ${size} batch)
+    list(TRANSFORM batch REPLACE "(.+)" "#include \"${folder}/\\1\"\n")
+    string(JOIN "" text ${batch})
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}_${begin}.cpp)
+    file(CONFIGURE OUTPUT ${source} CONTENT "${text}" @ONLY)
+    list(APPEND sources ${source})
+    math(EXPR begin "${begin} + ${size}")
+  endwhile()
+  set(${result} ${sources} PARENT_SCOPE)
+endfunction()
+
+# homeward_add_library(name SOURCES a.cpp ... [BATCH size] [ALONE b.cpp ...] [PUBLIC targets] [PRIVATE targets]): target
+# homeward_<name>, alias homeward::<name>. BATCH: so many of SOURCES are compiled at once (homeward_batches), those of ALONE
+# are not. Without sources it is headers only.
 function(homeward_add_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "BATCH" "SOURCES;ALONE;PUBLIC;PRIVATE" ${ARGN})
+  if(ARG_BATCH)
+    homeward_batches(ARG_SOURCES homeward_${name} ${ARG_BATCH} ${ARG_SOURCES})
+  endif()
+  list(APPEND ARG_SOURCES ${ARG_ALONE})
   if(ARG_SOURCES)
     add_library(homeward_${name} STATIC ${ARG_SOURCES})
     target_include_directories(homeward_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
@@ -166,9 +197,12 @@ function(homeward_watch)
   endif()
 endfunction()
 
-# homeward_add_program(homeward-server SOURCES main.cpp LINK targets)
+# homeward_add_program(homeward-server SOURCES main.cpp [BATCH size] LINK targets)
 function(homeward_add_program name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "BATCH" "SOURCES;LINK" ${ARGN})
+  if(ARG_BATCH)
+    homeward_batches(ARG_SOURCES ${name} ${ARG_BATCH} ${ARG_SOURCES})
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)

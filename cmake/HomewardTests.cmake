@@ -1,17 +1,23 @@
 # Tests: what several of them share, programs of GoogleTest files, and who has to give way to whom.
 
-# What drives in real time needs a processor as soon as it wants one. All other tests run at the lowest of priorities and
-# take what those leave, so both go on at once. (SCHED_IDLE; anybody may give up a priority.)
-find_program(CHRT_PROGRAM chrt)
+# What drives in real time needs a processor as soon as it wants one. On a machine that does nothing else, tests/run.sh lets
+# all other tests run at the lowest of priorities and take what those leave, so both go on at once. (SCHED_IDLE; anybody may
+# give up a priority. Beside other work they would hardly ever get a turn.)
+option(HOMEWARD_TESTS_YIELD "Tests yield the processor to those that go in real time, and to everything else" OFF)
 set(HOMEWARD_YIELDING "")
-if(CHRT_PROGRAM)
+if(HOMEWARD_TESTS_YIELD)
+  find_program(CHRT_PROGRAM chrt REQUIRED)
   set(HOMEWARD_YIELDING ${CHRT_PROGRAM} --idle 0)
 endif()
 
-# homeward_real_time(name ...): tests that go in real time, started without HOMEWARD_YIELDING: one at a time, and before all
-# others, as they take longest altogether.
+# homeward_real_time(name ...): tests that go in real time, started without HOMEWARD_YIELDING. Where the others yield, one
+# at a time beside them, and before them, as these take longest altogether; otherwise each alone.
 function(homeward_real_time)
-  set_tests_properties(${ARGN} PROPERTIES RESOURCE_LOCK real_time COST 1000)
+  if(HOMEWARD_TESTS_YIELD)
+    set_tests_properties(${ARGN} PROPERTIES RESOURCE_LOCK real_time COST 1000)
+  else()
+    set_tests_properties(${ARGN} PROPERTIES RUN_SERIAL ON)
+  endif()
 endfunction()
 
 # Every program of unit tests.
@@ -26,32 +32,6 @@ function(homeward_add_test_support name)
   target_link_libraries(${target} PUBLIC ${ARG_LINK})
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/tests)
   _homeward_finish(${target})
-endfunction()
-
-# Gives in `result` what to compile for the files a_test.cpp ... of this folder: sources that include HOMEWARD_TEST_BATCH of
-# them each. Not CMake's own UNITY_BUILD: its sources name files by where they lie on this machine, so the compiler cache
-# would find none of them in another folder.
-function(_homeward_test_batches result target)
-  set(files ${ARGN})
-  list(TRANSFORM files APPEND _test.cpp)
-  if(HOMEWARD_TEST_BATCH LESS 2)
-    set(${result} ${files} PARENT_SCOPE)
-    return()
-  endif()
-  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
-  set(sources "")
-  set(begin 0)
-  list(LENGTH files count)
-  while(begin LESS count)
-    list(SUBLIST files ${begin} ${HOMEWARD_TEST_BATCH} batch)
-    list(TRANSFORM batch REPLACE "(.+)" "#include \"${folder}/\\1\"\n")
-    string(JOIN "" text ${batch})
-    set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}_${begin}.cpp)
-    file(CONFIGURE OUTPUT ${source} CONTENT "${text}" @ONLY)
-    list(APPEND sources ${source})
-    math(EXPR begin "${begin} + ${HOMEWARD_TEST_BATCH}")
-  endwhile()
-  set(${result} ${sources} PARENT_SCOPE)
 endfunction()
 
 # homeward_add_tests(mapping FILES edges loops+closed_loops LINK targets [SLOW loops] [LABELS unit] [TIMEOUT seconds]
@@ -84,7 +64,8 @@ function(homeward_add_tests module)
     endif()
   endforeach()
 
-  _homeward_test_batches(batches ${target} ${files})
+  list(TRANSFORM files APPEND _test.cpp OUTPUT_VARIABLE sources)
+  homeward_batches(batches ${target} 4 ${sources})
   add_executable(${target} ${batches} ${ARG_SOURCES})
   target_link_libraries(${target} PRIVATE ${ARG_LINK} homeward_test_folders homeward_test_main GTest::gtest
                                           GTest::gmock)

@@ -47,7 +47,7 @@ mkdir -p build
 
 if [ "$what" = fast ]; then
   say "Fast unit tests"
-  configure release
+  configure release -DHOMEWARD_TESTS_YIELD=OFF
   build release unit_tests
   ctest --preset release -L '^fast$' -j "$jobs" --no-tests=error
   exit
@@ -56,7 +56,7 @@ fi
 if [ "$what" = changed ]; then
   folders="$(tests/changed.py)"
   say "Tests of: ${folders//$'\n'/ }"
-  configure release
+  configure release -DHOMEWARD_TESTS_YIELD=OFF
   mapfile -t programs <<<"$folders"
   build release "${programs[@]/%/_tests}"
   ctest --preset release -R "^(${folders//$'\n'/|})/" -L 'unit|contract' -j "$jobs" --no-tests=error
@@ -75,19 +75,19 @@ web/build.sh --check
 
 if [ "$what" = all ]; then
   say "Server tests under the thread sanitizer"
-  configure tsan
+  configure tsan -DHOMEWARD_TESTS_YIELD=ON
   build tsan server_tests
   TSAN_OPTIONS="suppressions=$PWD/tests/support/tsan.supp history_size=4" \
     ctest --preset tsan -R '^server/' -j "$tests_at_once" --no-tests=error
 
   say "Unit tests for the address and undefined behaviour sanitizers"
-  configure asan
+  configure asan -DHOMEWARD_TESTS_YIELD=ON
   build asan unit_tests
   unit_tests="$PWD/build/asan"
 fi
 
 # Each test is built and run once: the unit tests with the sanitizers, all others as people run the programs.
 say "All tests"
-configure release -DHOMEWARD_UNIT_TESTS_IN="${unit_tests:-}"
+configure release -DHOMEWARD_UNIT_TESTS_IN="${unit_tests:-}" -DHOMEWARD_TESTS_YIELD=ON
 build release
 ctest --preset release -j "$tests_at_once" --no-tests=error

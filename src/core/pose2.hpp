@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 
 #include "core/angles.hpp"
@@ -14,6 +15,9 @@ struct Pose2 {
   double y_m = 0.0;
   double theta_rad = 0.0;
 };
+
+/// Where it is, without its heading.
+inline Eigen::Vector2d position_m(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
 
 /// a_from_c = a_from_b * b_from_c
 inline Pose2 operator*(const Pose2& a_from_b, const Pose2& b_from_c) {

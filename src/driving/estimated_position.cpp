@@ -10,15 +10,13 @@ namespace {
 
 using Vector2 = Eigen::Vector2d;
 
-Vector2 position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
-
 /// Of the view that is nearest to a point of the map; nothing where none is near.
 std::optional<PlaceId> place_at(const VisualPath& path, const Vector2& here_m) {
   constexpr double kReach_m = 3.0;
   double least_m = kReach_m;
   std::optional<PlaceId> place;
   for (int view = 0; view < path.placed(); ++view) {
-    const double distance_m = (position(path.pose(view)) - here_m).norm();
+    const double distance_m = (position_m(path.pose(view)) - here_m).norm();
     if (distance_m >= least_m || path.place_of(view).empty()) continue;
     least_m = distance_m;
     place = path.place_of(view);
@@ -50,7 +48,8 @@ double arrival_probability(const FollowState& state, const VisualPath& path, con
   constexpr double kDisagreeing = 0.5;
   const auto off_m = off_belief_m(state, path, config);
   const double agreeing = off_m && *off_m > kAgrees_m ? kDisagreeing : 1.0;
-  return agreeing * state.hypotheses.probability_within(position(path.pose(path.size() - 1)), config.arrived_within_m);
+  return agreeing *
+         state.hypotheses.probability_within(position_m(path.pose(path.size() - 1)), config.arrived_within_m);
 }
 
 bool is_certain_of_arrival(const FollowState& state, const VisualPath& path, const FollowConfig& config,
@@ -75,7 +74,7 @@ double share_when_here(const FollowState& state, const VisualPath& path, const F
 
 std::optional<PlaceId> estimated_place(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
   if (path.alone() || position_probability(state, path) < config.drive_above) return std::nullopt;
-  return place_at(path, position(state.hypotheses.best()->map_from_robot));
+  return place_at(path, position_m(state.hypotheses.best()->map_from_robot));
 }
 
 std::vector<PossiblePlace> possible_places(const FollowState& state, const VisualPath& path) {
@@ -89,7 +88,7 @@ std::vector<PossiblePlace> possible_places(const FollowState& state, const Visua
   };
   std::vector<Spot> spots;
   for (const PoseHypothesis& one : state.hypotheses.all()) {
-    const Vector2 at_m = position(one.map_from_robot);
+    const Vector2 at_m = position_m(one.map_from_robot);
     const auto same =
         std::ranges::find_if(spots, [&](const Spot& spot) { return (spot.at_m - at_m).norm() < kOnePlace_m; });
     if (same != spots.end()) {
@@ -111,14 +110,14 @@ std::vector<PossiblePlace> possible_places(const FollowState& state, const Visua
 
 std::optional<double> off_path_m(const FollowState& state, const VisualPath& path, const FollowConfig& config) {
   if (path.alone() || position_probability(state, path) < drives_above(state, config)) return std::nullopt;
-  const Vector2 here_m = position(state.hypotheses.best()->map_from_robot);
+  const Vector2 here_m = position_m(state.hypotheses.best()->map_from_robot);
   // Where the path is the destination's view alone, the robot begins anywhere in its place.
   constexpr double kWithinPlace_m = 3.0;
-  double least_m = (position(path.pose(0)) - here_m).norm();
+  double least_m = (position_m(path.pose(0)) - here_m).norm();
   if (path.size() == 1) return std::max(0.0, least_m - kWithinPlace_m);
   for (int view = 0; view + 1 < path.size(); ++view) {
-    const Vector2 from_m = position(path.pose(view));
-    const Vector2 piece_m = position(path.pose(view + 1)) - from_m;
+    const Vector2 from_m = position_m(path.pose(view));
+    const Vector2 piece_m = position_m(path.pose(view + 1)) - from_m;
     const double length2 = std::max(1e-9, piece_m.squaredNorm());
     const double along = std::clamp((here_m - from_m).dot(piece_m) / length2, 0.0, 1.0);
     least_m = std::min(least_m, (from_m + along * piece_m - here_m).norm());
@@ -131,7 +130,7 @@ std::optional<double> off_belief_m(const FollowState& state, const VisualPath& p
   if (path.alone() || !state.belief || state.belief->probability < kSure) return std::nullopt;
   if (position_probability(state, path) < config.drive_above) return std::nullopt;
   if (!state.belief->view) return std::numeric_limits<double>::infinity();
-  return (position(path.pose(*state.belief->view)) - position(state.hypotheses.best()->map_from_robot)).norm();
+  return (position_m(path.pose(*state.belief->view)) - position_m(state.hypotheses.best()->map_from_robot)).norm();
 }
 
 }  // namespace homeward::driving

@@ -13,8 +13,6 @@ namespace {
 
 using Vector2 = Eigen::Vector2d;
 
-Vector2 position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
-
 Eigen::Matrix2d rotation(double angle_rad) { return Eigen::Rotation2Dd(angle_rad).toRotationMatrix(); }
 
 constexpr double kMost = 50.0;  // squared standard deviations: what is farther off is no more wrong
@@ -24,7 +22,7 @@ constexpr double kMost = 50.0;  // squared standard deviations: what is farther 
 ExpectedView expected_view(const PoseHypothesis& hypothesis, const ViewSighting& sighting) {
   ExpectedView result;
   result.robot_from_view = inverse(hypothesis.map_from_robot) * sighting.map_from_view;
-  result.distance_m = position(result.robot_from_view).norm();
+  result.distance_m = position_m(result.robot_from_view).norm();
   // r = R(-theta) (v - x): moves against x, and across with the heading.
   Eigen::Matrix<double, 2, 3> moved;
   moved.leftCols<2>() = -rotation(-hypothesis.map_from_robot.theta_rad);
@@ -40,7 +38,7 @@ double disagreement(const PoseHypothesis& hypothesis, const ExpectedView& view, 
   constexpr double kDistanceSpread = 0.9;  // of the logarithm
   const Vector2 along(std::cos(seen.bearing_rad), std::sin(seen.bearing_rad));
   const Vector2 across(-along.y(), along.x());
-  const Vector2 at_m = position(view.robot_from_view);
+  const Vector2 at_m = position_m(view.robot_from_view);
   const double noise = std::pow(config.bearing_rad * std::max(0.2, view.distance_m), 2) + 0.05 * 0.05;
   const double variance = across.dot(view.covariance_m2 * across) + noise;
   const double off_m = across.dot(at_m);

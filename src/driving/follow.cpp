@@ -16,8 +16,6 @@ namespace {
 
 using Vector2 = Eigen::Vector2d;
 
-Vector2 position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
-
 /// The robot is where odometry says now.
 void drive_on(FollowState& state, const Pose2& odometry, const FollowConfig& config) {
   if (!state.begun) {
@@ -65,12 +63,12 @@ void place_view(FollowState& state, const VisualPath& path) {
                                      path.spread_m * path.spread_m * Eigen::Matrix2d::Identity();
   constexpr double kApart = 3.0;  // standard deviations between what its pictures said and the estimate
   if (state.view.known()) {
-    const Vector2 off_m = position(view) - state.view.position_m();
+    const Vector2 off_m = position_m(view) - state.view.position_m();
     const Eigen::Matrix2d sum = covariance + state.view.covariance_m2();
     const bool agrees = off_m.dot(sum.inverse() * off_m) < kApart * kApart;
     if (agrees && state.view.covariance_m2().trace() <= covariance.trace()) return;
   }
-  state.view.settle(position(view), covariance, view.theta_rad);
+  state.view.settle(position_m(view), covariance, view.theta_rad);
 }
 
 /// A piece of the path, by the view that it ends at, and how far from it the robot is.
@@ -81,7 +79,7 @@ struct NearestPiece {
 
 /// Of the pieces that end at the views `from` to `to`. At the path's first view begins no piece.
 NearestPiece nearest_piece(const FollowState& state, const VisualPath& path, const Vector2& here_m, int from, int to) {
-  const auto at_m = [&](int view) { return position(path.pose(view)); };
+  const auto at_m = [&](int view) { return position_m(path.pose(view)); };
   // Another piece must be nearer by so much, and an earlier one by more, unless the robot is behind where the present
   // one begins: where a path doubles back, both pieces lie beside it.
   constexpr double kKeeps_m = 0.3;
@@ -115,10 +113,10 @@ int next_view(const FollowState& state, const VisualPath& path, const Vector2& h
 
 /// Whether a view on the way is done with: reached, or the robot is level with it on the way to the next.
 bool is_passed(const VisualPath& path, int view, const Vector2& here_m, const FollowConfig& config) {
-  const Vector2 to_view = position(path.pose(view)) - here_m;
+  const Vector2 to_view = position_m(path.pose(view)) - here_m;
   if (to_view.norm() < config.pass_m) return true;
   if (to_view.norm() > config.abreast_m) return false;
-  return to_view.dot(position(path.pose(view + 1)) - position(path.pose(view))) < 0.0;
+  return to_view.dot(position_m(path.pose(view + 1)) - position_m(path.pose(view))) < 0.0;
 }
 
 /// Goes on to the view that comes next by the estimate, which may be one before when the robot was driven back.
@@ -127,7 +125,7 @@ void choose_view(FollowState& state, const VisualPath& path, const FollowConfig&
   if (best == nullptr || state.hypotheses.best_probability() < drives_above(state, config)) return;
   const int last = path.size() - 1;
   const int before = state.index;
-  const Vector2 here_m = position(best->map_from_robot);
+  const Vector2 here_m = position_m(best->map_from_robot);
   state.index = next_view(state, path, here_m, config);
   while (state.index < last && is_passed(path, state.index, here_m, config)) ++state.index;
   state.furthest = std::max(state.furthest, state.index);
@@ -170,7 +168,7 @@ void apply_belief(FollowState& state, const VisualPath& path) {
   if (state.since_belief_m < kApart_m) return;
   state.since_belief_m = 0.0;
   std::optional<Vector2> at_m;
-  if (state.belief->view) at_m = position(path.pose(*state.belief->view));
+  if (state.belief->view) at_m = position_m(path.pose(*state.belief->view));
   state.hypotheses.apply_odds(at_m, kWithin_m, kOdds, std::min(kMostByOthers, state.belief->probability));
 }
 
@@ -254,7 +252,7 @@ void see_ways(FollowState& state, const VisualPath& path, std::span<const Vector
   const Eigen::Rotation2Dd turn(moved.theta_rad);
   std::vector<Vector2> then_m;
   then_m.reserve(points_m.size());
-  for (const Vector2& point_m : points_m) then_m.push_back(turn * point_m + position(moved));
+  for (const Vector2& point_m : points_m) then_m.push_back(turn * point_m + position_m(moved));
   weigh_by_ways(state.hypotheses, then_m, path.ways, news);
 }
 

@@ -11,8 +11,6 @@ namespace {
 constexpr double kSpacing_m = 0.1;     // of the trail
 constexpr std::size_t kLongest = 300;  // points of it: to and fro before somebody a few times
 
-Eigen::Vector2d position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
-
 /// The newest point of the trail that is so far off, else the farthest; nothing where that is too near. By distance,
 /// not along the trail: that leads to and fro where the robot has backed off before.
 std::optional<Eigen::Vector2d> point_behind(const std::deque<Eigen::Vector2d>& trail_m, const Eigen::Vector2d& here_m,
@@ -79,7 +77,7 @@ bool has_stood(GiveWay& state, const Eigen::Vector2d& here_m, std::int64_t now_m
 }  // namespace
 
 void remember_trail(GiveWay& state, const Pose2& odometry) {
-  const Eigen::Vector2d here_m = position(odometry);
+  const Eigen::Vector2d here_m = position_m(odometry);
   if (!state.trail_m.empty() && (state.trail_m.back() - here_m).norm() < kSpacing_m) return;
   state.trail_m.push_back(here_m);
   if (state.trail_m.size() > kLongest) state.trail_m.pop_front();
@@ -88,7 +86,7 @@ void remember_trail(GiveWay& state, const Pose2& odometry) {
 std::optional<Eigen::Vector2d> give_way(GiveWay& state, const Body& body, const Surroundings& about,
                                         const Pose2& odometry, std::int64_t now_ms, std::int64_t patience_ms,
                                         const GiveWayConfig& config) {
-  const Eigen::Vector2d here_m = position(odometry);
+  const Eigen::Vector2d here_m = position_m(odometry);
   const auto quiet_for = [&](std::int64_t ms) {
     return !about.obstacle_moved_ms || now_ms - *about.obstacle_moved_ms >= ms;
   };

@@ -17,8 +17,6 @@ namespace {
 
 using Vector2 = Eigen::Vector2d;
 
-Vector2 position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
-
 Eigen::Matrix2d rotation(double angle_rad) { return Eigen::Rotation2Dd(angle_rad).toRotationMatrix(); }
 
 /// Kalman's update with rows of measurements of the pose.
@@ -47,7 +45,7 @@ double share_within(const PoseHypothesis& one, const Vector2& point_m, double ra
     for (int j = 0; j <= kSteps; ++j) {
       const Vector2 unit = kReach * (2.0 / kSteps * Vector2(i, j) - Vector2(1.0, 1.0));
       const double density = std::exp(-0.5 * unit.squaredNorm());
-      const Vector2 at_m = position(one.map_from_robot) + axes.eigenvectors() * unit.cwiseProduct(spread_m);
+      const Vector2 at_m = position_m(one.map_from_robot) + axes.eigenvectors() * unit.cwiseProduct(spread_m);
       all += density;
       if ((at_m - point_m).norm() < radius_m) inside += density;
     }
@@ -65,7 +63,7 @@ void PoseHypotheses::predict(const Pose2& before_from_now) {
   const double turn = config_.odometry_rad_per_sqrt_m * config_.odometry_rad_per_sqrt_m * driven_m +
                       config_.odometry_rad_per_sqrt_rad * config_.odometry_rad_per_sqrt_rad * turned_rad;
   for (PoseHypothesis& hypothesis : hypotheses_) {
-    const Vector2 step = rotation(hypothesis.map_from_robot.theta_rad) * position(before_from_now);
+    const Vector2 step = rotation(hypothesis.map_from_robot.theta_rad) * position_m(before_from_now);
     Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();
     moved(0, 2) = -step.y();
     moved(1, 2) = step.x();
@@ -142,7 +140,7 @@ void PoseHypotheses::move(PoseHypothesis& hypothesis, const ViewSighting& sighti
     rows.block<1, 2>(0, 0) = -(across.transpose() * rotation(-hypothesis.map_from_robot.theta_rad));
     rows(0, 2) = across.dot(Vector2(view.robot_from_view.y_m, -view.robot_from_view.x_m));
     rows(1, 2) = -1.0;
-    const Vector2 off(-across.dot(position(view.robot_from_view)),
+    const Vector2 off(-across.dot(position_m(view.robot_from_view)),
                       wrap_angle(seen.turn_rad - view.robot_from_view.theta_rad));
     const double doubt = 1.0 / std::max(0.1, std::min(config_.most_confidence, seen.confidence));
     Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();
@@ -279,7 +277,8 @@ void PoseHypotheses::weigh_by_agreement(std::span<const std::optional<Recognitio
     std::vector<std::size_t> of_place;
     for (std::size_t other = k; other < hypotheses_.size(); ++other) {
       const bool near =
-          (position(hypotheses_[other].map_from_robot) - position(hypotheses_[k].map_from_robot)).norm() < kOnePlace_m;
+          (position_m(hypotheses_[other].map_from_robot) - position_m(hypotheses_[k].map_from_robot)).norm() <
+          kOnePlace_m;
       if (done[other] != 0 || !seen[other] || !near) continue;
       done[other] = 1;
       of_place.push_back(other);
@@ -298,7 +297,7 @@ void PoseHypotheses::weigh(std::span<const double> log_odds) {
 
 void PoseHypotheses::apply_odds(const std::optional<Vector2>& point_m, double radius_m, double odds, double most) {
   const auto is_there = [&](const PoseHypothesis& one) {
-    return point_m && (position(one.map_from_robot) - *point_m).norm() <= radius_m;
+    return point_m && (position_m(one.map_from_robot) - *point_m).norm() <= radius_m;
   };
   double there = 0.0;
   for (const PoseHypothesis& one : hypotheses_) there += is_there(one) ? one.weight : 0.0;
@@ -329,7 +328,7 @@ void PoseHypotheses::weigh_within(const Vector2& point_m, double radius_m, doubl
     Eigen::Matrix<double, 2, 3> rows = Eigen::Matrix<double, 2, 3>::Zero();
     rows.leftCols<2>().setIdentity();
     const double spread_m = 0.5 * radius_m;
-    update<2>(one, rows, point_m - position(one.map_from_robot), spread_m * spread_m * Eigen::Matrix2d::Identity());
+    update<2>(one, rows, point_m - position_m(one.map_from_robot), spread_m * spread_m * Eigen::Matrix2d::Identity());
   }
   settle();
 }
@@ -338,10 +337,10 @@ const PoseHypothesis* PoseHypotheses::best() const { return hypotheses_.empty() 
 
 double PoseHypotheses::best_probability() const {
   if (hypotheses_.empty()) return 0.0;
-  const Vector2 at_m = position(hypotheses_.front().map_from_robot);
+  const Vector2 at_m = position_m(hypotheses_.front().map_from_robot);
   double sum = 0.0;
   for (const PoseHypothesis& one : hypotheses_) {
-    if ((position(one.map_from_robot) - at_m).norm() < config_.cluster_m) sum += one.weight;
+    if ((position_m(one.map_from_robot) - at_m).norm() < config_.cluster_m) sum += one.weight;
   }
   return sum;
 }

@@ -12,8 +12,6 @@
 namespace homeward::driving {
 namespace {
 
-Eigen::Vector2d position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
-
 /// Where the bearings say that the view homed to is. The likeliest is tried where they stay divided, and
 /// another where it was followed as far as odometry alone, in vain.
 std::optional<TriangulatedView> triangulated_view(FollowState& state, const FollowConfig& config) {
@@ -85,7 +83,7 @@ bool is_turned_round(const FollowState& state, const homing::TargetSeen& answer,
   if (!answer.target_m || most_alike >= kLeastShareAlone || state.bearings.empty()) return false;
   const auto triangulated = state.bearings.best();
   if (!triangulated) return false;
-  const Eigen::Vector2d way_m = triangulated->position_m - position(state.odometry);
+  const Eigen::Vector2d way_m = triangulated->position_m - position_m(state.odometry);
   const Eigen::Vector2d other_m = Eigen::Rotation2Dd(state.odometry.theta_rad) * *answer.target_m;
   return way_m.norm() > kFar_m && way_m.dot(other_m) < 0.5 * way_m.norm() * other_m.norm();
 }
@@ -95,7 +93,7 @@ bool is_turned_round(const FollowState& state, const homing::TargetSeen& answer,
 bool is_unlikely(const homing::TargetSeen& answer, double share, const FollowState& state, const FollowConfig& config) {
   constexpr double kKnown = 0.5;  // doubt over distance
   if (!answer.began || share >= homing::VisualHoming::kLeastShare || !state.view.known()) return false;
-  const double apart_m = (state.view.position_m() - position(state.odometry)).norm();
+  const double apart_m = (state.view.position_m() - position_m(state.odometry)).norm();
   return state.view.doubt_m() < kKnown * apart_m && !state.view.agrees(state.odometry, answer.vector, config.track);
 }
 

@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Eigen::Vector2d position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
-
 double distance_to_line(const Eigen::Vector2d& point_m, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) {
   const Eigen::Vector2d line_m = to_m - from_m;
   const double along = line_m.squaredNorm() > 1e-12 ? (point_m - from_m).dot(line_m) / line_m.squaredNorm() : 0.0;
@@ -55,7 +53,7 @@ SeenFloor::SeenFloor(std::span<const TourSweep> sweeps, const map::MetricLayout&
       if (!hit) continue;
       const double angle_rad = sweep.angle_min_rad + static_cast<double>(i) * sweep.angle_step_rad;
       placed.hits_map.push_back(
-          position(placed.map_from_scan * Pose2{range_m * std::cos(angle_rad), range_m * std::sin(angle_rad), 0.0}));
+          position_m(placed.map_from_scan * Pose2{range_m * std::cos(angle_rad), range_m * std::sin(angle_rad), 0.0}));
     }
     sweeps_.push_back(std::move(placed));
   }
@@ -86,7 +84,7 @@ SeenStrip SeenFloor::strip(int component, const Eigen::Vector2d& from_m, const E
   std::vector<const Placed*> near;
   double nearest_m = 0.5 * kWidest_m;
   for (const Placed& sweep : sweeps_) {
-    if (sweep.component != component || (position(sweep.map_from_scan) - middle_m).norm() > within_m) continue;
+    if (sweep.component != component || (position_m(sweep.map_from_scan) - middle_m).norm() > within_m) continue;
     near.push_back(&sweep);
     for (const Eigen::Vector2d& hit_m : sweep.hits_map)
       nearest_m = std::min(nearest_m, distance_to_line(hit_m, from_m, to_m));
