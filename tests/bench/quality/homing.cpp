@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Homing to one view, again and again: targets at random in a world, starts some metres off with the target's spot in
 // sight, any headings. The agent's own driving step drives; the world judges. One JSON line for each, then a summary.
-// With
-// --answers nothing drives: what single pictures on the straight way say of the target, by how far off it is.
+// With --answers nothing drives: what single pictures on the straight way say of the target, by how far off it is.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
@@ -17,6 +16,7 @@
 #include "scenario/world_folder.hpp"
 #include "sim/floor.hpp"
 #include "wire/appearance_blob.hpp"
+#include "wire/reason.hpp"
 
 namespace {
 
@@ -198,7 +198,7 @@ int main(int argc, char** argv) {
                        {"duration_s", result.duration_s},
                        {"path_m", result.path_m},
                        {"collisions", result.collisions},
-                       {"stop", result.stops.empty() ? "" : result.stops.back().reason}};
+                       {"stop", result.stops.empty() ? "" : wire::english(result.stops.back().reason)}};
     std::cout << line.dump() << std::endl;
   }
   for (const auto& [apart_m, said] : answers) {
