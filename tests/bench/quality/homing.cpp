@@ -180,9 +180,10 @@ int main(int argc, char** argv) {
       listener.cycled = [&](const scenario::CycleTrace& now) {
         const Eigen::Vector2d off = Eigen::Rotation2Dd(-now.pose.theta_rad) *
                                     Eigen::Vector2d(target.x_m - now.pose.x_m, target.y_m - now.pose.y_m);
-        std::fprintf(stderr, "%5.1f true %6.3f %6.3f goal %6.3f %6.3f conf %.2f inl %3d par %.3f v %.2f w %5.2f %s\n",
+        std::fprintf(stderr,
+                     "%5.1f true %6.3f %6.3f goal %6.3f %6.3f conf %.2f inl %3d par %.3f map %d v %.2f w %5.2f %s\n",
                      now.t_s, off.x(), off.y(), now.goal_x_m, now.goal_y_m, now.confidence, now.inliers,
-                     now.parallax_rad, now.speed_mps, now.turn_radps, now.state.c_str());
+                     now.parallax_rad, now.measured ? 1 : 0, now.speed_mps, now.turn_radps, now.state.c_str());
       };
     }
     auto result = or_die(scenario::drive_order(robot, eye, order, {}, driving, listener));
