@@ -69,8 +69,9 @@ std::vector<std::string> problems(const AppConfig& config) {
 }
 
 struct App::Parts {
-  Parts(const AppConfig& config, std::unique_ptr<db::Store> opened, const Clock& clock)
-      : store(std::move(opened)),
+  Parts(const AppConfig& config, std::unique_ptr<db::Store> opened, const Clock& clock_in)
+      : clock(clock_in),
+        store(std::move(opened)),
         workers(kRequestWorkers, kRequestQueue),
         heavy(threads_of(config), kHeavyQueue),
         journal(1, kJournalQueue),
@@ -141,6 +142,16 @@ struct App::Parts {
     return config.setup_file.empty() ? Status() : write_private_file(config.setup_file, setup_link);
   }
 
+  void tick() { driving.tick(clock.steady()); }
+
+  void work_off() {
+    workers.work_off();
+    heavy.work_off();
+    journal.work_off();  // what the others have given it
+    jobs.work_off();     // and what that has given them
+  }
+
+  const Clock& clock;
   std::unique_ptr<db::Store> store;
   EventHub events;
   Metrics metrics;
@@ -176,7 +187,7 @@ Result<std::unique_ptr<App>> App::start(const AppConfig& config, const Clock& cl
   if (!http) return pass_on(http);
   parts.http = std::move(*http);
   if (const Status status = parts.offer_setup(config); !status) return pass_on(status);
-  parts.http->every(static_cast<int>(wire::kPermitEvery_ms), [&parts, &clock] { parts.driving.tick(clock.steady()); });
+  parts.http->every(static_cast<int>(wire::kPermitEvery_ms), [&parts] { parts.tick(); });
   return app;
 }
 
@@ -185,5 +196,9 @@ std::uint16_t App::port() const { return parts_->http->port(); }
 const std::string& App::setup_link() const { return parts_->setup_link; }
 
 const Router& App::router() const { return parts_->router; }
+
+void App::tick() { parts_->tick(); }
+
+void App::work_off() { parts_->work_off(); }
 
 }  // namespace homeward::server

@@ -43,6 +43,12 @@ class App {
   /// What is answered, and to whom.
   [[nodiscard]] const Router& router() const;
 
+  // For tests that let the clock's time pass. From any thread.
+  /// What it does by itself every wire::kPermitEvery_ms.
+  void tick();
+  /// Returns once no request, picture, job or write to the store waits or is being worked on.
+  void work_off();
+
  private:
   struct Parts;
   App();

@@ -157,6 +157,7 @@ Result<wire::JobView> BuildJobs::cancel(const JobId& id) {
     if (found != queue_.end()) {
       waiting = *found;
       queue_.erase(found);
+      idle_.notify_all();
     } else if (auto now = store_.job(id); now && now->state == wire::JobState::kOffered) {
       // At once, so that nobody can take it in between.
       now->state = wire::JobState::kCancelled;
@@ -185,13 +186,24 @@ void BuildJobs::work(const std::stop_token& stop) {
       queue_.pop_front();
       job.state = wire::JobState::kRunning;
       running_ = job;
+      at_work_ = true;
       cancelled_ = false;
       stop_running_ = std::stop_source();
       stop_build = stop_running_.get_token();
     }
     run(job, stop_build);
+    {
+      const std::scoped_lock lock(mutex_);
+      at_work_ = false;
+    }
+    idle_.notify_all();
     if (stop.stop_requested()) return;
   }
+}
+
+void BuildJobs::work_off() {
+  std::unique_lock lock(mutex_);
+  idle_.wait(lock, [&] { return queue_.empty() && !at_work_; });
 }
 
 void BuildJobs::run(wire::JobView job, const std::stop_token& stop) {

@@ -49,6 +49,8 @@ class BuildJobs {
   Result<wire::JobView> cancel(const JobId& id);
   Result<wire::JobView> get(const JobId& id);
   [[nodiscard]] bool building(const MapId& map);
+  /// Returns once no job waits or runs.
+  void work_off();
 
  private:
   void work(const std::stop_token& stop);
@@ -80,8 +82,10 @@ class BuildJobs {
   int threads_;
   std::mutex mutex_;
   std::condition_variable_any ready_;
+  std::condition_variable idle_;
   std::deque<wire::JobView> queue_;
   std::optional<wire::JobView> running_;
+  bool at_work_ = false;  // from before a job runs until after what follows from its end
   std::stop_source stop_running_;
   bool cancelled_ = false;  // the running one, by a person
   std::jthread thread_;

@@ -21,6 +21,11 @@ bool WorkPool::try_run(Task task) {
   return true;
 }
 
+void WorkPool::work_off() {
+  std::unique_lock lock(mutex_);
+  idle_.wait(lock, [&] { return queue_.empty() && running_ == 0; });
+}
+
 void WorkPool::stop() {
   {
     const std::scoped_lock lock(mutex_);

@@ -23,6 +23,8 @@ class WorkPool {
 
   /// False when the queue is full or the pool is stopping; the task is then not run. A task must not throw.
   [[nodiscard]] bool try_run(Task task);
+  /// Returns once nothing waits and nothing runs. Never from a task of its own.
+  void work_off();
   /// Ends the workers; the same as destruction, callable earlier and more than once.
   void stop();
   /// Runs all that waits, then ends the workers.
