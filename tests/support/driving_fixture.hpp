@@ -53,7 +53,7 @@ class FakeAgent {
   }
   /// The next message of one kind within `patience`; others are passed over.
   template <class T>
-  std::optional<T> await(std::chrono::milliseconds patience = std::chrono::milliseconds(10'000)) {
+  std::optional<T> await(std::chrono::milliseconds patience = std::chrono::milliseconds(60'000)) {
     const auto end = std::chrono::steady_clock::now() + patience;
     while (std::chrono::steady_clock::now() < end && !socket.closed()) {
       const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
@@ -67,9 +67,17 @@ class FakeAgent {
         if (while_waiting) while_waiting();
       }
       if (!bytes) continue;
-      const auto message =
-          wire::decode_server_message({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()});
-      EXPECT_TRUE(message) << message.error().message;
+      const auto message = decoded(*bytes);
+      if (message && std::holds_alternative<T>(*message)) return std::get<T>(*message);
+    }
+    return std::nullopt;
+  }
+  /// The same of what the server has sent by now.
+  template <class T>
+  std::optional<T> heard_by_now() {
+    socket.take_in_all();
+    while (const auto bytes = socket.receive(std::chrono::milliseconds(0))) {
+      const auto message = decoded(*bytes);
       if (message && std::holds_alternative<T>(*message)) return std::get<T>(*message);
     }
     return std::nullopt;
@@ -87,6 +95,13 @@ class FakeAgent {
     } catch (const std::exception&) {
       latest.reset();
     }
+  }
+
+  static std::optional<wire::ServerMessage> decoded(const std::string& bytes) {
+    const auto message =
+        wire::decode_server_message({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    EXPECT_TRUE(message) << message.error().message;
+    return message ? std::optional(*message) : std::nullopt;
   }
 
   static wire::AgentStatus idle() {
@@ -119,10 +134,27 @@ class DrivingTest : public ServerTest {
     token = made.at("token");
     root = "/api/v1/robots/" + robot;
   }
+  /// A map of three rooms, which is built once for all tests and imported by those after the first.
+  std::string taught_map() {
+    static std::string exported;
+    if (!exported.empty()) return imported_map(exported);
+    std::string built = built_map(3);
+    exported = admin->get("/api/v1/maps/" + built + "/export").body;
+    return built;
+  }
+  /// Puts the robot on such a map. From then on the server's time stands but for what the test lets pass: no lease runs
+  /// out while a machine is slow.
   void put_on_map() {
-    map = built_map(3);
+    map = taught_map();
     ASSERT_EQ(admin->put(root + "/map", {{"map", map}}).status, 200);
     destination = admin->get("/api/v1/maps/" + map + "/graph").json().at("destinations")[0].at("id");
+    clock.stand();
+  }
+  std::string imported_map(const std::string& bytes) {
+    const Answer imported =
+        admin->send("POST", "/api/v1/maps/import", bytes, {{"Content-Type", "application/vnd.sqlite3"}});
+    EXPECT_EQ(imported.status, 201) << imported.body;
+    return imported.json().at("map").at("id");
   }
   /// A map like the robot's with a weak way straight from the first place to the destination, and the robot on it.
   void add_second_way() {
@@ -142,10 +174,7 @@ class DrivingTest : public ServerTest {
     ASSERT_TRUE(db::save_map(file, stored->map, stored->thumbnails));
     std::stringstream edited;
     edited << std::ifstream(file, std::ios::binary).rdbuf();
-    const Answer imported =
-        admin->send("POST", "/api/v1/maps/import", edited.str(), {{"Content-Type", "application/vnd.sqlite3"}});
-    ASSERT_EQ(imported.status, 201) << imported.body;
-    map = imported.json().at("map").at("id");
+    map = imported_map(edited.str());
     ASSERT_EQ(admin->put(root + "/map", {{"map", map}}).status, 200);
   }
   std::string take_lease(HttpClient& client) {
@@ -172,12 +201,38 @@ class DrivingTest : public ServerTest {
     }
     FAIL() << "the fake agent never learnt where it is";
   }
+  /// Returns once the server has worked off all that it was told by now.
+  void let_work_off(FakeAgent& agent) {
+    agent.socket.take_in_all();  // then the server has all that the agent has said
+    app->work_off();
+  }
+  /// The first message of one kind that the server sends when it has worked off all that it was told by now; others are
+  /// passed over.
+  template <class T>
+  std::optional<T> comes_at_once(FakeAgent& agent) {
+    let_work_off(agent);
+    app->tick();
+    return agent.heard_by_now<T>();
+  }
+  /// Lets time pass for the server, in which the agent goes on telling how it is and its driver keeps the lease; gives
+  /// the first message of one kind that the server sends in it.
+  template <class T>
+  std::optional<T> comes_within(FakeAgent& agent, std::chrono::milliseconds time) {
+    constexpr std::chrono::milliseconds kTells{500};
+    for (std::chrono::milliseconds left = time; left.count() > 0; left -= kTells) {
+      clock.pass(std::min(left, kTells));
+      agent.repeat();
+      keep_lease();
+      if (auto message = comes_at_once<T>(agent)) return message;
+    }
+    return std::nullopt;
+  }
   nlohmann::json mission_now(const nlohmann::json& mission) {
     return admin->get(root + "/missions/" + mission.at("id").get<std::string>()).json();
   }
   nlohmann::json wait_for_state(const nlohmann::json& mission, const std::string& state) {
-    for (int i = 0; i < 200 && mission_now(mission).at("state") != state; ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    for (int i = 0; i < 12'000 && mission_now(mission).at("state") != state; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return mission_now(mission);
   }

@@ -8,6 +8,7 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <cctype>
+#include <deque>
 
 namespace homeward::testing {
 
@@ -69,6 +70,10 @@ struct SocketClient::Connection {
   asio::io_context context;
   websocket::stream<beast::tcp_stream> stream{context};
   beast::flat_buffer buffer;
+  std::deque<std::string> received;  // not asked for yet
+  std::int64_t pings = 0;
+  std::string answered;  // the last ping
+  bool pinging = false;
   bool reading = false;
   bool closed = false;
 };
@@ -85,6 +90,9 @@ int SocketClient::open(std::uint16_t port, const std::string& path, const Header
     for (const auto& [name, value] : headers) request.set(name, value);
   }));
   stream.read_message_max(64UL * 1024 * 1024);
+  stream.control_callback([this](websocket::frame_type kind, beast::string_view payload) {
+    if (kind == websocket::frame_type::pong) connection_->answered = std::string(payload);
+  });
   websocket::response_type response;
   beast::error_code error;
   stream.handshake(response, host, path, error);
@@ -105,24 +113,51 @@ void SocketClient::send(const std::string& bytes, bool text) {
   connection_->stream.write(asio::buffer(bytes));
 }
 
+void SocketClient::begin_reading() {
+  Connection& c = *connection_;
+  if (c.reading || c.closed) return;
+  c.reading = true;
+  c.stream.async_read(c.buffer, [&c](beast::error_code error, std::size_t) {
+    c.reading = false;
+    c.closed = static_cast<bool>(error);
+    if (!error) c.received.push_back(beast::buffers_to_string(c.buffer.data()));
+    c.buffer.consume(c.buffer.size());
+  });
+}
+
 std::optional<std::string> SocketClient::receive(std::chrono::milliseconds patience) {
   Connection& c = *connection_;
-  if (!c.reading && !c.closed) {
-    c.reading = true;
-    c.stream.async_read(c.buffer, [&c](beast::error_code error, std::size_t) {
-      c.reading = false;
-      c.closed = static_cast<bool>(error);
-    });
+  if (c.received.empty()) {
+    begin_reading();
+    c.context.restart();
+    c.context.run_for(patience);
   }
-  c.context.restart();
-  c.context.run_for(patience);
-  if (c.reading || c.closed) return std::nullopt;
-  std::string message = beast::buffers_to_string(c.buffer.data());
-  c.buffer.consume(c.buffer.size());
+  if (c.received.empty()) return std::nullopt;
+  std::string message = std::move(c.received.front());
+  c.received.pop_front();
   return message;
 }
 
-bool SocketClient::closed() const { return connection_->closed; }
+bool SocketClient::take_in_all() {
+  Connection& c = *connection_;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  bool more = true;
+  while (more && !c.closed) {
+    const std::size_t before = c.received.size();
+    const std::string number = std::to_string(++c.pings);
+    c.pinging = true;
+    c.stream.async_ping(websocket::ping_data(number), [&c](beast::error_code) { c.pinging = false; });
+    while ((c.pinging || c.answered != number) && !c.closed) {
+      begin_reading();
+      c.context.restart();
+      if (c.context.run_one_until(end) == 0) return false;
+    }
+    more = c.received.size() > before;
+  }
+  return !c.closed;
+}
+
+bool SocketClient::closed() const { return connection_->closed && connection_->received.empty(); }
 
 void SocketClient::cut() { beast::get_lowest_layer(connection_->stream).socket().close(); }
 

@@ -54,13 +54,20 @@ class SocketClient {
   void send(const std::string& bytes, bool text);
   /// The next message, or nothing when none comes in time or the other end has closed.
   std::optional<std::string> receive(std::chrono::milliseconds patience = std::chrono::seconds(10));
+  /// Returns once the other end has taken up all that was sent, and what it had to send by then has come and waits to
+  /// be received. It proves that by pings: each is answered after what the other end read before it, and at the latest
+  /// between two messages that it has to send, so that it has none left once nothing comes before the answer. False
+  /// when the connection has ended or a minute was not enough.
+  bool take_in_all();
 
+  /// The other end has closed, and nothing of it is left to be received.
   [[nodiscard]] bool closed() const;
   /// Cuts the connection as a dead network would, without a word.
   void cut();
 
  private:
   struct Connection;
+  void begin_reading();
   std::unique_ptr<Connection> connection_;
 };
 

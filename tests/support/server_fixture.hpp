@@ -118,10 +118,10 @@ class ServerTest : public ::testing::Test {
     return tour;
   }
   nlohmann::json wait_for_job(const std::string& job) {
-    for (int i = 0; i < 2400; ++i) {
+    for (int i = 0; i < 12'000; ++i) {
       nlohmann::json state = admin->get("/api/v1/jobs/" + job).json();
       if (state.at("state") != "queued" && state.at("state") != "running") return state;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     return {{"state", "never ended"}};
   }

@@ -30,7 +30,7 @@ class AnswersTest : public DrivingTest {
   void ask(std::int64_t number) {
     agent.question = wire::QuestionReport{number, order->path.back().place, order->label, 60.0};
     agent.status(wire::DriveState::kDriving, order, 1);
-    for (int i = 0; i < 200 && shown_question().is_null(); ++i) std::this_thread::sleep_for(milliseconds(20));
+    let_work_off(agent);
     ASSERT_EQ(shown_question().value("number", 0), number);
   }
   json shown_question() { return admin->get(root).json().at("question"); }
@@ -67,8 +67,8 @@ TEST_F(AnswersTest, TheFirstAnswerGoesToTheRobotAndTheQuestionVanishes) {
   EXPECT_EQ(late.status, 409);
   EXPECT_EQ(late.code(), "conflict") << "another browser was faster";
   EXPECT_NE(late.json().at("detail").get<std::string>().find("answered"), std::string::npos) << late.body;
-  EXPECT_FALSE(agent.await<wire::Answer>(milliseconds(300)));
-  EXPECT_TRUE(agent.await<wire::Permit>(milliseconds(2000))) << "permits go on while it asks";
+  EXPECT_FALSE(comes_within<wire::Answer>(agent, milliseconds(300)));
+  EXPECT_TRUE(comes_at_once<wire::Permit>(agent)) << "permits go on while it asks";
   ask(2);
   EXPECT_EQ(say(*admin, false, 2).status, 202) << "a new question may be answered anew";
   EXPECT_FALSE(agent.await<wire::Answer>().value().here);
@@ -90,7 +90,7 @@ TEST_F(AnswersTest, ItTakesARiderWhoHoldsTheLease) {
   EXPECT_EQ(without.code(), "lease_held");
   testing::HttpClient stranger(app->port());
   EXPECT_EQ(say(stranger, true).status, 401);
-  EXPECT_FALSE(agent.await<wire::Answer>(milliseconds(300)));
+  EXPECT_FALSE(comes_within<wire::Answer>(agent, milliseconds(300)));
   EXPECT_FALSE(shown_question().is_null());
 }
 
@@ -102,7 +102,7 @@ TEST_F(AnswersTest, WhatCannotBeReadOrIsOfAnotherMissionIsRefused) {
   EXPECT_EQ(admin->post(path(), {{"lease_id", lease}, {"question", 1}}).status, 422);
   EXPECT_EQ(admin->post(root + "/missions/none/answer", {{"lease_id", lease}, {"question", 1}, {"here", true}}).status,
             404);
-  EXPECT_FALSE(agent.await<wire::Answer>(milliseconds(300)));
+  EXPECT_FALSE(comes_within<wire::Answer>(agent, milliseconds(300)));
   // Sent on anew, the robot's question of the mission before counts no more.
   const Answer again = send_home(lease);
   ASSERT_EQ(again.status, 201) << again.body;

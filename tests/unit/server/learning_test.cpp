@@ -35,22 +35,19 @@ class LearningTest : public testing::DrivingTest {
     return begun.status == 202 ? wait_for_job(begun.json().at("job").at("id")) : json::object();
   }
   json graph(const std::string& of_map) { return admin->get(at(of_map) + "/graph").json(); }
-  /// The newest job that learns from drives, as dashboards are told; waits until it rests.
+  /// The newest job that learns from drives, as dashboards are told when all jobs rest.
   json drive_job() {
+    app->work_off();
+    testing::SocketClient page;
+    EXPECT_EQ(
+        page.open(app->port(), "/api/v1/events", {{"Cookie", admin->cookie}, {"Origin", admin->defaults.at("Origin")}}),
+        101);
+    const auto snapshot = page.receive();
+    if (!snapshot) return json();
     json newest;
-    for (int i = 0; i < 200; ++i) {
-      testing::SocketClient page;
-      EXPECT_EQ(page.open(app->port(), "/api/v1/events",
-                          {{"Cookie", admin->cookie}, {"Origin", admin->defaults.at("Origin")}}),
-                101);
-      const auto snapshot = page.receive();
-      if (!snapshot) return json();
-      const json state = json::parse(*snapshot);
-      for (const json& job : state.at("jobs")) {
-        if (job.at("kind") == "refine") newest = job;
-      }
-      if (!newest.is_null() && newest.at("state") != "queued" && newest.at("state") != "running") return newest;
-      std::this_thread::sleep_for(milliseconds(50));
+    const json state = json::parse(*snapshot);
+    for (const json& job : state.at("jobs")) {
+      if (job.at("kind") == "refine") newest = job;
     }
     return newest;
   }
@@ -190,7 +187,7 @@ TEST_F(LearningTest, AMapThatIsEditedWhileItLearnsKeepsTheEditAndLearnsOnceMore)
 }
 
 TEST_F(LearningTest, WhatCannotBeLearntFromIsSaid) {
-  map = built_map(3);
+  map = taught_map();
   const std::string open_tour = add_tour();
   EXPECT_EQ(learn("none", "add", {open_tour}).status, 404);
   EXPECT_EQ(learn(map, "add", {"none"}).status, 404);
@@ -295,17 +292,14 @@ TEST_F(LearningTest, MissionsThatArrivedAreLookedThrough) {
   ASSERT_EQ(jobs.size(), 1U);
   EXPECT_EQ(jobs[0].map.str(), map);
   EXPECT_EQ(jobs[0].gained, 0) << "the same light says nothing new";
-  for (int i = 0; i < 100; ++i) {
-    if (admin->get("/api/v1/jobs/" + jobs[0].id.str()).json().at("state") == "done") break;
-    std::this_thread::sleep_for(milliseconds(50));
-  }
+  app->work_off();
   EXPECT_EQ(admin->get("/api/v1/jobs/" + jobs[0].id.str()).json().at("state"), "done");
   EXPECT_EQ(kept_drives(), 0U);
   EXPECT_EQ(admin->get(at(map)).json().at("revision"), 1);
 }
 
 TEST_F(LearningTest, ADriveOffersWhatItSawAndAPersonTakesIt) {
-  map = built_map(3);
+  map = taught_map();
   const std::string first = graph(map).at("places")[0].at("id");
   saw_by_night("m1");
   const json offer = drive_job();
@@ -346,7 +340,7 @@ TEST_F(LearningTest, ADriveOffersWhatItSawAndAPersonTakesIt) {
 }
 
 TEST_F(LearningTest, OneOfferForAMapIsDiscardedWithAllItCameFrom) {
-  map = built_map(3);
+  map = taught_map();
   saw_by_night("m1");
   const json offer = drive_job();
   ASSERT_EQ(offer.at("state"), "offered") << offer.dump();
@@ -363,7 +357,7 @@ TEST_F(LearningTest, OneOfferForAMapIsDiscardedWithAllItCameFrom) {
 }
 
 TEST_F(LearningTest, AMapIsSetToLearnAtOnceOrNotAtAll) {
-  map = built_map(3);
+  map = taught_map();
   saw_by_night("m1");
   ASSERT_EQ(drive_job().at("state"), "offered");
   ASSERT_EQ(admin->put(at(map) + "/refine", {{"refine", "off"}}).json().at("refine"), "off");
@@ -376,27 +370,27 @@ TEST_F(LearningTest, AMapIsSetToLearnAtOnceOrNotAtAll) {
   EXPECT_GE(done.at("gained"), 1);
   EXPECT_EQ(admin->get(at(map)).json().at("revision"), 2);
   saw_by_night("m3");
-  std::this_thread::sleep_for(milliseconds(1500));
+  app->work_off();
   EXPECT_EQ(kept_drives(), 0U) << "it was looked through";
   EXPECT_EQ(admin->get(at(map)).json().at("revision"), 2) << "the same once more says nothing";
 }
 
 TEST_F(LearningTest, DrivesThatDoNotFitTheMapAnyMoreChangeNothing) {
-  map = built_map(3);
+  map = taught_map();
   with_store([&](db::Store& store) {
     db::Drive elsewhere = night_drive(store, "m1");
     for (db::DriveSight& sight : elsewhere.sights) sight.place = PlaceId("p999");
     ASSERT_TRUE(store.add_drive(elsewhere));
   });
-  std::this_thread::sleep_for(milliseconds(500));
+  app->work_off();
   EXPECT_EQ(kept_drives(), 0U) << "places that are gone teach nothing";
   with_store([&](db::Store& store) {
     db::Drive older = night_drive(store, "m2");
     older.feature_config_id = "hw1-w1024";
     ASSERT_TRUE(store.add_drive(older));
   });
-  json failed = drive_job();
-  for (int i = 0; i < 100 && failed.at("state") != "failed"; ++i) failed = drive_job();
+  const json failed = drive_job();
+  EXPECT_EQ(failed.at("state"), "failed");
   EXPECT_EQ(failed.at("error").at("code"), "feature_config_mismatch") << failed.dump();
   EXPECT_EQ(admin->get(at(map)).json().at("revision"), 1);
   EXPECT_EQ(kept_drives(), 0U);

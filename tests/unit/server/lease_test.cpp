@@ -10,7 +10,14 @@ using testing::Answer;
 using testing::DrivingTest;
 using testing::FakeAgent;
 
-class LeaseTest : public DrivingTest {};
+/// Leases run out when the test says so.
+class LeaseTest : public DrivingTest {
+ protected:
+  void SetUp() override {
+    DrivingTest::SetUp();
+    clock.stand();
+  }
+};
 
 TEST_F(LeaseTest, OneDrivesAndTheOthersAreTold) {
   add_robot();
@@ -79,7 +86,7 @@ TEST_F(LeaseTest, WithoutALeaseNoOtherWayIsDriven) {
   wait_for_state(sent.json(), "driving");
   EXPECT_EQ(admin->send("DELETE", root + "/lease", json({{"lease_id", lease}}).dump()).status, 204);
   agent.status(wire::DriveState::kFailed, order, 1);
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(600)));
+  EXPECT_FALSE(comes_within<wire::MissionOrder>(agent, milliseconds(600)));
   EXPECT_EQ(mission_now(sent.json()).at("state"), "stopped");
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <thread>
-
+#include "planning/retry_policy.hpp"
 #include "support/driving_fixture.hpp"
 
 namespace homeward::server::lost_test {
@@ -12,6 +11,11 @@ using testing::Answer;
 using testing::DrivingTest;
 using testing::FakeAgent;
 using wire::ReasonCode;
+
+// How long a robot is looked for that stands somewhere, and how long a lifted one stands.
+constexpr milliseconds kLooksFor(15'000);
+constexpr milliseconds kStands(static_cast<int>(1000.0 * planning::kStandsAfterLift_s));
+constexpr milliseconds kAMoment(100);
 
 const json kLooksAround = {{"code", "looks_around_first"}, {"parameters", json::object()}};
 
@@ -44,18 +48,16 @@ class LostTest : public DrivingTest {
     agent.look(room);
     ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
   }
-  /// Looks about in the time that a lifted robot stands for, so that the last of it at most may be seen after that,
-  /// however slow the machine is: fewer than it takes to be sent on.
+  /// Looks about in the time that a lifted robot stands for: oftener than it takes to be sent on.
   void look_while_it_stands(unsigned room) {
-    const auto end = std::chrono::steady_clock::now() + milliseconds(2000);
-    while (std::chrono::steady_clock::now() < end) look(room);
+    for (int looks = 0; looks < 6; ++looks) look(room);
   }
   /// Looks about until it is sent on, some times at most.
   std::optional<wire::MissionOrder> sent_on_after_looks(int most) {
     std::optional<wire::MissionOrder> next;
     for (int looks = 0; looks < most && !next; ++looks) {
       look(1);
-      next = agent.await<wire::MissionOrder>(milliseconds(300));
+      next = comes_at_once<wire::MissionOrder>(agent);
     }
     return next;
   }
@@ -108,8 +110,7 @@ TEST_F(LostTest, ALostRobotIsSentFromTheLikeliestPlaceAndLooksAroundFirst) {
   EXPECT_EQ(wait_for_state(sent.json(), "driving").at("reason"), kLooksAround);
   agent.estimate = wire::EstimateReport{order->path.front().place, 0.9};
   agent.status(wire::DriveState::kDriving, order, 0);
-  for (int i = 0; i < 100 && !mission_now(sent.json()).at("reason").is_null(); ++i)
-    std::this_thread::sleep_for(milliseconds(20));
+  let_work_off(agent);
   EXPECT_TRUE(mission_now(sent.json()).at("reason").is_null()) << "it knows where it is now";
 }
 
@@ -153,13 +154,13 @@ TEST_F(LostTest, AfterADriveAtOddsWithTheBeliefBothAreAsProbable) {
 
 TEST_F(LostTest, AfterAFailedDriveWithNeitherBeliefNorEstimateItLooksForAWhileAndEnds) {
   ASSERT_NO_FATAL_FAILURE(give_up(ReasonCode::kPlaceUnsure));
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(1000)));
+  EXPECT_FALSE(comes_within<wire::MissionOrder>(agent, kLooksFor));
   EXPECT_EQ(mission_now(sent.json()).at("state"), "driving");
   const json reason = mission_now(sent.json()).at("reason");
   EXPECT_EQ(reason.at("code"), "place_looked_for");
   EXPECT_EQ(reason.at("parameters").at("because").at("code"), "place_unsure");
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(15'000)));
-  const json now = wait_for_state(sent.json(), "failed");
+  EXPECT_FALSE(comes_within<wire::MissionOrder>(agent, kAMoment));
+  const json now = mission_now(sent.json());
   EXPECT_EQ(now.at("state"), "failed");
   EXPECT_EQ(now.at("reason").at("code"), "place_unsure");
 }
@@ -173,14 +174,15 @@ TEST_F(LostTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
     ++agent.displaced;
     agent.status(wire::DriveState::kFailed, order, 1, wire::Reason{ReasonCode::kLifted});
   };
-  const milliseconds stands(3300);
   lift();
+  EXPECT_FALSE(comes_within<wire::MissionOrder>(agent, kStands - kAMoment));
   look_while_it_stands(1);
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(300))) << "it may be in somebody's hands still";
+  EXPECT_FALSE(comes_at_once<wire::MissionOrder>(agent)) << "it may be in somebody's hands still";
   lift();
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(stands)) << "and it was; nothing is seen of where it stands now";
+  EXPECT_FALSE(comes_within<wire::MissionOrder>(agent, kStands))
+      << "and it was; nothing is seen of where it stands now";
   for (int k = 0; k < 3; ++k) look(2);
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(300))) << "it has not looked enough yet";
+  EXPECT_FALSE(comes_at_once<wire::MissionOrder>(agent)) << "it has not looked enough yet";
   json now = mission_now(sent.json());
   EXPECT_EQ(now.at("state"), "driving");
   EXPECT_EQ(now.at("reason").at("code"), "lifted");
@@ -197,7 +199,7 @@ TEST_F(LostTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
   agent.status(wire::DriveState::kDriving, order, 1);
   wait_for_state(sent.json(), "driving");
   lift();
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(stands));
+  EXPECT_FALSE(comes_within<wire::MissionOrder>(agent, kStands));
   for (unsigned k = 0; k < 4; ++k) look(60 + k);
   order = agent.await<wire::MissionOrder>();
   ASSERT_TRUE(order) << mission_now(sent.json()).dump();
@@ -208,8 +210,11 @@ TEST_F(LostTest, ARobotThatWasLiftedIsSentOnFromWhereItIsSeenToStandThen) {
   agent.status(wire::DriveState::kDriving, order, 1);
   wait_for_state(sent.json(), "driving");
   lift();
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(16'000)));
-  now = wait_for_state(sent.json(), "failed");
+  EXPECT_FALSE(comes_within<wire::MissionOrder>(agent, kLooksFor));
+  EXPECT_EQ(mission_now(sent.json()).at("state"), "driving");
+  EXPECT_FALSE(comes_within<wire::MissionOrder>(agent, kAMoment));
+  now = mission_now(sent.json());
+  EXPECT_EQ(now.at("state"), "failed");
   EXPECT_EQ(now.at("reason").at("code"), "lifted");
 }
 
@@ -217,16 +222,17 @@ TEST_F(LostTest, LiftedWhileItIsLookedForItStands) {
   ASSERT_NO_FATAL_FAILURE(give_up(ReasonCode::kWayNotRecognised));
   ++agent.displaced;
   agent.status(wire::DriveState::kFailed, first, 1, wire::Reason{ReasonCode::kWayNotRecognised});
+  EXPECT_FALSE(comes_within<wire::MissionOrder>(agent, kStands - kAMoment));
   look_while_it_stands(1);
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(400))) << "it may be in somebody's hands";
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(3000)));
+  EXPECT_FALSE(comes_at_once<wire::MissionOrder>(agent)) << "it may be in somebody's hands";
+  EXPECT_FALSE(comes_within<wire::MissionOrder>(agent, kStands));
   const auto second = sent_on_after_looks(6);
   EXPECT_TRUE(second) << mission_now(sent.json()).dump();
 }
 
 TEST_F(LostTest, TheRidersHandEndsWhatIsLookedFor) {
   ASSERT_NO_FATAL_FAILURE(give_up(ReasonCode::kWayNotRecognised));
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(300)));
+  EXPECT_FALSE(comes_within<wire::MissionOrder>(agent, milliseconds(300)));
   agent.status(wire::DriveState::kStopped, first, 1, wire::Reason{ReasonCode::kRiderTookOver});
   const auto now = wait_for_state(sent.json(), "stopped");
   EXPECT_EQ(now.at("state"), "stopped");
@@ -235,7 +241,7 @@ TEST_F(LostTest, TheRidersHandEndsWhatIsLookedFor) {
 
 TEST_F(LostTest, AfterAFailedDriveItIsSentOnOnceTheBeliefSaysWhereItIs) {
   ASSERT_NO_FATAL_FAILURE(give_up(ReasonCode::kWayNotRecognised));
-  EXPECT_FALSE(agent.await<wire::MissionOrder>(milliseconds(400)));
+  EXPECT_FALSE(comes_within<wire::MissionOrder>(agent, milliseconds(400)));
   EXPECT_EQ(mission_now(sent.json()).at("state"), "driving");
   const auto second = sent_on_after_looks(12);
   ASSERT_TRUE(second) << mission_now(sent.json()).dump();
@@ -260,8 +266,7 @@ TEST_F(LostTest, ARobotThatWasMovedWithoutItsWheelsIsNotTakenToBeWhereItWas) {
   lifted.displaced = 1;
   agent.say(lifted);
   agent.latest = lifted;
-  const auto end = std::chrono::steady_clock::now() + milliseconds(10'000);
-  while (!belief().is_null() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(20));
+  let_work_off(agent);
   EXPECT_TRUE(belief().is_null());
   agent.look(0);
   ASSERT_TRUE(agent.await<wire::BeliefReport>(milliseconds(60'000)));
