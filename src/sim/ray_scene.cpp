@@ -3,6 +3,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -68,32 +69,34 @@ std::optional<Hit> RayScene::first_hit(const Eigen::Vector3f& origin_m, const Ei
   return Hit{ray.hit.primID, ray.hit.u, ray.hit.v, ray.ray.tfar};
 }
 
-std::array<std::optional<Hit>, 8> RayScene::first_hits(const Eigen::Vector3f& origin_m, const RayPacket& packet,
+std::array<Hit, RayPacket::kMost> RayScene::first_hits(const Eigen::Vector3f& origin_m, const RayPacket& packet,
                                                        float far_m) const {
-  alignas(32) std::array<int, 8> valid{};
-  alignas(32) RTCRayHit8 rays{};
-  for (std::size_t i = 0; i < 8; ++i) {
-    valid[i] = packet.wanted[i] ? -1 : 0;
-    rays.ray.org_x[i] = origin_m.x();
-    rays.ray.org_y[i] = origin_m.y();
-    rays.ray.org_z[i] = origin_m.z();
-    rays.ray.dir_x[i] = packet.directions[i].x();
-    rays.ray.dir_y[i] = packet.directions[i].y();
-    rays.ray.dir_z[i] = packet.directions[i].z();
-    rays.ray.tnear[i] = 0.0F;
-    rays.ray.tfar[i] = far_m;
-    rays.ray.mask[i] = 0xFFFFFFFFU;
-    rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-  }
+  constexpr std::size_t kRays = RayPacket::kMost;
+  alignas(32) std::array<int, kRays> valid;
+  alignas(32) RTCRayHit8 rays;  // what is not set here is not read
+  for (std::size_t i = 0; i < kRays; ++i) valid[i] = i < packet.count ? -1 : 0;
+  std::copy_n(packet.x.begin(), kRays, rays.ray.dir_x);
+  std::copy_n(packet.y.begin(), kRays, rays.ray.dir_y);
+  std::copy_n(packet.z.begin(), kRays, rays.ray.dir_z);
+  std::fill_n(rays.ray.org_x, kRays, origin_m.x());
+  std::fill_n(rays.ray.org_y, kRays, origin_m.y());
+  std::fill_n(rays.ray.org_z, kRays, origin_m.z());
+  std::fill_n(rays.ray.tnear, kRays, 0.0F);
+  std::fill_n(rays.ray.tfar, kRays, far_m);
+  std::fill_n(rays.ray.time, kRays, 0.0F);
+  std::fill_n(rays.ray.mask, kRays, 0xFFFFFFFFU);
+  std::fill_n(rays.ray.flags, kRays, 0U);
+  std::fill_n(rays.hit.u, kRays, 0.0F);
+  std::fill_n(rays.hit.v, kRays, 0.0F);
+  std::fill_n(rays.hit.geomID, kRays, RTC_INVALID_GEOMETRY_ID);
+  std::fill_n(rays.hit.primID, kRays, Hit::kNoTriangle);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect8(valid.data(), embree_->scene, &context, &rays);
-  std::array<std::optional<Hit>, 8> hits;
-  for (std::size_t i = 0; i < 8; ++i) {
-    if (packet.wanted[i] && rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
-      hits[i] = Hit{rays.hit.primID[i], rays.hit.u[i], rays.hit.v[i], rays.ray.tfar[i]};
-    }
+  std::array<Hit, kRays> hits;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    hits[i] = Hit{rays.hit.primID[i], rays.hit.u[i], rays.hit.v[i], rays.ray.tfar[i]};
   }
   return hits;
 }

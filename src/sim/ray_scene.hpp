@@ -13,16 +13,22 @@ namespace homeward::sim {
 
 /// Where a ray first meets the scene: the corners of the triangle weigh (1 - u - v, u, v).
 struct Hit {
+  static constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFU;
   std::uint32_t triangle = 0;
   float u = 0.0F;
   float v = 0.0F;
   float distance_m = 0.0F;
 };
 
-/// Eight rays from one origin, for coherent casting.
+/// Up to eight rays from one origin, for coherent casting. Only the first `count` are cast.
 struct RayPacket {
-  std::array<Eigen::Vector3f, 8> directions;  // unit vectors
-  std::array<bool, 8> wanted{};
+  static constexpr std::size_t kMost = 8;
+  alignas(32) std::array<float, kMost> x{};  // of the directions, unit vectors
+  alignas(32) std::array<float, kMost> y{};
+  alignas(32) std::array<float, kMost> z{};
+  std::size_t count = kMost;
+
+  [[nodiscard]] Eigen::Vector3f direction(std::size_t ray) const { return {x[ray], y[ray], z[ray]}; }
 };
 
 /// A scene ready for ray casting (Embree). Thread-safe for casting.
@@ -35,7 +41,8 @@ class RayScene {
 
   [[nodiscard]] std::optional<Hit> first_hit(const Eigen::Vector3f& origin_m, const Eigen::Vector3f& direction,
                                              float far_m) const;
-  [[nodiscard]] std::array<std::optional<Hit>, 8> first_hits(const Eigen::Vector3f& origin_m, const RayPacket& packet,
+  /// The same of each ray of a packet; a ray that meets nothing has no triangle.
+  [[nodiscard]] std::array<Hit, RayPacket::kMost> first_hits(const Eigen::Vector3f& origin_m, const RayPacket& packet,
                                                              float far_m) const;
   /// Whether anything lies between `from_m` and `to_m`.
   [[nodiscard]] bool blocked(const Eigen::Vector3f& from_m, const Eigen::Vector3f& to_m) const;

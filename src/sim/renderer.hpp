@@ -10,34 +10,10 @@
 #include "core/pose2.hpp"
 #include "sim/box.hpp"
 #include "sim/lighting.hpp"
+#include "sim/lit_world.hpp"
 #include "sim/people.hpp"
-#include "sim/ray_scene.hpp"
-#include "sim/scene.hpp"
 
 namespace homeward::sim {
-
-/// A world made ready to be looked at: finely tessellated, with the light of each preset that was asked for.
-class LitWorld {
- public:
-  explicit LitWorld(World world);
-  ~LitWorld();
-  LitWorld(LitWorld&&) noexcept;
-  LitWorld& operator=(LitWorld&&) noexcept;
-
-  [[nodiscard]] const World& world() const;
-  [[nodiscard]] const Scene& fine_scene() const;
-  [[nodiscard]] const RayScene& rays() const;
-  /// The light of a preset; computed at first use (seconds), then kept. Not for use from several threads.
-  const Irradiance& irradiance(LightPreset preset);
-  /// Takes light that was computed before. Its size must fit; false when it does not.
-  bool set_irradiance(LightPreset preset, Irradiance irradiance);
-  /// Short text that changes with anything that the light depends on.
-  [[nodiscard]] std::string light_key(LightPreset preset) const;
-
- private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
-};
 
 /// Takes pictures with one camera in one world and light. The look-up tables are computed once.
 class Renderer {

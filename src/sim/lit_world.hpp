@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "sim/lighting.hpp"
+#include "sim/ray_scene.hpp"
+#include "sim/scene.hpp"
+#include "sim/shading.hpp"
+
+namespace homeward::sim {
+
+/// A world made ready to be looked at: finely tessellated, with the light of each preset that was asked for.
+class LitWorld {
+ public:
+  explicit LitWorld(World world);
+  ~LitWorld();
+  LitWorld(LitWorld&&) noexcept;
+  LitWorld& operator=(LitWorld&&) noexcept;
+
+  [[nodiscard]] const World& world() const;
+  [[nodiscard]] const Scene& fine_scene() const;
+  [[nodiscard]] const RayScene& rays() const;
+  [[nodiscard]] const Surfaces& surfaces() const;
+  /// The light of a preset; computed at first use (seconds), then kept. Not for use from several threads.
+  const Irradiance& irradiance(LightPreset preset);
+  /// Takes light that was computed before. Its size must fit; false when it does not.
+  bool set_irradiance(LightPreset preset, Irradiance irradiance);
+  /// Short text that changes with anything that the light depends on.
+  [[nodiscard]] std::string light_key(LightPreset preset) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace homeward::sim
