@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace homeward::sim {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 constexpr float kLift_m = 0.004F;  // rays start so far off their surface
 constexpr float kFar_m = 60.0F;
 constexpr float kSmallTriangle_m = 0.08F;  // lit by one sample
+constexpr std::size_t kMostKeptBytes = std::size_t{384} << 20U;
 
 float maximum_edge_m(const Scene& scene, Eigen::Index t) {
   float longest = 0.0F;
@@ -22,6 +24,22 @@ float maximum_edge_m(const Scene& scene, Eigen::Index t) {
   }
   return longest;
 }
+
+/// How many samples the light of a triangle is taken at; none where it has no surface.
+std::size_t samples_of(const Scene& scene, Eigen::Index t) {
+  const Eigen::Vector3f a = scene.vertices_m.row(3 * t);
+  const Eigen::Vector3f b = scene.vertices_m.row(3 * t + 1);
+  const Eigen::Vector3f c = scene.vertices_m.row(3 * t + 2);
+  if ((b - a).cross(c - a).squaredNorm() < 1e-16F) return 0;
+  return maximum_edge_m(scene, t) < kSmallTriangle_m ? 1 : 3;
+}
+
+/// What a gathering ray meets.
+struct Met {
+  std::uint32_t triangle = Hit::kNoTriangle;
+  float u = 0.0F;
+  float v = 0.0F;
+};
 
 /// Cosine-weighted directions about +z, the same for all points: bias without speckles.
 std::vector<Eigen::Vector3f> gather_directions(int count) {
@@ -44,7 +62,13 @@ class Gatherer {
         lamps_(lamps),
         settings_(settings),
         albedos_(mean_albedos(scene)),
-        directions_(gather_directions(settings.gather_rays)) {}
+        directions_(gather_directions(settings.gather_rays)) {
+    first_side_.reserve(static_cast<std::size_t>(scene.triangles.rows()) + 1);
+    first_side_.push_back(0);
+    for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t) {
+      first_side_.push_back(first_side_.back() + 2 * samples_of(scene, t));
+    }
+  }
 
   [[nodiscard]] Eigen::Array3f direct(const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal) const {
     Eigen::Array3f light = Eigen::Array3f::Zero();
@@ -62,31 +86,42 @@ class Gatherer {
     return light;
   }
 
-  [[nodiscard]] Eigen::Array3f indirect(const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal,
-                                        const Irradiance& known) const {
+  /// What the rays about `normal` meet, one for each direction.
+  void trace(const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal, std::span<Met> met) const {
     const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), normal);
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      const auto hit = rays_.first_hit(point_m, turn * directions_[i], kFar_m);
+      met[i] = hit ? Met{hit->triangle, hit->u, hit->v} : Met{};
+    }
+  }
+
+  /// The light that such rays bring from what they have met, in the light that is `known` there.
+  [[nodiscard]] Eigen::Array3f indirect(std::span<const Met> met, const Irradiance& known) const {
     Eigen::Array3f light = Eigen::Array3f::Zero();
-    for (const Eigen::Vector3f& direction : directions_) {
-      const auto hit = rays_.first_hit(point_m, turn * direction, kFar_m);
-      if (!hit) {
+    for (const Met& one : met) {
+      if (one.triangle == Hit::kNoTriangle) {
         light += settings_.window_radiance * 0.1F;
         continue;
       }
-      const Material& material = scene_.materials[static_cast<std::size_t>(scene_.triangle_materials[hit->triangle])];
-      if (material.role == MaterialRole::kWindow) {
+      const auto material = static_cast<std::size_t>(scene_.triangle_materials[one.triangle]);
+      if (scene_.materials[material].role == MaterialRole::kWindow) {
         light += settings_.window_radiance;
         continue;
       }
-      const Eigen::Index row = 3 * static_cast<Eigen::Index>(hit->triangle);
-      const Eigen::Array3f arriving = (1.0F - hit->u - hit->v) * known.corners.row(row).array() +
-                                      hit->u * known.corners.row(row + 1).array() +
-                                      hit->v * known.corners.row(row + 2).array();
-      light += arriving * albedos_[static_cast<std::size_t>(scene_.triangle_materials[hit->triangle])];
+      const Eigen::Index row = 3 * static_cast<Eigen::Index>(one.triangle);
+      const Eigen::Array3f arriving = (1.0F - one.u - one.v) * known.corners.row(row).array() +
+                                      one.u * known.corners.row(row + 1).array() +
+                                      one.v * known.corners.row(row + 2).array();
+      light += arriving * albedos_[material];
     }
     return light / static_cast<float>(directions_.size());
   }
 
-  /// Calls `gather(point, normal)` for each corner, the point lifted off its surface and drawn in from the edges.
+  [[nodiscard]] std::size_t rays_per_side() const { return directions_.size(); }
+  [[nodiscard]] std::size_t sides() const { return first_side_.back(); }
+
+  /// Calls `gather(side, point, normal)` for both sides of each sample, the point lifted off its surface and drawn in
+  /// from the edges; sides are numbered from 0 on, those of a triangle one after another.
   template <class Gather>
   [[nodiscard]] Irradiance at_all_corners(const Gather& gather) const {
     Irradiance irradiance;
@@ -96,17 +131,20 @@ class Gatherer {
         const Eigen::Vector3f a = scene_.vertices_m.row(3 * t);
         const Eigen::Vector3f b = scene_.vertices_m.row(3 * t + 1);
         const Eigen::Vector3f c = scene_.vertices_m.row(3 * t + 2);
-        const Eigen::Vector3f across = (b - a).cross(c - a);
-        if (across.squaredNorm() < 1e-16F) continue;
-        const Eigen::Vector3f normal = across.normalized();
+        std::size_t side = first_side_[static_cast<std::size_t>(t)];
+        const std::size_t samples = (first_side_[static_cast<std::size_t>(t) + 1] - side) / 2;
+        if (samples == 0) continue;
+        const Eigen::Vector3f normal = (b - a).cross(c - a).normalized();
         const Eigen::Vector3f centre = (a + b + c) / 3.0F;
         const auto lit = [&](const Eigen::Vector3f& point_m) -> Eigen::Array3f {
           // Meshes from elsewhere do not say which side is outside: the brighter one is.
-          const Eigen::Array3f front = gather(Eigen::Vector3f(point_m + kLift_m * normal), normal);
-          const Eigen::Array3f back = gather(Eigen::Vector3f(point_m - kLift_m * normal), Eigen::Vector3f(-normal));
+          const Eigen::Array3f front = gather(side, Eigen::Vector3f(point_m + kLift_m * normal), normal);
+          const Eigen::Array3f back =
+              gather(side + 1, Eigen::Vector3f(point_m - kLift_m * normal), Eigen::Vector3f(-normal));
+          side += 2;
           return front.max(back);
         };
-        if (maximum_edge_m(scene_, t) < kSmallTriangle_m) {
+        if (samples == 1) {
           const Eigen::Array3f light = lit(centre);
           for (Eigen::Index k = 0; k < 3; ++k) irradiance.corners.row(3 * t + k) = light;
           continue;
@@ -128,6 +166,7 @@ class Gatherer {
   const LightSettings& settings_;
   std::vector<Eigen::Array3f> albedos_;
   std::vector<Eigen::Vector3f> directions_;
+  std::vector<std::size_t> first_side_;  // of each triangle, and how many there are: two of each of its samples
 };
 
 }  // namespace
@@ -179,14 +218,25 @@ std::vector<Eigen::Array3f> mean_albedos(const Scene& scene) {
 Irradiance compute_irradiance(const Scene& scene, const RayScene& rays, const std::vector<Lamp>& lamps,
                               const LightSettings& settings) {
   const Gatherer gatherer(scene, rays, lamps, settings);
-  const Irradiance direct = gatherer.at_all_corners(
-      [&](const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal) { return gatherer.direct(point_m, normal); });
+  const Irradiance direct =
+      gatherer.at_all_corners([&](std::size_t, const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal) {
+        return gatherer.direct(point_m, normal);
+      });
   Irradiance total = direct;
+  // Every bounce asks the same rays: what they met is kept from the first on, of as many sides as there is room for.
+  const std::size_t rays_per_side = gatherer.rays_per_side();
+  const std::size_t kept_sides = std::min(gatherer.sides(), kMostKeptBytes / (rays_per_side * sizeof(Met)));
+  std::vector<Met> kept(kept_sides * rays_per_side);
   constexpr int kBounces = 2;
   for (int bounce = 0; bounce < kBounces; ++bounce) {
     const Irradiance bounced =
-        gatherer.at_all_corners([&](const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal) {
-          return gatherer.indirect(point_m, normal, total);
+        gatherer.at_all_corners([&](std::size_t side, const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal) {
+          thread_local std::vector<Met> passing;
+          passing.resize(rays_per_side);
+          const bool keeps = side < kept_sides;
+          const std::span<Met> met = keeps ? std::span(kept).subspan(side * rays_per_side, rays_per_side) : passing;
+          if (bounce == 0 || !keeps) gatherer.trace(point_m, normal, met);
+          return gatherer.indirect(met, total);
         });
     total.corners = direct.corners + bounced.corners;
   }
