@@ -6,7 +6,10 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <mutex>
+#include <numbers>
 
 #include "sim/hash.hpp"
 #include "sim/sensor.hpp"
@@ -98,6 +101,41 @@ void hide_behind(const InLight<Thing>& lit, const HitThing& hit, const Eigen::Ve
   }
 }
 
+/// What a picture shows of the scene alone, before noise and whoever stands in front of it.
+struct Still {
+  std::vector<float> light;       // three numbers a pixel
+  std::vector<float> distance_m;  // of what each shows
+
+  explicit Still(std::size_t pixels) : light(3 * pixels), distance_m(pixels) {}
+};
+
+/// Keeps the still of a robot that stands: from the second picture of one pose on. May be asked by several threads.
+class LastStill {
+ public:
+  struct Answer {
+    std::shared_ptr<const Still> known;  // of this pose
+    bool worth_keeping = false;          // not known, but the last picture was of this pose too
+  };
+  Answer at(const Pose2& pose) {
+    const Bits bits = std::bit_cast<Bits>(pose);
+    const std::lock_guard lock(mutex_);
+    if (bits == last_) return {still_, still_ == nullptr};
+    last_ = bits;
+    still_.reset();
+    return {};
+  }
+  void keep(const Pose2& pose, std::shared_ptr<const Still> still) {
+    const std::lock_guard lock(mutex_);
+    if (std::bit_cast<Bits>(pose) == last_) still_ = std::move(still);
+  }
+
+ private:
+  using Bits = std::array<std::uint64_t, 3>;
+  std::mutex mutex_;
+  std::optional<Bits> last_;
+  std::shared_ptr<const Still> still_;
+};
+
 }  // namespace
 
 struct Renderer::Parts {
@@ -108,6 +146,7 @@ struct Renderer::Parts {
   int height_px;
   Directions directions_in_robot;
   std::vector<int> pixels;  // that see something: the indices of those directions
+  std::unique_ptr<LastStill> last_still = std::make_unique<LastStill>();
   DisplayCurve display{};
 
   /// What one picture is made of.
@@ -117,8 +156,11 @@ struct Renderer::Parts {
     InLight<Person> people;
     InLight<Box> boxes;
     std::uint64_t noise_key;
+    const Still* known = nullptr;  // taken before, to be shown again
+    Still* kept = nullptr;         // to be filled
   };
   [[nodiscard]] Eigen::Array3f light_at(double x_m, double y_m) const;
+  void see(const Shot& shot, std::size_t first, std::size_t end, float* light) const;
   void take(const Shot& shot, std::size_t first, std::size_t end, Image& image) const;
 };
 
@@ -167,22 +209,37 @@ Eigen::Array3f Renderer::Parts::light_at(double x_m, double y_m) const {
   return light * shader.settings().exposure;
 }
 
-/// Pixels number `first` to `end` of those that see something, at most kBlock of them.
-void Renderer::Parts::take(const Shot& shot, std::size_t first, std::size_t end, Image& image) const {
+/// Writes the light of pixels number `first` to `end`, three numbers each, and one more that means nothing.
+void Renderer::Parts::see(const Shot& shot, std::size_t first, std::size_t end, float* light) const {
   const float sky = 0.6F * shader.settings().window_shown;
-  std::array<float, 3 * kBlock + 1> light;  // four numbers are written at once, of which the last is no colour
   for (std::size_t i = first; i < end; i += RayPacket::kMost) {
     const RayPacket packet = directions_in_robot.packet(i, std::min(RayPacket::kMost, end - i), shot.world_from_robot);
-    auto hits = rays->first_hits(shot.viewpoint_m, packet, kFar_m);
-    float* packet_light = light.data() + 3 * (i - first);
-    for (std::size_t k = 0; k < packet.count; ++k) {
-      Eigen::Map<Eigen::Array4f>(packet_light + 3 * k) = hits[k].triangle == Hit::kNoTriangle
-                                                             ? Eigen::Array4f(Eigen::Array4f::Constant(sky))
-                                                             : shader.shade(hits[k], packet.direction(k));
+    float* packet_light = light + 3 * (i - first);
+    std::array<Hit, RayPacket::kMost> hits;
+    if (shot.known != nullptr) {
+      std::copy_n(shot.known->light.data() + 3 * i, 3 * packet.count, packet_light);
+      for (std::size_t k = 0; k < packet.count; ++k) hits[k].distance_m = shot.known->distance_m[i + k];
+    } else {
+      hits = rays->first_hits(shot.viewpoint_m, packet, kFar_m);
+      for (std::size_t k = 0; k < packet.count; ++k) {
+        Eigen::Map<Eigen::Array4f>(packet_light + 3 * k) = hits[k].triangle == Hit::kNoTriangle
+                                                               ? Eigen::Array4f(Eigen::Array4f::Constant(sky))
+                                                               : shader.shade(hits[k], packet.direction(k));
+      }
+    }
+    if (shot.kept != nullptr) {
+      std::copy_n(packet_light, 3 * packet.count, shot.kept->light.data() + 3 * i);
+      for (std::size_t k = 0; k < packet.count; ++k) shot.kept->distance_m[i + k] = hits[k].distance_m;
     }
     hide_behind(shot.people, hit_person, shot.viewpoint_m, packet, hits, packet_light);
     hide_behind(shot.boxes, hit_box, shot.viewpoint_m, packet, hits, packet_light);
   }
+}
+
+/// Pixels number `first` to `end` of those that see something, at most kBlock of them.
+void Renderer::Parts::take(const Shot& shot, std::size_t first, std::size_t end, Image& image) const {
+  std::array<float, 3 * kBlock + 1> light;
+  see(shot, first, end, light.data());
   for (std::size_t run = first; run < end;) {  // of neighbours in the picture
     std::size_t past = run + 1;
     while (past < end && pixels[past] == pixels[past - 1] + 1) ++past;
@@ -205,12 +262,17 @@ Image Renderer::render(const Pose2& robot, const std::vector<Person>& people, st
   Parts::Shot shot{world_from_robot, viewpoint_m, {people, {}}, {boxes, {}}, mix(noise_seed)};
   for (const Person& person : people) shot.people.light.push_back(parts.light_at(person.x_m, person.y_m));
   for (const Box& box : boxes) shot.boxes.light.push_back(parts.light_at(box.pose.x_m, box.pose.y_m));
+  const LastStill::Answer still = parts.last_still->at(robot);
+  const auto kept = still.worth_keeping ? std::make_shared<Still>(parts.pixels.size()) : nullptr;
+  shot.known = still.known.get();
+  shot.kept = kept.get();
   const std::size_t blocks = (parts.pixels.size() + kBlock - 1) / kBlock;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks, 1), [&](const auto& range) {
     for (std::size_t block = range.begin(); block != range.end(); ++block) {
       parts.take(shot, kBlock * block, std::min(parts.pixels.size(), kBlock * (block + 1)), image);
     }
   });
+  if (kept) parts.last_still->keep(robot, kept);
   return image;
 }
 

@@ -93,6 +93,21 @@ TEST_F(RendererTest, LeftIsLeftInThePicture) {
   EXPECT_GT(right.g, 2 * right.b);
 }
 
+TEST_F(RendererTest, WhoStandsSeesWhatAFreshLookSees) {
+  const Renderer standing(*world_, LightPreset::kDay, made(small_sphere()));
+  const Pose2 pose{0.3, 0.2, 0.5};
+  const std::vector<std::vector<Person>> crowds = {{}, {{1.0, 0.4, 5}}, {}, {{0.9, -0.4, 6}, {1.0, 0.4, 5}}, {}};
+  std::uint64_t seed = 1;
+  for (const Pose2& at : {pose, Pose2{0.3, 0.2, 0.6}, pose}) {
+    for (const std::vector<Person>& people : crowds) {
+      const std::vector<Box> boxes = seed % 2 == 0 ? std::vector<Box>{} : std::vector<Box>{{{-1.0, 0.2, 0.3}}};
+      const Renderer fresh(*world_, LightPreset::kDay, made(small_sphere()));
+      EXPECT_EQ(standing.render(at, people, seed, boxes).data, fresh.render(at, people, seed, boxes).data) << seed;
+      ++seed;
+    }
+  }
+}
+
 TEST_F(RendererTest, SameCallSameBytes) {
   const Renderer renderer(*world_, LightPreset::kDay, made(small_sphere()));
   const Pose2 pose{0.3, 0.2, 0.5};
