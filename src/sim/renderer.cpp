@@ -85,8 +85,8 @@ struct InLight {
   std::vector<Eigen::Array3f> light;
 };
 
-/// Puts what the rays of a packet show into `light`, three numbers a ray, where one of these things is nearer than what
-/// they have met, at `nearest_m`. `hit`: where a ray meets one of them.
+/// Where one of these things is nearer than what a ray of the packet has met, writes its colour into `light`, three
+/// numbers a ray, and its distance into `hits`. `hit`: where a ray meets one of them.
 template <class Thing, class HitThing>
 void hide_behind(const InLight<Thing>& lit, const HitThing& hit, const Eigen::Vector3f& viewpoint_m,
                  const RayPacket& packet, std::array<Hit, RayPacket::kMost>& hits, float* light) {
