@@ -22,7 +22,7 @@ class LitWorld {
   [[nodiscard]] const World& world() const;
   [[nodiscard]] const Scene& fine_scene() const;
   [[nodiscard]] const RayScene& rays() const;
-  [[nodiscard]] const Surfaces& surfaces() const;
+  [[nodiscard]] const Surfaces& surfaces() const;  // of the fine scene
   /// The light of a preset; computed at first use (seconds), then kept. Not for use from several threads.
   const Irradiance& irradiance(LightPreset preset);
   /// Takes light that was computed before. Its size must fit; false when it does not.
