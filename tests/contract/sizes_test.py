@@ -19,8 +19,6 @@ LONG_FUNCTIONS: dict[tuple[str, str], tuple[int, str]] = {
         80, "one request from head to answer in the order of the protocol; each of its ways out ends the coroutine"),
     ("server/driving/link_events.cpp", "Driving::received_status"): (
         85, "one switch over the robot's states, whose cases share what was decided before it"),
-    ("src/agent/link/link_client.cpp", "serve"): (
-        110, "the callbacks of one connection share its variables, which must not outlive the call"),
 }
 
 

@@ -13,12 +13,12 @@
 
 namespace homeward::agent {
 
-/// The robot's side of the link: connects, says hello, connects again when the connection is lost. All functions may be
-/// called from any thread and never wait for the network.
+/// The robot's side of the link, over a ReconnectingSocket: says hello on each connection, and waits for the server's
+/// welcome. All functions may be called from any thread and never wait for the network.
 class LinkClient {
  public:
   /// `log`, called from the link's thread, gets a line for each connection made and lost.
-  LinkClient(ServerAddress address, RobotId robot, std::string token, wire::Hello hello,
+  LinkClient(ServerAddress address, const RobotId& robot, const std::string& token, wire::Hello hello,
              std::function<void(const std::string&)> log);
   ~LinkClient();
   LinkClient(const LinkClient&) = delete;
