@@ -219,6 +219,7 @@ class DrivingTest : public ServerTest {
   template <class T>
   std::optional<T> comes_within(FakeAgent& agent, std::chrono::milliseconds time) {
     constexpr std::chrono::milliseconds kTells{500};
+    let_work_off(agent);  // what it was told, it was told before
     for (std::chrono::milliseconds left = time; left.count() > 0; left -= kTells) {
       clock.pass(std::min(left, kTells));
       agent.repeat();
