@@ -25,10 +25,12 @@ using Lanes = hn::CappedTag<float, 8>;
 constexpr int kLanes = hn::MaxLanes(Lanes());
 constexpr std::ptrdiff_t kSums = 8;  // made at once: as many as are on their way through the processor
 constexpr int kBlock = 8 * kLanes;   // numbers of that many sums
+constexpr std::ptrdiff_t kPair = 2;  // sums made at once of each of two rows
+constexpr int kStep = 2 * kLanes;    // numbers of that many sums
 constexpr int kStrip = 256;          // columns made from top to bottom: their rows stay in the first cache
 constexpr int kLine = 16;            // numbers of one line of the cache
 constexpr int kAhead = 2;            // rows
-static_assert(kBlock == kSums * kLanes && kStrip % kBlock == 0);
+static_assert(kBlock == kSums * kLanes && kStep == kPair * kLanes);
 
 using Kernel = std::span<const float>;
 using Sum = hn::Vec<Lanes>;
@@ -57,7 +59,7 @@ void along_row(const float* from, int count, Kernel kernel, float* to) {
         sums[b] = hn::MulAdd(hn::LoadU(f, neighbour + b * kLanes), weight, sums[b]);
       }
     }
-    for (std::ptrdiff_t b = 0; b < kSums; ++b) hn::StoreU(sums[b], f, to + i + b * kLanes);
+    for (std::ptrdiff_t b = 0; b < kSums; ++b) hn::Store(sums[b], f, to + i + b * kLanes);
   }
   for (; i < count; i += kLanes) {
     Sum sum = hn::LoadU(f, from + i) * hn::Set(f, kernel[0]);
@@ -68,93 +70,140 @@ void along_row(const float* from, int count, Kernel kernel, float* to) {
   }
 }
 
-/// The same down columns: `rows` are the neighbours, as many as weights, from the uppermost on. The weights are the
-/// same above and below.
-void down_columns(const std::vector<const float*>& rows, int count, Kernel kernel, float* to) {
+/// kStep sums down columns for each of two rows, which share what they read: `rows` are the neighbours of both, one
+/// more than weights, from the uppermost on. The weights are the same above and below.
+inline void down_block(const float* const* rows, std::ptrdiff_t from, Kernel kernel, float* upper, float* lower) {
   const Lanes f;
   const std::size_t middle = kernel.size() / 2;
-  int i = 0;
-  for (; i + kBlock <= count; i += kBlock) {
-    Sum sums[kSums];
-    for (std::ptrdiff_t b = 0; b < kSums; ++b) {
-      sums[b] = hn::LoadU(f, rows[middle] + i + b * kLanes) * hn::Set(f, kernel[middle]);
-    }
-    for (std::size_t k = 1; k <= middle; ++k) {
-      const Sum weight = hn::Set(f, kernel[middle + k]);
-      const float* above = rows[middle - k] + i;
-      const float* below = rows[middle + k] + i;
-      for (std::ptrdiff_t b = 0; b < kSums; ++b) {
-        const Sum both = hn::LoadU(f, below + b * kLanes) + hn::LoadU(f, above + b * kLanes);
-        sums[b] = hn::MulAdd(both, weight, sums[b]);
-      }
-    }
-    for (std::ptrdiff_t b = 0; b < kSums; ++b) hn::StoreU(sums[b], f, to + i + b * kLanes);
+  Sum upper_sums[kPair];
+  Sum lower_sums[kPair];
+  Sum below[kPair];  // the upper row's next neighbours below
+  Sum above[kPair];  // the lower row's next neighbours above
+  const Sum first_weight = hn::Set(f, kernel[middle]);
+  for (std::ptrdiff_t b = 0; b < kPair; ++b) {
+    above[b] = hn::Load(f, rows[middle] + from + b * kLanes);
+    below[b] = hn::Load(f, rows[middle + 1] + from + b * kLanes);
+    upper_sums[b] = above[b] * first_weight;
+    lower_sums[b] = below[b] * first_weight;
   }
-  for (; i < count; i += kLanes) {
-    Sum sum = hn::LoadU(f, rows[middle] + i) * hn::Set(f, kernel[middle]);
-    for (std::size_t k = 1; k <= middle; ++k) {
-      const Sum both = hn::LoadU(f, rows[middle + k] + i) + hn::LoadU(f, rows[middle - k] + i);
-      sum = hn::MulAdd(both, hn::Set(f, kernel[middle + k]), sum);
+  for (std::size_t k = 1; k <= middle; ++k) {
+    const Sum weight = hn::Set(f, kernel[middle + k]);
+    for (std::ptrdiff_t b = 0; b < kPair; ++b) {
+      const Sum farther_above = hn::Load(f, rows[middle - k] + from + b * kLanes);
+      const Sum farther_below = hn::Load(f, rows[middle + 1 + k] + from + b * kLanes);
+      upper_sums[b] = hn::MulAdd(below[b] + farther_above, weight, upper_sums[b]);
+      lower_sums[b] = hn::MulAdd(farther_below + above[b], weight, lower_sums[b]);
+      above[b] = farther_above;
+      below[b] = farther_below;
     }
-    hn::StoreU(sum, f, to + i);
+  }
+  for (std::ptrdiff_t b = 0; b < kPair; ++b) {
+    hn::StoreU(upper_sums[b], f, upper + b * kLanes);
+    hn::StoreU(lower_sums[b], f, lower + b * kLanes);
   }
 }
 
-/// One strip of columns. Rows are blurred along as they are needed and kept while they are neighbours.
-void blur_strip(const FloatPicture<const float>& from, int first, int width, Kernel kernel,
-                const FloatPicture<float>& to) {
-  const int reach = static_cast<int>(kernel.size()) / 2;
-  const int whole = (width + kLanes - 1) / kLanes * kLanes;  // with room for whole registers
-  const bool inside = first >= reach && first + whole + reach <= from.columns;
-  const std::size_t taps = kernel.size();
-  std::vector<float> ring(taps * static_cast<std::size_t>(kStrip));
-  std::vector<float> padded(static_cast<std::size_t>(whole + 2 * reach), 0.0F);
-  std::vector<float> out(static_cast<std::size_t>(whole));
-  std::vector<const float*> neighbours(taps);
-  std::vector<float*> kept;  // where each row's sums are while it is a neighbour
-  kept.reserve(static_cast<std::size_t>(from.rows));
-  for (int row = 0; row < from.rows; ++row) {
-    kept.push_back(ring.data() + static_cast<std::size_t>(row) % taps * static_cast<std::size_t>(kStrip));
+/// Two rows of `count` sums down columns; `lower` is null below the last row.
+void down_columns(const float* const* rows, int count, Kernel kernel, float* upper, float* lower) {
+  int i = 0;
+  if (lower != nullptr) {
+    for (; i + kStep <= count; i += kStep) down_block(rows, i, kernel, upper + i, lower + i);
   }
-  int next = 0;  // row to blur along
-  for (int row = 0; row < from.rows; ++row) {
-    for (; next <= std::min(row + reach, from.rows - 1); ++next) {
-      const float* source = from.row(next);
-      // The strip's next rows lie pages apart, where the processor does not look ahead by itself.
-      if (next + kAhead < from.rows) {
-        const float* ahead = from.row(next + kAhead) + first;
-        for (int i = 0; i < width; i += kLine) hwy::Prefetch(ahead + i);
-      }
-      if (inside) {
-        along_row(source + first - reach, whole, kernel, kept[static_cast<std::size_t>(next)]);
-        continue;
-      }
-      const int before = std::max(0, reach - first);  // numbers beyond the border
-      const int after = std::max(0, first + width + reach - from.columns);
-      const int end = width + 2 * reach;
-      std::copy_n(source + first - reach + before, end - before - after, padded.begin() + before);
-      for (int i = 0; i < before; ++i) padded[static_cast<std::size_t>(i)] = source[before - i];
-      for (int i = end - after; i < end; ++i) {
-        padded[static_cast<std::size_t>(i)] = source[reflected(first - reach + i, from.columns)];
-      }
-      along_row(padded.data(), whole, kernel, kept[static_cast<std::size_t>(next)]);
-    }
-    for (std::size_t k = 0; k < taps; ++k) {
-      const int neighbour = reflected(row + static_cast<int>(k) - reach, from.rows);
-      neighbours[k] = kept[static_cast<std::size_t>(neighbour)];
-    }
-    if (whole == width) {
-      down_columns(neighbours, width, kernel, to.row(row) + first);
-    } else {
-      down_columns(neighbours, whole, kernel, out.data());
-      std::copy_n(out.begin(), width, to.row(row) + first);
-    }
+  for (; i < count; i += kStep) {
+    float sums[2 * kStep];
+    down_block(rows, i, kernel, sums, sums + kStep);
+    const int rest = std::min(kStep, count - i);
+    std::copy_n(sums, rest, upper + i);
+    if (lower != nullptr) std::copy_n(sums + kStep, rest, lower + i);
   }
 }
+
+/// The columns of a picture from `first` to below `end`, from the top down. Rows are blurred along as they are needed
+/// and kept while they are neighbours.
+class Strip {
+ public:
+  Strip(const FloatPicture<const float>& from, Kernel kernel, int first, int end)
+      : from_(from),
+        kernel_(kernel),
+        reach_(static_cast<int>(kernel.size()) / 2),
+        span_(static_cast<int>(kernel.size()) + 1),
+        first_(first),
+        width_(end - first),
+        whole_((width_ + kStep - 1) / kStep * kStep) {
+    // An odd number of lines for each row: rows would else meet in the same places of the cache.
+    const int lines = (whole_ + kLine - 1) / kLine | 1;
+    ring_.resize(static_cast<std::size_t>(span_ * lines));
+    for (int k = 0; k < 2 * span_; ++k) kept_.push_back(ring_[static_cast<std::size_t>(k % span_ * lines)].numbers);
+    padded_.resize(static_cast<std::size_t>(whole_ + 2 * reach_));
+    at_border_.resize(static_cast<std::size_t>(span_));
+  }
+
+  void blur(const FloatPicture<float>& to) {
+    int next = 0;  // row to blur along
+    for (int row = 0; row < from_.rows; row += 2) {
+      const bool is_last = row + 1 == from_.rows;
+      for (; next <= std::min(row + 1 + reach_, from_.rows - 1); ++next) blur_along(next);
+      down_columns(neighbours(row), width_, kernel_, to.row(row) + first_,
+                   is_last ? nullptr : to.row(row + 1) + first_);
+    }
+  }
+
+ private:
+  struct alignas(sizeof(float) * kLine) Line {
+    float numbers[kLine];
+  };
+
+  void blur_along(int row) {
+    const float* source = from_.row(row) + first_ - reach_;
+    // The strip's next rows lie pages apart, where the processor does not look ahead by itself.
+    if (row + kAhead < from_.rows) {
+      const float* ahead = from_.row(row + kAhead) + first_;
+      for (int i = 0; i < width_; i += kLine) hwy::Prefetch(ahead + i);
+    }
+    float* kept = kept_[static_cast<std::size_t>(row % span_)];
+    if (first_ >= reach_ && first_ + whole_ + reach_ <= from_.columns) {
+      along_row(source, whole_, kernel_, kept);
+      return;
+    }
+    const int before = std::max(0, reach_ - first_);  // numbers beyond the border
+    const int after = std::max(0, first_ + width_ + reach_ - from_.columns);
+    const int count = width_ + 2 * reach_;
+    std::copy_n(source + before, count - before - after, padded_.begin() + before);
+    for (int i = 0; i < before; ++i) padded_[static_cast<std::size_t>(i)] = from_.row(row)[before - i];
+    for (int i = count - after; i < count; ++i) {
+      padded_[static_cast<std::size_t>(i)] = from_.row(row)[reflected(first_ - reach_ + i, from_.columns)];
+    }
+    along_row(padded_.data(), whole_, kernel_, kept);
+  }
+
+  /// Of a row and of the one below it, from the uppermost on.
+  const float* const* neighbours(int row) {
+    if (row >= reach_ && row + 1 + reach_ < from_.rows) return kept_.data() + (row - reach_) % span_;
+    for (int k = 0; k < span_; ++k) {
+      // Below the last row there is none whose neighbours count.
+      const int neighbour = std::min(row + k - reach_, from_.rows - 1 + reach_);
+      at_border_[static_cast<std::size_t>(k)] =
+          kept_[static_cast<std::size_t>(reflected(neighbour, from_.rows) % span_)];
+    }
+    return at_border_.data();
+  }
+
+  FloatPicture<const float> from_;
+  Kernel kernel_;
+  int reach_;
+  int span_;  // rows that are neighbours of one of two
+  int first_;
+  int width_;
+  int whole_;                 // with room for whole registers
+  std::vector<Line> ring_;    // the last rows blurred along
+  std::vector<float*> kept_;  // where they are, twice over, so that neighbours always follow one another
+  std::vector<float> padded_;
+  std::vector<const float*> at_border_;
+};
 
 bool blur_by_strips(const FloatPicture<const float>& from, Kernel kernel, const FloatPicture<float>& to) {
   for (int first = 0; first < from.columns; first += kStrip) {
-    blur_strip(from, first, std::min(kStrip, from.columns - first), kernel, to);
+    Strip(from, kernel, first, std::min(first + kStrip, from.columns)).blur(to);
   }
   return true;
 }

@@ -71,8 +71,10 @@ Grid expected_blur(const Grid& from, const std::vector<float>& kernel) {
 
 TEST(BlurStrips, EveryProcessorGivesTheSameNumbers) {
   int able = 0;
-  // Narrower and wider than a strip, whole and broken vectors, kernels nearly as large as the picture.
-  for (const auto& [rows, columns] : {std::pair(16, 17), {40, 64}, {31, 255}, {30, 256}, {29, 257}, {50, 700}}) {
+  // Narrower and wider than a strip, whole and broken vectors, even and odd rows, kernels nearly as large as the
+  // picture.
+  for (const auto& [rows, columns] :
+       {std::pair(16, 17), {40, 64}, {31, 255}, {30, 256}, {29, 257}, {15, 300}, {50, 700}}) {
     const Grid picture = noise(rows, columns);
     for (const int taps : {3, 11, 27}) {
       const std::vector<float> kernel = symmetric_kernel(taps);
