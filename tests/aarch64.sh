@@ -29,6 +29,7 @@ for headers in hwy eigen3/Eigen tl; do ln -sfn "/usr/include/$headers" "$folder/
 sources=(
   src/core/angles.cpp
   src/features/blur_strips.cpp
+  src/features/direction_histogram.cpp
   src/features/extremum_rows.cpp
   src/geometry/match_row_loops.cpp
   src/geometry/match_rows.cpp
@@ -39,6 +40,7 @@ sources=(
   src/matching/nearest_columns.cpp
   src/matching/nearest_portable.cpp
   tests/unit/features/blur_strips_test.cpp
+  tests/unit/features/direction_histogram_test.cpp
   tests/unit/features/extremum_rows_test.cpp
   tests/unit/geometry/match_row_loops_test.cpp
   tests/unit/geometry/match_rows_test.cpp

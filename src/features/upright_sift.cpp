@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "features/direction_histogram.hpp"
 #include "features/extremum_rows.hpp"
 #include "features/gaussian_blur.hpp"
 
@@ -20,8 +21,8 @@ constexpr int kLayers = 3;               // searched per octave
 constexpr double kFirstSigma_px = 1.6;   // of each octave's first picture
 constexpr double kCameraSigma_px = 0.5;  // blur that a picture comes with
 constexpr int kBorder_px = 5;
-constexpr std::size_t kDifferences = kLayers + 2;
 constexpr int kSmallestSide_px = 2 * kBorder_px + 6;
+static_assert(kDifferences == kLayers + 2);
 
 /// Differences of an octave's neighbouring blurs about one pixel, made as they are asked for.
 class Differences {
@@ -45,7 +46,7 @@ class Differences {
 };
 
 /// Whether no neighbour in three scales beats the middle band's value at `column`.
-bool is_extremum(const std::array<RowBand, 3>& bands, int column) {
+bool is_extremum(std::span<const RowBand, 3> bands, int column) {
   const float value = bands[1].here[column];
   const float sign = value > 0.0F ? 1.0F : -1.0F;
   for (const RowBand& band : bands) {
@@ -110,13 +111,6 @@ std::optional<Fit> fit(const Differences& d) {
   return result;
 }
 
-constexpr int kCells = 4;       // of a descriptor, in a row and in a column
-constexpr int kDirections = 8;  // of the gradient, of each cell
-
-/// Histograms of directions with a margin of one cell and one direction, which takes what falls outside.
-using RowOfCells = std::array<std::array<float, kDirections + 2>, kCells + 2>;
-using Cells = std::array<RowOfCells, kCells + 2>;
-
 /// Differences of the neighbours of each pixel of a window, row by row.
 void gradients(const cv::Mat& picture, const cv::Rect& window, float* across, float* down) {
   for (int r = 0; r < window.height; ++r) {
@@ -132,50 +126,62 @@ void gradients(const cv::Mat& picture, const cv::Rect& window, float* across, fl
   }
 }
 
-/// The histograms of one row of `count` pixels, each shared out among the nearest two cells and directions.
-RowOfCells row_histogram(const float* angle_deg, const float* magnitude, const float* column_weight,
-                         const float* column_share, const int* column_cell, int count) {
-  RowOfCells of_row{};
-  for (int i = 0; i < count; ++i) {
-    const float direction = angle_deg[i] * (kDirections / 360.0F);
-    const int lower_direction = static_cast<int>(direction);
-    const float direction_share = direction - static_cast<float>(lower_direction);
-    const float amount = magnitude[i] * column_weight[i];
-    const float right = amount * column_share[i];
-    const float left = amount - right;
-    const auto cell = static_cast<std::size_t>(column_cell[i]);
-    const auto d = static_cast<std::size_t>(lower_direction);
-    of_row[cell][d] += left * (1.0F - direction_share);
-    of_row[cell][d + 1] += left * direction_share;
-    of_row[cell + 1][d] += right * (1.0F - direction_share);
-    of_row[cell + 1][d + 1] += right * direction_share;
+/// Where `count` rows or columns from `first` on lie among the cells about `centre`.
+void place(int first, int count, float centre, float cell_px, CellPlaces& places) {
+  places.resize(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const float cells = (static_cast<float>(first + static_cast<int>(i)) - centre) / cell_px;
+    const float at = cells + kCells * 0.5F - 0.5F;
+    const float lower = std::floor(at);
+    places.cell[i] = static_cast<int>(lower) + 1;  // with the margin
+    places.share[i] = at - lower;
+    places.weight[i] = std::exp(-cells * cells / (0.5F * kCells * kCells));  // a Gaussian of half the window
   }
-  return of_row;
 }
 
-/// Shares a row's histograms out between the cells above and below it; `share`: what those below get.
-void add_row(const RowOfCells& of_row, float weight, float share, RowOfCells& above, RowOfCells& below) {
-  for (std::size_t c = 0; c < of_row.size(); ++c) {
-    for (std::size_t d = 0; d < of_row[c].size(); ++d) {
-      const float amount = weight * of_row[c][d];
-      above[c][d] += (1.0F - share) * amount;
-      below[c][d] += share * amount;
-    }
-  }
+/// The pixels about a point that its descriptor tells of, in the point's picture.
+struct Window {
+  float u_px;
+  float v_px;
+  float cell_px;
+  cv::Rect pixels;  // empty beyond the picture
+};
+
+Window window_of(const SiftPoint& point, const cv::Mat& picture) {
+  constexpr float kCellPerSigma = 3.0F;
+  constexpr float kWithin = 0.999F;  // of the outermost cells' reach, so that rounding cannot leave them
+  const float from_picture = std::ldexp(2.0F, -point.octave);
+  const float u = (point.u_px + 0.25F) * from_picture;
+  const float v = (point.v_px + 0.25F) * from_picture;
+  const float cell_px = kCellPerSigma * point.sigma_px * from_picture;
+  const float reach_px = kWithin * cell_px * (kCells + 1) * 0.5F;
+  const int first_column = std::max(1, static_cast<int>(std::ceil(u - reach_px)));
+  const int last_column = std::min(picture.cols - 2, static_cast<int>(std::floor(u + reach_px)));
+  const int first_row = std::max(1, static_cast<int>(std::ceil(v - reach_px)));
+  const int last_row = std::min(picture.rows - 2, static_cast<int>(std::floor(v + reach_px)));
+  if (last_column < first_column || last_row < first_row) return {u, v, cell_px, {}};
+  return {u, v, cell_px, cv::Rect(first_column, first_row, last_column - first_column + 1, last_row - first_row + 1)};
 }
+
+/// Kept by each thread from one feature to the next.
+struct DescribingMemory {
+  CellPlaces columns;
+  CellPlaces rows;
+  std::vector<float> numbers;
+  WindowScratch scratch;
+};
 
 /// The cells as a descriptor: directions wrap at the end, and square roots of shares are taken.
-void finish(Cells& cells, float* descriptor) {
+void finish(CellHistograms& cells, float* descriptor) {
   float squares = 0.0F;
   float* out = descriptor;
-  for (std::size_t r = 1; r <= kCells; ++r) {
-    for (std::size_t c = 1; c <= kCells; ++c) {
-      auto& directions = cells[r][c];
-      directions[0] += directions[kDirections];
-      directions[1] += directions[kDirections + 1];
-      for (std::size_t d = 0; d < kDirections; ++d, ++out) {
-        *out = directions[d];
-        squares += directions[d] * directions[d];
+  for (int r = 1; r <= kCells; ++r) {
+    for (int c = 1; c <= kCells; ++c) {
+      cells.at(r, c, 0) += cells.at(r, c, kDirections);
+      cells.at(r, c, 1) += cells.at(r, c, kDirections + 1);
+      for (int d = 0; d < kDirections; ++d, ++out) {
+        *out = cells.at(r, c, d);
+        squares += *out * *out;
       }
     }
   }
@@ -273,7 +279,7 @@ void UprightSift::search(int octave, double contrast, std::vector<SiftPoint>& po
   const auto row_of = [&](std::size_t difference, int row) {
     return ring.data() + (difference * 3 + static_cast<std::size_t>(row % 3)) * width;
   };
-  std::vector<int> found;
+  std::vector<Candidate> found;
   for (int filled = kBorder_px - 1; filled <= rows - kBorder_px; ++filled) {
     std::array<const float*, kDifferences + 1> sources{};
     std::array<float*, kDifferences> differences{};
@@ -282,15 +288,16 @@ void UprightSift::search(int octave, double contrast, std::vector<SiftPoint>& po
     subtract(sources, differences, columns);
     const int row = filled - 1;
     if (row < kBorder_px) continue;
-    for (std::size_t layer = 1; layer <= kLayers; ++layer) {
-      const auto band = [&](std::size_t d) { return RowBand{row_of(d, row - 1), row_of(d, row), row_of(d, row + 1)}; };
-      const std::array<RowBand, 3> bands = {band(layer - 1), band(layer), band(layer + 1)};
-      find_candidates(bands[1], kBorder_px, columns - kBorder_px, floor, found);
-      for (const int column : found) {
-        if (!is_extremum(bands, column)) continue;
-        const auto point = refined(octave, static_cast<int>(layer), row, column, contrast);
-        if (point) points.push_back(*point);
-      }
+    std::array<RowBand, kDifferences> bands;
+    for (std::size_t d = 0; d < bands.size(); ++d) {
+      bands[d] = {row_of(d, row - 1), row_of(d, row), row_of(d, row + 1)};
+    }
+    find_candidates(bands, kBorder_px, columns - kBorder_px, floor, found);
+    for (const Candidate& candidate : found) {
+      const auto below = static_cast<std::size_t>(candidate.layer) - 1;
+      if (!is_extremum(std::span(bands).subspan(below).first<3>(), candidate.column)) continue;
+      const auto point = refined(octave, candidate.layer, row, candidate.column, contrast);
+      if (point) points.push_back(*point);
     }
   }
 }
@@ -302,61 +309,25 @@ SiftPoint UprightSift::widened(SiftPoint point) const {
 }
 
 void UprightSift::describe(const SiftPoint& point, float* descriptor) const {
-  constexpr float kCellPerSigma = 3.0F;
   std::fill_n(descriptor, kDescriptorLength, 0.0F);
   const cv::Mat& picture = octaves_[static_cast<std::size_t>(point.octave)][static_cast<std::size_t>(point.layer)];
-  const float from_picture = std::ldexp(2.0F, -point.octave);
-  const float u = (point.u_px + 0.25F) * from_picture;
-  const float v = (point.v_px + 0.25F) * from_picture;
-  const float cell_px = kCellPerSigma * point.sigma_px * from_picture;
-  constexpr float kWithin = 0.999F;  // of the outermost cells' reach, so that rounding cannot leave them
-  const float reach_px = kWithin * cell_px * (kCells + 1) * 0.5F;
-  const int first_column = std::max(1, static_cast<int>(std::ceil(u - reach_px)));
-  const int last_column = std::min(picture.cols - 2, static_cast<int>(std::floor(u + reach_px)));
-  const int first_row = std::max(1, static_cast<int>(std::ceil(v - reach_px)));
-  const int last_row = std::min(picture.rows - 2, static_cast<int>(std::floor(v + reach_px)));
-  const int count = last_column - first_column + 1;
-  if (count <= 0 || last_row < first_row) return;
-
-  // What depends on the column alone: its cell, its share of it, its weight (a Gaussian of half the window).
-  const auto weight = [&](float cells) { return std::exp(-cells * cells / (0.5F * kCells * kCells)); };
-  thread_local std::vector<float> buffer;
-  const int rows = last_row - first_row + 1;
-  const int pixels = rows * count;
-  buffer.resize(static_cast<std::size_t>(pixels) * 4 + static_cast<std::size_t>(count) * 2);
-  float* column_share = buffer.data();
-  float* column_weight = column_share + count;
-  float* across = column_weight + count;  // of all pixels, row by row, as the next three
-  float* down = across + pixels;
-  float* angles_deg = down + pixels;
-  float* magnitudes = angles_deg + pixels;
-  thread_local std::vector<int> column_cell;
-  column_cell.resize(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    const float cells = (static_cast<float>(first_column + i) - u) / cell_px;
-    const float place = cells + kCells * 0.5F - 0.5F;
-    const float lower = std::floor(place);
-    column_cell[static_cast<std::size_t>(i)] = static_cast<int>(lower) + 1;  // with the margin
-    column_share[i] = place - lower;
-    column_weight[i] = weight(cells);
-  }
-  gradients(picture, cv::Rect(first_column, first_row, count, rows), across, down);
+  const Window window = window_of(point, picture);
+  if (window.pixels.empty()) return;
+  thread_local DescribingMemory memory;
+  place(window.pixels.x, window.pixels.width, window.u_px, window.cell_px, memory.columns);
+  place(window.pixels.y, window.pixels.height, window.v_px, window.cell_px, memory.rows);
+  const int pixels = window.pixels.area();
+  const std::size_t room = static_cast<std::size_t>(pixels) + CellPlaces::kMore;
+  memory.numbers.resize(room * 4);
+  float* across = memory.numbers.data();  // of all pixels, row by row, as the next three
+  float* down = across + room;
+  float* angles_deg = down + room;
+  float* magnitudes = angles_deg + room;
+  gradients(picture, window.pixels, across, down);
   cv::hal::fastAtan32f(down, across, angles_deg, pixels, true);
   cv::hal::magnitude32f(across, down, magnitudes, pixels);
-  Cells cells{};
-  for (int row = first_row; row <= last_row; ++row) {
-    const float* angle_deg = angles_deg + static_cast<std::ptrdiff_t>(row - first_row) * count;
-    const float* magnitude = magnitudes + static_cast<std::ptrdiff_t>(row - first_row) * count;
-    const float from_centre = (static_cast<float>(row) - v) / cell_px;
-    const float place = from_centre + kCells * 0.5F - 0.5F;
-    const float lower = std::floor(place);
-    const auto row_cell = static_cast<std::size_t>(lower + 1.0F);  // with the margin
-    const float row_share = place - lower;
-    const float row_weight = weight(from_centre);
-    const RowOfCells of_row =
-        row_histogram(angle_deg, magnitude, column_weight, column_share, column_cell.data(), count);
-    add_row(of_row, row_weight, row_share, cells[row_cell], cells[row_cell + 1]);
-  }
+  CellHistograms cells;
+  add_window({angles_deg, magnitudes}, memory.columns, memory.rows, memory.scratch, cells);
   finish(cells, descriptor);
 }
 
