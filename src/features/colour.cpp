@@ -9,17 +9,15 @@ namespace homeward::features {
 namespace {
 
 /// Of a level from 0 to 255 as a number from 0 to 1: dividing millions of times takes longer than looking up.
-struct Powers {
-  double value;
-  double square;
-  double cube;
+struct alignas(32) Powers {
+  std::array<double, 4> of;  // the level itself, its square, its cube, and none
 };
 const std::array<Powers, 256>& powers_of_levels() {
   static const std::array<Powers, 256> all = [] {
     std::array<Powers, 256> made{};
     for (std::size_t level = 0; level < made.size(); ++level) {
       const double value = static_cast<double>(level) / 255.0;
-      made[level] = {value, value * value, value * value * value};
+      made[level].of = {value, value * value, value * value * value, 0.0};
     }
     return made;
   }();
@@ -29,9 +27,7 @@ const std::array<Powers, 256>& powers_of_levels() {
 }  // namespace
 
 std::array<float, 9> colour_moments(const camera::Panorama& panorama) {
-  std::array<double, 3> sum{};
-  std::array<double, 3> square_sum{};
-  std::array<double, 3> cube_sum{};
+  std::array<Powers, 3> sums{};
   std::size_t count = 0;
   const std::uint8_t* pixel = panorama.rgb.data.data();
   const std::array<Powers, 256>& of_level = powers_of_levels();
@@ -40,18 +36,17 @@ std::array<float, 9> colour_moments(const camera::Panorama& panorama) {
     ++count;
     for (std::size_t band = 0; band < 3; ++band) {
       const Powers& powers = of_level[pixel[band]];
-      sum[band] += powers.value;
-      square_sum[band] += powers.square;
-      cube_sum[band] += powers.cube;
+      for (std::size_t k = 0; k < powers.of.size(); ++k) sums[band].of[k] += powers.of[k];
     }
   }
   std::array<float, 9> moments{};
   if (count == 0) return moments;
   const auto n = static_cast<double>(count);
   for (std::size_t band = 0; band < 3; ++band) {
-    const double mean = sum[band] / n;
-    const double variance = std::max(0.0, square_sum[band] / n - mean * mean);
-    const double third = cube_sum[band] / n - 3.0 * mean * square_sum[band] / n + 2.0 * mean * mean * mean;
+    const auto [sum, square_sum, cube_sum, none] = sums[band].of;
+    const double mean = sum / n;
+    const double variance = std::max(0.0, square_sum / n - mean * mean);
+    const double third = cube_sum / n - 3.0 * mean * square_sum / n + 2.0 * mean * mean * mean;
     moments[3 * band] = static_cast<float>(mean);
     moments[3 * band + 1] = static_cast<float>(std::sqrt(variance));
     moments[3 * band + 2] = static_cast<float>(std::cbrt(third));
@@ -87,8 +82,8 @@ bool colours_agree(const std::int8_t* a, const std::int8_t* b, int bound) {
 std::array<double, 3> colour_correlations(const Image& rgb, double centre_u_px, double centre_v_px, double radius_px) {
   constexpr int kSamplesPerSide = 9;
   constexpr std::size_t kSamples = std::size_t{kSamplesPerSide} * kSamplesPerSide;
-  std::array<std::array<double, kSamples>, 3> bands{};
-  std::array<double, 3> mean{};
+  std::array<std::array<int, 3>, kSamples> samples{};
+  std::array<int, 3> sum{};
   std::array<int, kSamplesPerSide> columns{};
   std::array<int, kSamplesPerSide> rows{};
   for (int k = 0; k < kSamplesPerSide; ++k) {
@@ -103,26 +98,35 @@ std::array<double, 3> colour_correlations(const Image& rgb, double centre_u_px, 
     for (const int u : columns) {
       const std::uint8_t* pixel = rgb.at(u, v);
       for (std::size_t band = 0; band < 3; ++band) {
-        bands[band][sample] = pixel[band];
-        mean[band] += pixel[band];
+        samples[sample][band] = pixel[band];
+        sum[band] += pixel[band];
       }
       ++sample;
     }
   }
-  for (double& value : mean) value /= static_cast<double>(kSamples);
-  const auto product = [&](std::size_t p, std::size_t q) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < bands[p].size(); ++i) sum += (bands[p][i] - mean[p]) * (bands[q][i] - mean[q]);
-    return sum;
-  };
+  std::array<double, 3> mean{};
+  for (std::size_t band = 0; band < 3; ++band) mean[band] = sum[band] / static_cast<double>(kSamples);
+  // All sums side by side: each addition waits for the one before it.
+  std::array<double, 3> squares{};
+  std::array<double, 3> products{};
+  for (const std::array<int, 3>& one : samples) {
+    const double red = one[0] - mean[0];
+    const double green = one[1] - mean[1];
+    const double blue = one[2] - mean[2];
+    squares[0] += red * red;
+    squares[1] += green * green;
+    squares[2] += blue * blue;
+    products[0] += red * green;
+    products[1] += red * blue;
+    products[2] += green * blue;
+  }
   // Less than one grey level of spread is noise, not colour.
-  const auto invariant = [&](std::size_t p, std::size_t q) {
-    const double pp = product(p, p);
-    const double qq = product(q, q);
+  const auto invariant = [](double pp, double qq, double pq) {
     if (pp < kSamples || qq < kSamples) return 0.0;
-    return std::clamp(product(p, q) / std::sqrt(pp * qq), -1.0, 1.0);
+    return std::clamp(pq / std::sqrt(pp * qq), -1.0, 1.0);
   };
-  return {invariant(0, 1), invariant(0, 2), invariant(1, 2)};
+  return {invariant(squares[0], squares[1], products[0]), invariant(squares[0], squares[2], products[1]),
+          invariant(squares[1], squares[2], products[2])};
 }
 
 std::array<double, 3> colour_correlations(const camera::Panorama& panorama) {
