@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <span>
 #include <tuple>
+#include <utility>
 
 namespace homeward::features {
 namespace {
@@ -36,6 +39,45 @@ struct Link {
   int right_px;  // columns from here to there
 };
 
+/// The links of all candidates in one stretch of memory.
+class Links {
+ public:
+  /// The links of each candidate, in the order in which they were found.
+  Links(const std::vector<std::pair<std::size_t, Link>>& found, std::size_t candidates)
+      : first_(candidates + 1, 0), all_(found.size()) {
+    for (const auto& [from, link] : found) ++first_[from + 1];
+    for (std::size_t i = 0; i < candidates; ++i) first_[i + 1] += first_[i];
+    std::vector<std::size_t> next(first_.begin(), first_.end());
+    for (const auto& [from, link] : found) all_[next[from]++] = link;
+  }
+
+  [[nodiscard]] std::span<const Link> of(std::size_t candidate) const {
+    return std::span(all_).subspan(first_[candidate], first_[candidate + 1] - first_[candidate]);
+  }
+
+ private:
+  std::vector<std::size_t> first_;  // of each candidate in all_, and the end
+  std::vector<Link> all_;
+};
+
+/// Candidates of neighbouring columns that are alike, each link from both of its ends.
+Links links_between(const std::vector<ColumnCandidate>& candidates, int width_px) {
+  const std::vector<std::size_t> first = first_of_column(candidates, width_px);
+  std::vector<std::pair<std::size_t, Link>> found;
+  found.reserve(candidates.size() * 2 * kMaxGap_px);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    for (int gap = 1; gap <= std::min(kMaxGap_px, width_px - 1); ++gap) {
+      const auto u = static_cast<std::size_t>((candidates[i].segment.u_px + gap) % width_px);
+      for (std::size_t j = first[u]; j < first[u + 1]; ++j) {
+        if (!alike(candidates[i], candidates[j], gap)) continue;
+        found.push_back({i, {j, gap}});
+        found.push_back({j, {i, -gap}});
+      }
+    }
+  }
+  return {found, candidates.size()};
+}
+
 /// One member of a run and its place to the right of the run's first one met, whatever the seam does.
 struct Member {
   std::size_t index;
@@ -43,12 +85,12 @@ struct Member {
 };
 
 /// Everything that is linked to `start`.
-std::vector<Member> run_of(std::size_t start, const std::vector<std::vector<Link>>& links, std::vector<bool>& taken) {
+std::vector<Member> run_of(std::size_t start, const Links& links, std::vector<bool>& taken) {
   std::vector<Member> run = {{start, 0}};
   taken[start] = true;
   for (std::size_t next = 0; next < run.size(); ++next) {
     const Member member = run[next];
-    for (const Link& link : links[member.index]) {
+    for (const Link& link : links.of(member.index)) {
       if (taken[link.to]) continue;
       taken[link.to] = true;
       run.push_back({link.to, member.right_px + link.right_px});
@@ -94,18 +136,7 @@ float squared_column_distance(const ColumnInvariants& a, const ColumnInvariants&
 }
 
 std::vector<ColumnCandidate> one_of_each_run(const std::vector<ColumnCandidate>& candidates, int width_px) {
-  const std::vector<std::size_t> first = first_of_column(candidates, width_px);
-  std::vector<std::vector<Link>> links(candidates.size());
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    for (int gap = 1; gap <= std::min(kMaxGap_px, width_px - 1); ++gap) {
-      const auto u = static_cast<std::size_t>((candidates[i].segment.u_px + gap) % width_px);
-      for (std::size_t j = first[u]; j < first[u + 1]; ++j) {
-        if (!alike(candidates[i], candidates[j], gap)) continue;
-        links[i].push_back({j, gap});
-        links[j].push_back({i, -gap});
-      }
-    }
-  }
+  const Links links = links_between(candidates, width_px);
   std::vector<ColumnCandidate> prototypes;
   std::vector<bool> taken(candidates.size(), false);
   const double widest_px = kWidest_rad * width_px / (2.0 * std::numbers::pi);

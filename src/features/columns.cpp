@@ -3,30 +3,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "core/angles.hpp"
 #include "features/azimuth_spread.hpp"
+#include "features/column_gradient.hpp"
 #include "features/column_runs.hpp"
 
 namespace homeward::features {
 namespace {
 
 constexpr int kProfileSamples = 16;
-constexpr double kLevel = 256.0;  // what one grey level is in the prepared picture
 constexpr int kColourRows = 9;
 constexpr int kColourColumns = 5;
 constexpr double kWidening = 0.2;        // of the length, to either side
 constexpr double kMinLength_rad = 0.03;  // 5 pixels of a panorama 1024 wide: fewer make no profile
 constexpr double kMinContrast = 1.5;     // grey levels of spread: rounding alone makes 0.3
-constexpr double kGradientSigma_px = 1.8;
-constexpr int kGradientRadius_px = 5;
-// A maximum counts above four standard deviations of the noise: a column of 211 rows then holds 0.01 of chance.
-constexpr double kNoiseFactor = 4.0;
-constexpr double kEdgeShare = 0.1;
-constexpr double kMinGradient = 0.7;  // grey levels for each row: what rounding to whole levels and JPEG leave
 
 using Basis = std::array<std::array<float, kProfileSamples>, kColumnCoefficients>;
 
@@ -56,20 +51,24 @@ class ColumnReader {
     cv::transpose(valid, seen_);
     grey_.create(width_px_, rgb_.cols, CV_16U);
     sums_.create(width_px_, rgb_.cols + 1, CV_32S);
+    const int height_px = rgb_.cols;
     for (int u = 0; u < width_px_; ++u) {
       const auto* pixel = rgb_.ptr<std::uint8_t>(u);
       auto* grey = grey_.ptr<std::uint16_t>(u);
       auto* sum = sums_.ptr<int>(u);
-      sum[0] = 0;
-      for (int v = 0; v < rgb_.cols; ++v, pixel += 3) {
+      int above = 0;
+      for (int v = 0; v < height_px; ++v, pixel += 3) {
         // Luma of ITU-R BT.601 without rounding, so that brightness times two is exactly twice as much.
-        grey[v] = static_cast<std::uint16_t>(77 * pixel[0] + 150 * pixel[1] + 29 * pixel[2]);
-        sum[v + 1] = sum[v] + grey[v];
+        const int luma = 77 * pixel[0] + 150 * pixel[1] + 29 * pixel[2];
+        grey[v] = static_cast<std::uint16_t>(luma);
+        sum[v] = above;
+        above += luma;
       }
+      sum[height_px] = above;
     }
   }
 
-  /// Row u holds column u of the panorama, in parts of kLevel.
+  /// Row u holds column u of the panorama, in parts of kGreyLevel.
   [[nodiscard]] const cv::Mat& grey() const { return grey_; }
 
   /// Coefficients into `into`; returns the spread of the profile, grey levels.
@@ -109,7 +108,7 @@ class ColumnReader {
       for (std::size_t n = 0; n < kProfileSamples; ++n) product += basis[k][n] * samples[n];
       into[k] = product * norm;
     }
-    return std::sqrt(static_cast<double>(energy) / kProfileSamples) / kLevel;
+    return std::sqrt(static_cast<double>(energy) / kProfileSamples) / kGreyLevel;
   }
 
   void colours(const ColumnSegment& segment, float* into) const {
@@ -118,40 +117,34 @@ class ColumnReader {
     std::array<int, kColourRows> rows{};
     for (int r = 0; r < kColourRows; ++r) {
       const double along = (1.0 + 2.0 * kWidening) * r / (kColourRows - 1) - kWidening;
-      const long row_px = std::lround(segment.top_px + length_px * along);
-      rows[static_cast<std::size_t>(r)] = std::clamp(static_cast<int>(row_px), first_row, last_row);
+      rows[static_cast<std::size_t>(r)] = std::clamp(nearest(segment.top_px + length_px * along), first_row, last_row);
     }
     constexpr int kSamples = kColourRows * kColourColumns;
-    std::array<int, 3> sum{};
-    std::array<int, 3> squares{};
-    std::array<int, 3> products{};  // RG, RB, GB
+    std::array<Band, 3> bands{};
+    std::size_t sample = 0;
     for (int c = 0; c < kColourColumns; ++c) {
       const double right_px = kWidening * length_px * (2.0 * c / (kColourColumns - 1) - 1.0);
-      int u = (segment.u_px + static_cast<int>(std::lround(right_px))) % width_px_;
-      if (u < 0) u += width_px_;
+      int u = segment.u_px + nearest(right_px);
+      if (u < 0 || u >= width_px_) u = (u % width_px_ + width_px_) % width_px_;
       const auto* column = rgb_.ptr<std::uint8_t>(u);
       for (const int row : rows) {
         const std::uint8_t* pixel = column + std::ptrdiff_t{3} * row;
-        const int red = pixel[0];
-        const int green = pixel[1];
-        const int blue = pixel[2];
-        sum[0] += red;
-        sum[1] += green;
-        sum[2] += blue;
-        squares[0] += red * red;
-        squares[1] += green * green;
-        squares[2] += blue * blue;
-        products[0] += red * green;
-        products[1] += red * blue;
-        products[2] += green * blue;
+        for (std::size_t band = 0; band < bands.size(); ++band) bands[band][sample] = pixel[band];
+        ++sample;
       }
+    }
+    std::array<int, 3> sum{};
+    std::array<int, 3> squares{};
+    for (std::size_t band = 0; band < bands.size(); ++band) {
+      sum[band] = std::accumulate(bands[band].begin(), bands[band].end(), 0);
+      squares[band] = product(bands[band], bands[band]);
     }
     constexpr std::array<std::array<std::size_t, 2>, 3> kBands = {{{0, 1}, {0, 2}, {1, 2}}};
     for (std::size_t k = 0; k < kBands.size(); ++k) {
       const auto [p, q] = kBands[k];
       const int pp = kSamples * squares[p] - sum[p] * sum[p];
       const int qq = kSamples * squares[q] - sum[q] * sum[q];
-      const int pq = kSamples * products[k] - sum[p] * sum[q];
+      const int pq = kSamples * product(bands[p], bands[q]) - sum[p] * sum[q];
       // Less than one grey level of spread is noise, not colour.
       const bool plain = pp < kSamples * kSamples || qq < kSamples * kSamples;
       into[k] = plain ? 0.0F
@@ -173,126 +166,28 @@ class ColumnReader {
     return {top, bottom};
   }
 
+  /// One band of the samples of a segment's colours, filled up with 0 to whole vector registers.
+  using Band = std::array<std::int16_t, (kColourRows * kColourColumns + 15) / 16 * 16>;
+
+  static int product(const Band& a, const Band& b) {
+    int sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    return sum;
+  }
+
+  /// As std::lround has it, without its call.
+  static int nearest(double value) {
+    const int whole = static_cast<int>(value);
+    const double rest = value - whole;
+    return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
+  }
+
   int width_px_;
   cv::Mat seen_;  // width x height, 1 where the camera sees
   cv::Mat rgb_;   // width x height, three bands
   cv::Mat grey_;  // width x height, 256 for each grey level
   cv::Mat sums_;  // width x (height + 1), of the grey levels above
 };
-
-/// Rows of kernel weights of a Gaussian and of its derivative.
-std::array<cv::Mat, 2> gaussian_and_derivative() {
-  constexpr int kSize = 2 * kGradientRadius_px + 1;
-  cv::Mat gaussian(1, kSize, CV_32F);
-  cv::Mat derivative(1, kSize, CV_32F);
-  double sum = 0.0;
-  double moment = 0.0;
-  for (int i = 0; i < kSize; ++i) {
-    const double x = i - kGradientRadius_px;
-    const double weight = std::exp(-0.5 * x * x / (kGradientSigma_px * kGradientSigma_px));
-    gaussian.at<float>(i) = static_cast<float>(weight);
-    derivative.at<float>(i) = static_cast<float>(x * weight);
-    sum += weight;
-    moment += x * x * weight;
-  }
-  gaussian /= sum;
-  derivative /= moment * kLevel;  // a ramp of one grey level for each row gives 1
-  return {gaussian, derivative};
-}
-
-/// Magnitude of the vertical gradient, grey levels for each row; columns of the panorama are rows here.
-cv::Mat gradient_magnitude(const cv::Mat& grey) {
-  static const std::array<cv::Mat, 2> kernels = gaussian_and_derivative();
-  cv::Mat padded;
-  cv::copyMakeBorder(grey, padded, kGradientRadius_px, kGradientRadius_px, 0, 0, cv::BORDER_WRAP);
-  cv::Mat gradient;
-  cv::sepFilter2D(padded, gradient, CV_32F, kernels[1], kernels[0], {-1, -1}, 0.0, cv::BORDER_REPLICATE);
-  return cv::abs(gradient.rowRange(kGradientRadius_px, padded.rows - kGradientRadius_px));
-}
-
-/// Pixels all of whose neighbours that the gradient looked at are seen by the camera.
-cv::Mat trusted_pixels(const camera::Panorama& panorama) {
-  const cv::Mat valid(panorama.rgb.height_px, panorama.rgb.width_px, CV_8UC1,
-                      const_cast<std::uint8_t*>(panorama.valid.data()));
-  constexpr int kReach = kGradientRadius_px;
-  cv::Mat padded;
-  cv::copyMakeBorder(valid, padded, 0, 0, kReach, kReach, cv::BORDER_WRAP);
-  cv::copyMakeBorder(padded, padded, kReach, kReach, 0, 0, cv::BORDER_CONSTANT, cv::Scalar(0));
-  cv::erode(padded, padded, cv::Mat::ones(2 * kReach + 1, 2 * kReach + 1, CV_8U));
-  cv::Mat trusted;
-  cv::transpose(padded(cv::Rect(kReach, kReach, valid.cols, valid.rows)), trusted);
-  return trusted;
-}
-
-/// The same, kept for this thread's last camera.
-const cv::Mat& known_trusted_pixels(const camera::Panorama& panorama) {
-  thread_local std::vector<std::uint8_t> valid;
-  thread_local cv::Mat trusted;
-  if (trusted.rows != panorama.rgb.width_px || valid != panorama.valid) {
-    trusted = trusted_pixels(panorama);
-    valid = panorama.valid;
-  }
-  return trusted;
-}
-
-/// The level above which a gradient is no noise. Most of a picture is plain, so the median of its gradients is the
-/// noise's own; it grows with the brightness as the edges do.
-double gradient_threshold(const cv::Mat& magnitude, const cv::Mat& trusted) {
-  constexpr int kEvery = 5;  // rows; of every column, so that turning the robot changes nothing
-  std::vector<float> sample;
-  sample.reserve(magnitude.total() / kEvery + 1);
-  for (int u = 0; u < magnitude.rows; ++u) {
-    for (int v = kEvery / 2; v < magnitude.cols; v += kEvery) {
-      if (trusted.at<std::uint8_t>(u, v) != 0) sample.push_back(magnitude.at<float>(u, v));
-    }
-  }
-  if (sample.empty()) return kMinGradient;
-  auto sorted_to = sample.begin();           // what lies before is smaller than what lies behind
-  const auto quantile = [&](double share) {  // asked for ascending
-    const auto at = sample.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sample.size() - 1));
-    std::nth_element(sorted_to, at, sample.end());
-    sorted_to = at;
-    return static_cast<double>(*at);
-  };
-  constexpr double kMedianOfAbsoluteNormal = 0.6745;
-  const double noise = quantile(0.5) / kMedianOfAbsoluteNormal;
-  // Where texture is everywhere the median is texture, too; a tenth of any picture may hold edges.
-  return std::max(kMinGradient, std::min(kNoiseFactor * noise, quantile(1.0 - kEdgeShare)));
-}
-
-/// Row of a maximum to a fraction of a pixel: the vertex of the parabola through it and its neighbours.
-double refined_row(const cv::Mat& magnitude, int u, int v) {
-  const auto* m = magnitude.ptr<float>(u);
-  const double bend = static_cast<double>(m[v - 1]) - 2.0 * static_cast<double>(m[v]) + static_cast<double>(m[v + 1]);
-  if (bend >= 0.0) return v;
-  return v + std::clamp(0.5 * static_cast<double>(m[v - 1] - m[v + 1]) / bend, -0.5, 0.5);
-}
-
-/// Neighbouring maxima of each column, with no unseen pixel between them, columns ascending and then rows.
-std::vector<ColumnSegment> raw_segments(const cv::Mat& grey, const cv::Mat& trusted, double min_length_px) {
-  const cv::Mat magnitude = gradient_magnitude(grey);
-  const auto threshold = static_cast<float>(gradient_threshold(magnitude, trusted));
-  const int height_px = magnitude.cols;
-  const cv::Mat middle = magnitude.colRange(1, height_px - 1);
-  cv::Mat maxima = middle > magnitude.colRange(0, height_px - 2);
-  maxima &= middle >= magnitude.colRange(2, height_px);
-  maxima &= middle > threshold;
-  maxima &= trusted.colRange(1, height_px - 1) != 0;
-  std::vector<cv::Point> found;
-  cv::findNonZero(maxima, found);
-  std::vector<ColumnSegment> segments;
-  for (std::size_t i = 0; i + 1 < found.size(); ++i) {
-    if (found[i].y != found[i + 1].y) continue;
-    const int u = found[i].y;
-    const int top = found[i].x + 1;
-    const int bottom = found[i + 1].x + 1;
-    const auto* seen = trusted.ptr<std::uint8_t>(u);
-    if (std::find(seen + top, seen + bottom, std::uint8_t{0}) != seen + bottom) continue;
-    const ColumnSegment segment{u, refined_row(magnitude, u, top), refined_row(magnitude, u, bottom)};
-    if (segment.bottom_px - segment.top_px >= min_length_px) segments.push_back(segment);
-  }
-  return segments;
-}
 
 /// Which columns to keep.
 std::vector<int> strongest(const std::vector<ColumnCandidate>& candidates, int width_px, int budget) {
@@ -343,14 +238,14 @@ FeatureSet extract_columns(const camera::Panorama& panorama, const FeatureConfig
   if (unrounded != nullptr) unrounded->resize(0, kColumnInvariants);
   const int width_px = panorama.rgb.width_px;
   const double px_per_rad = width_px / (2.0 * kPi);
-  constexpr int kLeastSide_px = 2 * kGradientRadius_px + 3;  // the gradient needs its neighbours
+  constexpr int kLeastSide_px = 2 * kGradientReach_px + 3;  // the gradient needs its neighbours
   if (config.max_columns <= 0 || width_px < kLeastSide_px || panorama.rgb.height_px < kLeastSide_px) {
     return as_features({}, {}, panorama.geometry);
   }
   const ColumnReader reader(panorama);
   std::vector<ColumnCandidate> candidates;
-  for (const ColumnSegment& segment :
-       raw_segments(reader.grey(), known_trusted_pixels(panorama), std::max(4.0, kMinLength_rad * px_per_rad))) {
+  for (const ColumnSegment& segment : segments_between_maxima(reader.grey(), known_trusted_pixels(panorama),
+                                                              std::max(4.0, kMinLength_rad * px_per_rad))) {
     ColumnCandidate candidate{segment, {}, 0.0};
     const double contrast = reader.profile(segment, candidate.invariants.data() + kColumnColours);
     if (contrast < kMinContrast) continue;
