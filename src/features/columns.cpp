@@ -167,7 +167,7 @@ class ColumnReader {
   }
 
   /// One band of the samples of a segment's colours, filled up with 0 to whole vector registers.
-  using Band = std::array<std::int16_t, (kColourRows * kColourColumns + 15) / 16 * 16>;
+  using Band = std::array<std::int16_t, (std::size_t{kColourRows} * kColourColumns + 15) / 16 * 16>;
 
   static int product(const Band& a, const Band& b) {
     int sum = 0;

@@ -59,10 +59,11 @@ using RowOfCells = std::array<float, CellHistograms::kRowSize>;
 
 /// Adds each of kRows rows to its own histograms, in turn: what follows a sum into the same place waits for it.
 template <int kRows>
-void fill(const int* offsets, const float* amounts, int stride, int count, std::array<RowOfCells, kTogether>& of_rows) {
+void fill(const int* offsets, const float* amounts, std::ptrdiff_t stride, int count,
+          std::array<RowOfCells, kTogether>& of_rows) {
   for (int i = 0; i < count; ++i) {
     for (int r = 0; r < kRows; ++r) {
-      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(r) * stride + i;
+      const std::ptrdiff_t at = r * stride + i;
       float* to = of_rows[static_cast<std::size_t>(r)].data() + offsets[at];
       add_pair(amounts + kQuad * at, to);
       add_pair(amounts + kQuad * at + 2, to + CellHistograms::kColumns);
@@ -87,9 +88,10 @@ void add_window(const WindowGradients& gradients, const CellPlaces& columns, con
                 WindowScratch& scratch, CellHistograms& histograms) {
   const int count = static_cast<int>(columns.count);
   const int row_count = static_cast<int>(rows.count);
-  const int stride = count + static_cast<int>(CellPlaces::kMore);
-  scratch.offsets.resize(static_cast<std::size_t>(kTogether * stride));
-  scratch.amounts.resize(static_cast<std::size_t>(kQuad * kTogether * stride));
+  const std::size_t room = columns.count + CellPlaces::kMore;  // of a row
+  const auto stride = static_cast<std::ptrdiff_t>(room);
+  scratch.offsets.resize(kTogether * room);
+  scratch.amounts.resize(kQuad * kTogether * room);
   for (int first = 0; first < row_count; first += kTogether) {
     const int together = std::min(kTogether, row_count - first);
     for (int r = 0; r < together; ++r) {
@@ -104,7 +106,8 @@ void add_window(const WindowGradients& gradients, const CellPlaces& columns, con
                                                  : fill<1>;
     fill_rows(scratch.offsets.data(), scratch.amounts.data(), stride, count, of_rows);
     for (int r = 0; r < together; ++r) {
-      const auto row = static_cast<std::size_t>(first + r);
+      const int place = first + r;
+      const auto row = static_cast<std::size_t>(place);
       const auto cell = static_cast<std::size_t>(rows.cell[row]);
       add_row(of_rows[static_cast<std::size_t>(r)], rows.weight[row], rows.share[row], histograms.rows[cell],
               histograms.rows[cell + 1]);

@@ -19,7 +19,8 @@ struct CellHistograms {
 
   /// Cells are counted from the margin's on.
   [[nodiscard]] float& at(int row, int column, int direction) {
-    return rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(direction * kColumns + column)];
+    const int place = direction * kColumns + column;
+    return rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(place)];
   }
 };
 
