@@ -159,6 +159,7 @@ FeatureSet sift_features(const camera::Panorama& panorama, const FeatureConfig& 
   const double px_to_rad = 2.0 * kPi / width_px;
   for (Eigen::Index i = 0; i < count; ++i) {
     const SiftPoint& point = points[static_cast<std::size_t>(i)];
+    if (i + 1 < count) sift.fetch(points[static_cast<std::size_t>(i + 1)]);
     const Eigen::Vector2d pixel_px(strip.to_panorama_px(static_cast<double>(point.u_px), width_px),
                                    static_cast<double>(point.v_px));
     set.bearings.row(i) = panorama.geometry.bearing(pixel_px).cast<float>();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "features/upright_sift.hpp"
 
+#include <hwy/cache_control.h>
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
@@ -308,9 +309,21 @@ SiftPoint UprightSift::widened(SiftPoint point) const {
   return point;
 }
 
+void UprightSift::fetch(const SiftPoint& point) const {
+  const cv::Mat& picture = picture_of(point);
+  const cv::Rect pixels = window_of(point, picture).pixels;
+  if (pixels.empty()) return;
+  constexpr int kLine = 16;  // numbers of one line of the cache
+  for (int row = pixels.y - 1; row <= pixels.y + pixels.height; ++row) {
+    const float* from = picture.ptr<float>(row) + pixels.x - 1;
+    for (int i = 0; i <= pixels.width; i += kLine) hwy::Prefetch(from + i);
+    hwy::Prefetch(from + pixels.width + 1);
+  }
+}
+
 void UprightSift::describe(const SiftPoint& point, float* descriptor) const {
   std::fill_n(descriptor, kDescriptorLength, 0.0F);
-  const cv::Mat& picture = octaves_[static_cast<std::size_t>(point.octave)][static_cast<std::size_t>(point.layer)];
+  const cv::Mat& picture = picture_of(point);
   const Window window = window_of(point, picture);
   if (window.pixels.empty()) return;
   thread_local DescribingMemory memory;

@@ -34,6 +34,10 @@ class UprightSift {
   /// Row by row, octave by octave; the same picture gives the same points in the same order.
   [[nodiscard]] std::vector<SiftPoint> detect(double contrast) const;
 
+  /// Asks the processor for what describing the point will read, to be called before it does something else: the rows
+  /// of a window lie pages apart, where it does not look ahead by itself.
+  void fetch(const SiftPoint& point) const;
+
   /// Histogram of gradients about one point, `kDescriptorLength` numbers: square roots of shares (Arandjelović &
   /// Zisserman 2012), so its length is 1; all 0 where the picture is flat.
   void describe(const SiftPoint& point, float* descriptor) const;
@@ -42,6 +46,9 @@ class UprightSift {
   [[nodiscard]] SiftPoint widened(SiftPoint point) const;
 
  private:
+  [[nodiscard]] const cv::Mat& picture_of(const SiftPoint& point) const {
+    return octaves_[static_cast<std::size_t>(point.octave)][static_cast<std::size_t>(point.layer)];
+  }
   /// Adds one octave's extrema.
   void search(int octave, double contrast, std::vector<SiftPoint>& points) const;
   /// Follows the parabola's top from pixel to pixel until it is within half of one.
