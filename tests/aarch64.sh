@@ -39,6 +39,7 @@ sources=(
   src/matching/nearest.cpp
   src/matching/nearest_columns.cpp
   src/matching/nearest_portable.cpp
+  src/sim/sensor.cpp
   tests/unit/features/blur_strips_test.cpp
   tests/unit/features/direction_histogram_test.cpp
   tests/unit/features/extremum_rows_test.cpp
@@ -47,6 +48,7 @@ sources=(
   tests/unit/matching/dot_test.cpp
   tests/unit/matching/nearest_columns_test.cpp
   tests/unit/matching/nearest_test.cpp
+  tests/unit/sim/sensor_test.cpp
   "$googletest/src/gtest-all.cc"
   "$googletest/src/gtest_main.cc"
 )

@@ -47,7 +47,7 @@ mkdir -p build
 
 if [ "$what" = fast ]; then
   say "Fast unit tests"
-  configure release -DHOMEWARD_TESTS_YIELD=OFF
+  configure release -DHOMEWARD_UNIT_TESTS_IN= -DHOMEWARD_TESTS_YIELD=OFF
   build release unit_tests
   ctest --preset release -L '^fast$' -j "$jobs" --no-tests=error
   exit
@@ -56,7 +56,7 @@ fi
 if [ "$what" = changed ]; then
   folders="$(tests/changed.py)"
   say "Tests of: ${folders//$'\n'/ }"
-  configure release -DHOMEWARD_TESTS_YIELD=OFF
+  configure release -DHOMEWARD_UNIT_TESTS_IN= -DHOMEWARD_TESTS_YIELD=OFF
   mapfile -t programs <<<"$folders"
   build release "${programs[@]/%/_tests}"
   ctest --preset release -R "^(${folders//$'\n'/|})/" -L 'unit|contract' -j "$jobs" --no-tests=error

@@ -25,7 +25,8 @@ class LitWorld {
   [[nodiscard]] const Surfaces& surfaces() const;  // of the fine scene
   /// The light of a preset; computed at first use (seconds), then kept. Not for use from several threads.
   const Irradiance& irradiance(LightPreset preset);
-  /// Takes light that was computed before. Its size must fit; false when it does not.
+  /// Takes light that was computed before. Its size must fit; false when it does not. Before any renderer is made of
+  /// this world: one that stands goes on showing what it has shown.
   bool set_irradiance(LightPreset preset, Irradiance irradiance);
   /// Short text that changes with anything that the light depends on.
   [[nodiscard]] std::string light_key(LightPreset preset) const;

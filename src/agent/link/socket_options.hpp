@@ -17,7 +17,7 @@ struct SocketOptions {
   std::string path = "/";
   std::map<std::string, std::string> headers = {};  // of the handshake
   bool text = false;                                // messages are texts, else bytes
-  std::size_t max_message_bytes = 0;                // a larger one that arrives ends the connection
+  std::size_t max_message_bytes = 1U << 20U;        // a larger one that arrives ends the connection
   std::size_t max_waiting = 256;                    // messages; a connection that is so far behind is dead
 
   std::chrono::milliseconds connect_limit{5000};  // for connecting, with TLS, and again for the handshake

@@ -166,7 +166,7 @@ int main(int argc, char** argv) {
     order.map = MapId("none");
     order.feature_config_id = features::feature_config_id(features);
     order.valid_for_ms = 1500;
-    order.speed_limit_mps = 0.45;
+    order.speed_limit_mps = wire::kSpeedLimit_mps;
     order.final_image = ImageId("target");
     order.final_appearance = wire::encode_appearance(or_die(eye.look(renderer.render(target, {}, own_seed + 1))));
     order.dock = true;

@@ -37,7 +37,7 @@ class Answered : public ::testing::Test {
     order.order = {1, 1};
     order.feature_config_id = features::feature_config_id(features_);
     order.valid_for_ms = 1500;
-    order.speed_limit_mps = 0.45;
+    order.speed_limit_mps = wire::kSpeedLimit_mps;
     order.label = "lift";
     for (const double x_m : {2.0, 2.6}) {
       wire::PathPlace place{PlaceId("p" + std::to_string(order.path.size())), ImageId("tour/on_the_way.jpg"),

@@ -65,7 +65,7 @@ class Kidnapped : public ::testing::Test {
     order.order = {1, 1};
     order.feature_config_id = features::feature_config_id(features_);
     order.valid_for_ms = 1500;
-    order.speed_limit_mps = 0.45;
+    order.speed_limit_mps = wire::kSpeedLimit_mps;
     order.final_image = ImageId("tour/goal.jpg");
     order.final_appearance = wire::encode_appearance(seen_at({3.2, 1.1, 0.0}));
     driving::DrivingConfig config;

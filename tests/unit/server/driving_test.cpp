@@ -67,7 +67,7 @@ TEST_F(DrivingTest, AMissionIsPermittedUntilItArrives) {
   agent.arrival_probability = 0.125;
   for (int i = 0; i < 5; ++i) {
     agent.status(wire::DriveState::kDriving, order, 1);
-    const auto permit = agent.await<wire::Permit>();
+    const auto permit = agent.await<wire::Permit>(std::chrono::milliseconds(2000));
     ASSERT_TRUE(permit);
     EXPECT_EQ(permit->mission, order->mission);
     EXPECT_GT(permit->order, newest) << "each permit is newer";

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "support/vector_targets.hpp"
+
 namespace homeward::sim::sensor_test {
 namespace {
 
@@ -20,11 +22,13 @@ TEST(SensorTest, ManyAtOnceAreExposedAsOneByOne) {
     const std::uint64_t first_key = random();
     const float noise_levels = count % 2 == 0 ? 3.0F : 0.0F;
     std::vector<std::uint8_t> levels(count);
-    expose(curve, light.data(), count, first_key, noise_levels, levels.data());
-    for (std::size_t i = 0; i < count; ++i) {
-      const float level = curve.level(light[i]) + noise_levels * sensor_noise(first_key + i);
-      ASSERT_EQ(levels[i], static_cast<std::uint8_t>(std::clamp(level + 0.5F, 0.0F, 255.0F))) << count << " " << i;
-    }
+    testing::for_each_vector_target([&] {
+      expose(curve, light.data(), count, first_key, noise_levels, levels.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        const float level = curve.level(light[i]) + noise_levels * sensor_noise(first_key + i);
+        ASSERT_EQ(levels[i], static_cast<std::uint8_t>(std::clamp(level + 0.5F, 0.0F, 255.0F))) << count << " " << i;
+      }
+    });
   }
 }
 

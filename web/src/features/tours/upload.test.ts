@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { File as NodeFile } from 'node:buffer'; // Node 18 has none that is global
 import { afterEach, expect, it, vi } from 'vitest';
 import * as calls from '../../api/calls';
 import { ProblemError } from '../../api/problem';
@@ -9,7 +10,7 @@ import { arrived, upload, uploadTour } from './upload';
 afterEach(() => vi.restoreAllMocks());
 
 const file = (name: string, text = '') => {
-  const made = new File([text], name);
+  const made = new NodeFile([text], name) as unknown as File;
   Object.defineProperty(made, 'webkitRelativePath', { value: `t/${name}` });
   return made;
 };
