@@ -35,7 +35,7 @@ def main():
             login = json.loads((data / "login.json").read_text())
             time.sleep(2)
             return subprocess.run(["node", HERE / "arrival_test.mjs", "--base", f"http://127.0.0.1:{PORT}",
-                                   f"--name={login['name']}", f"--password={login['password']}", "--destination", "study",
+                                   f"--name={login['name']}", f"--password={login['password']}", "--destination", "kitchen",
                                    "--out", shots], check=False).returncode
         finally:
             demo.terminate()

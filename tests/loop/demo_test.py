@@ -11,6 +11,6 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 with tempfile.TemporaryDirectory(prefix="homeward-demo-") as folder:
-    sys.exit(subprocess.run([sys.executable, ROOT / "deploy" / "demo.py", "--headless", "--to", "study,living_room",
+    sys.exit(subprocess.run([sys.executable, ROOT / "deploy" / "demo.py", "--headless", "--to", "kitchen,study",
                              "--port", "18471", "--data", folder,
                              "--bin", sys.argv[1], "--web", sys.argv[2]], check=False).returncode)

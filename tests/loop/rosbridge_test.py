@@ -32,7 +32,7 @@ class Rosbridge(unittest.TestCase):
 
     PROFILE = "disc"
     BODY = {"radius_m": 0.35}
-    ROOMS = sys.argv[3:] or ("study", "living_room")
+    ROOMS = sys.argv[3:] or ("kitchen", "living_room")
 
     @classmethod
     def setUpClass(cls):

@@ -15,8 +15,8 @@ BIN = pathlib.Path(sys.argv[1]).resolve()
 THERE_M = 0.5
 MISSIONS = [
     {"from": "ward_1", "to": "ward_7"},  # two wards of which each has its like in the other half
-    {"from": "ward_6", "to": "ward_7"},
-    {"from": "ward_7", "to": "ward_6", "faults": [{"kind": "kidnapped", "at_s": 10}]},
+    {"from": "ward_6", "to": "ward_2"},
+    {"from": "ward_7", "to": "ward_1", "faults": [{"kind": "kidnapped", "at_s": 10}]},
 ]
 SCENARIO = {
     "format": "homeward-scenario", "version": 1, "world": "wards:4", "seed": 4, "camera": {"model": "hyperbolic_mirror"},
