@@ -110,9 +110,8 @@ matching::NearestNeighbours nearest_of(const Numbers& current, const Numbers& ta
   Numbers distances = -2.0F * current * target.transpose();
   distances.colwise() += current.rowwise().squaredNorm();
   distances.rowwise() += target.rowwise().squaredNorm().transpose();
-  matching::NearestNeighbours nearest;
+  matching::NearestNeighbours nearest(current.rows(), target.rows());
   std::vector<std::int32_t> to_target(static_cast<std::size_t>(target.rows()), kNone);
-  nearest.of_target.assign(to_target.size(), 0);
   for (Eigen::Index i = 0; i < current.rows(); ++i) {
     std::int32_t at = 0;
     std::int32_t best = kNone;
@@ -132,9 +131,10 @@ matching::NearestNeighbours nearest_of(const Numbers& current, const Numbers& ta
         nearest.of_target[j] = static_cast<std::int32_t>(i);
       }
     }
-    nearest.of_current.push_back(at);
-    nearest.distance.push_back(best);
-    nearest.second_distance.push_back(second);
+    const auto row_of = static_cast<std::size_t>(i);
+    nearest.of_current[row_of] = at;
+    nearest.distance[row_of] = best;
+    nearest.second_distance[row_of] = second;
   }
   return nearest;
 }
