@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <fstream>
 #include <functional>
 #include <sstream>
+#include <type_traits>
 
 #include "db/map_file.hpp"
 #include "support/server_fixture.hpp"
@@ -51,9 +53,11 @@ class FakeAgent {
     say(status);
     latest = status;
   }
-  /// The next message of one kind within `patience`; others are passed over.
+  /// The next message of one kind within `patience`; others are passed over, but orders are kept: which message comes
+  /// first, an order or the belief that it follows from, is for the server to choose.
   template <class T>
   std::optional<T> await(std::chrono::milliseconds patience = std::chrono::milliseconds(60'000)) {
+    if (auto kept = take_kept<T>()) return kept;
     const auto end = std::chrono::steady_clock::now() + patience;
     while (std::chrono::steady_clock::now() < end && !socket.closed()) {
       const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
@@ -67,18 +71,17 @@ class FakeAgent {
         if (while_waiting) while_waiting();
       }
       if (!bytes) continue;
-      const auto message = decoded(*bytes);
-      if (message && std::holds_alternative<T>(*message)) return std::get<T>(*message);
+      if (auto heard = as<T>(*bytes)) return heard;
     }
     return std::nullopt;
   }
   /// The same of what the server has sent by now.
   template <class T>
   std::optional<T> heard_by_now() {
+    if (auto kept = take_kept<T>()) return kept;
     socket.take_in_all();
     while (const auto bytes = socket.receive(std::chrono::milliseconds(0))) {
-      const auto message = decoded(*bytes);
-      if (message && std::holds_alternative<T>(*message)) return std::get<T>(*message);
+      if (auto heard = as<T>(*bytes)) return heard;
     }
     return std::nullopt;
   }
@@ -95,6 +98,27 @@ class FakeAgent {
     } catch (const std::exception&) {
       latest.reset();
     }
+  }
+
+  /// What has come, if it is of that kind; an order that is not asked for is kept.
+  template <class T>
+  std::optional<T> as(const std::string& bytes) {
+    const auto message = decoded(bytes);
+    if (!message) return std::nullopt;
+    if (const auto* asked_for = std::get_if<T>(&*message)) return *asked_for;
+    if (const auto* order = std::get_if<wire::MissionOrder>(&*message)) kept_orders.push_back(*order);
+    return std::nullopt;
+  }
+  template <class T>
+  std::optional<T> take_kept() {
+    if constexpr (std::is_same_v<T, wire::MissionOrder>) {
+      if (!kept_orders.empty()) {
+        auto first = std::move(kept_orders.front());
+        kept_orders.pop_front();
+        return first;
+      }
+    }
+    return std::nullopt;
   }
 
   static std::optional<wire::ServerMessage> decoded(const std::string& bytes) {
@@ -120,6 +144,7 @@ class FakeAgent {
   std::optional<wire::QuestionReport> question;
   std::int64_t displaced = 0;
   bool astray = false;
+  std::deque<wire::MissionOrder> kept_orders;  // heard while something else was awaited
   std::function<void()> while_waiting;
   std::chrono::steady_clock::time_point told_at = std::chrono::steady_clock::now();
   std::int64_t status_seq = 0;
@@ -212,6 +237,7 @@ class DrivingTest : public ServerTest {
   std::optional<T> comes_at_once(FakeAgent& agent) {
     let_work_off(agent);
     app->tick();
+    app->work_off();  // what the tick has given to others
     return agent.heard_by_now<T>();
   }
   /// Lets time pass for the server, in which the agent goes on telling how it is and its driver keeps the lease; gives
