@@ -86,8 +86,9 @@ if [ "$what" = all ]; then
   unit_tests="$PWD/build/asan"
 fi
 
-# Each test is built and run once: the unit tests with the sanitizers, all others as people run the programs.
+# Each test is built and run once: the unit tests with the sanitizers, all others as people run the programs. Benchmarks are
+# built, so that they go on to be programs.
 say "All tests"
 configure release -DHOMEWARD_UNIT_TESTS_IN="${unit_tests:-}" -DHOMEWARD_TESTS_YIELD=ON
-build release
+build release all benchmarks
 ctest --preset release -j "$tests_at_once" --no-tests=error
