@@ -40,9 +40,9 @@ bool is_safe_until_taken_up(const Motion& motion, const Body& body, const Around
   return keeps_clear({motion.speed_mps, around.turning_radps}, body, around, around.config.takes_up_s);
 }
 
-/// The safe motion most like one that is not, in the same direction: a dynamic window (Fox, Burgard and Thrun, "The
-/// dynamic window approach to collision avoidance", IEEE RAM 4(1), 1997) about it. A long body beside a wall often gets
-/// on by a little more or less of a bend. Standing still where there is none.
+/// The safe motion most like one that is not, in the same direction, or a part of it: a dynamic window (Fox, Burgard
+/// and Thrun, "The dynamic window approach to collision avoidance", IEEE RAM 4(1), 1997) about it. A long body beside a
+/// wall often gets on by a little more or less of a bend. Standing still where there is none.
 Motion safe_near(const Motion& wanted, const Body& body, const Around& around) {
   const SafetyConfig& config = around.config;
   const bool turns_only = std::abs(wanted.speed_mps) < 0.01;
@@ -60,6 +60,12 @@ Motion safe_near(const Motion& wanted, const Body& body, const Around& around) {
       }
       if (bend == 0) break;
     }
+  }
+  if (turns_only) return {};
+  // Straight on along what it is beside, or out of what its front stands before: on from there the way is looked for
+  // anew.
+  for (const Motion& motion : {Motion{slow_mps, 0.0}, Motion{0.0, slow_radps}}) {
+    if (is_safe(motion, body, around) && is_safe_until_taken_up(motion, body, around)) return motion;
   }
   return {};
 }

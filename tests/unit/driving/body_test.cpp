@@ -157,6 +157,19 @@ TEST(MadeSafe, LetsAChairBesideAWallGetOnByAnotherBend) {
   EXPECT_LT(made_safe({-0.2, 0.6}, chair(), wall).speed_mps, -0.02);
 }
 
+TEST(MadeSafe, LetsAChairInADoorGoOnStraightWhereEveryBendLeadsNearer) {
+  Points door;  // 4 cm to each side: nearer than the margin
+  for (int i = -60; i <= 60; ++i) {
+    door.emplace_back(0.03 * i, 0.365);
+    door.emplace_back(0.03 * i, -0.365);
+  }
+  for (const double speed_mps : {0.2, -0.2}) {
+    const Motion safe = made_safe({speed_mps, 0.17}, chair(), door);
+    EXPECT_GT(safe.speed_mps / speed_mps, 0.1);
+    EXPECT_EQ(safe.turn_radps, 0.0);
+  }
+}
+
 TEST(MadeSafe, KeepsTheBendOfALongBodyThatItSlows) {
   const Points beside = {{0.3, 0.6}};
   const Motion safe = made_safe({0.8, -0.8}, chair(), beside);

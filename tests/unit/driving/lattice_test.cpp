@@ -149,6 +149,26 @@ TEST(ALongBody, PassesADoorOf85CentimetresFromACorridor) {
   }
 }
 
+TEST(ALongBody, GetsOutOfTheDoorAgainWhereItHasComeInAskew) {
+  struct Start {
+    Pose2 pose;
+    Eigen::Vector2d goal_m;
+  };
+  // Drawn at random; each of them once stood in the door, or with a corner of its front before a jamb, and stayed.
+  const std::vector<Start> starts = {
+      {{2.58, 0.24, -0.76}, {1.21, 1.68}},
+      {{1.88, 0.22, 3.01}, {1.63, 3.25}},
+      {{1.86, 2.11, 2.02}, {-1.01, -0.15}},
+      {{1.49, 1.68, -0.10}, {2.45, 0.33}},
+  };
+  for (const Start& start : starts) {
+    const Drive driven = drive(chair(), corridor_with_door(), start.pose, start.goal_m, 90.0);
+    EXPECT_TRUE(driven.arrived_s) << "stands at " << driven.end.x_m << ", " << driven.end.y_m << ", "
+                                  << driven.end.theta_rad;
+    EXPECT_GT(driven.least_clearance_m, 0.02);
+  }
+}
+
 TEST(ALongBody, ReversesOutOfADeadEnd) {
   Points points;  // too narrow to turn round in: 1 m wide, closed ahead; the goal lies behind and aside
   add_wall(points, {-0.6, -0.5}, {1.3, -0.5});
