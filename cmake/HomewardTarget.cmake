@@ -63,7 +63,7 @@ if(HOMEWARD_NATIVE)
   target_compile_options(homeward_unwatched_options INTERFACE -march=native)
 endif()
 if(HOMEWARD_ASAN)
-  # Without checks that cost a third of the compiler's time and find nothing more: a null pointer, an overflown one and one
+  # Without checks that cost a third of the compiler's time where there are many templates: a null pointer, an overflown one and one
   # to too small an object are reported by the address sanitizer once they are used, and nothing in the sources points a
   # wider type at bytes (contract/casts holds that).
   target_compile_options(

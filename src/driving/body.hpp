@@ -53,8 +53,9 @@ std::vector<Eigen::Vector2d> seen_after(std::span<const Eigen::Vector2d> points_
 /// The wanted motion, slowed or stopped so that the body could still brake before touching any point: range sensors
 /// have the last word. What only turns a body away from contact stays allowed. One that is not round keeps to its bend
 /// when it is slowed, and where that is not safe takes the safe motion most like it, or goes straight on, or turns
-/// where it stands; what it does must also be safe while it still turns as it does now, by `turning_radps`. The
-/// admissible velocities of Fox, Burgard & Thrun, The dynamic window approach to collision avoidance (1997); for
+/// where it stands; what it does must also be safe while it still turns as it does now, by `turning_radps`.
+///
+/// The admissible velocities of Fox, Burgard & Thrun, The dynamic window approach to collision avoidance (1997); for
 /// outlines and for a body that still turns it is ours.
 Motion made_safe(const Motion& wanted, const Body& body, std::span<const Eigen::Vector2d> points_m,
                  double turning_radps = 0.0, const SafetyConfig& config = {});
