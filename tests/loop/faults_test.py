@@ -2,7 +2,7 @@
 """What goes wrong on the way, each with its expected outcome, in simulated time: cameras, laser, link, the agent itself,
 wheels, a box in the way, furniture moved. Nothing is ever touched, and nothing moves after a stop.
 
-usage: faults_test.py BIN_FOLDER WEB_FOLDER
+usage: faults_test.py BIN_FOLDER WEB_FOLDER [CAMERA_MODEL]      a usual camera in place of a small one
 """
 import json
 import pathlib
@@ -11,7 +11,10 @@ import sys
 import tempfile
 import unittest
 
+import small_mirror
+
 BIN = pathlib.Path(sys.argv[1]).resolve()
+CAMERA = {"model": sys.argv[3]} if len(sys.argv) > 3 else small_mirror.CAMERA
 ARRIVED_WITHIN_M = 0.3
 STANDS_WITHIN_S = 0.5
 AT_S = 5
@@ -63,7 +66,7 @@ class Faults(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         scenario = {"format": "homeward-scenario", "version": 1, "world": "house:1", "seed": 1,
-                    "camera": {"model": "hyperbolic_mirror"},
+                    "camera": CAMERA,
                     "tour": {"rooms": ["kitchen", "hall", "living_room", "hall"], "light": "day"},
                     "missions": list(MISSIONS.values())}
         with tempfile.TemporaryDirectory(prefix="homeward-faults-") as folder:

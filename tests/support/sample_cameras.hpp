@@ -19,6 +19,15 @@ inline camera::CameraConfig mirror_camera(double valid_radius_min_px = 30.0) {
   return config;
 }
 
+/// The same with a quarter of the pixels.
+inline camera::CameraConfig small_mirror_camera() {
+  camera::CameraConfig config = mirror_camera();
+  config.width_px = 320;
+  config.height_px = 240;
+  config.model = camera::HyperbolicMirror{{299.22895, 299.22895, 159.5, 119.5}, 28.095, 23.4125, 21.5, 115.5};
+  return config;
+}
+
 /// Camera axes of a camera that looks forward: x right, y down, z forward.
 inline Eigen::Quaterniond looking_forward() { return {0.5, -0.5, 0.5, -0.5}; }
 

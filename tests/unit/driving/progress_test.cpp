@@ -199,6 +199,7 @@ TEST_F(StepTest, WhereTheWayIsBlockedAndItMayBeElsewhereNoPartOfTheWayIsToBlame)
 
 TEST_F(StepTest, WhoGetsNowhereBecauseItDoesNotKnowWhereDoesNotCallTheWayBlocked) {
   config_.stuck_ms = 2000;
+  ticks_per_picture_ = 1;
   set_off();
   state_.follow.bearings.add(pose_, homing::HomeVector{}, true, 1.0);
   state_.follow.measured = false;

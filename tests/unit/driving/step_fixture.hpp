@@ -20,7 +20,7 @@ class StepTest : public ::testing::Test {
   static constexpr Milliseconds kTick_ms = 50;
   static constexpr float kOpen_m = 20.0F;  // a range beyond the scanner's reach: nothing is there
 
-  StepTest() : landmarks_(homeward::testing::landmarks_around(views(), 120, 3)) {
+  StepTest() : landmarks_(homeward::testing::landmarks_around(views(), 90, 3)) {
     config_.feature_config_id = "hw1-test";
     belief_.lost = false;  // it names no place
   }
@@ -54,15 +54,17 @@ class StepTest : public ::testing::Test {
     return {MissionId(id), {epoch, seq}, 1500};
   }
 
-  /// One tick later. Fresh picture and sweep unless switched off; the messages given, and a word of the server.
+  /// One tick later. A fresh sweep, and a picture every other time as a camera takes them, unless switched off; the
+  /// messages given, and a word of the server.
   Outputs tick(std::vector<wire::ServerMessage> messages = {}) {
     now_ms_ += kTick_ms;
+    ++ticks_;
     Inputs inputs;
     inputs.link_up = link_up_;
     inputs.odometry = pose_;
     inputs.messages = std::move(messages);
     if (server_talks_) inputs.messages.emplace_back(belief_);
-    if (pictures_) {
+    if (pictures_ && ticks_ % ticks_per_picture_ == 0) {
       const auto count = static_cast<std::uint64_t>(now_ms_);
       const bool covered = covered_ || (covered_now_and_then_ && (now_ms_ / kTick_ms) % 8 == 0);
       auto seen = covered ? features::Appearance() : seen_from(landmarks_, pose_, count, hidden_ ? 1.0 : 0.0);
@@ -166,6 +168,8 @@ class StepTest : public ::testing::Test {
   DrivingState state_;
   homeward::testing::Landmarks landmarks_;
   Milliseconds now_ms_ = 1'000'000;
+  int ticks_ = 0;
+  int ticks_per_picture_ = 2;
   std::int64_t seq_ = 1;
   Pose2 pose_;
   std::optional<Motion> hand_;  // the rider's, on a joystick; zero: it is at rest

@@ -5,8 +5,8 @@
 
 #include "scenario/drive_loop.hpp"
 #include "scenario/mission_run.hpp"
-#include "scenario/usual_cameras.hpp"
 #include "sim/generate/worlds.hpp"
+#include "support/sample_cameras.hpp"
 #include "wire/appearance_blob.hpp"
 
 namespace homeward::scenario::answered_test {
@@ -20,7 +20,7 @@ class Answered : public ::testing::Test {
     sim::Irradiance even;
     even.corners.setConstant(world_.fine_scene().vertices_m.rows(), 3, 0.6F);
     EXPECT_TRUE(world_.set_irradiance(sim::LightPreset::kDay, std::move(even)));
-    camera_config_ = *usual_camera("hyperbolic_mirror");
+    camera_config_ = homeward::testing::small_mirror_camera();
     const auto camera = camera::Camera::create(camera_config_);
     features_ = pipeline::suited_feature_config(**camera);
     eye_.emplace(std::move(*pipeline::Eye::create(camera_config_, features_)));

@@ -9,9 +9,9 @@
 #include "scenario/drive_loop.hpp"
 #include "scenario/look_alike_spot.hpp"
 #include "scenario/mission_run.hpp"
-#include "scenario/usual_cameras.hpp"
 #include "sim/floor.hpp"
 #include "sim/generate/worlds.hpp"
+#include "support/sample_cameras.hpp"
 #include "wire/appearance_blob.hpp"
 
 namespace homeward::scenario::kidnapped_test {
@@ -25,7 +25,7 @@ class Kidnapped : public ::testing::Test {
     sim::Irradiance even;
     even.corners.setConstant(taught_.world->fine_scene().vertices_m.rows(), 3, 0.6F);
     EXPECT_TRUE(taught_.world->set_irradiance(sim::LightPreset::kDay, std::move(even)));
-    taught_.camera = *usual_camera("hyperbolic_mirror");
+    taught_.camera = homeward::testing::small_mirror_camera();
     const auto camera = camera::Camera::create(taught_.camera);
     features_ = pipeline::suited_feature_config(**camera);
     eye_.emplace(std::move(*pipeline::Eye::create(taught_.camera, features_)));

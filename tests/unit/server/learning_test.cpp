@@ -67,7 +67,8 @@ class LearningTest : public testing::DrivingTest {
     const auto bytes_of = [](const std::string& text) { return std::vector<std::uint8_t>(text.begin(), text.end()); };
     const Image day = *imageio::decode(bytes_of(room_picture(1, 3)), "day");
     Image picture = *imageio::decode(bytes_of(room_picture(40, 3)), "night");
-    constexpr int kKnownColumns = 240;
+    constexpr int kKnownColumns = 15 * testing::kRoomWidth_px / 32;
+    constexpr int kHorizon = testing::kRoomHeight_px / 2;
     constexpr double kFurther_rad = 0.14;  // of walls all around
     for (int v = 0; v < picture.height_px; ++v) {
       for (int u = 0; u < kKnownColumns; ++u) {
@@ -75,7 +76,8 @@ class LearningTest : public testing::DrivingTest {
         const double across = picture.width_px / (2.0 * std::numbers::pi) * kFurther_rad * std::sin(azimuth);
         const double nearer = 1.0 - kFurther_rad * std::cos(azimuth);
         const int from_u = (u + static_cast<int>(std::lround(across)) + picture.width_px) % picture.width_px;
-        const int from_v = std::clamp(128 + static_cast<int>(std::lround((v - 128) * nearer)), 0, 255);
+        const int from_v =
+            std::clamp(kHorizon + static_cast<int>(std::lround((v - kHorizon) * nearer)), 0, picture.height_px - 1);
         for (int c = 0; c < 3; ++c) picture.at(u, v)[c] = day.at(from_u, from_v)[c];
       }
     }

@@ -39,7 +39,7 @@ class SaidPlaceTest : public DrivingTest {
   }
   /// A picture that shows nothing: what was believed before it is believed after it, too.
   void see_nothing() {
-    const auto bytes = imageio::encode_jpeg(Image(512, 256, 3), 92);
+    const auto bytes = imageio::encode_jpeg(Image(testing::kRoomWidth_px, testing::kRoomHeight_px, 3), 92);
     see({bytes.begin(), bytes.end()});
   }
   void look(unsigned room) {
