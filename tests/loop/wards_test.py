@@ -11,8 +11,6 @@ import sys
 import tempfile
 import unittest
 
-import small_mirror
-
 BIN = pathlib.Path(sys.argv[1]).resolve()
 THERE_M = 0.5
 MISSIONS = [
@@ -21,7 +19,7 @@ MISSIONS = [
     {"from": "ward_7", "to": "ward_1", "faults": [{"kind": "kidnapped", "at_s": 10}]},
 ]
 SCENARIO = {
-    "format": "homeward-scenario", "version": 1, "world": "wards:4", "seed": 4, "camera": small_mirror.CAMERA,
+    "format": "homeward-scenario", "version": 1, "world": "wards:4", "seed": 4, "camera": {"model": "hyperbolic_mirror"},
     "tour": {"rooms": ["corridor_1", "ward_1", "ward_2", "corridor_2", "ward_6", "ward_7", "corridor_1"], "light": "day"},
     "missions": MISSIONS,
 }

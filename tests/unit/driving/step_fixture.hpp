@@ -169,7 +169,7 @@ class StepTest : public ::testing::Test {
   homeward::testing::Landmarks landmarks_;
   Milliseconds now_ms_ = 1'000'000;
   int ticks_ = 0;
-  int ticks_per_picture_ = 2;
+  int ticks_per_picture_ = 2;  // of a camera with ten pictures a second
   std::int64_t seq_ = 1;
   Pose2 pose_;
   std::optional<Motion> hand_;  // the rider's, on a joystick; zero: it is at rest
