@@ -65,7 +65,7 @@ function(homeward_add_tests module)
   endforeach()
 
   list(TRANSFORM files APPEND _test.cpp OUTPUT_VARIABLE sources)
-  homeward_batches(batches ${target} 4 ${sources})
+  homeward_batches(batches ${target} 8 ${sources})
   add_executable(${target} ${batches} ${ARG_SOURCES})
   target_link_libraries(${target} PRIVATE ${ARG_LINK} homeward_test_folders homeward_test_main GTest::gtest
                                           GTest::gmock)
