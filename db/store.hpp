@@ -45,14 +45,11 @@ class Store {
   // --- Secrets; see secrets.hpp for the hashes --------------------------------------------------------------------
   /// Also clears sessions that ended before `created_us`. Errors: kNotFound (the person).
   virtual Result<Session> add_session(Session session) = 0;
-  /// Nothing when there is none or it ended before `now_us`.
-  virtual Result<std::optional<Session>> session_by_hash(const std::string& hash, TimeUs now_us) = 0;
+  virtual Result<std::vector<Session>> sessions() = 0;  // those that have ended may be among them
   /// Success also when there is none.
   virtual Status remove_session(const std::string& hash) = 0;
   virtual Result<Token> add_token(Token token) = 0;
-  virtual Result<std::vector<Token>> tokens() = 0;  // oldest first
-  /// Nothing when there is none, it was revoked or it ended before `now_us`.
-  virtual Result<std::optional<Token>> token_by_hash(const std::string& hash, TimeUs now_us) = 0;
+  virtual Result<std::vector<Token>> tokens() = 0;  // oldest first; those that have ended may be among them
   /// Errors: kNotFound.
   virtual Status revoke_token(const std::string& id) = 0;
   /// Of the one-time set-up link; a new one replaces it.

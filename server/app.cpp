@@ -75,7 +75,7 @@ struct App::Parts {
         workers(kRequestWorkers, kRequestQueue),
         heavy(threads_of(config), kHeavyQueue),
         journal(1, kJournalQueue),
-        access(config.allowed_hosts),
+        access(config.allowed_hosts, config.trusted_proxies),
         files(config.web),
         authenticator(*store, clock),
         idempotency(*store, clock),
@@ -83,24 +83,25 @@ struct App::Parts {
         maps(*store, events, clock),
         driving(*store, maps, events, heavy, journal, clock, config.longest_mission_s),
         jobs(*store, maps, events, clock, threads_of(config)),
-        front({router, access, files, authenticator, idempotency, metrics, workers, heavy, clock}) {
+        front({router, access, files, authenticator, idempotency, metrics, workers, heavy, passwords, clock}) {
     driving.when_arrived([this](const db::Drive& drive) { jobs.add_drive(drive); });
     add_account_routes(router, authenticator, *store, clock);
     add_tour_routes(router, tours, *store);
     add_map_routes(router, maps, jobs, *store);
     add_job_routes(router, jobs);
-    add_robot_routes(router, driving, *store, clock);
+    add_robot_routes(router, driving, authenticator, *store);
     add_socket_routes(router, driving, events, [this] { return snapshot(); });
     add_operation_routes(router, metrics, *store);
     metrics.gauge("homeward_robots_online", "Robots with a link", [this] { return double(driving.online()); });
     metrics.gauge("homeward_dashboards", "Open event sockets", [this] { return double(events.subscribers()); });
-    metrics.gauge("homeward_heavy_queue", "Pictures and passwords that wait",
-                  [this] { return double(heavy.waiting()); });
+    metrics.gauge("homeward_heavy_queue", "Pictures that wait", [this] { return double(heavy.waiting()); });
+    metrics.gauge("homeward_password_queue", "Passwords that wait", [this] { return double(passwords.waiting()); });
   }
 
   // Sockets first, so that nothing new comes in; the journal is written to its end.
   ~Parts() {
     if (http) http->stop();
+    passwords.stop();
     workers.stop();
     heavy.stop();
     journal.finish();
@@ -145,6 +146,7 @@ struct App::Parts {
   void tick() { driving.tick(clock.steady()); }
 
   void work_off() {
+    passwords.work_off();
     workers.work_off();
     heavy.work_off();
     journal.work_off();  // what the others have given it
@@ -158,6 +160,7 @@ struct App::Parts {
   WorkPool workers;
   WorkPool heavy;
   WorkPool journal;
+  PasswordQueue passwords;
   AccessPolicy access;
   StaticFiles files;
   Authenticator authenticator;
@@ -182,6 +185,7 @@ Result<std::unique_ptr<App>> App::start(const AppConfig& config, const Clock& cl
   std::unique_ptr<App> app(new App());
   app->parts_ = std::make_unique<Parts>(config, std::move(*store), clock);
   Parts& parts = *app->parts_;
+  if (const Status status = parts.authenticator.load(); !status) return pass_on(status);
   if (const Status status = parts.driving.load(); !status) return pass_on(status);
   auto http = HttpServer::start(config.address, config.port, parts.front);
   if (!http) return pass_on(http);

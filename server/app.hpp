@@ -18,6 +18,7 @@ struct AppConfig {
   std::filesystem::path web;         // empty: no dashboard
   std::filesystem::path setup_file;  // where the one-time link is written besides the log; empty: nowhere
   std::set<std::string> allowed_hosts;
+  std::set<std::string> trusted_proxies;  // addresses that are believed when they say for whom they ask
   bool allow_plain_http = false;
   int longest_mission_s = 0;  // a mission is stopped after it; 0: by the length of its way (planning/retry_policy.hpp)
   int threads = 0;            // of the pool for pictures and of builds; 0: as many as the machine has

@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   AppConfig config;
   std::string listen = "127.0.0.1:8080";
   std::vector<std::string> hosts;
+  std::vector<std::string> proxies;
   bool verbose = false;
   options.add_option("--data", config.data, "folder of the server's data; made when it is not there")->required();
   options.add_option("--listen", listen, "ADDRESS:PORT, port 0 for any free one")->capture_default_str();
@@ -63,6 +64,8 @@ int main(int argc, char** argv) {
   options.add_option("--print-setup-file", config.setup_file, "also write the one-time set-up link to this file");
   options.add_flag("--allow-plain-http", config.allow_plain_http, "listen without TLS for other machines too");
   options.add_option("--allow-host", hosts, "another name that this server answers to, without port");
+  options.add_option("--trust-proxy", proxies,
+                     "address of a proxy in front, whose X-Forwarded-For says where a login comes from");
   options.add_option("--longest-mission-s", config.longest_mission_s,
                      "stop every mission after so long; 0: after ten minutes, and later the longer its way is");
   options.add_option("--threads", config.threads, "for pictures and builds; 0: one for each processor")
@@ -70,6 +73,7 @@ int main(int argc, char** argv) {
   options.add_flag("--verbose", verbose, "log every request");
   CLI11_PARSE(options, argc, argv);
   config.allowed_hosts.insert(hosts.begin(), hosts.end());
+  config.trusted_proxies.insert(proxies.begin(), proxies.end());
   if (!parse_listen(listen, config)) {
     std::cerr << "homeward-server: --listen " << listen << " is not ADDRESS:PORT.\n";
     return 2;

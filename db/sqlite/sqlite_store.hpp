@@ -26,11 +26,10 @@ class SqliteStore final : public Store {
 
   // --- Secrets ---
   Result<Session> add_session(Session session) override;
-  Result<std::optional<Session>> session_by_hash(const std::string& hash, TimeUs now_us) override;
+  Result<std::vector<Session>> sessions() override;
   Status remove_session(const std::string& hash) override;
   Result<Token> add_token(Token token) override;
   Result<std::vector<Token>> tokens() override;
-  Result<std::optional<Token>> token_by_hash(const std::string& hash, TimeUs now_us) override;
   Status revoke_token(const std::string& id) override;
   Status set_setup_hash(const std::string& hash) override;
   Result<std::optional<std::string>> setup_hash() override;

@@ -116,13 +116,13 @@ Result<Session> SqliteStore::add_session(Session session) {
   });
 }
 
-Result<std::optional<Session>> SqliteStore::session_by_hash(const std::string& hash, TimeUs now_us) {
-  return database_.work([&](SQLite::Database& database) -> std::optional<Session> {
+Result<std::vector<Session>> SqliteStore::sessions() {
+  return database_.work([&](SQLite::Database& database) {
+    std::vector<Session> found;
     SQLite::Statement row =
-        prepared(database, "SELECT hash, user, created_us, expires_us FROM sessions WHERE hash = ? AND expires_us > ?",
-                 hash, now_us);
-    if (!row.executeStep()) return std::nullopt;
-    return Session{text(row, 0), UserId(text(row, 1)), integer(row, 2), integer(row, 3)};
+        prepared(database, "SELECT hash, user, created_us, expires_us FROM sessions ORDER BY rowid");
+    while (row.executeStep()) found.push_back({text(row, 0), UserId(text(row, 1)), integer(row, 2), integer(row, 3)});
+    return found;
   });
 }
 
@@ -149,16 +149,6 @@ Result<std::vector<Token>> SqliteStore::tokens() {
         database, "SELECT id, name, hash, role, robot, created_us, expires_us FROM tokens ORDER BY created_us, rowid");
     while (row.executeStep()) found.push_back(token_of(row));
     return found;
-  });
-}
-
-Result<std::optional<Token>> SqliteStore::token_by_hash(const std::string& hash, TimeUs now_us) {
-  return database_.work([&](SQLite::Database& database) {
-    SQLite::Statement row = prepared(database,
-                                     "SELECT id, name, hash, role, robot, created_us, expires_us FROM tokens "
-                                     "WHERE hash = ? AND (expires_us IS NULL OR expires_us > ?)",
-                                     hash, now_us);
-    return row.executeStep() ? std::optional(token_of(row)) : std::nullopt;
   });
 }
 

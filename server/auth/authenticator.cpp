@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/auth/authenticator.hpp"
 
+#include <algorithm>
+
 #include "db/secrets.hpp"
 #include "server/auth/passwords.hpp"
 
 namespace homeward::server {
 namespace {
 
-constexpr std::chrono::seconds kRememberFor{20};
 constexpr TimeUs kSessionUs = 30LL * 24 * 3600 * 1'000'000;
-constexpr std::size_t kMostRemembered = 1000;
 
 struct Secret {
   std::string text;
@@ -26,8 +26,23 @@ std::optional<Secret> secret_of(const Request& request) {
   return std::nullopt;
 }
 
-// A cookie's secret and a token's are different things even when they were equal.
-std::string key_of(const Secret& secret) { return (secret.by_cookie ? "c" : "b") + db::secret_hash(secret.text); }
+Caller caller_of(const db::Token& token) {
+  Caller caller;
+  caller.id = token.id;
+  caller.name = token.name;
+  caller.role = token.role;
+  if (token.robot) caller.robot = token.robot->str();
+  return caller;
+}
+
+Caller caller_of(const db::User& user) {
+  Caller caller;
+  caller.id = user.id.str();
+  caller.name = user.name;
+  caller.role = user.role;
+  caller.by_cookie = true;
+  return caller;
+}
 
 std::string failure_key(std::string name, const std::string& remote) {
   for (char& c : name) {
@@ -52,51 +67,48 @@ Status check_new_account(const std::string& name, const std::string& password) {
   return {};
 }
 
-std::optional<Caller> Authenticator::identify_at_once(const Request& request) {
-  const auto secret = secret_of(request);
-  if (!secret) return std::nullopt;
+Status Authenticator::load() {
+  const auto users = store_.users();
+  if (!users) return pass_on(users);
+  const auto sessions = store_.sessions();
+  if (!sessions) return pass_on(sessions);
+  const auto tokens = store_.tokens();
+  if (!tokens) return pass_on(tokens);
   const std::scoped_lock lock(mutex_);
-  const auto found = remembered_.find(key_of(*secret));
-  if (found == remembered_.end() || found->second.until < clock_.steady()) return std::nullopt;
+  std::map<UserId, const db::User*> by_id;
+  for (const db::User& user : *users) by_id[user.id] = &user;
+  for (const db::Session& session : *sessions) {
+    const auto user = by_id.find(session.user);
+    if (user != by_id.end()) sessions_[session.hash] = {caller_of(*user->second), session.expires_us};
+  }
+  for (const db::Token& token : *tokens) tokens_[token.hash] = {caller_of(token), token.expires_us};
+  return {};
+}
+
+std::optional<Caller> Authenticator::holder(const Holders& among, const std::string& secret) const {
+  const std::string hash = db::secret_hash(secret);
+  const std::scoped_lock lock(mutex_);
+  const auto found = among.find(hash);
+  if (found == among.end()) return std::nullopt;
+  const auto until_us = found->second.until_us;
+  if (until_us && *until_us <= clock_.wall_us()) return std::nullopt;
   return found->second.caller;
 }
 
-Result<std::optional<Caller>> Authenticator::identify(const Request& request) {
+Result<std::optional<Caller>> Authenticator::identify(const Request& request) const {
   const auto secret = secret_of(request);
   if (!secret) return std::optional<Caller>();
-  if (auto caller = identify_at_once(request)) return caller;
-  Caller caller;
-  caller.by_cookie = secret->by_cookie;
-  const std::string hash = db::secret_hash(secret->text);
-  if (secret->by_cookie) {
-    const auto session = store_.session_by_hash(hash, clock_.wall_us());
-    if (!session) return pass_on(session);
-    // A browser with an old cookie is a stranger, not an attacker: it must still be able to sign in.
-    if (!*session) return std::optional<Caller>();
-    const auto user = store_.user((*session)->user);
-    if (!user) return pass_on(user);
-    if (!*user) return std::optional<Caller>();
-    caller.id = (*user)->id.str();
-    caller.name = (*user)->name;
-    caller.role = (*user)->role;
-  } else {
-    const auto token = store_.token_by_hash(hash, clock_.wall_us());
-    if (!token) return pass_on(token);
-    if (!*token)
-      return fail(ErrorCode::kUnauthenticated, "This token is not known, or it was revoked.", "Authorization");
-    caller.id = (*token)->id;
-    caller.name = (*token)->name;
-    caller.role = (*token)->role;
-    if ((*token)->robot) caller.robot = (*token)->robot->str();
+  auto caller = holder(secret->by_cookie ? sessions_ : tokens_, secret->text);
+  // A browser with an old cookie is a stranger, not an attacker: it must still be able to sign in.
+  if (!caller && !secret->by_cookie) {
+    return fail(ErrorCode::kUnauthenticated, "This token is not known, or it was revoked.", "Authorization");
   }
-  const std::scoped_lock lock(mutex_);
-  if (remembered_.size() >= kMostRemembered) remembered_.clear();
-  remembered_[key_of(*secret)] = {caller, clock_.steady() + kRememberFor};
-  return std::optional<Caller>(caller);
+  return caller;
 }
 
 int Authenticator::seconds_to_wait(const std::string& name, const std::string& remote) {
-  return failures_.seconds_to_wait(failure_key(name, remote), clock_.steady());
+  return std::max(failures_.seconds_to_wait(failure_key(name, remote), clock_.steady()),
+                  failures_of_address_.seconds_to_wait(remote, clock_.steady()));
 }
 
 Result<Authenticator::SignedIn> Authenticator::log_in(const std::string& name, const std::string& password,
@@ -108,6 +120,7 @@ Result<Authenticator::SignedIn> Authenticator::log_in(const std::string& name, c
   const std::string key = failure_key(name, remote);
   if (!*user || !right) {
     failures_.failed(key, clock_.steady());
+    failures_of_address_.failed(remote, clock_.steady());
     return fail(ErrorCode::kUnauthenticated, "The name or the password is wrong.", "login");
   }
   failures_.succeeded(key);
@@ -141,21 +154,43 @@ Result<Authenticator::SignedIn> Authenticator::begin_session(db::User user) {
   session.created_us = clock_.wall_us();
   session.expires_us = session.created_us + kSessionUs;
   if (const auto added = store_.add_session(session); !added) return pass_on(added);
+  const std::scoped_lock lock(mutex_);
+  std::erase_if(sessions_, [&](const auto& entry) { return entry.second.until_us <= session.created_us; });
+  sessions_[session.hash] = {caller_of(result.user), session.expires_us};
   return result;
 }
 
 Status Authenticator::log_out(const Request& request) {
   const auto secret = secret_of(request);
-  forget();
   if (!secret || !secret->by_cookie) return {};
-  const Status status = store_.remove_session(db::secret_hash(secret->text));
-  forget();
-  return status;
+  const std::string hash = db::secret_hash(secret->text);
+  if (const Status status = store_.remove_session(hash); !status) return status;
+  const std::scoped_lock lock(mutex_);
+  sessions_.erase(hash);
+  return {};
 }
 
-void Authenticator::forget() {
+Result<NewToken> Authenticator::add_token(const std::string& name, wire::Role role,
+                                          const std::optional<RobotId>& robot) {
+  const std::string secret = db::random_secret();
+  db::Token token;
+  token.name = name;
+  token.hash = db::secret_hash(secret);
+  token.role = role;
+  token.robot = robot;
+  token.created_us = clock_.wall_us();
+  const auto added = store_.add_token(token);
+  if (!added) return pass_on(added);
   const std::scoped_lock lock(mutex_);
-  remembered_.clear();
+  tokens_[added->hash] = {caller_of(*added), added->expires_us};
+  return NewToken{added->id, secret};
+}
+
+Status Authenticator::revoke_token(const std::string& id) {
+  if (const Status status = store_.revoke_token(id); !status) return status;
+  const std::scoped_lock lock(mutex_);
+  std::erase_if(tokens_, [&](const auto& entry) { return entry.second.caller.id == id; });
+  return {};
 }
 
 }  // namespace homeward::server

@@ -15,16 +15,23 @@ namespace homeward::server {
 
 inline constexpr std::string_view kSessionCookie = "homeward_session";
 
-/// Knows who asks. Secrets are looked up by their hash; what was found is remembered for a few seconds, so that a stop
-/// need not wait for the disk.
+/// A new token, and its secret to be shown once.
+struct NewToken {
+  std::string id;
+  std::string secret;
+};
+
+/// Knows who asks. All secrets are kept in memory, by their hashes, so that a stop waits neither for the store nor for
+/// whoever uses it; what is added and taken back goes to the store first. Callable from any thread.
 class Authenticator {
  public:
   Authenticator(db::Store& store, const Clock& clock) : store_(store), clock_(clock) {}
 
-  /// The caller of a request; nothing when it brings no secret. Errors: kUnauthenticated (a wrong or old secret).
-  Result<std::optional<Caller>> identify(const Request& request);
-  /// The same from memory alone, without waiting; nothing when it has to be looked up.
-  std::optional<Caller> identify_at_once(const Request& request);
+  /// Reads the secrets that hold, before the first request. Errors: those of the store.
+  Status load();
+  /// The caller of a request; nothing when it brings no secret or the cookie of an old session. Does not wait.
+  /// Errors: kUnauthenticated (a token that is not known).
+  [[nodiscard]] Result<std::optional<Caller>> identify(const Request& request) const;
 
   struct SignedIn {
     db::User user;
@@ -38,21 +45,29 @@ class Authenticator {
   Result<SignedIn> set_up(const std::string& token, const std::string& name, const std::string& password,
                           const std::string& remote);
   Status log_out(const Request& request);
-  /// Forgets what is remembered, after a token was revoked or a person changed.
-  void forget();
+  /// `robot`: that the token speaks for, of role robot. Errors: those of the store.
+  Result<NewToken> add_token(const std::string& name, wire::Role role, const std::optional<RobotId>& robot);
+  /// Errors: kNotFound.
+  Status revoke_token(const std::string& id);
 
  private:
-  Result<SignedIn> begin_session(db::User user);
-
-  struct Remembered {
+  /// Who holds a secret, and until when.
+  struct Holder {
     Caller caller;
-    SteadyTime until;
+    std::optional<TimeUs> until_us;
   };
+  using Holders = std::map<std::string, Holder>;  // by the hash of the secret
+
+  Result<SignedIn> begin_session(db::User user);
+  [[nodiscard]] std::optional<Caller> holder(const Holders& among, const std::string& secret) const;
+
   db::Store& store_;
   const Clock& clock_;
-  FailureCounter failures_;
-  std::mutex mutex_;
-  std::map<std::string, Remembered> remembered_;  // by the hash of the secret
+  FailureCounter failures_;                                           // by address and name
+  FailureCounter failures_of_address_{20, std::chrono::seconds(60)};  // whoever it tries to be
+  mutable std::mutex mutex_;
+  Holders sessions_;
+  Holders tokens_;
 };
 
 /// What a name and a password must be like. Errors: kInvalidInput.

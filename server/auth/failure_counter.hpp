@@ -10,7 +10,8 @@
 
 namespace homeward::server {
 
-/// Slows down the guessing of passwords: after `most` failures in a row a key has to wait. The clock is handed in.
+/// Slows down the guessing of passwords: after `most` failures, none of them longer than ten times `wait` after the one
+/// before, a key has to wait. The clock is handed in.
 class FailureCounter {
  public:
   explicit FailureCounter(int most = 5, std::chrono::seconds wait = std::chrono::seconds(60))
@@ -37,6 +38,7 @@ class FailureCounter {
       if (entries_.size() >= kMostKeys) entries_.clear();
     }
     Entry& entry = entries_[key];
+    if (entry.last + 10 * wait_ < now) entry.failures = 0;
     ++entry.failures;
     entry.last = now;
   }

@@ -12,10 +12,6 @@ bool changes_something(const Request& request) {
   return request.method != "GET" && request.method != "HEAD" && request.method != "OPTIONS";
 }
 
-bool brings_a_secret(const Request& request) {
-  return !request.header("authorization").empty() || !cookie_value(request.header("cookie"), kSessionCookie).empty();
-}
-
 bool is_application_path(const std::string& path) { return path == "/api" || path.starts_with("/api/"); }
 
 Response sign_in_first() {
@@ -48,13 +44,19 @@ std::variant<std::size_t, Response> AppFront::admit(Request& request) {
   if (!parts_.access.host_allowed(request.header("host"))) {
     return problem({ErrorCode::kForbidden, "This server does not answer to that name; --allow-host adds one.", "Host"});
   }
+  request.remote = parts_.access.sender_of(request);
   const Router::Match match = parts_.router.find(request.method, request.path);
   if (match.route == nullptr) {
     if (auto refused = no_route(request, match)) return *refused;
     return std::size_t{0};  // a page of the dashboard
   }
-  if (!match.route->operation.roles.includes_anyone() && !brings_a_secret(request)) return sign_in_first();
-  return match.route->operation.max_body;
+  const Operation& operation = match.route->operation;
+  const auto caller = parts_.authenticator.identify(request);
+  if (caller && *caller) request.caller = **caller;
+  if (operation.roles.includes_anyone()) return operation.max_body;
+  if (!caller) return problem_of(caller);
+  if (auto refused = refusal(request, operation.roles, *caller)) return *refused;
+  return operation.max_body;
 }
 
 void AppFront::answer(std::shared_ptr<Request> request, Reply reply) {
@@ -74,24 +76,23 @@ void AppFront::answer(std::shared_ptr<Request> request, Reply reply) {
   }
   request->parameters = match.parameters;
   const Route* route = match.route;
+  // Again: a secret may have been revoked while a body was on its way.
+  const auto caller = parts_.authenticator.identify(*request);
   if (route->operation.lane == Lane::kNow) {
-    const auto caller = parts_.authenticator.identify_at_once(*request);
-    if (route->operation.roles.includes_anyone() || caller) return reply(checked(*request, *route, caller));
+    if (!caller && !route->operation.roles.includes_anyone()) return reply(problem_of(caller));
+    return reply(checked(*request, *route, caller ? *caller : std::nullopt));
   }
-  WorkPool& pool = route->operation.lane == Lane::kHeavy ? parts_.heavy : parts_.workers;
-  const bool queued = pool.try_run([this, request, route, reply] { reply(handle(*request, *route)); });
+  // A wrong token is refused even where nobody needs one.
+  if (!caller) return reply(problem_of(caller));
+  const bool queued = queue(route->operation.lane, request->remote, [this, request, route, reply, caller = *caller] {
+    reply(checked(*request, *route, caller));
+  });
   if (!queued) reply(problem({ErrorCode::kOverloaded, "The server is busy; try again in a second.", request->path}));
 }
 
-Response AppFront::handle(Request& request, const Route& route) {
-  try {
-    const auto caller = parts_.authenticator.identify(request);
-    // A wrong token is refused even where nobody needs one.
-    if (!caller) return problem_of(caller);
-    return checked(request, route, *caller);
-  } catch (const std::exception& exception) {
-    return broken(exception.what());
-  }
+bool AppFront::queue(Lane lane, const std::string& address, WorkPool::Task task) {
+  if (lane == Lane::kPassword) return parts_.passwords.try_run(address, std::move(task));
+  return (lane == Lane::kHeavy ? parts_.heavy : parts_.workers).try_run(std::move(task));
 }
 
 std::optional<Response> AppFront::refusal(const Request& request, const AllowedRoles& roles,
@@ -119,7 +120,7 @@ Response AppFront::checked(Request& request, const Route& route, const std::opti
         return problem({ErrorCode::kForbidden, "A change must come from a page of this server.", "Origin"});
       }
     }
-    if (caller) request.caller = *caller;
+    request.caller = caller.value_or(Caller{});
     // A stop must not wait for the disk, and stopping twice does no harm.
     if (route.operation.lane == Lane::kNow) return route.handler(request);
     return parts_.idempotency.run(request, route.operation.answer_holds_secret, route.handler);
@@ -138,34 +139,40 @@ Response AppFront::checked(Request& request, const Route& route, const std::opti
 }
 
 void AppFront::upgrade(std::shared_ptr<Request> request, std::function<void(Upgrade)> reply) {
-  const bool queued = parts_.workers.try_run([this, request, reply] {
+  if (!parts_.access.host_allowed(request->header("host"))) {
+    return reply(problem({ErrorCode::kForbidden, "This server does not answer to that name.", "Host"}));
+  }
+  const Router::Match match = parts_.router.find(request->method, request->path);
+  if (match.route == nullptr || !match.route->open_socket) {
+    return reply(problem({ErrorCode::kNotFound, "There is no WebSocket at " + request->path + ".", request->path}));
+  }
+  const auto caller = parts_.authenticator.identify(*request);
+  if (!caller) return reply(problem_of(caller));
+  if (auto refused = refusal(*request, match.route->operation.roles, *caller)) return reply(*refused);
+  const bool has_origin = !request->header("origin").empty();
+  if (((*caller)->by_cookie || has_origin) && !parts_.access.from_own_page(*request)) {
+    return reply(problem({ErrorCode::kForbidden, "A socket must be opened by a page of this server.", "Origin"}));
+  }
+  request->caller = **caller;
+  request->parameters = match.parameters;
+  const Route* route = match.route;
+  const bool queued = parts_.workers.try_run([request, route, reply] {
+    Upgrade opened;
     try {
-      reply(open_socket(*request));
+      opened = route->open_socket(*request);
     } catch (const std::exception& exception) {
-      reply(broken(exception.what()));
+      opened = broken(exception.what());
     }
+    reply(std::move(opened));
   });
   if (!queued) reply(problem({ErrorCode::kOverloaded, "The server is busy.", request->path}));
 }
 
-Upgrade AppFront::open_socket(Request& request) {
-  if (!parts_.access.host_allowed(request.header("host"))) {
-    return problem({ErrorCode::kForbidden, "This server does not answer to that name.", "Host"});
-  }
-  const Router::Match match = parts_.router.find(request.method, request.path);
-  if (match.route == nullptr || !match.route->open_socket) {
-    return problem({ErrorCode::kNotFound, "There is no WebSocket at " + request.path + ".", request.path});
-  }
-  const auto caller = parts_.authenticator.identify(request);
-  if (!caller) return problem_of(caller);
-  if (auto refused = refusal(request, match.route->operation.roles, *caller)) return *refused;
-  const bool has_origin = !request.header("origin").empty();
-  if (((*caller)->by_cookie || has_origin) && !parts_.access.from_own_page(request)) {
-    return problem({ErrorCode::kForbidden, "A socket must be opened by a page of this server.", "Origin"});
-  }
-  request.caller = **caller;
-  request.parameters = match.parameters;
-  return match.route->open_socket(request);
+bool AppFront::still_welcome(const Request& handshake) const {
+  const Router::Match match = parts_.router.find(handshake.method, handshake.path);
+  if (match.route == nullptr) return false;
+  const auto caller = parts_.authenticator.identify(handshake);
+  return caller && !refusal(handshake, match.route->operation.roles, *caller);
 }
 
 }  // namespace homeward::server

@@ -9,6 +9,7 @@
 #include "server/http/router.hpp"
 #include "server/http/static_files.hpp"
 #include "server/time/clock.hpp"
+#include "server/work/password_queue.hpp"
 #include "server/work/work_pool.hpp"
 
 namespace homeward::server {
@@ -23,6 +24,7 @@ struct FrontParts {
   Metrics& metrics;
   WorkPool& workers;
   WorkPool& heavy;
+  PasswordQueue& passwords;
   const Clock& clock;
 };
 
@@ -34,13 +36,13 @@ class AppFront : public Front {
   std::variant<std::size_t, Response> admit(Request& request) override;
   void answer(std::shared_ptr<Request> request, Reply reply) override;
   void upgrade(std::shared_ptr<Request> request, std::function<void(Upgrade)> reply) override;
+  [[nodiscard]] bool still_welcome(const Request& handshake) const override;
 
  private:
-  Response handle(Request& request, const Route& route);
   Response checked(Request& request, const Route& route, const std::optional<Caller>& caller);
-  Upgrade open_socket(Request& request);
-  std::optional<Response> refusal(const Request& request, const AllowedRoles& roles,
-                                  const std::optional<Caller>& caller);
+  [[nodiscard]] bool queue(Lane lane, const std::string& address, WorkPool::Task task);
+  static std::optional<Response> refusal(const Request& request, const AllowedRoles& roles,
+                                         const std::optional<Caller>& caller);
 
   FrontParts parts_;
 };

@@ -14,7 +14,8 @@ std::string lower(std::string_view text) {
 
 }  // namespace
 
-AccessPolicy::AccessPolicy(const std::set<std::string>& extra_hosts) {
+AccessPolicy::AccessPolicy(const std::set<std::string>& extra_hosts, std::set<std::string> proxies)
+    : proxies_(std::move(proxies)) {
   hosts_ = {"localhost", "127.0.0.1", "[::1]"};
   for (const std::string& host : extra_hosts) hosts_.insert(lower(host));
 }
@@ -45,6 +46,16 @@ bool AccessPolicy::from_own_page(const Request& request) const {
   const std::string origin = request.header("origin");
   if (!origin.empty()) return origin_allowed(origin, request.header("host"));
   return request.header("sec-fetch-site") == "same-origin";
+}
+
+std::string AccessPolicy::sender_of(const Request& request) const {
+  if (!proxies_.contains(request.remote)) return request.remote;
+  std::string sender = request.header("x-forwarded-for");
+  sender.erase(0, sender.find_last_of(", ") + 1);  // whoever came before may say anything
+  constexpr std::size_t kLongestAddress = 45;
+  const bool is_address =
+      sender.size() <= kLongestAddress && sender.find_first_not_of("0123456789abcdefABCDEF.:") == std::string::npos;
+  return sender.empty() || !is_address ? request.remote : sender;
 }
 
 bool is_loopback(std::string_view address) {

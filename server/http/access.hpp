@@ -13,8 +13,9 @@ namespace homeward::server {
 /// so is a page of another site that uses the visitor's cookie.
 class AccessPolicy {
  public:
-  /// `extra_hosts`: names besides the loopback ones, without port.
-  explicit AccessPolicy(const std::set<std::string>& extra_hosts);
+  /// `extra_hosts`: names besides the loopback ones, without port. `proxies`: addresses that are believed when they say
+  /// for whom they ask.
+  explicit AccessPolicy(const std::set<std::string>& extra_hosts, std::set<std::string> proxies = {});
 
   /// Whether the Host header ("name", "name:port", "[::1]:port") names this server.
   [[nodiscard]] bool host_allowed(std::string_view host_header) const;
@@ -22,9 +23,13 @@ class AccessPolicy {
   [[nodiscard]] bool origin_allowed(std::string_view origin, std::string_view host_header) const;
   /// Whether a request that a cookie signs and that changes something, or opens a socket, comes from our own page.
   [[nodiscard]] bool from_own_page(const Request& request) const;
+  /// The address that a request comes from: the last one of X-Forwarded-For where a proxy that is believed says so,
+  /// otherwise the other end's.
+  [[nodiscard]] std::string sender_of(const Request& request) const;
 
  private:
   std::set<std::string> hosts_;
+  std::set<std::string> proxies_;
 };
 
 /// "name" of "name:port"; lower case; "[::1]" stays in brackets.

@@ -16,11 +16,13 @@ namespace homeward::server {
 
 /// Where a handler runs.
 enum class Lane {
-  kNow,   // on the socket thread at once: stops, health. Must not wait for anything
-  kWork,  // on the request workers: the store, small things
-  kHeavy  // on the bounded pool for pictures and passwords; 503 when it is full
+  kNow,      // on the socket thread at once: stops, health. Must not wait for anything
+  kWork,     // on the request workers: the store, small things
+  kHeavy,    // on the bounded pool for pictures; 503 when it is full
+  kPassword  // one at a time, a few of each address; 503 when too many wait
 };
 
+inline constexpr std::size_t kMaxSecretBody = 16UL * 1024;  // what a stranger may send: a name and a password
 inline constexpr std::size_t kMaxJsonBody = 1024UL * 1024;
 inline constexpr std::size_t kMaxImageBody = 32UL * 1024 * 1024;
 inline constexpr std::size_t kMaxMapBody = 256UL * 1024 * 1024;

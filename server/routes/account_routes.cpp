@@ -2,7 +2,6 @@
 #include "server/routes/account_routes.hpp"
 
 #include "server/auth/passwords.hpp"
-#include "server/auth/tokens.hpp"
 #include "server/http/access.hpp"
 #include "server/http/json_body.hpp"
 #include "server/routes/operation_roles.hpp"
@@ -94,7 +93,7 @@ Response list_tokens(db::Store& store) {
   return json_response(200, {{"tokens", list}});
 }
 
-Response add_token(db::Store& store, const Clock& clock, const Request& request) {
+Response add_token(Authenticator& authenticator, db::Store& store, const Request& request) {
   const auto body = json_body(request);
   if (!body) return not_json(body.error());
   wire::ObjectReader reader(*body, "body");
@@ -116,7 +115,7 @@ Response add_token(db::Store& store, const Clock& clock, const Request& request)
     id = RobotId(*robot);
     if (const auto known = store.robot(*id); !known) return problem_of(known);
   }
-  const auto token = make_token(store, clock, name, role, id);
+  const auto token = authenticator.add_token(name, role, id);
   if (!token) return problem_of(token);
   return json_response(201, {{"id", token->id}, {"token", token->secret}});
 }
@@ -131,8 +130,7 @@ Response remove_token(Authenticator& authenticator, db::Store& store, const Requ
       return problem({ErrorCode::kForbidden, "Your role cannot revoke a token of role " + role + ".", token.id});
     }
   }
-  const Status status = store.revoke_token(request.parameter("token"));
-  authenticator.forget();
+  const Status status = authenticator.revoke_token(request.parameter("token"));
   return status ? empty_response(204) : problem_of(status);
 }
 
@@ -168,7 +166,7 @@ void add_account_routes(Router& router, Authenticator& authenticator, db::Store&
   router.add({operation("list_users"), [db](Request&) { return list_users(*db); }});
   router.add({operation("add_user"), [db, time](Request& request) { return add_user(*db, *time, request); }});
   router.add({operation("list_tokens"), [db](Request&) { return list_tokens(*db); }});
-  router.add({operation("add_token"), [db, time](Request& request) { return add_token(*db, *time, request); }});
+  router.add({operation("add_token"), [auth, db](Request& request) { return add_token(*auth, *db, request); }});
   router.add({operation("remove_token"), [auth, db](Request& request) { return remove_token(*auth, *db, request); }});
 }
 

@@ -23,12 +23,12 @@ inline constexpr std::array kOperations = [] {
   constexpr AllowedRoles kInstallerOrRobot = AllowedRoles::at_least_or_robot(Role::kInstaller);
   return std::array{
       Operation{"get_setup", "GET", "/api/v1/setup", kAnyone, Lane::kWork},
-      Operation{"set_up", "POST", "/api/v1/setup", kAnyone, Lane::kHeavy, kMaxJsonBody, true},
-      Operation{"log_in", "POST", "/api/v1/login", kAnyone, Lane::kHeavy, kMaxJsonBody, true},
+      Operation{"set_up", "POST", "/api/v1/setup", kAnyone, Lane::kPassword, kMaxSecretBody, true},
+      Operation{"log_in", "POST", "/api/v1/login", kAnyone, Lane::kPassword, kMaxSecretBody, true},
       Operation{"log_out", "POST", "/api/v1/logout", kViewer, Lane::kWork, kMaxJsonBody},
       Operation{"get_me", "GET", "/api/v1/me", kViewerOrRobot, Lane::kWork},
       Operation{"list_users", "GET", "/api/v1/users", kAdmin, Lane::kWork},
-      Operation{"add_user", "POST", "/api/v1/users", kAdmin, Lane::kHeavy, kMaxJsonBody},
+      Operation{"add_user", "POST", "/api/v1/users", kAdmin, Lane::kPassword, kMaxJsonBody},
       Operation{"list_tokens", "GET", "/api/v1/tokens", kInstaller, Lane::kWork},
       Operation{"add_token", "POST", "/api/v1/tokens", kInstaller, Lane::kWork, kMaxJsonBody, true},
       Operation{"remove_token", "DELETE", "/api/v1/tokens/{token}", kInstaller, Lane::kWork, kMaxJsonBody},

@@ -3,7 +3,6 @@
 
 #include <limits>
 
-#include "server/auth/tokens.hpp"
 #include "server/http/json_body.hpp"
 #include "server/routes/operation_roles.hpp"
 #include "wire/mission_json.hpp"
@@ -24,7 +23,7 @@ Response lease_response(const Result<wire::LeaseView>& lease) {
   return lease ? json_response(200, {{"lease", wire::lease_to_json(*lease)}}) : problem_of(lease);
 }
 
-Response add_robot(Driving& driving, db::Store& store, const Clock& clock, const Request& request) {
+Response add_robot(Driving& driving, Authenticator& authenticator, const Request& request) {
   const auto body = json_body(request);
   if (!body) return not_json(body.error());
   wire::ObjectReader reader(*body, "body");
@@ -33,7 +32,7 @@ Response add_robot(Driving& driving, db::Store& store, const Clock& clock, const
   if (const Status status = reader.finish(); !status) return problem_of(status);
   const auto robot = driving.add(name);
   if (!robot) return problem_of(robot);
-  const auto token = make_token(store, clock, name, wire::Role::kRobot, robot->id);
+  const auto token = authenticator.add_token(name, wire::Role::kRobot, robot->id);
   if (!token) return problem_of(token);
   return json_response(201, {{"id", robot->id.str()}, {"name", robot->name}, {"token", token->secret}});
 }
@@ -161,16 +160,16 @@ Response stop(Driving& driving, const Request& request) {
 
 }  // namespace
 
-void add_robot_routes(Router& router, Driving& driving, db::Store& store, const Clock& clock) {
+void add_robot_routes(Router& router, Driving& driving, Authenticator& authenticator, db::Store& store) {
   Driving* d = &driving;
   db::Store* db = &store;
-  const Clock* time = &clock;
+  Authenticator* auth = &authenticator;
   router.add({operation("list_robots"), [d](Request&) {
                 json list = json::array();
                 for (const wire::RobotView& robot : d->list()) list.push_back(wire::robot_to_json(robot));
                 return json_response(200, {{"robots", list}});
               }});
-  router.add({operation("add_robot"), [d, db, time](Request& request) { return add_robot(*d, *db, *time, request); }});
+  router.add({operation("add_robot"), [d, auth](Request& request) { return add_robot(*d, *auth, request); }});
   router.add({operation("get_robot"), [d](Request& request) { return robot_response(d->get(robot_in(request))); }});
   router.add({operation("set_robot_map"), [d](Request& request) { return set_map(*d, request); }});
   router.add({operation("set_robot_place"), [d](Request& request) { return set_place(*d, request); }});

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/work/work_pool.hpp"
 
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
 namespace homeward::server {
 
-WorkPool::WorkPool(int threads, std::size_t queue_limit) : queue_limit_(queue_limit) {
+WorkPool::WorkPool(int threads, std::size_t queue_limit, int niceness) : queue_limit_(queue_limit) {
   for (int i = 0; i < threads; ++i) {
-    workers_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+    workers_.emplace_back([this, niceness](const std::stop_token& stop) {
+      // Linux keeps a priority for each thread; 0 is the one that asks.
+      if (niceness > 0) setpriority(PRIO_PROCESS, 0, niceness);
+      work(stop);
+    });
   }
 }
 
@@ -60,7 +67,11 @@ void WorkPool::work(const std::stop_token& stop) {
       queue_.pop_front();
       ++running_;
     }
-    task();
+    try {
+      task();
+    } catch (const std::exception& exception) {
+      spdlog::error("a task was ended by a fault: {}", exception.what());
+    }
     task = nullptr;
     {
       const std::scoped_lock lock(mutex_);

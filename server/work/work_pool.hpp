@@ -15,13 +15,15 @@ class WorkPool {
  public:
   using Task = std::function<void()>;
 
-  WorkPool(int threads, std::size_t queue_limit);
+  /// `niceness`: how much the workers stand back behind all else on the machine, 0 to 19 (setpriority(2)).
+  WorkPool(int threads, std::size_t queue_limit, int niceness = 0);
   /// Finishes the tasks that run and drops those that wait.
   ~WorkPool();
   WorkPool(const WorkPool&) = delete;
   WorkPool& operator=(const WorkPool&) = delete;
 
-  /// False when the queue is full or the pool is stopping; the task is then not run. A task must not throw.
+  /// False when the queue is full or the pool is stopping; the task is then not run. What a task throws
+  /// ends that task alone, and is logged.
   [[nodiscard]] bool try_run(Task task);
   /// Returns once nothing waits and nothing runs. Never from a task of its own.
   void work_off();

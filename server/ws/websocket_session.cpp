@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/ws/websocket_session.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <chrono>
 
 namespace homeward::server {
@@ -78,7 +80,13 @@ void WebSocketSession::read() {
     if (error) return self->cut();
     if (self->ended_) return;
     const auto data = self->buffer_.cdata();
-    self->handler_->on_message({static_cast<const std::uint8_t*>(data.data()), data.size()}, self->stream_.got_text());
+    try {
+      self->handler_->on_message({static_cast<const std::uint8_t*>(data.data()), data.size()},
+                                 self->stream_.got_text());
+    } catch (const std::exception& exception) {
+      spdlog::error("a socket was ended by a fault: {}", exception.what());
+      return self->cut();
+    }
     self->buffer_.consume(self->buffer_.size());
     self->read();
   });

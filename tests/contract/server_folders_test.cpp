@@ -21,7 +21,7 @@ const std::map<std::string, std::set<std::string>>& folders() {
   static const std::map<std::string, std::set<std::string>> kFolders = {
       {"time", {}},
       {"ws", {}},
-      {"http", {"ws"}},
+      {"http", {"ws", "time"}},
       {"auth", {"http", "time"}},
       {"services", {"ws", "time"}},
       {"work", {"services", "ws", "time"}},

@@ -15,8 +15,6 @@ LONG_FILES: dict[str, tuple[int, str]] = {}
 # Functions that may be longer: (path, name): (lines at most, why they are not split).
 LONG_FUNCTIONS: dict[tuple[str, str], tuple[int, str]] = {
     ("server/routes/operation_roles.hpp", "kOperations"): (100, "a table, one row for each operation of the API"),
-    ("server/http/http_server.cpp", "HttpServer::State::exchange"): (
-        80, "one request from head to answer in the order of the protocol; each of its ways out ends the coroutine"),
     ("server/driving/link_events.cpp", "Driving::received_status"): (
         85, "one switch over the robot's states, whose cases share what was decided before it"),
 }

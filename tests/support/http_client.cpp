@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/http_client.hpp"
 
+#include <array>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
@@ -65,6 +67,57 @@ Answer HttpClient::post(const std::string& path, const nlohmann::json& body, con
 }
 
 Answer HttpClient::put(const std::string& path, const nlohmann::json& body) { return send("PUT", path, body.dump()); }
+
+struct RawConnection::Connection {
+  asio::io_context context;
+  asio::ip::tcp::socket socket{context};
+  bool closed = false;
+};
+
+RawConnection::RawConnection(std::uint16_t port) : connection_(std::make_unique<Connection>()) {
+  connection_->socket.connect({asio::ip::make_address("127.0.0.1"), port});
+}
+
+RawConnection::~RawConnection() = default;
+
+bool RawConnection::send(const std::string& bytes) {
+  beast::error_code error;
+  asio::write(connection_->socket, asio::buffer(bytes), error);
+  return !error;
+}
+
+std::string RawConnection::receive(const std::string& last, std::chrono::milliseconds patience) {
+  Connection& c = *connection_;
+  const auto end = std::chrono::steady_clock::now() + patience;
+  std::string all;
+  std::array<char, 16384> piece{};
+  bool waiting = false;
+  std::size_t come = 0;
+  while (!c.closed && std::chrono::steady_clock::now() < end && (last.empty() || all.find(last) == std::string::npos)) {
+    if (!waiting) {
+      waiting = true;
+      c.socket.async_read_some(asio::buffer(piece), [&](beast::error_code error, std::size_t count) {
+        waiting = false;
+        come = count;
+        c.closed = static_cast<bool>(error);
+      });
+    }
+    c.context.restart();
+    if (c.context.run_one_until(end) == 0) break;
+    if (waiting) continue;
+    all.append(piece.data(), come);
+    come = 0;
+  }
+  if (waiting) {
+    c.socket.cancel();
+    c.context.restart();
+    c.context.run();
+    c.closed = false;
+  }
+  return all;
+}
+
+bool RawConnection::closed() const { return connection_->closed; }
 
 struct SocketClient::Connection {
   asio::io_context context;

@@ -41,6 +41,26 @@ class HttpClient {
   std::string host_;
 };
 
+/// A connection that sends whatever bytes it is told to.
+class RawConnection {
+ public:
+  explicit RawConnection(std::uint16_t port);
+  ~RawConnection();
+  RawConnection(const RawConnection&) = delete;
+  RawConnection& operator=(const RawConnection&) = delete;
+
+  /// False when the other end has closed.
+  bool send(const std::string& bytes);
+  /// All that comes until the other end closes, `last` has come or the time is over.
+  std::string receive(const std::string& last = "", std::chrono::milliseconds patience = std::chrono::seconds(10));
+  /// The other end has closed; known once receive() has met the end.
+  [[nodiscard]] bool closed() const;
+
+ private:
+  struct Connection;
+  std::unique_ptr<Connection> connection_;
+};
+
 /// A WebSocket whose reads end after a while.
 class SocketClient {
  public:

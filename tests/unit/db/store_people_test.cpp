@@ -44,14 +44,22 @@ TEST_F(StorePeople, SessionsEndByTimeByHandAndWithANewPassword) {
   const User user = *store().add_user(person("Anna", wire::Role::kRider));
   const auto sign_in = [&](const std::string& hash) { return store().add_session({hash, user.id, 10, 100}); };
   ASSERT_TRUE(sign_in("a"));
-  EXPECT_TRUE(store().session_by_hash("a", 99)->has_value());
-  EXPECT_FALSE(store().session_by_hash("a", 100)->has_value());
+  const auto sessions = store().sessions();
+  ASSERT_EQ(sessions->size(), 1U);
+  EXPECT_EQ(sessions->front().hash, "a");
+  EXPECT_EQ(sessions->front().user, user.id);
+  EXPECT_EQ(sessions->front().created_us, 10);
+  EXPECT_EQ(sessions->front().expires_us, 100);
   ASSERT_TRUE(store().remove_session("a"));
-  EXPECT_FALSE(store().session_by_hash("a", 50)->has_value());
+  EXPECT_TRUE(store().sessions()->empty());
   ASSERT_TRUE(sign_in("b"));
   ASSERT_TRUE(store().set_password_hash(user.id, "new"));
-  EXPECT_FALSE(store().session_by_hash("b", 50)->has_value());
-  EXPECT_EQ(store().add_session({"c", UserId("nobody"), 1, 2}).error().code, ErrorCode::kNotFound);
+  EXPECT_TRUE(store().sessions()->empty());
+  ASSERT_TRUE(sign_in("c"));
+  ASSERT_TRUE(store().add_session({"d", user.id, 100, 200}));
+  ASSERT_EQ(store().sessions()->size(), 1U) << "what has ended goes when somebody signs in";
+  EXPECT_EQ(store().sessions()->front().hash, "d");
+  EXPECT_EQ(store().add_session({"e", UserId("nobody"), 1, 2}).error().code, ErrorCode::kNotFound);
 }
 
 TEST_F(StorePeople, TokensAreRevokedAndGoWithTheirRobot) {
@@ -64,19 +72,20 @@ TEST_F(StorePeople, TokensAreRevokedAndGoWithTheirRobot) {
   token.robot = robot.id;
   token = *store().add_token(token);
   ASSERT_FALSE(token.id.empty());
-  const auto found = store().token_by_hash(secret_hash("secret"), 1'000'000);
-  ASSERT_TRUE(found && *found);
-  EXPECT_EQ((*found)->robot, robot.id);
-  EXPECT_EQ((*found)->role, wire::Role::kRobot);
+  const Token found = store().tokens()->front();
+  EXPECT_EQ(found.hash, secret_hash("secret"));
+  EXPECT_EQ(found.robot, robot.id);
+  EXPECT_EQ(found.role, wire::Role::kRobot);
   Token second;
   second.hash = "other";
   second.role = wire::Role::kInstaller;
   second.expires_us = 10;
   second = *store().add_token(second);
-  EXPECT_TRUE(store().token_by_hash("other", 9)->has_value());
-  EXPECT_FALSE(store().token_by_hash("other", 10)->has_value());
+  ASSERT_EQ(store().tokens()->size(), 2U);
+  EXPECT_EQ(store().tokens()->back().expires_us, 10);
   ASSERT_TRUE(store().revoke_token(second.id));
-  EXPECT_FALSE(store().token_by_hash("other", 9)->has_value());
+  ASSERT_EQ(store().tokens()->size(), 1U);
+  EXPECT_EQ(store().tokens()->front().id, token.id);
   EXPECT_EQ(store().revoke_token(second.id).error().code, ErrorCode::kNotFound);
   ASSERT_TRUE(store().remove_robot(robot.id));
   EXPECT_TRUE(store().tokens()->empty());

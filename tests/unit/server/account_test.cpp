@@ -81,6 +81,57 @@ TEST_F(AccountTest, TokensAreShownOnceAndRevoked) {
       << "nobody hands out more than he has";
 }
 
+TEST_F(AccountTest, ASecretHoldsAfterARestartUntilItIsTakenBack) {
+  const nlohmann::json made = admin->post("/api/v1/tokens", {{"name", "reader"}, {"role", "viewer"}}).json();
+  const testing::Headers bearer = {{"Authorization", "Bearer " + made.at("token").get<std::string>()}};
+  restart();
+  HttpClient program(app->port());
+  EXPECT_EQ(program.get("/api/v1/maps", bearer).status, 200);
+  EXPECT_EQ(admin->send("DELETE", "/api/v1/tokens/" + made.at("id").get<std::string>()).status, 204);
+  EXPECT_EQ(program.get("/api/v1/maps", bearer).status, 401);
+  restart();
+  EXPECT_EQ(HttpClient(app->port()).get("/api/v1/maps", bearer).status, 401);
+}
+
+TEST_F(AccountTest, ASocketEndsWithTheSecretThatOpenedIt) {
+  const nlohmann::json made = admin->post("/api/v1/tokens", {{"name", "reader"}, {"role", "viewer"}}).json();
+  const testing::Headers bearer = {{"Authorization", "Bearer " + made.at("token").get<std::string>()}};
+  testing::SocketClient of_token;
+  ASSERT_EQ(of_token.open(app->port(), "/api/v1/events", bearer), 101);
+  testing::SocketClient of_admin;
+  ASSERT_EQ(
+      of_admin.open(app->port(), "/api/v1/events", {{"Cookie", admin->cookie}, {"Origin", admin->defaults["Origin"]}}),
+      101);
+  const auto read_for = [](testing::SocketClient& socket, std::chrono::milliseconds patience) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (!socket.closed() && std::chrono::steady_clock::now() < end) socket.receive(std::chrono::milliseconds(50));
+    return socket.closed();
+  };
+  EXPECT_FALSE(read_for(of_token, std::chrono::milliseconds(800)));
+  EXPECT_EQ(admin->send("DELETE", "/api/v1/tokens/" + made.at("id").get<std::string>()).status, 204);
+  EXPECT_TRUE(read_for(of_token, std::chrono::seconds(5)));
+  EXPECT_FALSE(read_for(of_admin, std::chrono::milliseconds(800))) << "the others stay";
+  EXPECT_EQ(admin->post("/api/v1/logout").status, 204);
+  EXPECT_TRUE(read_for(of_admin, std::chrono::seconds(5)));
+}
+
+TEST_F(AccountTest, WhoTriesManyNamesHasToWaitAndNobodyElse) {
+  config.trusted_proxies = {"127.0.0.1"};
+  restart();
+  HttpClient attacker(app->port());
+  attacker.defaults["X-Forwarded-For"] = "anna's own, 10.0.0.1";
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(attacker.post("/api/v1/login", {{"name", "n" + std::to_string(i)}, {"password", "wrong"}}).status, 401)
+        << i;
+  }
+  EXPECT_EQ(attacker.post("/api/v1/login", {{"name", "anna"}, {"password", "correct horse"}}).status, 429);
+  HttpClient anna(app->port());
+  anna.defaults["X-Forwarded-For"] = "10.0.0.2";
+  EXPECT_EQ(anna.post("/api/v1/login", {{"name", "anna"}, {"password", "correct horse"}}).status, 200);
+  clock.pass(std::chrono::seconds(61));
+  EXPECT_EQ(attacker.post("/api/v1/login", {{"name", "anna"}, {"password", "correct horse"}}).status, 200);
+}
+
 TEST_F(AccountTest, TheSameKeyGetsTheSameAnswer) {
   const testing::Headers key = {{"Idempotency-Key", "k1"}};
   const nlohmann::json body = {{"name", "bert"}, {"password", "long enough"}, {"role", "viewer"}};

@@ -38,6 +38,22 @@ TEST(Access, AnswersToItsOwnNamesAlone) {
   EXPECT_FALSE(access.origin_allowed("http://evil.example", "evil.example"));
 }
 
+TEST(Access, BelievesNobodyButItsProxiesForWhomTheyAsk) {
+  const AccessPolicy access({}, {"10.0.0.9"});
+  const auto sender = [&](const std::string& remote, const std::string& forwarded) {
+    Request request;
+    request.remote = remote;
+    if (!forwarded.empty()) request.headers["x-forwarded-for"] = forwarded;
+    return access.sender_of(request);
+  };
+  EXPECT_EQ(sender("10.0.0.9", "1.2.3.4"), "1.2.3.4");
+  EXPECT_EQ(sender("10.0.0.9", "9.9.9.9, 2001:db8::1"), "2001:db8::1")
+      << "what a client has written itself comes first";
+  EXPECT_EQ(sender("10.0.0.8", "1.2.3.4"), "10.0.0.8");
+  EXPECT_EQ(sender("10.0.0.9", ""), "10.0.0.9");
+  EXPECT_EQ(sender("10.0.0.9", "<script>"), "10.0.0.9");
+}
+
 TEST(AllowedRoles, EachRoleIncludesThoseBeforeIt) {
   using wire::Role;
   const AllowedRoles installer = AllowedRoles::at_least(Role::kInstaller);

@@ -5,7 +5,10 @@
 
 #include <atomic>
 #include <future>
+#include <stdexcept>
 #include <thread>
+
+#include "server/work/password_queue.hpp"
 
 namespace homeward::server::work_pool_test {
 namespace {
@@ -67,6 +70,35 @@ TEST(WorkPool, StopEndsTheRunningTaskInOrderAndDropsWhatWaits) {
   pool.stop();
   opener.join();
   EXPECT_EQ(ran, 0);
+}
+
+TEST(WorkPool, AFaultEndsItsTaskAlone) {
+  WorkPool pool(1, 10);
+  std::atomic<int> ran = 0;
+  ASSERT_TRUE(pool.try_run([] { throw std::runtime_error("no more memory"); }));
+  ASSERT_TRUE(pool.try_run([&] { ++ran; }));
+  pool.work_off();
+  EXPECT_EQ(ran, 1);
+}
+
+TEST(PasswordQueue, OfOneAddressAFewMayWait) {
+  PasswordQueue queue;
+  Gate gate;
+  std::atomic<int> ran = 0;
+  ASSERT_TRUE(queue.try_run("a", gate.task()));
+  gate.wait_until_begun();
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(queue.try_run("a", [&] { ++ran; })) << i;
+  EXPECT_FALSE(queue.try_run("a", [&] { ran += 100; }));
+  EXPECT_TRUE(queue.try_run("b", [&] { ++ran; }));
+  for (int i = 0; i < 100; ++i) static_cast<void>(queue.try_run("c" + std::to_string(i), [&] { ++ran; }));
+  EXPECT_EQ(queue.waiting(), 32U);
+  EXPECT_FALSE(queue.try_run("d", [&] { ran += 100; }));
+  gate.open();
+  queue.work_off();
+  EXPECT_EQ(ran, 32);
+  EXPECT_TRUE(queue.try_run("a", [&] { ++ran; })) << "there is room again";
+  EXPECT_TRUE(queue.try_run("d", [&] { ++ran; })) << "and whoever was refused in between left nothing behind";
+  queue.work_off();
 }
 
 }  // namespace
