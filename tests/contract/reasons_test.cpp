@@ -92,7 +92,8 @@ TEST(Reasons, EachIsOfAKindAndItsParametersOfTypesThatAreExplained) {
 
 TEST(Reasons, EachIsGivenSomewhere) {
   const std::string sources = all_sources();
-  for (const auto& [code, entry] : proto("reasons.json").at("codes").items()) {
+  const nlohmann::json reasons = proto("reasons.json");
+  for (const auto& [code, entry] : reasons.at("codes").items()) {
     const std::regex used("\\bReasonCode::" + enumerator(code) + "\\b|\"code\":\"" + code + "\"");
     EXPECT_TRUE(std::regex_search(sources, used)) << code << " is never given";
   }
