@@ -10,6 +10,7 @@
 #include "db/secrets.hpp"
 #include "server/auth/passwords.hpp"
 #include "server/front/app_front.hpp"
+#include "server/http/http_server.hpp"
 #include "server/routes/account_routes.hpp"
 #include "server/routes/job_routes.hpp"
 #include "server/routes/map_routes.hpp"

@@ -4,7 +4,7 @@
 #include "server/auth/authenticator.hpp"
 #include "server/front/idempotency.hpp"
 #include "server/http/access.hpp"
-#include "server/http/http_server.hpp"
+#include "server/http/front.hpp"
 #include "server/http/metrics.hpp"
 #include "server/http/router.hpp"
 #include "server/http/static_files.hpp"

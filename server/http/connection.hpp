@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "server/http/http_server.hpp"
+#include "server/http/front.hpp"
 #include "server/http/open_connections.hpp"
 #include "server/ws/websocket_session.hpp"
 
