@@ -64,6 +64,9 @@ std::vector<std::string> problems(const AppConfig& config) {
   if (!config.web.empty() && !std::filesystem::is_regular_file(config.web / "index.html")) {
     list.push_back("--web " + config.web.string() + " has no index.html; build the dashboard first.");
   }
+  for (const std::string& proxy : config.trusted_proxies) {
+    if (!is_ip_address(proxy)) list.push_back("--trust-proxy " + proxy + " is not an IP address.");
+  }
   if (config.longest_mission_s < 0) list.emplace_back("--longest-mission-s must not be negative.");
   if (config.threads < 0 || config.threads > 256) list.emplace_back("--threads must be between 0 and 256.");
   return list;

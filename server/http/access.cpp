@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/access.hpp"
 
+#include <arpa/inet.h>
+
 namespace homeward::server {
 namespace {
 
@@ -52,10 +54,12 @@ std::string AccessPolicy::sender_of(const Request& request) const {
   if (!proxies_.contains(request.remote)) return request.remote;
   std::string sender = request.header("x-forwarded-for");
   sender.erase(0, sender.find_last_of(", ") + 1);  // whoever came before may say anything
-  constexpr std::size_t kLongestAddress = 45;
-  const bool is_address =
-      sender.size() <= kLongestAddress && sender.find_first_not_of("0123456789abcdefABCDEF.:") == std::string::npos;
-  return sender.empty() || !is_address ? request.remote : sender;
+  return is_ip_address(sender) ? sender : request.remote;
+}
+
+bool is_ip_address(const std::string& text) {
+  in6_addr parsed{};  // has room for both
+  return inet_pton(AF_INET, text.c_str(), &parsed) == 1 || inet_pton(AF_INET6, text.c_str(), &parsed) == 1;
 }
 
 bool is_loopback(std::string_view address) {

@@ -35,6 +35,9 @@ class AccessPolicy {
 /// "name" of "name:port"; lower case; "[::1]" stays in brackets.
 std::string host_without_port(std::string_view host);
 
+/// Whether this is an IPv4 or IPv6 address.
+bool is_ip_address(const std::string& text);
+
 /// Whether an address to listen on is reachable from this machine alone.
 bool is_loopback(std::string_view address);
 

@@ -181,7 +181,7 @@ asio::awaitable<bool> Connection::exchange() {
   }
   const bool has_body = !parser.is_done();
   std::variant<std::size_t, Response> admitted = serving_.front.admit(*request);
-  serving_.open.began(place_->id(), !request->caller.id.empty());
+  serving_.open.recognised(place_->id(), !request->caller.id.empty());
   const auto* limit = std::get_if<std::size_t>(&admitted);
   const auto length = parser.content_length();
   if (limit != nullptr && length && *length > *limit) {
@@ -200,6 +200,7 @@ asio::awaitable<bool> Connection::exchange() {
     const bool read_whole = co_await read_body(parser, *request, std::get<std::size_t>(admitted));
     if (!read_whole) co_return false;
   }
+  serving_.open.began(place_->id());
   stream_.expires_never();
   Response response = co_await answer_of<Response>(
       serving_.context, [&](Reply reply) { serving_.front.answer(request, std::move(reply)); });

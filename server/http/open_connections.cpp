@@ -21,11 +21,14 @@ std::optional<OpenConnections::Id> OpenConnections::enter(const std::string& add
   return id;
 }
 
-void OpenConnections::began(Id id, bool known) {
+void OpenConnections::recognised(Id id, bool known) {
   const auto found = connections_.find(id);
-  if (found == connections_.end()) return;
-  found->second.busy = true;
-  found->second.known = known;
+  if (found != connections_.end()) found->second.known = known;
+}
+
+void OpenConnections::began(Id id) {
+  const auto found = connections_.find(id);
+  if (found != connections_.end()) found->second.busy = true;
 }
 
 void OpenConnections::ended(Id id, SteadyTime now) {
@@ -52,12 +55,14 @@ std::size_t OpenConnections::count(const Matches& matches) const {
       std::ranges::count_if(connections_, [&](const auto& entry) { return matches(entry.second); }));
 }
 
-/// Cuts the one of them that has waited longest; false when there is none. It has left when this returns.
+/// Cuts the one of them that has waited longest, those that are being answered last; false when there is none. It has
+/// left when this returns.
 bool OpenConnections::evict(const Matches& matches) {
   auto longest = connections_.end();
   for (auto at = connections_.begin(); at != connections_.end(); ++at) {
     if (!matches(at->second)) continue;
-    if (longest == connections_.end() || at->second.since < longest->second.since) longest = at;
+    const auto rank = [](const Connection& c) { return std::pair(c.busy, c.since); };
+    if (longest == connections_.end() || rank(at->second) < rank(longest->second)) longest = at;
   }
   if (longest == connections_.end()) return false;
   const std::function<void()> cut = std::move(longest->second.cut);

@@ -19,8 +19,9 @@ struct ConnectionLimits {
 };
 
 /// Who is connected, and who has to go so that somebody else can come: strangers, who has sent no whole request for
-/// longest before the others. A flood of half requests so displaces itself, and whoever comes to stop a robot is let
-/// in. WebSockets keep their places. Of the socket thread alone; the clock is handed in.
+/// longest before the others, and last of all one whose request is being answered. A flood of half requests so
+/// displaces itself, and whoever comes to stop a robot is let in. WebSockets keep their places. Of the socket thread
+/// alone; the clock is handed in.
 class OpenConnections {
  public:
   using Id = std::uint64_t;
@@ -30,8 +31,10 @@ class OpenConnections {
   /// A place for a new connection; `cut`: ends it, and may be called until it has left. Nothing when all are taken by
   /// those who must not go.
   std::optional<Id> enter(const std::string& address, std::function<void()> cut, SteadyTime now);
-  /// A whole head of a request has come; `known`: with a secret that holds.
-  void began(Id id, bool known);
+  /// Whether the head of a request has come with a secret that holds.
+  void recognised(Id id, bool known);
+  /// A whole request has come, and is being answered.
+  void began(Id id);
   /// That request was answered.
   void ended(Id id, SteadyTime now);
   /// The connection is a WebSocket from now on, which `cut` ends.

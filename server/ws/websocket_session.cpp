@@ -28,6 +28,18 @@ WebSocketSession::WebSocketSession(beast::tcp_stream stream, std::shared_ptr<Soc
 
 WebSocketSession::~WebSocketSession() { end(); }
 
+template <class Call>
+bool WebSocketSession::guarded(const Call& call) {
+  try {
+    call();
+    return true;
+  } catch (const std::exception& exception) {
+    spdlog::error("a socket was ended by a fault: {}", exception.what());
+    cut();
+    return false;
+  }
+}
+
 void WebSocketSession::accept(HttpRequest request) {
   request_ = std::move(request);
   beast::get_lowest_layer(stream_).expires_never();
@@ -43,7 +55,7 @@ void WebSocketSession::accept(HttpRequest request) {
     if (error || self->ended_) return self->end();
     self->open_ = true;
     self->request_ = {};
-    self->handler_->on_open(self);
+    if (!self->guarded([&] { self->handler_->on_open(self); })) return;
     self->read();
     self->write();
   });
@@ -80,13 +92,9 @@ void WebSocketSession::read() {
     if (error) return self->cut();
     if (self->ended_) return;
     const auto data = self->buffer_.cdata();
-    try {
-      self->handler_->on_message({static_cast<const std::uint8_t*>(data.data()), data.size()},
-                                 self->stream_.got_text());
-    } catch (const std::exception& exception) {
-      spdlog::error("a socket was ended by a fault: {}", exception.what());
-      return self->cut();
-    }
+    const bool text = self->stream_.got_text();
+    const std::span bytes(static_cast<const std::uint8_t*>(data.data()), data.size());
+    if (!self->guarded([&] { self->handler_->on_message(bytes, text); })) return;
     self->buffer_.consume(self->buffer_.size());
     self->read();
   });
@@ -95,8 +103,8 @@ void WebSocketSession::read() {
 void WebSocketSession::write() {
   if (!open_ || writing_ || ended_) return;
   if (closing_) return;
-  std::optional<Outgoing> next = handler_->next_message();
-  if (!next) return;
+  std::optional<Outgoing> next;
+  if (!guarded([&] { next = handler_->next_message(); }) || !next) return;
   being_written_ = std::move(*next);
   writing_ = true;
   stream_.text(being_written_.text);

@@ -34,6 +34,9 @@ class WebSocketSession : public Socket, public std::enable_shared_from_this<WebS
   void read();
   void write();
   void begin_close();
+  /// Calls the handler; what it throws ends this socket. False when it did.
+  template <class Call>
+  bool guarded(const Call& call);
   void end();
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;

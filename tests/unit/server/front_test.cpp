@@ -52,6 +52,7 @@ TEST(Access, BelievesNobodyButItsProxiesForWhomTheyAsk) {
   EXPECT_EQ(sender("10.0.0.8", "1.2.3.4"), "10.0.0.8");
   EXPECT_EQ(sender("10.0.0.9", ""), "10.0.0.9");
   EXPECT_EQ(sender("10.0.0.9", "<script>"), "10.0.0.9");
+  EXPECT_EQ(sender("10.0.0.9", "1.2.3.4.5"), "10.0.0.9");
 }
 
 TEST(AllowedRoles, EachRoleIncludesThoseBeforeIt) {
@@ -95,6 +96,10 @@ TEST(Config, PlainHttpForOthersHasToBeAskedFor) {
   EXPECT_EQ(problems(config).size(), 1U);
   config.allow_plain_http = true;
   EXPECT_TRUE(problems(config).empty());
+  config.trusted_proxies = {"127.0.0.1", "::1"};
+  EXPECT_TRUE(problems(config).empty());
+  config.trusted_proxies.insert("proxy.local");
+  EXPECT_EQ(problems(config).size(), 1U) << "what is never met would be believed in vain";
 }
 
 class FrontTest : public testing::ServerTest {};

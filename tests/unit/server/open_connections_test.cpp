@@ -36,20 +36,32 @@ TEST_F(OpenConnectionsTest, OfOneAddressTheStrangerWhoHasWaitedLongestGoes) {
 TEST_F(OpenConnectionsTest, OfAllStrangersTheOneWhoHasWaitedLongestGoes) {
   const auto first = enter("a");
   for (const char* address : {"b", "c", "d"}) enter(address);
-  open_.began(*first, false);
+  open_.began(*first);
   open_.ended(*first, at(100));
   EXPECT_TRUE(enter("e"));
   EXPECT_EQ(cut_, std::set<std::size_t>({2})) << "the first has sent a request since";
 }
 
+TEST_F(OpenConnectionsTest, AStrangerWhoIsBeingAnsweredGoesLast) {
+  const auto first = enter("a");
+  open_.began(*first);
+  for (int i = 0; i < 20; ++i) enter("b");
+  EXPECT_FALSE(cut_.contains(1));
+  for (Id id = 2; id <= 21; ++id) open_.began(id);
+  for (int i = 0; i < 4; ++i) {
+    const auto next = enter("c");
+    ASSERT_TRUE(next) << "many slow readers keep nobody out";
+    open_.began(*next);
+  }
+  EXPECT_TRUE(cut_.contains(1));
+}
+
 TEST_F(OpenConnectionsTest, WhoIsKnownStaysWhileStrangersCome) {
   const auto known = enter("a");
-  open_.began(*known, true);
-  open_.ended(*known, at(0));
+  open_.recognised(*known, true);
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(enter("a"));
   EXPECT_FALSE(cut_.contains(1));
-  open_.began(*known, false);
-  open_.ended(*known, at(0));
+  open_.recognised(*known, false);
   enter("a");
   EXPECT_TRUE(cut_.contains(1)) << "a secret that does not hold any more";
 }
@@ -58,13 +70,15 @@ TEST_F(OpenConnectionsTest, WhereAllAreKnownOneThatWaitsForNothingMakesRoom) {
   std::vector<Id> ids;
   for (int i = 0; i < 6; ++i) {
     ids.push_back(*enter("a"));
-    open_.began(ids.back(), true);
+    open_.recognised(ids.back(), true);
+    open_.began(ids.back());
   }
   open_.became_socket(ids[0], [this] { cut_.insert(1); });
   open_.ended(ids[2], at(50));
   EXPECT_TRUE(enter("b"));
   EXPECT_EQ(cut_, std::set<std::size_t>({3}));
-  open_.began(7, true);
+  open_.recognised(7, true);
+  open_.began(7);
   EXPECT_FALSE(enter("b")) << "a socket, and those whose answer is made, keep their places";
   open_.leave(ids[1]);
   EXPECT_TRUE(enter("b"));
