@@ -22,7 +22,7 @@ struct StoredMap {
 };
 
 /// Writes one map as one SQLite file (application_id "HWMP"); the file appears whole or not at all, over an older one
-/// too. Errors: kIo.
+/// too. Errors: kIo, kDiskFull.
 Status save_map(const std::filesystem::path& file, const map::TopologicalMap& map, const Thumbnails& thumbnails);
 
 /// Errors: kNotFound, kCorruptFile (no SQLite file, not a map, does not hold together), kUnsupportedFormat (newer

@@ -21,7 +21,7 @@ namespace homeward::db {
 
 /// Everything that the server must not forget. What a function has answered with success survives a killed process and
 /// a power cut. Every function may be called from any thread. Records without an id are given a random one.
-/// Errors of all: kIo (disk trouble), kCorruptFile (the database does not hold together); others are named.
+/// Errors of all: kIo (disk trouble), kDiskFull, kCorruptFile (the database does not hold together); others are named.
 class Store {
  public:
   Store() = default;
@@ -101,6 +101,10 @@ class Store {
   virtual Result<MapRecord> save_map_contents(const MapId& id, const map::TopologicalMap& contents,
                                               const Thumbnails& thumbnails, std::int64_t expected_revision,
                                               const AlongWithContents& along = {}) = 0;
+  /// Keeps the next revision of a map that people have edited. Images, places, appearances and thumbnails have to be
+  /// those of the present one; so no more is written than what edits change. Errors: kNotFound, kStaleRevision.
+  virtual Result<MapRecord> save_map_edit(const MapId& id, const map::TopologicalMap& edited,
+                                          std::int64_t expected_revision) = 0;
   /// Errors: kNotFound (also before the first build), those of load_map.
   virtual Result<StoredMap> load_map_contents(const MapId& id) = 0;
   /// The bytes of the map file, for export. Errors: kNotFound.
@@ -138,7 +142,8 @@ class Store {
   virtual Result<RobotRecord> robot(const RobotId& id) = 0;
   /// Nothing takes it off every map. Errors: kNotFound (robot or map).
   virtual Status set_robot_map(const RobotId& id, const std::optional<MapId>& map) = 0;
-  /// One higher than ever before, durably, also after a restart. Errors: kNotFound.
+  /// Higher than ever before, also after a restart. Many are set apart on the disk at once, so that it goes on for a
+  /// while where the disk is full. Errors: kNotFound.
   virtual Result<std::int64_t> next_epoch(const RobotId& id) = 0;
   /// With its missions and tokens. Errors: kNotFound.
   virtual Status remove_robot(const RobotId& id) = 0;
@@ -151,6 +156,10 @@ class Store {
   /// Errors: kNotFound.
   virtual Result<wire::MissionView> mission(const MissionId& id) = 0;
 
+  // --- Its condition ------------------------------------------------------------------------------------------------
+  /// Files that came back are no longer missing; what is quarantined is of the start.
+  virtual StoreCondition condition() = 0;
+
   // --- Repeated requests --------------------------------------------------------------------------------------------
   /// The answer given before to this caller, route and key, unless it is older than 24 h.
   virtual Result<std::optional<StoredAnswer>> answer(const RequestKey& key, TimeUs now_us) = 0;
@@ -159,7 +168,8 @@ class Store {
 };
 
 /// Opens or makes the database of a data folder, and brings an older one up to date. Missions that were under way are
-/// kStopped with the reason kServerRestarted from then on.
+/// kStopped with the reason kServerRestarted from then on. What lies among maps and pictures and no row names (an older
+/// database was put in place, say) goes to the folder `quarantine`; nothing of it is removed.
 /// Errors: kConflict (another process has the folder), kUnsupportedFormat (made by a newer version), kCorruptFile, kIo.
 Result<std::unique_ptr<Store>> open_sqlite_store(const std::filesystem::path& data_directory);
 

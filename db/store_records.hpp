@@ -10,6 +10,7 @@
 #include "core/ids.hpp"
 #include "core/pose2.hpp"
 #include "core/range_sweep.hpp"
+#include "core/result.hpp"
 #include "core/time.hpp"
 #include "wire/job_json.hpp"
 #include "wire/map_info_json.hpp"
@@ -53,7 +54,8 @@ struct Tour {
   bool complete = false;
   TimeUs created_us = 0;
   std::int64_t images = 0;
-  std::vector<std::int64_t> missing;  // numbers below the highest one that no picture has; the first 100
+  std::vector<std::int64_t> missing;    // numbers below the highest one that no picture has; the first 100
+  std::optional<std::string> uploader;  // a program: the robot that its token is for, or the token; nothing: a person
 };
 
 enum class ImageType { kJpeg, kPng };
@@ -111,6 +113,15 @@ struct AlongWithContents {
   std::optional<wire::JobView> job;    // as it is afterwards
 };
 
+/// Whether the store can keep what it is given, and has what it was given.
+struct StoreCondition {
+  std::optional<Error> database;         // why it does not answer
+  std::int64_t free_bytes = 0;           // on its disk, for this process
+  std::int64_t missing_files = 0;        // map files and pictures that rows name and that are not there
+  std::vector<std::string> missing;      // the first of them, by their names in the data folder
+  std::vector<std::string> quarantined;  // what was there at the start and no row names, where it is now
+};
+
 struct RobotRecord {
   RobotId id;
   std::string name;
@@ -129,6 +140,7 @@ struct RequestKey {
 struct StoredAnswer {
   int status = 0;
   std::string body;
+  std::string request_hash = {};  // of the request's body; empty: not known
 };
 
 }  // namespace homeward::db

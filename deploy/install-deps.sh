@@ -35,6 +35,7 @@ packages=(
   prometheus-cpp-dev
   libsodium-dev
   libssl-dev
+  zlib1g-dev
   libassimp-dev
   libembree-dev
   libtbb-dev

@@ -18,6 +18,7 @@
 #include "server/routes/robot_routes.hpp"
 #include "server/routes/socket_routes.hpp"
 #include "server/routes/tour_routes.hpp"
+#include "server/routes/user_routes.hpp"
 #include "server/work/build_jobs.hpp"
 #include "wire/lease_durations.hpp"
 
@@ -89,7 +90,8 @@ struct App::Parts {
         jobs(*store, maps, events, clock, threads_of(config)),
         front({router, access, files, authenticator, idempotency, metrics, workers, heavy, passwords, clock}) {
     driving.when_arrived([this](const db::Drive& drive) { jobs.add_drive(drive); });
-    add_account_routes(router, authenticator, *store, clock);
+    add_account_routes(router, authenticator, *store);
+    add_user_routes(router, authenticator, *store, clock);
     add_tour_routes(router, tours, *store);
     add_map_routes(router, maps, jobs, *store);
     add_job_routes(router, jobs);
@@ -147,6 +149,18 @@ struct App::Parts {
     return config.setup_file.empty() ? Status() : write_private_file(config.setup_file, setup_link);
   }
 
+  // For the operator: readyz, which anybody may ask, tells no names.
+  void tell_condition() {
+    const db::StoreCondition condition = store->condition();
+    for (const std::string& file : condition.missing) spdlog::error("{} is missing from the data folder", file);
+    if (condition.missing_files > std::int64_t(condition.missing.size())) {
+      spdlog::error("{} files are missing in all", condition.missing_files);
+    }
+    for (const std::string& file : condition.quarantined) {
+      spdlog::warn("nothing in the database names {}; it was put there", file);
+    }
+  }
+
   void tick() { driving.tick(clock.steady()); }
 
   void work_off() {
@@ -189,6 +203,7 @@ Result<std::unique_ptr<App>> App::start(const AppConfig& config, const Clock& cl
   std::unique_ptr<App> app(new App());
   app->parts_ = std::make_unique<Parts>(config, std::move(*store), clock);
   Parts& parts = *app->parts_;
+  parts.tell_condition();
   if (const Status status = parts.authenticator.load(); !status) return pass_on(status);
   if (const Status status = parts.driving.load(); !status) return pass_on(status);
   auto http = HttpServer::start(config.address, config.port, parts.front);

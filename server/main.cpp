@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <pthread.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 
 #include <CLI/CLI.hpp>
 #include <charconv>
@@ -8,6 +9,7 @@
 #include <iostream>
 
 #include "server/app.hpp"
+#include "server/log/plain_lines.hpp"
 #include "wire/error_table.hpp"
 
 namespace {
@@ -82,6 +84,8 @@ int main(int argc, char** argv) {
   for (const std::string& problem : list) std::cerr << "homeward-server: " << problem << '\n';
   if (!list.empty()) return 2;
 
+  ::umask(0077);  // what is kept is of somebody's home: for this program's user alone
+  homeward::server::log_in_plain_lines();
   // Before any thread starts, so that all of them leave these to sigwait.
   sigset_t signals;
   sigemptyset(&signals);

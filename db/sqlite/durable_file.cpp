@@ -31,25 +31,56 @@ void flush(const Descriptor& descriptor, const std::filesystem::path& file) {
 
 void flush_folder(const std::filesystem::path& folder) { flush(Descriptor(folder, O_RDONLY | O_DIRECTORY), folder); }
 
-}  // namespace
-
-void write_durably(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
-  std::filesystem::path part = file;
-  part += ".part";
-  {
-    const Descriptor descriptor(part, O_WRONLY | O_CREAT | O_TRUNC);
+/// FILE.part until it is whole; what does not become whole does not stay.
+class UnfinishedFile {
+ public:
+  explicit UnfinishedFile(const std::filesystem::path& file)
+      : file_(file), part_(file.string() + ".part"), descriptor_(part_, O_WRONLY | O_CREAT | O_TRUNC) {}
+  UnfinishedFile(const UnfinishedFile&) = delete;
+  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+  ~UnfinishedFile() {
+    if (!in_place_) ::unlink(part_.c_str());
+  }
+  void write(std::span<const std::uint8_t> bytes) const {
     while (!bytes.empty()) {
-      const ssize_t written = ::write(descriptor.value(), bytes.data(), bytes.size());
+      const ssize_t written = ::write(descriptor_.value(), bytes.data(), bytes.size());
       if (written < 0) {
         if (errno == EINTR) continue;
-        throw std::system_error(errno, std::generic_category(), part.string());
+        throw std::system_error(errno, std::generic_category(), part_.string());
       }
       bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
-    flush(descriptor, part);
+    flush(descriptor_, part_);
   }
-  std::filesystem::rename(part, file);
-  flush_folder(file.parent_path());
+  void put_in_place() {
+    std::filesystem::rename(part_, file_);
+    in_place_ = true;
+    flush_folder(file_.parent_path());
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::filesystem::path part_;
+  Descriptor descriptor_;
+  bool in_place_ = false;
+};
+
+}  // namespace
+
+bool is_disk_full(const std::error_code& failure) {
+  return failure == std::errc::no_space_on_device ||
+         (failure.category() == std::generic_category() && failure.value() == EDQUOT);
+}
+
+Error disk_full(const std::string& where) {
+  return {ErrorCode::kDiskFull, "The disk is full; what is on it already is kept. Make room on it, and try again.",
+          where};
+}
+
+void write_durably(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+  UnfinishedFile part(file);
+  part.write(bytes);
+  part.put_in_place();
 }
 
 void make_folder_durably(const std::filesystem::path& folder) {

@@ -4,11 +4,21 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <system_error>
 #include <vector>
+
+#include "core/result.hpp"
 
 namespace homeward::db {
 
-/// Writes a file so that it is there whole, also after a power cut, once this returns. Throws std::system_error.
+/// Whether something failed for want of room on the disk (or in its owner's quota).
+[[nodiscard]] bool is_disk_full(const std::error_code& failure);
+/// What people are told then.
+[[nodiscard]] Error disk_full(const std::string& where);
+
+/// Writes a file so that it is there whole, also after a power cut, once this returns. Where it fails nothing
+/// of it stays. Throws std::system_error.
 void write_durably(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
 /// Makes a folder whose parent exists, durably. Throws std::system_error.

@@ -304,6 +304,25 @@ void get_thumbnails(SQLite::Database& database, ContentDigest& digest, StoredMap
 
 }  // namespace
 
+void read_graph_part(SQLite::Database& database, map::TopologicalMap& map) {
+  ContentDigest ignored;  // whoever keeps a part watches over its bytes
+  map::TopologicalMap part;
+  get_meta(database, ignored, part);
+  get_places(database, ignored, part);
+  get_edges(database, ignored, part);
+  get_hypotheses(database, ignored, part);
+  get_shortcuts(database, ignored, part);
+  get_destinations(database, ignored, part);
+  get_edits(database, ignored, part);
+  const auto same = [](const map::Place& a, const map::Place& b) { return a.id == b.id && a.prototype == b.prototype; };
+  if (!std::ranges::equal(part.places, map.places, same)) refuse("The edits are of a map with other places.");
+  for (std::size_t i = 0; i < map.places.size(); ++i) map.places[i].label = part.places[i].label;
+  part.places = std::move(map.places);
+  part.images = std::move(map.images);
+  map = std::move(part);
+  check_references(map);
+}
+
 MapContents read_contents(SQLite::Database& database) {
   ContentDigest digest;
   MapContents contents;

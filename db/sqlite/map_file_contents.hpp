@@ -26,4 +26,7 @@ struct MapContents {
 };
 MapContents read_contents(SQLite::Database& database);
 
+/// Puts what the rows of a graph part (map_graph_part.hpp) say over the map that they are of. Throws the same.
+void read_graph_part(SQLite::Database& database, map::TopologicalMap& map);
+
 }  // namespace homeward::db

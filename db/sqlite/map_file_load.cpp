@@ -14,6 +14,7 @@
 #include "db/map_file.hpp"
 #include "db/sqlite/map_file_contents.hpp"
 #include "db/sqlite/map_file_schema.hpp"
+#include "db/sqlite/map_graph_part.hpp"
 
 namespace homeward::db {
 namespace {
@@ -144,6 +145,18 @@ StoredMap read_map(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+void put_graph_part(std::span<const std::uint8_t> bytes, map::TopologicalMap& map) {
+  FileBytes read;
+  read.count = bytes.size();
+  read.bytes.reset(static_cast<std::uint8_t*>(sqlite3_malloc64(read.count)));
+  if (!read.bytes) throw std::bad_alloc();
+  std::memcpy(read.bytes.get(), bytes.data(), bytes.size());
+  check_start(read);
+  SQLite::Database database(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  give_bytes(database, std::move(read));
+  read_graph_part(database, map);
+}
 
 Result<StoredMap> load_map(const std::filesystem::path& file) {
   try {

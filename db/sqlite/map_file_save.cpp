@@ -13,8 +13,10 @@
 #include <system_error>
 
 #include "db/map_file.hpp"
+#include "db/sqlite/durable_file.hpp"
 #include "db/sqlite/map_file_contents.hpp"
 #include "db/sqlite/map_file_schema.hpp"
+#include "db/sqlite/map_graph_part.hpp"
 #include "wire/appearance_blob.hpp"
 #include "wire/camera_json.hpp"
 
@@ -87,8 +89,6 @@ void bind_blob(SQLite::Statement& statement, int index, const std::vector<std::u
 
 void put_places(SQLite::Database& database, const map::TopologicalMap& map) {
   SQLite::Statement place_insert(database, "INSERT INTO places VALUES (?, ?, ?, ?)");
-  SQLite::Statement member_insert(database, "INSERT INTO place_members VALUES (?, ?, ?)");
-  SQLite::Statement appearance_insert(database, "INSERT INTO place_appearances VALUES (?, ?, ?)");
   std::int64_t position = 0;
   for (const map::Place& place : map.places) {
     place_insert.bind(1, position++);
@@ -97,6 +97,13 @@ void put_places(SQLite::Database& database, const map::TopologicalMap& map) {
     place_insert.bind(4, place.prototype.str());
     place_insert.exec();
     place_insert.reset();
+  }
+}
+
+void put_what_places_hold(SQLite::Database& database, const map::TopologicalMap& map) {
+  SQLite::Statement member_insert(database, "INSERT INTO place_members VALUES (?, ?, ?)");
+  SQLite::Statement appearance_insert(database, "INSERT INTO place_appearances VALUES (?, ?, ?)");
+  for (const map::Place& place : map.places) {
     std::int64_t member_position = 0;
     for (const ImageId& member : place.members) {
       member_insert.bind(1, place.id.str());
@@ -224,6 +231,17 @@ void put_thumbnails(SQLite::Database& database, const Thumbnails& thumbnails) {
   }
 }
 
+/// What edits change, and the places that it is about.
+void put_graph(SQLite::Database& database, const map::TopologicalMap& map) {
+  put_meta(database, map);
+  put_places(database, map);
+  put_edges(database, map);
+  put_hypotheses(database, map);
+  put_shortcuts(database, map);
+  put_destinations(database, map);
+  put_edits(database, map);
+}
+
 /// All of it in memory: a build that is killed leaves no journal behind.
 void fill_database(SQLite::Database& database, const map::TopologicalMap& map, const Thumbnails& thumbnails) {
   database.exec(
@@ -233,14 +251,9 @@ void fill_database(SQLite::Database& database, const map::TopologicalMap& map, c
   database.exec(kMapFileSchema);
   database.exec("PRAGMA application_id = " + std::to_string(kMapApplicationId));
   database.exec("PRAGMA user_version = " + std::to_string(kMapFileVersion));
-  put_meta(database, map);
   put_images(database, map);
-  put_places(database, map);
-  put_edges(database, map);
-  put_hypotheses(database, map);
-  put_shortcuts(database, map);
-  put_destinations(database, map);
-  put_edits(database, map);
+  put_graph(database, map);
+  put_what_places_hold(database, map);
   put_thumbnails(database, thumbnails);
   SQLite::Statement checksum(database, kInsertChecksum);
   checksum.bind(1, read_contents(database).checksum);
@@ -305,15 +318,26 @@ class PartFile {
   bool renamed_ = false;
 };
 
-void write_file(const std::filesystem::path& file, SQLite::Database& database) {
+struct Serialized {
+  std::unique_ptr<unsigned char, decltype(&sqlite3_free)> bytes;
   sqlite3_int64 count = 0;
-  const std::unique_ptr<unsigned char, decltype(&sqlite3_free)> bytes(
-      sqlite3_serialize(database.getHandle(), "main", &count, 0), &sqlite3_free);
-  if (!bytes) throw std::bad_alloc();
+  [[nodiscard]] std::span<const std::uint8_t> all() const { return {bytes.get(), static_cast<std::size_t>(count)}; }
+};
+
+Serialized serialized(SQLite::Database& database) {
+  sqlite3_int64 count = 0;
+  Serialized all{{sqlite3_serialize(database.getHandle(), "main", &count, 0), &sqlite3_free}, 0};
+  if (!all.bytes) throw std::bad_alloc();
+  all.count = count;
+  return all;
+}
+
+void write_file(const std::filesystem::path& file, SQLite::Database& database) {
+  const Serialized all = serialized(database);
   std::filesystem::path part = file;
   part += ".part";
   PartFile unfinished(part);
-  unfinished.write({bytes.get(), static_cast<std::size_t>(count)});
+  unfinished.write(all.all());
   unfinished.rename_to(file);
 }
 
@@ -328,6 +352,17 @@ bool flush_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
+std::vector<std::uint8_t> graph_part_of(const map::TopologicalMap& map) {
+  SQLite::Database database(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  SQLite::Transaction transaction(database);
+  database.exec(kMapFileSchema);
+  database.exec("PRAGMA user_version = " + std::to_string(kMapFileVersion));
+  put_graph(database, map);
+  transaction.commit();
+  const Serialized all = serialized(database);
+  return {all.all().begin(), all.all().end()};
+}
+
 Status save_map(const std::filesystem::path& file, const map::TopologicalMap& map, const Thumbnails& thumbnails) {
   std::filesystem::path folder = file.parent_path();
   if (folder.empty()) folder = ".";
@@ -335,6 +370,9 @@ Status save_map(const std::filesystem::path& file, const map::TopologicalMap& ma
     SQLite::Database database(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     fill_database(database, map, thumbnails);
     write_file(file, database);
+  } catch (const std::system_error& failure) {
+    if (is_disk_full(failure.code())) return tl::unexpected<Error>(disk_full(file.string()));
+    return fail(ErrorCode::kIo, std::string("The map could not be written: ") + failure.what() + ".", file.string());
   } catch (const std::exception& failure) {
     return fail(ErrorCode::kIo, std::string("The map could not be written: ") + failure.what() + ".", file.string());
   }

@@ -2,6 +2,7 @@
 #include "db/sqlite/sqlite_store.hpp"
 
 #include "db/sqlite/durable_file.hpp"
+#include "db/sqlite/wal_check.hpp"
 #include "wire/reason_json.hpp"
 
 namespace homeward::db {
@@ -13,6 +14,12 @@ void stop_missions(SQLite::Database& database) {
           wire::reason_to_text({wire::ReasonCode::kServerRestarted}));
 }
 
+/// For its owner alone: what is kept is of somebody's home.
+void make_private_folder(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  std::filesystem::permissions(folder, std::filesystem::perms::owner_all);
+}
+
 }  // namespace
 
 SqliteStore::SqliteStore(const std::filesystem::path& folder)
@@ -21,13 +28,15 @@ SqliteStore::SqliteStore(const std::filesystem::path& folder)
   make_folder_durably(folder_ / "maps");
   const Status stopped = database_.work(stop_missions);
   if (!stopped) throw StoreFailure(stopped.error());
-  remove_stray_map_files();
+  sort_map_files();
+  sort_pictures();
 }
 
 Result<std::unique_ptr<Store>> open_sqlite_store(const std::filesystem::path& data_directory) {
   try {
     const std::filesystem::path folder = std::filesystem::absolute(data_directory);
-    std::filesystem::create_directories(folder);
+    make_private_folder(folder);
+    check_write_ahead_log(folder / "homeward.db");
     return std::make_unique<SqliteStore>(folder);
   } catch (...) {
     return tl::unexpected<Error>(StoreDatabase::present_error((data_directory / "homeward.db").string()));

@@ -2,12 +2,26 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "db/sqlite/keyed_mutex.hpp"
 #include "db/sqlite/store_database.hpp"
 #include "db/store.hpp"
 
 namespace homeward::db {
+
+/// What a file or folder is called that goes with a row: first it gets this end, then the row goes, then it does.
+inline constexpr std::string_view kRemovedEnd = ".removed";
+[[nodiscard]] std::filesystem::path removed_name(const std::filesystem::path& file);
+/// Success or not: one that is left behind is seen to at the next start.
+void forget_file(const std::filesystem::path& file);
+/// The same for a file whose row was refused; where the disk failed nobody knows whether the row is on it after all,
+/// and the file stays: the next start finds its row, or puts it into quarantine.
+void forget_file_after(const Error& refused, const std::filesystem::path& file);
 
 /// The store in SQLite: rows in homeward.db, pictures in tours/, map files in maps/.
 class SqliteStore final : public Store {
@@ -58,6 +72,8 @@ class SqliteStore final : public Store {
   Result<MapRecord> save_map_contents(const MapId& id, const map::TopologicalMap& contents,
                                       const Thumbnails& thumbnails, std::int64_t expected_revision,
                                       const AlongWithContents& along) override;
+  Result<MapRecord> save_map_edit(const MapId& id, const map::TopologicalMap& edited,
+                                  std::int64_t expected_revision) override;
   Result<StoredMap> load_map_contents(const MapId& id) override;
   Result<std::vector<std::uint8_t>> map_file_bytes(const MapId& id) override;
   Result<MapRecord> import_map(MapRecord map, std::span<const std::uint8_t> file) override;
@@ -88,6 +104,9 @@ class SqliteStore final : public Store {
   Result<std::vector<wire::MissionView>> missions(const RobotId& robot, int limit) override;
   Result<wire::MissionView> mission(const MissionId& id) override;
 
+  // --- Its condition ---
+  StoreCondition condition() override;
+
   // --- Repeated requests ---
   Result<std::optional<StoredAnswer>> answer(const RequestKey& key, TimeUs now_us) override;
   Status keep_answer(const RequestKey& key, const StoredAnswer& answer, TimeUs now_us) override;
@@ -95,7 +114,20 @@ class SqliteStore final : public Store {
  private:
   [[nodiscard]] std::filesystem::path image_file(const TourId& tour, std::int64_t number, ImageType type) const;
   [[nodiscard]] std::filesystem::path map_file(const MapId& map, std::int64_t revision) const;
-  void remove_stray_map_files();
+  // The file of a map, and what people have edited since it was written (empty: nothing). With the map's lock:
+  struct MapFile {
+    MapRecord record;
+    std::int64_t revision = 0;
+    std::vector<std::uint8_t> edits;
+  };
+  Result<MapFile> file_of(const MapId& id);
+  [[nodiscard]] Result<StoredMap> load(const MapFile& file) const;
+  Status write_edits_into_file(const MapId& id, const MapFile& file);
+  // What is there against what the rows name, at the start (store_contents.cpp):
+  void sort_map_files();
+  void sort_pictures();
+  void put_aside(const std::filesystem::path& stray);
+  void need_no_longer(const std::filesystem::path& file_or_folder);
   // Within a transaction:
   static void write_job(SQLite::Database& database, const wire::JobView& job);
   static void forget_drives(SQLite::Database& database, const std::vector<MissionId>& missions);
@@ -103,7 +135,21 @@ class SqliteStore final : public Store {
   FolderLock lock_;
   std::filesystem::path folder_;
   StoreDatabase database_;
-  std::mutex map_files_mutex_;  // taken before the database's
+  // Taken before the database's, by the map and by the tour and picture:
+  KeyedMutex map_file_locks_;
+  KeyedMutex picture_locks_;
+  struct Contents {
+    std::vector<std::filesystem::path> missing;
+    std::vector<std::string> quarantined;
+  };
+  std::mutex contents_mutex_;
+  Contents contents_;
+  struct Epochs {
+    std::int64_t last = 0;
+    std::int64_t set_apart = 0;  // up to this one, on the disk
+  };
+  std::mutex epochs_mutex_;  // taken before the database's
+  std::map<RobotId, Epochs> epochs_;
 };
 
 }  // namespace homeward::db

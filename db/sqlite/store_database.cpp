@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <system_error>
 
+#include "db/sqlite/durable_file.hpp"
 #include "db/sqlite/migrations.hpp"
 
 namespace homeward::db {
@@ -16,6 +17,7 @@ namespace {
 
 constexpr int kStoreApplicationId = 0x48575354;  // "HWST"
 constexpr int kBusyTimeoutMs = 5000;
+constexpr int kFirstVersionWithSums = 7;
 
 /// Before anything is written to the file: is it one of ours, and not from the future?
 int checked_version(SQLite::Database& connection, const std::string& file) {
@@ -32,21 +34,23 @@ int checked_version(SQLite::Database& connection, const std::string& file) {
                std::to_string(newest) + ". Start the newer program again, or restore a backup.",
            file);
   }
-  const std::string verdict = connection.execAndGet("PRAGMA quick_check(1)").getString();
+  const std::string verdict = connection.execAndGet("PRAGMA integrity_check(1)").getString();
   if (verdict != "ok") {
     refuse(ErrorCode::kCorruptFile, "The database is damaged (" + verdict + "). Restore a backup.", file);
   }
   return version;
 }
 
-void migrate(SQLite::Database& connection, int version) {
-  for (std::size_t step = static_cast<std::size_t>(version); step < migrations().size(); ++step) {
-    SQLite::Transaction transaction(connection, SQLite::TransactionBehavior::IMMEDIATE);
-    connection.exec(std::string(migrations()[step]));
-    connection.exec("PRAGMA application_id = " + std::to_string(kStoreApplicationId));
-    connection.exec("PRAGMA user_version = " + std::to_string(step + 1));
-    transaction.commit();
-  }
+/// All of them or none; the sums of the new content belong to it.
+void migrate(SQLite::Database& connection, int version, TableSums& sums) {
+  const auto known = static_cast<std::size_t>(version);
+  if (known == migrations().size()) return;
+  SQLite::Transaction transaction(connection, SQLite::TransactionBehavior::IMMEDIATE);
+  for (std::size_t step = known; step < migrations().size(); ++step) connection.exec(std::string(migrations()[step]));
+  connection.exec("PRAGMA application_id = " + std::to_string(kStoreApplicationId));
+  connection.exec("PRAGMA user_version = " + std::to_string(migrations().size()));
+  sums.take_anew();
+  transaction.commit();
 }
 
 }  // namespace
@@ -72,13 +76,35 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
 FolderLock::~FolderLock() { ::close(descriptor_); }
 
 StoreDatabase::StoreDatabase(const std::filesystem::path& file)
-    : file_(file), connection_(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs) {
+    : file_(file),
+      connection_(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs),
+      sums_(connection_) {
   const int version = checked_version(connection_, file.string());
   connection_.exec("PRAGMA journal_mode = WAL");
   connection_.exec("PRAGMA synchronous = FULL");
   connection_.exec("PRAGMA foreign_keys = ON");
   connection_.exec("PRAGMA trusted_schema = OFF");
-  migrate(connection_, version);
+  if (version >= kFirstVersionWithSums) sums_.check();
+  migrate(connection_, version, sums_);
+  sums_.watch();
+}
+
+StoreDatabase::Reader::Reader(StoreDatabase& database) : database_(database) {
+  {
+    const std::scoped_lock lock(database_.readers_mutex_);
+    if (!database_.readers_.empty()) {
+      connection_ = std::move(database_.readers_.back());
+      database_.readers_.pop_back();
+    }
+  }
+  if (connection_) return;
+  connection_ = std::make_unique<SQLite::Database>(database_.file_.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs);
+  connection_->exec("PRAGMA trusted_schema = OFF");
+}
+
+StoreDatabase::Reader::~Reader() {
+  const std::scoped_lock lock(database_.readers_mutex_);
+  database_.readers_.push_back(std::move(connection_));
 }
 
 Error StoreDatabase::present_error(const std::string& where) {
@@ -92,7 +118,11 @@ Error StoreDatabase::present_error(const std::string& where) {
       return {ErrorCode::kCorruptFile,
               std::string("The database is damaged (") + failure.what() + "). Restore a backup.", where};
     }
+    if (code == SQLITE_FULL) return disk_full(where);
     return {ErrorCode::kIo, std::string("The database does not work: ") + failure.what() + ".", where};
+  } catch (const std::system_error& failure) {
+    if (is_disk_full(failure.code())) return disk_full(where);
+    return {ErrorCode::kIo, std::string("The data folder does not work: ") + failure.what() + ".", where};
   } catch (const std::exception& failure) {
     return {ErrorCode::kIo, std::string("The data folder does not work: ") + failure.what() + ".", where};
   }

@@ -4,27 +4,21 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "core/ids.hpp"
 #include "core/result.hpp"
+#include "db/sqlite/statements.hpp"
+#include "db/sqlite/table_sums.hpp"
 
 namespace homeward::db {
-
-/// Carries an Error out of a store function to StoreDatabase::work, which undoes what was begun.
-struct StoreFailure : std::runtime_error {
-  explicit StoreFailure(Error failure) : std::runtime_error(failure.message), error(std::move(failure)) {}
-  Error error;
-};
-
-[[noreturn]] inline void refuse(ErrorCode code, std::string message, std::string where = {}) {
-  throw StoreFailure({code, std::move(message), std::move(where)});
-}
 
 /// The lock on a data folder: held as long as the object lives, gone with the process however it ends.
 class FolderLock {
@@ -39,10 +33,11 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-/// The connection, the lock around it and the translation of exceptions.
+/// The connections, the lock around the one that writes, and the translation of exceptions.
 class StoreDatabase {
  public:
-  /// Opens or makes the file and applies the migrations that it lacks. Throws.
+  /// Opens or makes the file, applies the migrations that it lacks, and reads all of it to see that it is what was
+  /// written. Throws.
   explicit StoreDatabase(const std::filesystem::path& file);
 
   /// Runs `body` in one transaction, alone; an exception becomes an Error and undoes everything.
@@ -51,14 +46,35 @@ class StoreDatabase {
     const std::scoped_lock lock(mutex_);
     try {
       SQLite::Transaction transaction(connection_, SQLite::TransactionBehavior::IMMEDIATE);
+      sums_.begin();
       if constexpr (std::is_void_v<std::invoke_result_t<Body, SQLite::Database&>>) {
         body(connection_);
+        sums_.keep();
         transaction.commit();
         return {};
       } else {
         auto value = body(connection_);
+        sums_.keep();
         transaction.commit();
         return value;
+      }
+    } catch (...) {
+      return tl::unexpected<Error>(present_error(file_.string()));
+    }
+  }
+
+  /// Runs `body`, which changes nothing, on a connection of its own: it waits for no writer, and sees what was
+  /// committed when it began, from its beginning to its end.
+  template <class Body>
+  auto read(Body&& body) -> Result<std::invoke_result_t<Body, SQLite::Database&>> {
+    try {
+      const Reader reader(*this);
+      SQLite::Transaction transaction(reader.connection(), SQLite::TransactionBehavior::DEFERRED);
+      if constexpr (std::is_void_v<std::invoke_result_t<Body, SQLite::Database&>>) {
+        body(reader.connection());
+        return {};
+      } else {
+        return body(reader.connection());
       }
     } catch (...) {
       return tl::unexpected<Error>(present_error(file_.string()));
@@ -69,60 +85,27 @@ class StoreDatabase {
   static Error present_error(const std::string& where);
 
  private:
+  /// A connection to read with, while it lives: one that nobody uses, or a new one. There are as many as ever read at
+  /// once.
+  class Reader {
+   public:
+    explicit Reader(StoreDatabase& database);
+    Reader(const Reader&) = delete;
+    Reader& operator=(const Reader&) = delete;
+    ~Reader();
+    [[nodiscard]] SQLite::Database& connection() const { return *connection_; }
+
+   private:
+    StoreDatabase& database_;
+    std::unique_ptr<SQLite::Database> connection_;
+  };
+
   std::filesystem::path file_;
-  std::mutex mutex_;
+  std::mutex mutex_;  // of the connection that writes
   SQLite::Database connection_;
+  TableSums sums_;
+  std::mutex readers_mutex_;
+  std::vector<std::unique_ptr<SQLite::Database>> readers_;  // that nobody uses
 };
-
-inline void bind_value(SQLite::Statement& statement, int index, const std::string& value) {
-  statement.bind(index, value);
-}
-inline void bind_value(SQLite::Statement& statement, int index, double value) { statement.bind(index, value); }
-template <class Integer>
-requires std::is_integral_v<Integer>
-void bind_value(SQLite::Statement& statement, int index, Integer value) {
-  statement.bind(index, static_cast<std::int64_t>(value));
-}
-template <class Tag>
-void bind_value(SQLite::Statement& statement, int index, const Id<Tag>& value) {
-  statement.bind(index, value.str());
-}
-template <class T>
-void bind_value(SQLite::Statement& statement, int index, const std::optional<T>& value) {
-  if (value) {
-    bind_value(statement, index, *value);
-  } else {
-    statement.bind(index);
-  }
-}
-
-/// A prepared statement with its values bound in order.
-template <class... Values>
-SQLite::Statement prepared(SQLite::Database& database, const char* sql, const Values&... values) {
-  SQLite::Statement statement(database, sql);
-  [[maybe_unused]] int index = 0;
-  (bind_value(statement, ++index, values), ...);
-  return statement;
-}
-
-/// Runs a statement without rows and gives the number of rows that it changed.
-template <class... Values>
-int execute(SQLite::Database& database, const char* sql, const Values&... values) {
-  return prepared(database, sql, values...).exec();
-}
-
-inline std::string text(SQLite::Statement& row, int column) { return row.getColumn(column).getString(); }
-inline std::int64_t integer(SQLite::Statement& row, int column) { return row.getColumn(column).getInt64(); }
-inline double real(SQLite::Statement& row, int column) { return row.getColumn(column).getDouble(); }
-inline std::optional<std::string> optional_text(SQLite::Statement& row, int column) {
-  return row.isColumnNull(column) ? std::nullopt : std::optional(text(row, column));
-}
-inline std::optional<std::int64_t> optional_integer(SQLite::Statement& row, int column) {
-  return row.isColumnNull(column) ? std::nullopt : std::optional(integer(row, column));
-}
-
-inline std::optional<double> optional_number(SQLite::Statement& row, int column) {
-  return row.isColumnNull(column) ? std::nullopt : std::optional(real(row, column));
-}
 
 }  // namespace homeward::db

@@ -37,7 +37,7 @@ Status SqliteStore::add_drive(const Drive& drive) {
 }
 
 Result<std::vector<MissionId>> SqliteStore::drives(const MapId& map) {
-  return database_.work([&](SQLite::Database& database) {
+  return database_.read([&](SQLite::Database& database) {
     std::vector<MissionId> found;
     SQLite::Statement row =
         prepared(database, "SELECT mission FROM drives WHERE map = ? ORDER BY created_us, rowid", map);
@@ -47,7 +47,7 @@ Result<std::vector<MissionId>> SqliteStore::drives(const MapId& map) {
 }
 
 Result<Drive> SqliteStore::drive(const MissionId& mission) {
-  return database_.work([&](SQLite::Database& database) {
+  return database_.read([&](SQLite::Database& database) {
     SQLite::Statement row =
         prepared(database, "SELECT map, feature_config_id, created_us FROM drives WHERE mission = ?", mission);
     if (!row.executeStep()) {

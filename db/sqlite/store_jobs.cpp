@@ -110,20 +110,20 @@ Status SqliteStore::update_job(const wire::JobView& job) {
 }
 
 Result<std::vector<wire::JobView>> SqliteStore::jobs() {
-  return database_.work([&](SQLite::Database& database) {
+  return database_.read([&](SQLite::Database& database) {
     return jobs_of(prepared(database, "SELECT * FROM jobs ORDER BY created_us, rowid"));
   });
 }
 
 Result<std::vector<wire::JobView>> SqliteStore::unfinished_jobs() {
-  return database_.work([&](SQLite::Database& database) {
+  return database_.read([&](SQLite::Database& database) {
     return jobs_of(
         prepared(database, "SELECT * FROM jobs WHERE state IN ('queued', 'running') ORDER BY created_us, rowid"));
   });
 }
 
 Result<wire::JobView> SqliteStore::job(const JobId& id) {
-  return database_.work([&](SQLite::Database& database) {
+  return database_.read([&](SQLite::Database& database) {
     SQLite::Statement row = prepared(database, "SELECT * FROM jobs WHERE id = ?", id);
     if (!row.executeStep()) refuse(ErrorCode::kNotFound, "There is no job with this id.", "jobs/" + id.str());
     return job_of(row);
@@ -131,12 +131,13 @@ Result<wire::JobView> SqliteStore::job(const JobId& id) {
 }
 
 Result<std::optional<StoredAnswer>> SqliteStore::answer(const RequestKey& key, TimeUs now_us) {
-  return database_.work([&](SQLite::Database& database) -> std::optional<StoredAnswer> {
+  return database_.read([&](SQLite::Database& database) -> std::optional<StoredAnswer> {
     SQLite::Statement row = prepared(
-        database, "SELECT status, body FROM answers WHERE caller = ? AND route = ? AND key = ? AND created_us > ?",
+        database,
+        "SELECT status, body, body_hash FROM answers WHERE caller = ? AND route = ? AND key = ? AND created_us > ?",
         key.caller, key.route, key.key, now_us - kAnswersKeptUs);
     if (!row.executeStep()) return std::nullopt;
-    return StoredAnswer{static_cast<int>(integer(row, 0)), text(row, 1)};
+    return StoredAnswer{static_cast<int>(integer(row, 0)), text(row, 1), text(row, 2)};
   });
 }
 
@@ -144,9 +145,9 @@ Status SqliteStore::keep_answer(const RequestKey& key, const StoredAnswer& answe
   return database_.work([&](SQLite::Database& database) {
     execute(database, "DELETE FROM answers WHERE created_us <= ?", now_us - kAnswersKeptUs);
     execute(database,
-            "INSERT OR IGNORE INTO answers (caller, route, key, status, body, created_us) "
-            "VALUES (?, ?, ?, ?, CAST(? AS BLOB), ?)",
-            key.caller, key.route, key.key, answer.status, answer.body, now_us);
+            "INSERT OR IGNORE INTO answers (caller, route, key, status, body, created_us, body_hash) "
+            "VALUES (?, ?, ?, ?, CAST(? AS BLOB), ?, ?)",
+            key.caller, key.route, key.key, answer.status, answer.body, now_us, answer.request_hash);
   });
 }
 

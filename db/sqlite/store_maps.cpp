@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <set>
-
 #include "db/secrets.hpp"
 #include "db/sqlite/durable_file.hpp"
+#include "db/sqlite/map_graph_part.hpp"
 #include "db/sqlite/sqlite_store.hpp"
 
 namespace homeward::db {
@@ -52,10 +51,10 @@ void insert_tours(SQLite::Database& database, const MapId& map, const std::vecto
 
 MapRecord insert_map(SQLite::Database& database, const MapRecord& map) {
   execute(database,
-          "INSERT INTO maps (id, name, state, revision, places, images, feature_config_id, created_us, refine) "
-          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
+          "INSERT INTO maps (id, name, state, revision, places, images, feature_config_id, created_us, refine, "
+          "file_revision) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
           map.id, map.name, std::string(wire::map_state_name(map.state)), map.revision, map.places, map.images,
-          map.feature_config_id, map.created_us, std::string(wire::refine_mode_name(map.refine)));
+          map.feature_config_id, map.created_us, std::string(wire::refine_mode_name(map.refine)), map.revision);
   insert_tours(database, map.id, map.tours, 0);
   return map;
 }
@@ -68,9 +67,26 @@ void describe(MapRecord& record, const map::TopologicalMap& contents) {
   record.feature_config_id = contents.feature_config_id;
 }
 
-void forget_file(const std::filesystem::path& file) {
-  std::error_code ignored;  // a file left behind is cleared at the next start
-  std::filesystem::remove(file, ignored);
+/// Whether new contents may follow the ones that there are.
+Status check_revision(const MapRecord& before, const map::TopologicalMap& contents, std::int64_t expected_revision) {
+  const std::string where = "maps/" + before.id.str();
+  if (before.revision != expected_revision) {
+    return fail(ErrorCode::kStaleRevision,
+                "The map is at revision " + std::to_string(before.revision) + ", not " +
+                    std::to_string(expected_revision) + ".",
+                where);
+  }
+  if (contents.revision > before.revision) return {};
+  return fail(ErrorCode::kInvalidInput, "The revision of a map rises with each change.", where);
+}
+
+void update_map(SQLite::Database& database, const MapRecord& map, std::int64_t file_revision) {
+  if (execute(database,
+              "UPDATE maps SET state = 'ready', revision = ?, places = ?, images = ?, feature_config_id = ?, "
+              "file_revision = ? WHERE id = ?",
+              map.revision, map.places, map.images, map.feature_config_id, file_revision, map.id) == 0) {
+    refuse(ErrorCode::kNotFound, "The map has been removed.", "maps/" + map.id.str());
+  }
 }
 
 }  // namespace
@@ -88,7 +104,7 @@ Result<MapRecord> SqliteStore::add_map(MapRecord map) {
 }
 
 Result<std::vector<MapRecord>> SqliteStore::maps() {
-  return database_.work([&](SQLite::Database& database) {
+  return database_.read([&](SQLite::Database& database) {
     std::vector<MapRecord> found;
     SQLite::Statement row = prepared(database, kMaps);
     while (row.executeStep()) found.push_back(map_of(database, row));
@@ -97,7 +113,7 @@ Result<std::vector<MapRecord>> SqliteStore::maps() {
 }
 
 Result<MapRecord> SqliteStore::map(const MapId& id) {
-  return database_.work([&](SQLite::Database& database) { return need_map(database, id); });
+  return database_.read([&](SQLite::Database& database) { return need_map(database, id); });
 }
 
 Status SqliteStore::set_map_state(const MapId& id, wire::MapState state) {
@@ -114,72 +130,128 @@ Status SqliteStore::set_map_refine(const MapId& id, wire::RefineMode mode) {
   });
 }
 
+Result<SqliteStore::MapFile> SqliteStore::file_of(const MapId& id) {
+  return database_.read([&](SQLite::Database& database) {
+    MapFile file;
+    file.record = need_map(database, id);
+    SQLite::Statement row =
+        prepared(database, "SELECT file_revision, contents FROM maps LEFT JOIN map_edits ON map = id WHERE id = ?", id);
+    row.executeStep();
+    file.revision = integer(row, 0);
+    const SQLite::Column edits = row.getColumn(1);
+    const auto* const bytes = static_cast<const std::uint8_t*>(edits.getBlob());
+    file.edits.assign(bytes, bytes + edits.getBytes());
+    return file;
+  });
+}
+
+Result<StoredMap> SqliteStore::load(const MapFile& file) const {
+  const std::string where = "maps/" + file.record.id.str();
+  if (file.record.revision == 0) return fail(ErrorCode::kNotFound, "The map has not been built yet.", where);
+  Result<StoredMap> stored = load_map(map_file(file.record.id, file.revision));
+  if (!stored || file.edits.empty()) return stored;
+  try {
+    put_graph_part(file.edits, stored->map);
+    return stored;
+  } catch (const std::exception& failure) {
+    return fail(ErrorCode::kCorruptFile,
+                "The edits of the map cannot be put over its file: " + std::string(failure.what()), where);
+  }
+}
+
 Result<MapRecord> SqliteStore::save_map_contents(const MapId& id, const map::TopologicalMap& contents,
                                                  const Thumbnails& thumbnails, std::int64_t expected_revision,
                                                  const AlongWithContents& along) {
-  const std::scoped_lock files(map_files_mutex_);
-  const std::string where = "maps/" + id.str();
-  const Result<MapRecord> before = map(id);
-  if (!before) return before;
-  if (before->revision != expected_revision) {
-    return fail(ErrorCode::kStaleRevision,
-                "The map is at revision " + std::to_string(before->revision) + ", not " +
-                    std::to_string(expected_revision) + ".",
-                where);
-  }
-  if (contents.revision <= before->revision) {
-    return fail(ErrorCode::kInvalidInput, "The revision of a map rises with each change.", where);
-  }
+  const KeyedMutex::Hold alone(map_file_locks_, id.str());
+  const Result<MapFile> before = file_of(id);
+  if (!before) return pass_on(before);
+  if (const Status fits = check_revision(before->record, contents, expected_revision); !fits) return pass_on(fits);
   const std::filesystem::path file = map_file(id, contents.revision);
   if (const Status written = save_map(file, contents, thumbnails); !written) return pass_on(written);
-  MapRecord after = *before;
+  MapRecord after = before->record;
   describe(after, contents);
   after.tours.insert(after.tours.end(), along.new_tours.begin(), along.new_tours.end());
   const Status switched = database_.work([&](SQLite::Database& database) {
-    if (execute(database,
-                "UPDATE maps SET state = 'ready', revision = ?, places = ?, images = ?, feature_config_id = ? "
-                "WHERE id = ?",
-                after.revision, after.places, after.images, after.feature_config_id, id) == 0) {
-      refuse(ErrorCode::kNotFound, "The map has been removed.", where);
-    }
-    insert_tours(database, id, along.new_tours, before->tours.size());
+    update_map(database, after, after.revision);
+    execute(database, "DELETE FROM map_edits WHERE map = ?", id);
+    insert_tours(database, id, along.new_tours, before->record.tours.size());
     forget_drives(database, along.used_drives);
     if (along.job) write_job(database, *along.job);
   });
   if (!switched) {
-    forget_file(file);
+    forget_file_after(switched.error(), file);
     return pass_on(switched);
   }
-  if (before->revision > 0) forget_file(map_file(id, before->revision));
+  if (before->revision > 0) {
+    forget_file(map_file(id, before->revision));
+    need_no_longer(map_file(id, before->revision));
+  }
+  return after;
+}
+
+Result<MapRecord> SqliteStore::save_map_edit(const MapId& id, const map::TopologicalMap& edited,
+                                             std::int64_t expected_revision) {
+  const KeyedMutex::Hold alone(map_file_locks_, id.str());
+  const Result<MapFile> before = file_of(id);
+  if (!before) return pass_on(before);
+  if (const Status fits = check_revision(before->record, edited, expected_revision); !fits) return pass_on(fits);
+  const std::vector<std::uint8_t> part = graph_part_of(edited);
+  MapRecord after = before->record;
+  describe(after, edited);
+  const Status switched = database_.work([&](SQLite::Database& database) {
+    update_map(database, after, before->revision);
+    SQLite::Statement insert = prepared(database, "INSERT OR REPLACE INTO map_edits (map, contents) VALUES (?, ?)", id);
+    insert.bind(2, part.data(), static_cast<int>(part.size()));
+    insert.exec();
+  });
+  if (!switched) return pass_on(switched);
   return after;
 }
 
 Result<StoredMap> SqliteStore::load_map_contents(const MapId& id) {
-  const std::scoped_lock files(map_files_mutex_);
-  const Result<MapRecord> record = map(id);
-  if (!record) return pass_on(record);
-  if (record->revision == 0) {
-    return fail(ErrorCode::kNotFound, "The map has not been built yet.", "maps/" + id.str());
+  const KeyedMutex::Hold alone(map_file_locks_, id.str());
+  const Result<MapFile> file = file_of(id);
+  if (!file) return pass_on(file);
+  return load(*file);
+}
+
+/// With the map's lock.
+Status SqliteStore::write_edits_into_file(const MapId& id, const MapFile& file) {
+  const Result<StoredMap> stored = load(file);
+  if (!stored) return pass_on(stored);
+  const Status written = save_map(map_file(id, file.record.revision), stored->map, stored->thumbnails);
+  if (!written) return written;
+  const Status switched = database_.work([&](SQLite::Database& database) {
+    update_map(database, file.record, file.record.revision);
+    execute(database, "DELETE FROM map_edits WHERE map = ?", id);
+  });
+  if (switched) {
+    forget_file(map_file(id, file.revision));
+  } else {
+    forget_file_after(switched.error(), map_file(id, file.record.revision));
   }
-  return load_map(map_file(id, record->revision));
+  return switched;
 }
 
 Result<std::vector<std::uint8_t>> SqliteStore::map_file_bytes(const MapId& id) {
-  const std::scoped_lock files(map_files_mutex_);
-  const Result<MapRecord> record = map(id);
-  if (!record) return pass_on(record);
+  const KeyedMutex::Hold alone(map_file_locks_, id.str());
+  const Result<MapFile> file = file_of(id);
+  if (!file) return pass_on(file);
   const std::string where = "maps/" + id.str();
-  if (record->revision == 0) return fail(ErrorCode::kNotFound, "The map has not been built yet.", where);
+  if (file->record.revision == 0) return fail(ErrorCode::kNotFound, "The map has not been built yet.", where);
+  if (!file->edits.empty()) {
+    if (const Status written = write_edits_into_file(id, *file); !written) return pass_on(written);
+  }
   try {
-    return read_whole(map_file(id, record->revision));
+    return read_whole(map_file(id, file->record.revision));
   } catch (...) {
     return tl::unexpected<Error>(StoreDatabase::present_error(where));
   }
 }
 
 Result<MapRecord> SqliteStore::import_map(MapRecord map, std::span<const std::uint8_t> bytes) {
-  const std::scoped_lock files(map_files_mutex_);
   if (map.id.empty()) map.id = MapId(random_id());
+  const KeyedMutex::Hold alone(map_file_locks_, map.id.str());
   const std::filesystem::path arrived = folder_ / "maps" / (map.id.str() + ".arrived");
   try {
     write_durably(arrived, bytes);
@@ -197,7 +269,7 @@ Result<MapRecord> SqliteStore::import_map(MapRecord map, std::span<const std::ui
     std::filesystem::rename(arrived, file);
     make_folder_durably(folder_ / "maps");
     Result<MapRecord> added = database_.work([&](SQLite::Database& database) { return insert_map(database, map); });
-    if (!added) forget_file(file);
+    if (!added) forget_file_after(added.error(), file);
     return added;
   } catch (...) {
     const Error error = StoreDatabase::present_error(arrived.string());
@@ -207,25 +279,21 @@ Result<MapRecord> SqliteStore::import_map(MapRecord map, std::span<const std::ui
 }
 
 Status SqliteStore::remove_map(const MapId& id) {
-  const std::scoped_lock files(map_files_mutex_);
-  const Result<MapRecord> record = map(id);
-  if (!record) return pass_on(record);
+  const KeyedMutex::Hold alone(map_file_locks_, id.str());
+  const Result<MapFile> kept = file_of(id);
+  if (!kept) return pass_on(kept);
+  const std::filesystem::path file = map_file(id, kept->revision);
+  std::error_code none;  // where there is no file
+  std::filesystem::rename(file, removed_name(file), none);
   const Status removed =
       database_.work([&](SQLite::Database& database) { execute(database, "DELETE FROM maps WHERE id = ?", id); });
-  if (removed && record->revision > 0) forget_file(map_file(id, record->revision));
-  return removed;
-}
-
-void SqliteStore::remove_stray_map_files() {
-  const Result<std::vector<MapRecord>> known = maps();
-  if (!known) throw StoreFailure(known.error());
-  std::set<std::filesystem::path> wanted;
-  for (const MapRecord& map : *known) wanted.insert(map_file(map.id, map.revision));
-  std::vector<std::filesystem::path> strays;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "maps")) {
-    if (!wanted.contains(entry.path())) strays.push_back(entry.path());
+  if (!removed) {
+    std::filesystem::rename(removed_name(file), file, none);
+    return removed;
   }
-  for (const std::filesystem::path& stray : strays) forget_file(stray);
+  forget_file(removed_name(file));
+  need_no_longer(file);
+  return {};
 }
 
 }  // namespace homeward::db

@@ -64,7 +64,7 @@ Result<User> SqliteStore::add_user(User user) {
 }
 
 Result<std::vector<User>> SqliteStore::users() {
-  return database_.work([&](SQLite::Database& database) {
+  return database_.read([&](SQLite::Database& database) {
     std::vector<User> found;
     SQLite::Statement row =
         prepared(database, "SELECT id, name, role, password_hash, created_us FROM users ORDER BY name");
@@ -74,11 +74,11 @@ Result<std::vector<User>> SqliteStore::users() {
 }
 
 Result<std::optional<User>> SqliteStore::user_by_name(const std::string& name) {
-  return database_.work([&](SQLite::Database& database) { return find_user(database, kUserByName, name); });
+  return database_.read([&](SQLite::Database& database) { return find_user(database, kUserByName, name); });
 }
 
 Result<std::optional<User>> SqliteStore::user(const UserId& id) {
-  return database_.work([&](SQLite::Database& database) { return find_user(database, kUserById, id.str()); });
+  return database_.read([&](SQLite::Database& database) { return find_user(database, kUserById, id.str()); });
 }
 
 Status SqliteStore::set_password_hash(const UserId& id, const std::string& password_hash) {
@@ -117,7 +117,7 @@ Result<Session> SqliteStore::add_session(Session session) {
 }
 
 Result<std::vector<Session>> SqliteStore::sessions() {
-  return database_.work([&](SQLite::Database& database) {
+  return database_.read([&](SQLite::Database& database) {
     std::vector<Session> found;
     SQLite::Statement row =
         prepared(database, "SELECT hash, user, created_us, expires_us FROM sessions ORDER BY rowid");
@@ -143,7 +143,7 @@ Result<Token> SqliteStore::add_token(Token token) {
 }
 
 Result<std::vector<Token>> SqliteStore::tokens() {
-  return database_.work([&](SQLite::Database& database) {
+  return database_.read([&](SQLite::Database& database) {
     std::vector<Token> found;
     SQLite::Statement row = prepared(
         database, "SELECT id, name, hash, role, robot, created_us, expires_us FROM tokens ORDER BY created_us, rowid");
@@ -167,7 +167,7 @@ Status SqliteStore::set_setup_hash(const std::string& hash) {
 }
 
 Result<std::optional<std::string>> SqliteStore::setup_hash() {
-  return database_.work([&](SQLite::Database& database) -> std::optional<std::string> {
+  return database_.read([&](SQLite::Database& database) -> std::optional<std::string> {
     SQLite::Statement row = prepared(database, "SELECT value FROM settings WHERE key = 'setup_hash'");
     return row.executeStep() ? std::optional(text(row, 0)) : std::nullopt;
   });

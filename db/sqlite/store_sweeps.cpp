@@ -59,7 +59,7 @@ Result<PutImage> SqliteStore::put_sweep(const TourId& tour, const TourSweep& swe
 }
 
 Result<std::map<std::int64_t, RangeSweep>> SqliteStore::sweeps(const TourId& tour) {
-  const auto kept = database_.work([&](SQLite::Database& database) {
+  const auto kept = database_.read([&](SQLite::Database& database) {
     SQLite::Statement known = prepared(database, "SELECT 1 FROM tours WHERE id = ?", tour);
     if (!known.executeStep()) {
       refuse(ErrorCode::kNotFound, "There is no tour with this id.", "tours/" + tour.str());

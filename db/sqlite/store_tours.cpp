@@ -31,12 +31,13 @@ void count_images(SQLite::Database& database, Tour& tour) {
 }
 
 Tour tour_of(SQLite::Statement& row) {
-  return {TourId(text(row, 0)), text(row, 1), text(row, 2), integer(row, 3) != 0, integer(row, 4), 0, {}};
+  return {TourId(text(row, 0)), text(row, 1), text(row, 2), integer(row, 3) != 0, integer(row, 4), 0, {},
+          optional_text(row, 5)};
 }
 
 Tour need_tour(SQLite::Database& database, const TourId& id) {
   SQLite::Statement row =
-      prepared(database, "SELECT id, name, camera, complete, created_us FROM tours WHERE id = ?", id);
+      prepared(database, "SELECT id, name, camera, complete, created_us, uploader FROM tours WHERE id = ?", id);
   if (!row.executeStep()) refuse(ErrorCode::kNotFound, "There is no tour with this id.", "tours/" + id.str());
   return tour_of(row);
 }
@@ -75,6 +76,17 @@ void check_new_image(SQLite::Database& database, const Tour& tour, const TourIma
   }
 }
 
+void insert_image(SQLite::Database& database, const TourId& tour, const TourImage& image) {
+  const auto part = [&](double Pose2::*value) {
+    return image.odometry ? std::optional((*image.odometry).*value) : std::nullopt;
+  };
+  execute(database,
+          "INSERT INTO tour_images (tour, number, file, type, t_us, odometry_x_m, odometry_y_m, odometry_theta_rad, "
+          "sha256, size) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+          tour, image.number, image.file, extension(image.type), image.t_us, part(&Pose2::x_m), part(&Pose2::y_m),
+          part(&Pose2::theta_rad), image.sha256, image.size);
+}
+
 }  // namespace
 
 std::filesystem::path SqliteStore::image_file(const TourId& tour, std::int64_t number, ImageType type) const {
@@ -84,18 +96,18 @@ std::filesystem::path SqliteStore::image_file(const TourId& tour, std::int64_t n
 Result<Tour> SqliteStore::add_tour(Tour tour) {
   return database_.work([&](SQLite::Database& database) {
     if (tour.id.empty()) tour.id = TourId(random_id());
-    execute(database, "INSERT INTO tours (id, name, camera, complete, created_us) VALUES (?, ?, ?, ?, ?)", tour.id,
-            tour.name, tour.camera, tour.complete, tour.created_us);
+    execute(database, "INSERT INTO tours (id, name, camera, complete, created_us, uploader) VALUES (?, ?, ?, ?, ?, ?)",
+            tour.id, tour.name, tour.camera, tour.complete, tour.created_us, tour.uploader);
     make_folder_durably(folder_ / "tours" / tour.id.str());
     return tour;
   });
 }
 
 Result<std::vector<Tour>> SqliteStore::tours() {
-  return database_.work([&](SQLite::Database& database) {
+  return database_.read([&](SQLite::Database& database) {
     std::vector<Tour> found;
-    SQLite::Statement row =
-        prepared(database, "SELECT id, name, camera, complete, created_us FROM tours ORDER BY created_us, rowid");
+    SQLite::Statement row = prepared(
+        database, "SELECT id, name, camera, complete, created_us, uploader FROM tours ORDER BY created_us, rowid");
     while (row.executeStep()) {
       found.push_back(tour_of(row));
       count_images(database, found.back());
@@ -105,7 +117,7 @@ Result<std::vector<Tour>> SqliteStore::tours() {
 }
 
 Result<Tour> SqliteStore::tour(const TourId& id) {
-  return database_.work([&](SQLite::Database& database) {
+  return database_.read([&](SQLite::Database& database) {
     Tour found = need_tour(database, id);
     count_images(database, found);
     return found;
@@ -116,29 +128,36 @@ Result<PutImage> SqliteStore::put_image(const TourId& tour, TourImage image, std
   image.sha256 = sha256_hex(bytes);
   image.size = static_cast<std::int64_t>(bytes.size());
   if (image.file.empty()) image.file = numbered_name(image.number, image.type);
-  return database_.work([&](SQLite::Database& database) {
+  // One at a time writes the file of a picture; others, and all who read, do not wait for the disk meanwhile.
+  const KeyedMutex::Hold alone(picture_locks_, tour.str() + "/" + std::to_string(image.number));
+  const auto before = database_.read([&](SQLite::Database& database) {
     const Tour found = need_tour(database, tour);
-    SQLite::Statement before = prepared(database, kOneImage, tour, image.number);
-    if (before.executeStep()) {
-      return image_of(before).sha256 == image.sha256 ? PutImage::kSame : PutImage::kConflict;
-    }
+    SQLite::Statement row = prepared(database, kOneImage, tour, image.number);
+    if (row.executeStep()) return std::optional(image_of(row));
     check_new_image(database, found, image);
-    // First the file, then the row: a row always has its file, and a file without a row is written over later.
-    write_durably(image_file(tour, image.number, image.type), bytes);
-    const auto part = [&](double Pose2::*value) {
-      return image.odometry ? std::optional((*image.odometry).*value) : std::nullopt;
-    };
-    execute(database,
-            "INSERT INTO tour_images (tour, number, file, type, t_us, odometry_x_m, odometry_y_m, odometry_theta_rad, "
-            "sha256, size) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-            tour, image.number, image.file, extension(image.type), image.t_us, part(&Pose2::x_m), part(&Pose2::y_m),
-            part(&Pose2::theta_rad), image.sha256, image.size);
-    return PutImage::kNew;
+    return std::optional<TourImage>();
   });
+  if (!before) return pass_on(before);
+  if (*before && (*before)->sha256 != image.sha256) return PutImage::kConflict;
+  // First the file, then the row: a row always has its file.
+  const std::filesystem::path file = image_file(tour, image.number, *before ? (*before)->type : image.type);
+  try {
+    if (!*before || !std::filesystem::exists(file)) write_durably(file, bytes);
+  } catch (...) {
+    return tl::unexpected<Error>(StoreDatabase::present_error(file.string()));
+  }
+  if (*before) return PutImage::kSame;
+  const Status added = database_.work([&](SQLite::Database& database) {
+    check_new_image(database, need_tour(database, tour), image);
+    insert_image(database, tour, image);
+  });
+  if (added) return PutImage::kNew;
+  forget_file_after(added.error(), file);
+  return pass_on(added);
 }
 
 Result<std::vector<TourImage>> SqliteStore::tour_images(const TourId& tour) {
-  return database_.work([&](SQLite::Database& database) {
+  return database_.read([&](SQLite::Database& database) {
     need_tour(database, tour);
     std::vector<TourImage> found;
     SQLite::Statement row = prepared(database, kImagesOfTour, tour);
@@ -149,7 +168,7 @@ Result<std::vector<TourImage>> SqliteStore::tour_images(const TourId& tour) {
 
 Result<std::vector<std::uint8_t>> SqliteStore::image_bytes(const TourId& tour, std::int64_t number) {
   const std::string where = "tours/" + tour.str() + "/images/" + std::to_string(number);
-  const Result<TourImage> image = database_.work([&](SQLite::Database& database) {
+  const Result<TourImage> image = database_.read([&](SQLite::Database& database) {
     SQLite::Statement row = prepared(database, kOneImage, tour, number);
     if (!row.executeStep()) refuse(ErrorCode::kNotFound, "There is no such image.", where);
     return image_of(row);
@@ -179,7 +198,7 @@ Status SqliteStore::set_marks(const TourId& tour, const std::vector<wire::TourMa
 }
 
 Result<std::vector<wire::TourMark>> SqliteStore::marks(const TourId& tour) {
-  return database_.work([&](SQLite::Database& database) {
+  return database_.read([&](SQLite::Database& database) {
     need_tour(database, tour);
     std::vector<wire::TourMark> found;
     SQLite::Statement row =
@@ -197,6 +216,8 @@ Status SqliteStore::complete_tour(const TourId& id) {
 }
 
 Status SqliteStore::remove_tour(const TourId& id) {
+  const std::filesystem::path folder = folder_ / "tours" / id.str();
+  bool renamed = false;
   const Status removed = database_.work([&](SQLite::Database& database) {
     need_tour(database, id);
     SQLite::Statement row = prepared(database, "SELECT map FROM map_tours WHERE tour = ?", id);
@@ -204,11 +225,17 @@ Status SqliteStore::remove_tour(const TourId& id) {
       refuse(ErrorCode::kConflict, "The map " + text(row, 0) + " is built from this tour.", "tours/" + id.str());
     }
     execute(database, "DELETE FROM tours WHERE id = ?", id);
+    std::error_code failure;
+    std::filesystem::rename(folder, removed_name(folder), failure);
+    renamed = !failure;
   });
-  if (!removed) return removed;
   std::error_code failure;
-  std::filesystem::remove_all(folder_ / "tours" / id.str(), failure);
-  if (failure) return fail(ErrorCode::kIo, "The pictures could not be removed.", "tours/" + id.str());
+  if (!removed) {
+    if (renamed) std::filesystem::rename(removed_name(folder), folder, failure);
+    return removed;
+  }
+  need_no_longer(folder);
+  std::filesystem::remove_all(removed_name(folder), failure);  // what is left of it goes at the next start
   return {};
 }
 

@@ -170,6 +170,48 @@ Status Authenticator::log_out(const Request& request) {
   return {};
 }
 
+void Authenticator::end_sessions(const UserId& user) {
+  const std::scoped_lock lock(mutex_);
+  std::erase_if(sessions_, [&](const auto& entry) { return entry.second.caller.id == user.str(); });
+}
+
+Status Authenticator::check_password(const UserId& id, const std::string& password, const std::string& remote) {
+  const auto user = store_.user(id);
+  if (!user) return pass_on(user);
+  if (!*user) return fail(ErrorCode::kNotFound, "There is no person with this id.", "users/" + id.str());
+  const std::string& name = (*user)->name;
+  if (const int wait = seconds_to_wait(name, remote); wait > 0) return wait_first(wait);
+  if (password_matches((*user)->password_hash, password)) return {};
+  failures_.failed(failure_key(name, remote), clock_.steady());
+  failures_of_address_.failed(remote, clock_.steady());
+  return fail(ErrorCode::kForbidden, "The old password is another one.", "body/old_password");
+}
+
+Result<db::User> Authenticator::set_password(const UserId& id, const std::string& password) {
+  const auto user = store_.user(id);
+  if (!user) return pass_on(user);
+  if (!*user) return fail(ErrorCode::kNotFound, "There is no person with this id.", "users/" + id.str());
+  if (const Status status = check_new_account((*user)->name, password); !status) return pass_on(status);
+  if (const Status set = store_.set_password_hash(id, hash_of_password(password)); !set) return pass_on(set);
+  end_sessions(id);
+  return **user;
+}
+
+Status Authenticator::set_role(const UserId& id, wire::Role role) {
+  if (const Status set = store_.set_role(id, role); !set) return set;
+  const std::scoped_lock lock(mutex_);
+  for (auto& [hash, holder] : sessions_) {
+    if (holder.caller.id == id.str()) holder.caller.role = role;
+  }
+  return {};
+}
+
+Status Authenticator::remove_user(const UserId& id) {
+  if (const Status removed = store_.remove_user(id); !removed) return removed;
+  end_sessions(id);
+  return {};
+}
+
 Result<NewToken> Authenticator::add_token(const std::string& name, wire::Role role,
                                           const std::optional<RobotId>& robot) {
   const std::string secret = db::random_secret();
@@ -191,6 +233,11 @@ Status Authenticator::revoke_token(const std::string& id) {
   const std::scoped_lock lock(mutex_);
   std::erase_if(tokens_, [&](const auto& entry) { return entry.second.caller.id == id; });
   return {};
+}
+
+void Authenticator::forget_tokens_of(const RobotId& robot) {
+  const std::scoped_lock lock(mutex_);
+  std::erase_if(tokens_, [&](const auto& entry) { return entry.second.caller.robot == robot.str(); });
 }
 
 }  // namespace homeward::server

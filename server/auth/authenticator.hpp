@@ -45,10 +45,22 @@ class Authenticator {
   Result<SignedIn> set_up(const std::string& token, const std::string& name, const std::string& password,
                           const std::string& remote);
   Status log_out(const Request& request);
+  /// A session of a user who has shown who he is.
+  Result<SignedIn> begin_session(db::User user);
+  /// Errors: kNotFound, kForbidden (another one), kRateLimited.
+  Status check_password(const UserId& id, const std::string& password, const std::string& remote);
+  /// Ends the sessions of the user. Errors: kNotFound, kInvalidInput.
+  Result<db::User> set_password(const UserId& id, const std::string& password);
+  /// Holds at once, for open sessions too. Errors: kNotFound, kConflict (the last admin).
+  Status set_role(const UserId& id, wire::Role role);
+  /// With the sessions. Errors: kNotFound, kConflict (the last admin).
+  Status remove_user(const UserId& id);
   /// `robot`: that the token speaks for, of role robot. Errors: those of the store.
   Result<NewToken> add_token(const std::string& name, wire::Role role, const std::optional<RobotId>& robot);
   /// Errors: kNotFound.
   Status revoke_token(const std::string& id);
+  /// What speaks for a robot that the store no longer has.
+  void forget_tokens_of(const RobotId& robot);
 
  private:
   /// Who holds a secret, and until when.
@@ -58,7 +70,7 @@ class Authenticator {
   };
   using Holders = std::map<std::string, Holder>;  // by the hash of the secret
 
-  Result<SignedIn> begin_session(db::User user);
+  void end_sessions(const UserId& user);
   [[nodiscard]] std::optional<Caller> holder(const Holders& among, const std::string& secret) const;
 
   db::Store& store_;

@@ -32,6 +32,8 @@ class AgentLink : public SocketHandler, public std::enable_shared_from_this<Agen
   void send(const wire::ServerMessage& message, bool first = false);
   void close(std::uint16_t code, const std::string& reason);
   [[nodiscard]] const RobotId& robot() const { return robot_; }
+  /// Whether its hello has come.
+  [[nodiscard]] bool greeted() const { return greeted_; }
   /// When the last message came in, or the link was opened.
   [[nodiscard]] SteadyTime last_heard() const { return last_heard_.load(); }
 
@@ -48,8 +50,8 @@ class AgentLink : public SocketHandler, public std::enable_shared_from_this<Agen
   RobotId robot_;
   const Clock& clock_;
   std::atomic<SteadyTime> last_heard_;
-  bool greeted_ = false;  // socket thread alone
-  bool broken_ = false;   // socket thread alone
+  std::atomic<bool> greeted_ = false;
+  bool broken_ = false;  // socket thread alone
   std::mutex mutex_;
   std::shared_ptr<Socket> socket_;
   std::deque<Outgoing> waiting_;

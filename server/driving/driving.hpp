@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "db/store.hpp"
+#include "server/driving/mission_journal.hpp"
 #include "server/driving/robot_unit.hpp"
 #include "server/http/message.hpp"
 #include "server/services/maps.hpp"
@@ -30,7 +31,8 @@ class Driving : public LinkListener {
         heavy_(heavy),
         journal_(journal),
         clock_(clock),
-        longest_mission_s_(longest_mission_s) {}
+        longest_mission_s_(longest_mission_s),
+        mission_journal_(store, journal) {}
 
   /// `keep` is called on the journal with what each mission saw that arrived; set before the first robot connects.
   void when_arrived(std::function<void(const db::Drive&)> keep) { keep_drive_ = std::move(keep); }
@@ -41,6 +43,8 @@ class Driving : public LinkListener {
 
   // Robots. Errors: kNotFound.
   Result<wire::RobotView> add(const std::string& name);
+  /// With its missions and tokens; its link is closed. Errors: also kConflict (it is driving).
+  Status remove(const RobotId& id);
   std::vector<wire::RobotView> list();
   Result<wire::RobotView> get(const RobotId& id);
   /// Errors: also kConflict (it is driving).
@@ -137,6 +141,7 @@ class Driving : public LinkListener {
   // Tells the robot how probable its start is. Errors: kLost where it is unsure and could not find out.
   static Status set_start(const Start& start, wire::MissionOrder& order);
   void keep(const wire::MissionView& mission);
+  void close_silent_links(SteadyTime now);
   void hand_over_sights(RobotUnit& unit);  // with the unit locked
 
   db::Store& store_;
@@ -146,9 +151,11 @@ class Driving : public LinkListener {
   WorkPool& journal_;
   const Clock& clock_;
   const int longest_mission_s_;
+  MissionJournal mission_journal_;
   std::function<void(const db::Drive&)> keep_drive_;
-  std::mutex mutex_;  // of units_; never taken while a unit is locked
+  std::mutex mutex_;  // of units_ and not_greeted_; never taken while a unit is locked
   std::map<RobotId, Unit> units_;
+  std::vector<std::weak_ptr<AgentLink>> not_greeted_;
 };
 
 }  // namespace homeward::server

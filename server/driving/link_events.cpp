@@ -13,6 +13,7 @@ namespace {
 
 using wire::ReasonCode;
 
+constexpr std::chrono::seconds kHelloWithin{5};
 constexpr std::chrono::seconds kTrackingKept{60};  // a robot that was gone for longer may have been carried anywhere
 
 wire::Reason why_failed(const wire::AgentStatus& status) {
@@ -22,7 +23,25 @@ wire::Reason why_failed(const wire::AgentStatus& status) {
 }  // namespace
 
 std::shared_ptr<SocketHandler> Driving::open_link(const RobotId& id) {
-  return std::make_shared<AgentLink>(*this, id, clock_);
+  auto link = std::make_shared<AgentLink>(*this, id, clock_);
+  const std::scoped_lock lock(mutex_);
+  not_greeted_.push_back(link);
+  return link;
+}
+
+void Driving::close_silent_links(SteadyTime now) {
+  std::vector<std::shared_ptr<AgentLink>> silent;
+  {
+    const std::scoped_lock lock(mutex_);
+    std::erase_if(not_greeted_, [&](const std::weak_ptr<AgentLink>& weak) {
+      const auto link = weak.lock();
+      if (!link || link->greeted()) return true;
+      if (now - link->last_heard() <= kHelloWithin) return false;
+      silent.push_back(link);
+      return true;
+    });
+  }
+  for (const auto& link : silent) link->close(kClosePolicy, "no hello came");
 }
 
 void Driving::received(const std::shared_ptr<AgentLink>& link, wire::AgentMessage message) {

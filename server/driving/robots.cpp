@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <spdlog/spdlog.h>
-
 #include "server/driving/driving.hpp"
 
 namespace homeward::server {
@@ -93,6 +91,26 @@ Result<wire::RobotView> Driving::add(const std::string& name) {
   return view(*unit, clock_.steady());
 }
 
+Status Driving::remove(const RobotId& id) {
+  const auto unit = find(id);
+  if (!unit) return pass_on(unit);
+  {
+    const std::scoped_lock lock((*unit)->mutex);
+    if ((*unit)->under_way) {
+      return fail(ErrorCode::kConflict, "The robot is on its way; stop it first.", "robots/" + id.str());
+    }
+  }
+  if (const Status removed = store_.remove_robot(id); !removed) return removed;
+  {
+    const std::scoped_lock lock(mutex_);
+    units_.erase(id);
+  }
+  const std::scoped_lock lock((*unit)->mutex);
+  if ((*unit)->under_way) stop_robot(**unit, "", {wire::ReasonCode::kRobotGone}, "server");  // it was sent off just now
+  if ((*unit)->link) (*unit)->link->close(kClosePolicy, "this robot was removed");
+  return {};
+}
+
 std::vector<wire::RobotView> Driving::list() {
   std::vector<wire::RobotView> views;
   for (const Unit& unit : units()) {
@@ -154,12 +172,7 @@ std::size_t Driving::online() {
 
 void Driving::keep(const wire::MissionView& mission) {
   events_.publish(mission);
-  const bool queued = journal_.try_run([this, mission] {
-    if (const Status status = store_.update_mission(mission); !status) {
-      spdlog::error("mission {} cannot be kept: {}", mission.id.str(), status.error().message);
-    }
-  });
-  if (!queued) spdlog::warn("mission {} is not kept: the server ends", mission.id.str());
+  mission_journal_.keep(mission);
 }
 
 }  // namespace homeward::server

@@ -44,6 +44,7 @@ std::variant<std::size_t, Response> AppFront::admit(Request& request) {
   if (!parts_.access.host_allowed(request.header("host"))) {
     return problem({ErrorCode::kForbidden, "This server does not answer to that name; --allow-host adds one.", "Host"});
   }
+  request.by_tls = parts_.access.came_by_tls(request);
   request.remote = parts_.access.sender_of(request);
   const Router::Match match = parts_.router.find(request.method, request.path);
   if (match.route == nullptr) {
@@ -66,6 +67,7 @@ void AppFront::answer(std::shared_ptr<Request> request, Reply reply) {
       Response response;
       try {
         response = parts_.files.serve(*request);
+        compressed_.compress(*request, response);
       } catch (const std::exception& exception) {
         response = broken(exception.what());
       }
@@ -123,7 +125,10 @@ Response AppFront::checked(Request& request, const Route& route, const std::opti
     request.caller = caller.value_or(Caller{});
     // A stop must not wait for the disk, and stopping twice does no harm.
     if (route.operation.lane == Lane::kNow) return route.handler(request);
-    return parts_.idempotency.run(request, route.operation.answer_holds_secret, route.handler);
+    Response answer = parts_.idempotency.run(request, route.operation.answer_holds_secret, route.handler);
+    // How well a secret compresses beside what somebody else chose tells of it.
+    if (!route.operation.answer_holds_secret) compressed_.compress(request, answer);
+    return answer;
   };
   Response response;
   try {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "server/auth/authenticator.hpp"
+#include "server/front/compressed_answers.hpp"
 #include "server/front/idempotency.hpp"
 #include "server/http/access.hpp"
 #include "server/http/front.hpp"
@@ -45,6 +46,7 @@ class AppFront : public Front {
                                          const std::optional<Caller>& caller);
 
   FrontParts parts_;
+  CompressedAnswers compressed_;
 };
 
 }  // namespace homeward::server

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/front/idempotency.hpp"
 
+#include <spdlog/spdlog.h>
+
+#include "db/secrets.hpp"
+
 namespace homeward::server {
 
 Response Idempotency::run(Request& request, bool secret, const std::function<Response(Request&)>& handler) {
@@ -22,7 +26,11 @@ Response Idempotency::run(Request& request, bool secret, const std::function<Res
   };
   const auto kept = store_.answer(key, clock_.wall_us());
   if (!kept) return done(problem_of(kept));
+  const std::string request_hash = db::secret_hash(request.body);
   if (*kept) {
+    if (!(*kept)->request_hash.empty() && (*kept)->request_hash != request_hash) {
+      return done(problem({ErrorCode::kInvalidInput, "This key was used for another request.", "Idempotency-Key"}));
+    }
     Response again;
     again.status = (*kept)->status;
     again.body = (*kept)->body;
@@ -38,9 +46,9 @@ Response Idempotency::run(Request& request, bool secret, const std::function<Res
     throw;
   }
   if (!secret && response.status >= 200 && response.status < 300) {
-    if (const Status status = store_.keep_answer(key, {response.status, response.body}, clock_.wall_us()); !status) {
-      return done(problem_of(status));
-    }
+    // What was asked for is done, whether or not that can be kept.
+    const Status status = store_.keep_answer(key, {response.status, response.body, request_hash}, clock_.wall_us());
+    if (!status) spdlog::warn("the answer to {} cannot be kept: {}", key.route, status.error().message);
   }
   return done(response);
 }

@@ -11,7 +11,8 @@
 
 namespace homeward::server {
 
-/// A POST that is sent again with the same Idempotency-Key by the same caller gets the answer of the first one.
+/// A POST that is sent again with the same Idempotency-Key by the same caller gets the answer of the first one; with
+/// another body it is refused.
 class Idempotency {
  public:
   Idempotency(db::Store& store, const Clock& clock) : store_(store), clock_(clock) {}

@@ -31,7 +31,11 @@ std::string host_without_port(std::string_view host) {
 }
 
 bool AccessPolicy::host_allowed(std::string_view host_header) const {
-  return hosts_.contains(host_without_port(host_header));
+  const std::string host = host_without_port(host_header);
+  const std::string_view rest = host_header.substr(std::min(host.size(), host_header.size()));
+  // Nothing but a port after it: "localhost:80@elsewhere" names elsewhere.
+  const bool port = rest.empty() || (rest.front() == ':' && rest.find_first_not_of("0123456789", 1) == rest.npos);
+  return port && hosts_.contains(host);
 }
 
 bool AccessPolicy::origin_allowed(std::string_view origin, std::string_view host_header) const {
@@ -55,6 +59,10 @@ std::string AccessPolicy::sender_of(const Request& request) const {
   std::string sender = request.header("x-forwarded-for");
   sender.erase(0, sender.find_last_of(", ") + 1);  // whoever came before may say anything
   return is_ip_address(sender) ? sender : request.remote;
+}
+
+bool AccessPolicy::came_by_tls(const Request& request) const {
+  return proxies_.contains(request.remote) && lower(request.header("x-forwarded-proto")) == "https";
 }
 
 bool is_ip_address(const std::string& text) {

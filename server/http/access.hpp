@@ -26,6 +26,9 @@ class AccessPolicy {
   /// The address that a request comes from: the last one of X-Forwarded-For where a proxy that is believed says so,
   /// otherwise the other end's.
   [[nodiscard]] std::string sender_of(const Request& request) const;
+  /// Whether a proxy that is believed says that it was asked over TLS (X-Forwarded-Proto). To be asked with the other
+  /// end's address in `remote`.
+  [[nodiscard]] bool came_by_tls(const Request& request) const;
 
  private:
   std::set<std::string> hosts_;

@@ -3,11 +3,14 @@
 
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
+#include <sstream>
+#include <string_view>
 
 #include "server/http/access.hpp"
 #include "server/http/request_parser.hpp"
@@ -21,6 +24,7 @@ namespace http = beast::http;
 using asio::ip::tcp;
 using beast::error_code;
 
+constexpr std::chrono::seconds kSettle{2};
 constexpr std::size_t kReadBuffer_bytes = 32UL * 1024;  // has room for the largest head
 
 /// Lets a coroutine wait for an answer that another thread will post.
@@ -106,7 +110,7 @@ asio::awaitable<error_code> Connection::read(RequestParser& parser, bool (Reques
   error_code error;
   while (!(parser.*done)()) {
     if (buffer_.size() > 0) {
-      buffer_.consume(parser.put(buffer_.data(), error));
+      buffer_.consume(parser.take(buffer_.data(), error));
       if (!error) continue;
       if (error != http::error::need_more) co_return error;
     }
@@ -208,15 +212,19 @@ asio::awaitable<bool> Connection::exchange() {
   co_return kept;
 }
 
-/// Answers before the request was read to its end, then takes what still comes for a moment: closing at once would make
-/// the other end's system throw the answer away.
+/// Answers before the request was read to its end, then takes what still comes: closing at once would make the other
+/// end's system throw the answer away, and some programs read no answer before they have sent all. Of who is known as
+/// long as more comes; of a stranger for a moment.
 asio::awaitable<void> Connection::refuse(Response response, Form form) {
   co_await write(std::move(response), form, false);
   error_code error;
   stream_.socket().shutdown(tcp::socket::shutdown_send, error);
-  stream_.expires_after(std::chrono::seconds(2));
+  const bool known = serving_.open.is_recognised(place_->id());
+  const std::size_t most = known ? kMaxMapBody : kMaxImageBody;
+  stream_.expires_after(kSettle);
   std::size_t total = 0;
-  while (!error && total < kMaxImageBody) {
+  while (!error && total < most) {
+    if (known) stream_.expires_after(kSettle);
     buffer_.clear();
     total += co_await stream_.async_read_some(buffer_.prepare(buffer_.max_size()),
                                               asio::redirect_error(asio::use_awaitable, error));
@@ -225,22 +233,28 @@ asio::awaitable<void> Connection::refuse(Response response, Form form) {
 
 asio::awaitable<bool> Connection::write(Response response, Form form, bool keep) {
   add_security_headers(response);
-  http::response<http::string_body> message;
+  http::response<http::empty_body> message;
   message.version(form.version);
   message.result(static_cast<unsigned>(response.status));
   for (const auto& [name, value] : response.headers) message.set(name, value);
   message.keep_alive(keep);
   const bool no_body = response.status == 204 || response.status == 304;
   if (!no_body) message.content_length(response.body.size());
-  if (!form.head_alone && !no_body) message.body() = std::move(response.body);
   error_code error;
-  stream_.expires_after(std::chrono::milliseconds(serving_.limits.body_timeout_ms));
-  http::response_serializer<http::string_body> serializer(message);
-  if (form.head_alone || no_body) {
-    co_await http::async_write_header(stream_, serializer, asio::redirect_error(asio::use_awaitable, error));
-  } else {
-    co_await http::async_write(stream_, serializer, asio::redirect_error(asio::use_awaitable, error));
-  }
+  const std::chrono::milliseconds within(serving_.limits.answer_timeout_ms);
+  std::ostringstream head;
+  head << message.base();
+  const std::string head_text = head.str();
+  std::string_view unsent_head = head_text;
+  std::string_view unsent = form.head_alone || no_body ? std::string_view() : std::string_view(response.body);
+  do {
+    const std::string_view slice = unsent.substr(0, kAnswerSlice_bytes);
+    const std::array<asio::const_buffer, 2> bytes{asio::buffer(unsent_head), asio::buffer(slice)};
+    stream_.expires_after(within);
+    co_await asio::async_write(stream_, bytes, asio::redirect_error(asio::use_awaitable, error));
+    unsent_head = {};
+    unsent.remove_prefix(slice.size());
+  } while (!error && !unsent.empty());
   co_return keep && !error;
 }
 

@@ -11,11 +11,14 @@
 
 namespace homeward::server {
 
+inline constexpr std::size_t kAnswerSlice_bytes = 64UL * 1024;
+
 /// What a connection may take, and how long.
 struct ServerLimits {
   std::size_t max_header_bytes = 16UL * 1024;
   int header_timeout_ms = 15'000;  // for the head of a request, idle connections included
-  int body_timeout_ms = 60'000;    // for a body, and for an answer to be taken
+  int body_timeout_ms = 60'000;    // for a body
+  int answer_timeout_ms = 10'000;  // for each kAnswerSlice_bytes of an answer to be taken
   ConnectionLimits connections;
 };
 

@@ -20,6 +20,25 @@ std::string dumped(const nlohmann::json& value) {
 
 }  // namespace
 
+bool names_tag(std::string_view if_none_match, std::string_view tag) {
+  const auto skip = [&](std::string_view characters) {
+    if_none_match.remove_prefix(std::min(if_none_match.find_first_not_of(characters), if_none_match.size()));
+  };
+  skip(" \t");
+  if (if_none_match.starts_with("*")) return true;
+  while (!if_none_match.empty()) {
+    skip(" \t,");
+    if (if_none_match.starts_with("W/")) if_none_match.remove_prefix(2);
+    if (!if_none_match.starts_with('"')) return false;
+    const std::size_t end = if_none_match.find('"', 1);
+    if (end == std::string_view::npos) return false;
+    if (if_none_match.substr(0, end + 1) == tag) return true;
+    if_none_match.remove_prefix(end + 1);
+    skip(" \t");
+  }
+  return false;
+}
+
 Response json_response(int status, const nlohmann::json& value) {
   Response response;
   response.status = status;

@@ -31,6 +31,7 @@ struct Request {
   std::map<std::string, std::string> headers;
   std::string body;
   std::string remote;                             // address of the other end, without port
+  bool by_tls = false;                            // between the browser and a proxy that is believed
   std::map<std::string, std::string> parameters;  // of the route: {tour} -> "t3"
   Caller caller;
 
@@ -43,6 +44,10 @@ struct Request {
     return {reinterpret_cast<const std::uint8_t*>(body.data()), body.size()};
   }
 };
+
+/// Whether an If-None-Match header (RFC 9110 section 13.1.2: "*", or tags, weak ones too, with commas between them)
+/// names `tag`, which is strong and in its quotes.
+bool names_tag(std::string_view if_none_match, std::string_view tag);
 
 struct Response {
   int status = 200;

@@ -26,6 +26,11 @@ void OpenConnections::recognised(Id id, bool known) {
   if (found != connections_.end()) found->second.known = known;
 }
 
+bool OpenConnections::is_recognised(Id id) const {
+  const auto found = connections_.find(id);
+  return found != connections_.end() && found->second.known;
+}
+
 void OpenConnections::began(Id id) {
   const auto found = connections_.find(id);
   if (found != connections_.end()) found->second.busy = true;

@@ -33,6 +33,7 @@ class OpenConnections {
   std::optional<Id> enter(const std::string& address, std::function<void()> cut, SteadyTime now);
   /// Whether the head of a request has come with a secret that holds.
   void recognised(Id id, bool known);
+  [[nodiscard]] bool is_recognised(Id id) const;
   /// A whole request has come, and is being answered.
   void began(Id id);
   /// That request was answered.

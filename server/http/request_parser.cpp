@@ -23,6 +23,15 @@ RequestParser::RequestParser(std::size_t max_header_bytes) {
   body_limit(std::numeric_limits<std::uint64_t>::max());  // the route decides, once the head was read
 }
 
+std::size_t RequestParser::take(boost::asio::const_buffer bytes, boost::beast::error_code& error) {
+  const bool in_head = !head_is_read_;
+  const std::size_t taken = put(bytes, error);
+  const std::string_view text(static_cast<const char*>(bytes.data()), taken);
+  const bool folded = text.find("\n ") != text.npos || text.find("\n\t") != text.npos;
+  if (in_head && folded && (!error || error == http::error::need_more)) error = http::error::bad_field;
+  return taken;
+}
+
 Result<Request> RequestParser::head(const std::string& remote) const {
   Request request;
   request.method = method_;

@@ -22,6 +22,9 @@ class RequestParser : public boost::beast::http::basic_parser<true> {
   /// A head of more than `max_header_bytes` is an error (header_limit).
   explicit RequestParser(std::size_t max_header_bytes);
 
+  /// Takes what it can of these bytes, which have to be in one piece; gives how many. http::error::need_more where it
+  /// needs more. A field that is folded over lines (RFC 9112 section 5.2) is an error, bad_field.
+  std::size_t take(boost::asio::const_buffer bytes, boost::beast::error_code& error);
   /// The request without its body. Errors: kInvalidInput, saying what is wrong with its head. To be asked once
   /// is_header_done() holds.
   [[nodiscard]] Result<Request> head(const std::string& remote) const;

@@ -85,7 +85,7 @@ Response StaticFiles::serve(const Request& request) const {
   // Files in assets/ carry a hash of their content in their name.
   const bool lasting = !relative->empty() && *relative->begin() == "assets";
   response.headers["cache-control"] = lasting ? "public, max-age=31536000, immutable" : "no-cache";
-  if (request.header("if-none-match") == response.headers["etag"]) {
+  if (names_tag(request.header("if-none-match"), response.headers["etag"])) {
     response.status = 304;
     return response;
   }

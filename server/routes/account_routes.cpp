@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/routes/account_routes.hpp"
 
-#include "server/auth/passwords.hpp"
-#include "server/http/access.hpp"
 #include "server/http/json_body.hpp"
 #include "server/routes/operation_roles.hpp"
+#include "server/routes/user_routes.hpp"
 
 namespace homeward::server {
 namespace {
 
 using nlohmann::json;
 
-json user_to_json(const db::User& user) {
-  return {{"id", user.id.str()}, {"name", user.name}, {"role", wire::role_name(user.role)}};
-}
-
-Response signed_in(int status, const Authenticator::SignedIn& result) {
+Response signed_in(int status, const Request& request, const Authenticator::SignedIn& result) {
   Response response = json_response(status, {{"user", user_to_json(result.user)}});
-  response.headers["set-cookie"] =
-      std::string(kSessionCookie) + "=" + result.secret + "; Path=/; HttpOnly; SameSite=Strict; Max-Age=2592000";
+  response.headers["set-cookie"] = session_cookie(request, result.secret);
   return response;
 }
 
@@ -37,7 +31,7 @@ Response log_in(Authenticator& authenticator, const Request& request) {
   if (const Status status = reader.finish(); !status) return problem_of(status);
   const auto result = authenticator.log_in(name, password, request.remote);
   if (!result) return rate_limited_or(result.error(), authenticator.seconds_to_wait(name, request.remote));
-  return signed_in(200, *result);
+  return signed_in(200, request, *result);
 }
 
 Response set_up(Authenticator& authenticator, const Request& request) {
@@ -45,38 +39,12 @@ Response set_up(Authenticator& authenticator, const Request& request) {
   if (!body) return not_json(body.error());
   wire::ObjectReader reader(*body, "body");
   const std::string token = reader.text("token", 200);
-  const std::string name = reader.text("name", 200);
+  const std::string name = reader.line("name", 200);
   const std::string password = reader.text("password", 1000);
   if (const Status status = reader.finish(); !status) return problem_of(status);
   const auto result = authenticator.set_up(token, name, password, request.remote);
   if (!result) return rate_limited_or(result.error(), authenticator.seconds_to_wait("set-up", request.remote));
-  return signed_in(201, *result);
-}
-
-Response add_user(db::Store& store, const Clock& clock, const Request& request) {
-  const auto body = json_body(request);
-  if (!body) return not_json(body.error());
-  wire::ObjectReader reader(*body, "body");
-  db::User user;
-  user.name = reader.text("name", 200);
-  const std::string password = reader.text("password", 1000);
-  const std::string role = reader.choice("role", {"viewer", "rider", "carer", "installer", "admin"});
-  if (const Status status = reader.finish(); !status) return problem_of(status);
-  if (const Status status = check_new_account(user.name, password); !status) return problem_of(status);
-  user.role = wire::role(role).value();
-  user.password_hash = hash_of_password(password);
-  user.created_us = clock.wall_us();
-  const auto added = store.add_user(user);
-  if (!added) return problem_of(added);
-  return json_response(201, {{"user", user_to_json(*added)}});
-}
-
-Response list_users(db::Store& store) {
-  const auto users = store.users();
-  if (!users) return problem_of(users);
-  json list = json::array();
-  for (const db::User& user : *users) list.push_back(user_to_json(user));
-  return json_response(200, {{"users", list}});
+  return signed_in(201, request, *result);
 }
 
 Response list_tokens(db::Store& store) {
@@ -97,7 +65,7 @@ Response add_token(Authenticator& authenticator, db::Store& store, const Request
   const auto body = json_body(request);
   if (!body) return not_json(body.error());
   wire::ObjectReader reader(*body, "body");
-  const std::string name = reader.text("name", 200);
+  const std::string name = reader.line("name", 200);
   const std::string role_text = reader.choice("role", {"viewer", "rider", "carer", "installer", "admin", "robot"});
   const auto robot = reader.optional_text("robot");
   if (const Status status = reader.finish(); !status) return problem_of(status);
@@ -142,10 +110,9 @@ Response setup_needed(db::Store& store) {
 
 }  // namespace
 
-void add_account_routes(Router& router, Authenticator& authenticator, db::Store& store, const Clock& clock) {
+void add_account_routes(Router& router, Authenticator& authenticator, db::Store& store) {
   Authenticator* auth = &authenticator;
   db::Store* db = &store;
-  const Clock* time = &clock;
   router.add({operation("get_setup"), [db](Request&) { return setup_needed(*db); }});
   router.add({operation("set_up"), [auth](Request& request) { return set_up(*auth, request); }});
   router.add({operation("log_in"), [auth](Request& request) { return log_in(*auth, request); }});
@@ -153,8 +120,7 @@ void add_account_routes(Router& router, Authenticator& authenticator, db::Store&
                 const Status status = auth->log_out(request);
                 if (!status) return problem_of(status);
                 Response response = empty_response(204);
-                response.headers["set-cookie"] =
-                    std::string(kSessionCookie) + "=; Path=/; HttpOnly; SameSite=Strict; Max-Age=0";
+                response.headers["set-cookie"] = session_cookie(request, "");
                 return response;
               }});
   router.add({operation("get_me"), [](Request& request) {
@@ -163,8 +129,6 @@ void add_account_routes(Router& router, Authenticator& authenticator, db::Store&
                     200,
                     {{"user", {{"id", caller.id}, {"name", caller.name}, {"role", wire::role_name(caller.role)}}}});
               }});
-  router.add({operation("list_users"), [db](Request&) { return list_users(*db); }});
-  router.add({operation("add_user"), [db, time](Request& request) { return add_user(*db, *time, request); }});
   router.add({operation("list_tokens"), [db](Request&) { return list_tokens(*db); }});
   router.add({operation("add_token"), [auth, db](Request& request) { return add_token(*auth, *db, request); }});
   router.add({operation("remove_token"), [auth, db](Request& request) { return remove_token(*auth, *db, request); }});

@@ -3,7 +3,6 @@
 
 #include <set>
 
-#include "map/layout.hpp"
 #include "map/lookup.hpp"
 #include "server/http/json_body.hpp"
 #include "server/routes/operation_roles.hpp"
@@ -45,7 +44,7 @@ Response add_map(BuildJobs& jobs, const Request& request) {
   const auto body = json_body(request);
   if (!body) return not_json(body.error());
   wire::ObjectReader reader(*body, "body");
-  const std::string name = reader.text("name", 200);
+  const std::string name = reader.line("name", 200);
   const std::vector<TourId> tours = tours_in(reader);
   if (name.empty()) reader.problem("name", "A map needs a name.");
   if (tours.empty()) reader.problem("tours", "A map is built from at least one tour.");
@@ -86,10 +85,11 @@ Response graph(MapService& maps, const Request& request) {
   const map::TopologicalMap& map = (*loaded)->map;
   const std::string tag = wire::revision_tag(map.revision);
   Response response;
-  if (request.header("if-none-match") == tag) {
+  if (names_tag(request.header("if-none-match"), tag)) {
     response.status = 304;
   } else {
-    response = json_response(200, wire::graph_to_json(map, map_in(request), map::layout(map)));
+    response.headers["content-type"] = "application/json";
+    response.body = *maps.graph(map_in(request), *loaded);
   }
   response.headers["etag"] = tag;
   response.headers["cache-control"] = "private, no-cache";
@@ -184,6 +184,9 @@ Response import_map(MapService& maps, const Request& request) {
   const auto name = request.query.find("name");
   const std::string text = name == request.query.end() || name->second.empty() ? "imported map" : name->second;
   if (text.size() > 200) return problem({ErrorCode::kInvalidInput, "A name has at most 200 bytes.", "query/name"});
+  if (!wire::is_utf8(text) || !wire::is_plain_line(text)) {
+    return problem({ErrorCode::kInvalidInput, "A name is one line of text without control characters.", "query/name"});
+  }
   const auto record = maps.import(text, request.bytes());
   if (!record) return problem_of(record);
   return json_response(201, {{"map", wire::map_info_to_json(view_of(*record))}});

@@ -27,7 +27,7 @@ Response add_robot(Driving& driving, Authenticator& authenticator, const Request
   const auto body = json_body(request);
   if (!body) return not_json(body.error());
   wire::ObjectReader reader(*body, "body");
-  const std::string name = reader.text("name", 200);
+  const std::string name = reader.line("name", 200);
   if (name.empty()) reader.problem("name", "A robot needs a name.");
   if (const Status status = reader.finish(); !status) return problem_of(status);
   const auto robot = driving.add(name);
@@ -171,6 +171,12 @@ void add_robot_routes(Router& router, Driving& driving, Authenticator& authentic
               }});
   router.add({operation("add_robot"), [d, auth](Request& request) { return add_robot(*d, *auth, request); }});
   router.add({operation("get_robot"), [d](Request& request) { return robot_response(d->get(robot_in(request))); }});
+  router.add({operation("remove_robot"), [d, auth](Request& request) {
+                const Status removed = d->remove(robot_in(request));
+                if (!removed) return problem_of(removed);
+                auth->forget_tokens_of(robot_in(request));
+                return empty_response(204);
+              }});
   router.add({operation("set_robot_map"), [d](Request& request) { return set_map(*d, request); }});
   router.add({operation("set_robot_place"), [d](Request& request) { return set_place(*d, request); }});
   router.add({operation("take_lease"), [d](Request& request) { return take_lease(*d, request); }});

@@ -50,15 +50,21 @@ Result<Pose2> odometry_in(const std::string& text) {
   return Pose2{values[0], values[1], values[2]};
 }
 
+// A program reads and writes its own tours alone, whose pictures are of somebody's home; nothing for a person.
+std::optional<std::string> uploader_of(const Caller& caller) {
+  if (caller.role != wire::Role::kRobot) return std::nullopt;
+  return caller.robot.empty() ? caller.id : caller.robot;
+}
+
 Response add_tour(TourService& tours, const Request& request) {
   const auto body = json_body(request);
   if (!body) return not_json(body.error());
   wire::ObjectReader reader(*body, "body");
-  const std::string name = reader.text("name", 200);
+  const std::string name = reader.line("name", 200);
   const auto camera = reader.take(wire::camera_from_json(reader.value("camera"), reader.path_of("camera")));
   if (name.empty()) reader.problem("name", "A tour needs a name.");
   if (const Status status = reader.finish(); !status) return problem_of(status);
-  const auto tour = tours.add(name, camera);
+  const auto tour = tours.add(name, camera, uploader_of(request.caller));
   if (!tour) return problem_of(tour);
   return json_response(201, wire::tour_info_to_json(*tour));
 }
@@ -127,8 +133,8 @@ Response put_marks(TourService& tours, const Request& request) {
   return json_response(200, wire::marks_to_json(*marks));
 }
 
-Response list_tours(TourService& tours) {
-  const auto views = tours.list();
+Response list_tours(TourService& tours, const Request& request) {
+  const auto views = tours.list(uploader_of(request.caller));
   if (!views) return problem_of(views);
   json list = json::array();
   for (const wire::TourView& view : *views) list.push_back(wire::tour_info_to_json(view));
@@ -140,20 +146,34 @@ Response list_tours(TourService& tours) {
 void add_tour_routes(Router& router, TourService& tours, db::Store& store) {
   TourService* service = &tours;
   db::Store* db = &store;
-  router.add({operation("list_tours"), [service](Request&) { return list_tours(*service); }});
+  router.add({operation("list_tours"), [service](Request& request) { return list_tours(*service, request); }});
   router.add({operation("add_tour"), [service](Request& request) { return add_tour(*service, request); }});
-  router.add({operation("get_tour"), [service](Request& request) {
-                const auto tour = service->get(TourId(request.parameter("tour")));
-                return tour ? json_response(200, wire::tour_info_to_json(*tour)) : problem_of(tour);
-              }});
-  router.add({operation("put_image"), [service](Request& request) { return put_image(*service, request); }});
-  router.add({operation("get_image"), [db](Request& request) { return get_image(*db, request); }});
-  router.add({operation("put_sweep"), [service](Request& request) { return put_sweep(*service, request); }});
-  router.add({operation("put_marks"), [service](Request& request) { return put_marks(*service, request); }});
-  router.add({operation("complete_tour"), [service](Request& request) {
-                const auto tour = service->complete(TourId(request.parameter("tour")));
-                return tour ? json_response(200, wire::tour_info_to_json(*tour)) : problem_of(tour);
-              }});
+  // All others are of one tour.
+  const auto add = [&](const Operation& operation, const Handler& handler) {
+    router.add({operation, [service, handler](Request& request) {
+                  if (const auto uploader = uploader_of(request.caller)) {
+                    const Status own = service->check_uploader(TourId(request.parameter("tour")), *uploader);
+                    if (!own) return problem_of(own);
+                  }
+                  return handler(request);
+                }});
+  };
+  add(operation("get_tour"), [service](Request& request) {
+    const auto tour = service->get(TourId(request.parameter("tour")));
+    return tour ? json_response(200, wire::tour_info_to_json(*tour)) : problem_of(tour);
+  });
+  add(operation("remove_tour"), [db](Request& request) {
+    const Status removed = db->remove_tour(TourId(request.parameter("tour")));
+    return removed ? empty_response(204) : problem_of(removed);
+  });
+  add(operation("put_image"), [service](Request& request) { return put_image(*service, request); });
+  add(operation("get_image"), [db](Request& request) { return get_image(*db, request); });
+  add(operation("put_sweep"), [service](Request& request) { return put_sweep(*service, request); });
+  add(operation("put_marks"), [service](Request& request) { return put_marks(*service, request); });
+  add(operation("complete_tour"), [service](Request& request) {
+    const auto tour = service->complete(TourId(request.parameter("tour")));
+    return tour ? json_response(200, wire::tour_info_to_json(*tour)) : problem_of(tour);
+  });
 }
 
 }  // namespace homeward::server

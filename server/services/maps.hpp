@@ -5,6 +5,8 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <string>
+#include <vector>
 
 #include "db/store.hpp"
 #include "map/metric_layout.hpp"
@@ -32,6 +34,9 @@ class MapService {
   Result<LoadedMap> load(const MapId& id);
   /// Where the pictures of a map were taken (map::metric_layout); computed once for a map that is in memory.
   std::shared_ptr<const map::MetricLayout> layout(const LoadedMap& loaded);
+  /// The graph of a map as the contract has it (wire::graph_to_json), as text. Kept for a map that is in memory; where
+  /// its places are drawn stays through edits that do not move them.
+  std::shared_ptr<const std::string> graph(const MapId& id, const LoadedMap& loaded);
   /// Applies all edits or none. Errors: kStaleRevision, kInvalidInput (kinds that this version does not apply), those
   /// of mapping::apply_edit. Returns the new revision.
   Result<std::int64_t> edit(const MapId& id, std::int64_t revision, const std::vector<wire::EditRequest>& edits,
@@ -57,11 +62,19 @@ class MapService {
   Result<std::int64_t> change(const MapId& id, std::int64_t revision,
                               const std::function<Status(map::TopologicalMap&)>& apply);
 
+  using Drawing = std::vector<Eigen::Vector2d>;  // map::layout
   struct Cached {
     MapId id;
     LoadedMap loaded;
-    std::shared_ptr<const map::MetricLayout> layout = nullptr;  // null until it is asked for
+    // Null until they are asked for:
+    std::shared_ptr<const map::MetricLayout> layout = nullptr;
+    std::shared_ptr<const Drawing> drawing = nullptr;
+    std::shared_ptr<const std::string> graph = nullptr;
   };
+  // With mutex_ held:
+  Cached* cached(const LoadedMap& loaded);
+  void keep_in_memory(Cached entry);
+
   db::Store& store_;
   EventHub& events_;
   const Clock& clock_;

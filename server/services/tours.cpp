@@ -70,8 +70,10 @@ Result<camera::CameraConfig> camera_of(const db::Tour& tour) {
   return wire::parse_camera(tour.camera, "tours/" + tour.id.str() + "/camera");
 }
 
-Result<wire::TourView> TourService::add(const std::string& name, const camera::CameraConfig& camera) {
+Result<wire::TourView> TourService::add(const std::string& name, const camera::CameraConfig& camera,
+                                        const std::optional<std::string>& uploader) {
   db::Tour tour;
+  tour.uploader = uploader;
   tour.name = name;
   tour.camera = wire::camera_to_json(camera).dump();
   tour.created_us = clock_.wall_us();
@@ -80,16 +82,24 @@ Result<wire::TourView> TourService::add(const std::string& name, const camera::C
   return view_of(*added);
 }
 
-Result<std::vector<wire::TourView>> TourService::list() {
+Result<std::vector<wire::TourView>> TourService::list(const std::optional<std::string>& uploader) {
   const auto tours = store_.tours();
   if (!tours) return pass_on(tours);
   std::vector<wire::TourView> views;
   for (const db::Tour& tour : *tours) {
+    if (uploader && tour.uploader != uploader) continue;
     auto view = view_of(tour);
     if (!view) return pass_on(view);
     views.push_back(std::move(*view));
   }
   return views;
+}
+
+Status TourService::check_uploader(const TourId& id, const std::string& uploader) {
+  const auto tour = store_.tour(id);
+  if (!tour) return pass_on(tour);
+  if (tour->uploader == uploader) return {};
+  return fail(ErrorCode::kNotFound, "There is no tour with this id.", "tours/" + id.str());
 }
 
 Result<wire::TourView> TourService::get(const TourId& id) {

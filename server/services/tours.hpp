@@ -31,8 +31,13 @@ class TourService {
  public:
   TourService(db::Store& store, const Clock& clock) : store_(store), clock_(clock) {}
 
-  Result<wire::TourView> add(const std::string& name, const camera::CameraConfig& camera);
-  Result<std::vector<wire::TourView>> list();
+  /// `uploader`: db::Tour::uploader.
+  Result<wire::TourView> add(const std::string& name, const camera::CameraConfig& camera,
+                             const std::optional<std::string>& uploader);
+  /// Of one uploader, or all.
+  Result<std::vector<wire::TourView>> list(const std::optional<std::string>& uploader);
+  /// Whether a tour is this uploader's. Errors: kNotFound, as for one that is not there.
+  Status check_uploader(const TourId& id, const std::string& uploader);
   Result<wire::TourView> get(const TourId& id);
   /// Decodes the whole picture before it keeps it. Errors: kNotFound, kConflict, kUnsupportedImage, kTruncatedImage,
   /// kImageTooLarge, kWrongImageSize.

@@ -2,6 +2,7 @@
 #include "server/work/build_jobs.hpp"
 
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@ namespace homeward::server {
 namespace {
 
 constexpr std::size_t kMostQueued = 16;
+constexpr int kBuildNiceness = 10;   // robots that drive come first
 constexpr double kBuildShare = 0.9;  // the rest: thumbnails and writing
 constexpr std::chrono::milliseconds kTellEvery{250};
 
@@ -31,7 +33,10 @@ BuildJobs::BuildJobs(db::Store& store, MapService& maps, EventHub& events, const
   if (const auto known = store_.maps()) {
     for (const db::MapRecord& map : *known) look_for_drives(map.id);
   }
-  thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+  thread_ = std::jthread([this](const std::stop_token& stop) {
+    setpriority(PRIO_PROCESS, 0, kBuildNiceness);  // of this thread and of those that it starts
+    work(stop);
+  });
 }
 
 BuildJobs::~BuildJobs() {

@@ -16,6 +16,8 @@ using beast::error_code;
 constexpr std::chrono::seconds kHandshakeTimeout{10};
 // Pings go out at half of it; an end that does not even answer those is gone.
 constexpr std::chrono::seconds kIdleTimeout{20};
+// For each message to be taken; an end that reads nothing may still send.
+constexpr std::chrono::seconds kTakenWithin{10};
 
 }  // namespace
 
@@ -24,7 +26,8 @@ WebSocketSession::WebSocketSession(beast::tcp_stream stream, std::shared_ptr<Soc
     : stream_(std::move(stream)),
       executor_(stream_.get_executor()),
       handler_(std::move(handler)),
-      on_end_(std::move(on_end)) {}
+      on_end_(std::move(on_end)),
+      taken_within_(executor_) {}
 
 WebSocketSession::~WebSocketSession() { end(); }
 
@@ -107,9 +110,15 @@ void WebSocketSession::write() {
   if (!guarded([&] { next = handler_->next_message(); }) || !next) return;
   being_written_ = std::move(*next);
   writing_ = true;
+  taken_within_.expires_after(kTakenWithin);
+  taken_within_.async_wait([weak = weak_from_this()](error_code error) {
+    const auto self = weak.lock();
+    if (!error && self && self->writing_) self->cut();
+  });
   stream_.text(being_written_.text);
   stream_.async_write(asio::buffer(*being_written_.bytes), [self = shared_from_this()](error_code error, std::size_t) {
     self->writing_ = false;
+    self->taken_within_.cancel();
     if (error) return self->cut();
     if (self->closing_) return self->begin_close();
     self->write();

@@ -46,6 +46,7 @@ class WebSocketSession : public Socket, public std::enable_shared_from_this<WebS
   boost::beast::flat_buffer buffer_;
   HttpRequest request_;
   Outgoing being_written_;
+  boost::asio::steady_timer taken_within_;
   bool open_ = false;
   bool writing_ = false;
   bool ended_ = false;

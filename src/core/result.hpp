@@ -36,6 +36,7 @@ enum class ErrorCode {
   kCancelled,
   kCorruptFile,  // a file of ours that does not hold together
   kIo,           // disk, socket or process trouble
+  kDiskFull,     // nothing more can be kept until somebody makes room
   kInternal,
 };
 

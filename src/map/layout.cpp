@@ -223,4 +223,14 @@ std::vector<Eigen::Vector2d> layout(const TopologicalMap& map) {
   return drawing.positions_m;
 }
 
+bool drawn_alike(const TopologicalMap& a, const TopologicalMap& b) {
+  const auto same_place = [](const Place& x, const Place& y) { return x.id == y.id && x.prototype == y.prototype; };
+  const auto same_edge = [](const Edge& x, const Edge& y) {
+    return x.from == y.from && x.to == y.to && x.length_m == y.length_m && x.bearing_rad == y.bearing_rad &&
+           x.turn_rad == y.turn_rad && x.weak == y.weak;
+  };
+  return std::ranges::equal(a.places, b.places, same_place) && std::ranges::equal(a.edges, b.edges, same_edge) &&
+         a.images.size() == b.images.size();
+}
+
 }  // namespace homeward::map

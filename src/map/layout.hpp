@@ -16,4 +16,8 @@ namespace homeward::map {
 /// drawn places apart is ours.
 std::vector<Eigen::Vector2d> layout(const TopologicalMap& map);
 
+/// Whether two revisions of a map are drawn alike: the same places, from the same images, and the same edges but for
+/// what is blocked.
+bool drawn_alike(const TopologicalMap& a, const TopologicalMap& b);
+
 }  // namespace homeward::map

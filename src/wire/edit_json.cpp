@@ -41,7 +41,7 @@ void read_fields(ObjectReader& reader, EditRequest& edit) {
   switch (edit.kind) {
     case EditKind::kRename:
       edit.place = read_place(reader, "place");
-      edit.label = reader.text("label", 200);
+      edit.label = reader.line("label", 200);
       break;
     case EditKind::kMerge:
       edit.place = read_place(reader, "place");

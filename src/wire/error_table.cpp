@@ -37,6 +37,7 @@ constexpr std::array kTable = {
     ErrorRow{ErrorCode::kCancelled, "cancelled", "Cancelled", 409, 130},
     ErrorRow{ErrorCode::kCorruptFile, "corrupt_file", "The file does not hold together", 422, 2},
     ErrorRow{ErrorCode::kIo, "io", "Disk or network trouble", 500, 5},
+    ErrorRow{ErrorCode::kDiskFull, "disk_full", "The disk is full", 507, 5},
     ErrorRow{ErrorCode::kInternal, "internal", "A fault of this program", 500, 70},
 };
 

@@ -48,6 +48,19 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
+bool is_plain_line(std::string_view text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
+    if (byte(i) < 0x20 || byte(i) == 0x7F) return false;
+    if (byte(i) == 0xC2 && byte(i + 1) < 0xA0) return false;
+    if (byte(i) != 0xE2) continue;
+    const unsigned last = byte(i + 2);
+    if (byte(i + 1) == 0x80 && last >= 0xA8 && last <= 0xAE) return false;
+    if (byte(i + 1) == 0x81 && last >= 0xA6 && last <= 0xA9) return false;
+  }
+  return true;
+}
+
 ObjectReader::ObjectReader(const json& value, std::string path) : value_(value), path_(std::move(path)) {
   if (!value_.is_object()) error_ = Error{ErrorCode::kInvalidInput, "Here must be an object.", path_};
 }
@@ -148,6 +161,13 @@ std::string ObjectReader::text(const std::string& key, std::size_t max_bytes) {
     return {};
   }
   return text;
+}
+
+std::string ObjectReader::line(const std::string& key, std::size_t max_bytes) {
+  std::string found = text(key, max_bytes);
+  if (is_plain_line(found)) return found;
+  problem(key, "'" + key + "' is one line of text without control characters.");
+  return {};
 }
 
 std::string ObjectReader::choice(const std::string& key, const std::vector<std::string>& choices) {

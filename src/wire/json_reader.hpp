@@ -21,6 +21,11 @@ inline constexpr std::size_t kMaxArrayItems = 200'000;
 /// Whether these bytes are text in UTF-8. What comes as CBOR may hold others.
 bool is_utf8(std::string_view text);
 
+/// Whether UTF-8 text has nothing in it that moves a cursor or reorders what stands beside it: no control characters
+/// (C0, DEL, C1), no line or paragraph separators, no marks of writing direction that embed or override (Unicode
+/// U+202A to U+202E, U+2066 to U+2069).
+bool is_plain_line(std::string_view text);
+
 /// Reads one JSON object strictly: every key is asked for, nothing else may be there. The first problem is kept with
 /// its JSON path; reading goes on with neutral values, so that decoders stay straight lines.
 ///   ObjectReader reader(value, "camera");
@@ -39,6 +44,8 @@ class ObjectReader {
   std::int64_t integer(const std::string& key, std::int64_t least, std::int64_t most);
   bool boolean(const std::string& key);
   std::string text(const std::string& key, std::size_t max_bytes = kMaxTextBytes);
+  /// A text that people read as one line: is_plain_line.
+  std::string line(const std::string& key, std::size_t max_bytes = kMaxTextBytes);
   std::string choice(const std::string& key, const std::vector<std::string>& choices);
   /// The same for the texts of an enumeration.
   template <class Enum, std::size_t kCount>

@@ -67,9 +67,9 @@ std::optional<double> number_or_null(ObjectReader& reader, const std::string& ke
 
 Hello read_hello(ObjectReader& reader) {
   Hello m;
-  m.agent = reader.text("agent", 100);
-  m.robot_name = reader.text("robot_name", 200);
-  m.session = reader.text("session", 200);
+  m.agent = reader.line("agent", 100);
+  m.robot_name = reader.line("robot_name", 200);
+  m.session = reader.line("session", 200);
   m.camera = reader.take(camera_from_json(reader.value("camera"), reader.path_of("camera")));
   m.radius_m = reader.number("radius_m", 0.05, kMostRadius_m);
   m.max_speed_mps = reader.number("max_speed_mps", 0.0, 5.0);

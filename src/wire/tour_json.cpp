@@ -35,7 +35,7 @@ Result<std::vector<TourMark>> marks_from_json(const json& value, const std::stri
   std::set<std::string> seen;
   for (std::size_t i = 0; i < items.size(); ++i) {
     ObjectReader inner(items[i], reader.path_of("marks") + "/" + std::to_string(i));
-    TourMark mark{inner.text("image", 500), inner.text("label", 200)};
+    TourMark mark{inner.text("image", 500), inner.line("label", 200)};
     if (mark.image.empty()) inner.problem("image", "'image' must not be empty.");
     if (mark.label.empty()) inner.problem("label", "'label' must not be empty.");
     if (!seen.insert(mark.image).second) inner.problem("image", "'" + mark.image + "' has a mark already.");

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 const std::map<std::string, std::set<std::string>>& folders() {
   static const std::map<std::string, std::set<std::string>> kFolders = {
       {"time", {}},
+      {"log", {}},
       {"ws", {}},
       {"http", {"ws", "time"}},
       {"auth", {"http", "time"}},

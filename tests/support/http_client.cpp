@@ -112,6 +112,7 @@ std::string RawConnection::receive(const std::string& last, std::chrono::millise
     c.socket.cancel();
     c.context.restart();
     c.context.run();
+    all.append(piece.data(), come);  // what came just before
     c.closed = false;
   }
   return all;

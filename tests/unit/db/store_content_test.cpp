@@ -98,10 +98,8 @@ TEST_F(StoreContent, AKeptSweepThatCannotBeReadIsNamed) {
   sweep.sweep.angle_step_rad = 0.01;
   ASSERT_TRUE(put(tour, 0, {1}));
   ASSERT_TRUE(store().put_sweep(tour, sweep));
-  close();
   SQLite::Database((folder() / "homeward.db").string(), SQLite::OPEN_READWRITE)
       .exec("UPDATE tour_sweeps SET sweep = x'a161'");
-  open();
   const auto kept = store().sweeps(tour);
   ASSERT_FALSE(kept);
   EXPECT_EQ(kept.error().code, ErrorCode::kCorruptFile);
@@ -171,6 +169,61 @@ TEST_F(StoreContent, AMapIsSavedByRevisionAndItsOldFileGoes) {
   ASSERT_TRUE(store().remove_map(id));
   EXPECT_EQ(map_files(), 0U);
   EXPECT_TRUE(store().remove_tour(tour));
+}
+
+TEST_F(StoreContent, AnEditIsKeptWithoutWritingTheMapAnew) {
+  const MapId id = new_map();
+  map::TopologicalMap contents = testing::sample_map();
+  const Thumbnails thumbnails = {{contents.images[0].id, {7}}};
+  ASSERT_TRUE(store().save_map_contents(id, contents, thumbnails, 0));
+  const auto bytes_of = [&](const map::TopologicalMap& map, const Thumbnails& pictures) {
+    EXPECT_TRUE(save_map(folder() / "compared", map, pictures));
+    std::ifstream stream(folder() / "compared", std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  const std::filesystem::path file = folder() / "maps" / (id.str() + ".r4.homeward");
+  const auto written = std::filesystem::last_write_time(file);
+  for (int i = 0; i < 3; ++i) {
+    ++contents.revision;
+    contents.places[0].label = "bedroom " + std::to_string(i);
+    contents.edges[0].blocked = i == 1;
+    contents.edits.push_back(contents.edits[0]);
+    contents.destinations.push_back(contents.destinations[0]);
+    contents.destinations.back().id = DestinationId("d" + std::to_string(i + 2));
+    EXPECT_EQ(store().save_map_edit(id, contents, contents.revision - 2).error().code, ErrorCode::kStaleRevision);
+    ASSERT_TRUE(store().save_map_edit(id, contents, contents.revision - 1));
+    const StoredMap loaded = store().load_map_contents(id).value();
+    EXPECT_EQ(bytes_of(loaded.map, loaded.thumbnails), bytes_of(contents, thumbnails)) << i;
+  }
+  EXPECT_EQ(std::filesystem::last_write_time(file), written);
+  open();
+  EXPECT_EQ(map_files(), 1U);
+  EXPECT_EQ(store().map(id)->revision, contents.revision);
+  StoredMap loaded = store().load_map_contents(id).value();
+  EXPECT_EQ(bytes_of(loaded.map, loaded.thumbnails), bytes_of(contents, thumbnails));
+  const auto imported = store().import_map({}, store().map_file_bytes(id).value());
+  ASSERT_TRUE(imported) << imported.error().message;
+  EXPECT_EQ(imported->revision, contents.revision) << "what is exported has the edits";
+  EXPECT_EQ(map_files(), 2U);
+  open();
+  loaded = store().load_map_contents(id).value();
+  EXPECT_EQ(bytes_of(loaded.map, loaded.thumbnails), bytes_of(contents, thumbnails));
+  ++contents.revision;
+  ASSERT_TRUE(store().save_map_contents(id, contents, {}, contents.revision - 1));
+  ASSERT_TRUE(store().remove_map(id));
+  EXPECT_EQ(map_files(), 1U);
+}
+
+TEST_F(StoreContent, EditsOfOtherPlacesAreNotPutOverAMap) {
+  const MapId id = new_map();
+  map::TopologicalMap contents = testing::sample_map();
+  ASSERT_TRUE(store().save_map_contents(id, contents, {}, 0));
+  ++contents.revision;
+  contents.places[1].id = PlaceId("p7");
+  contents.edges.clear();
+  contents.destinations.clear();
+  ASSERT_TRUE(store().save_map_edit(id, contents, contents.revision - 1));
+  EXPECT_EQ(store().load_map_contents(id).error().code, ErrorCode::kCorruptFile);
 }
 
 TEST_F(StoreContent, AnExportedMapIsImported) {

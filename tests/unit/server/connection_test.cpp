@@ -68,6 +68,24 @@ TEST_F(ConnectionTest, ABodyIsReadOfNobodyWhoMayNotSendIt) {
   EXPECT_EQ(connection.receive("\r\n", std::chrono::milliseconds(300)), "") << "who may send it is waited for";
 }
 
+TEST_F(ConnectionTest, AFoldedFieldIsRefused) {
+  EXPECT_EQ(status_of(head("GET /healthz", "X-Long: a\r\n b\r\n")), 400);
+  EXPECT_EQ(status_of(head("GET /healthz", "X-Long: a\r\n\tb\r\n")), 400);
+  EXPECT_EQ(status_of("GET /healthz HTTP/1.1\r\n Host: 127.0.0.1\r\n\r\n"), 400);
+  EXPECT_EQ(status_of(head("GET /healthz", "X-Long: a b\r\n")), 200);
+  EXPECT_EQ(status_of(head("POST /api/v1/login", "Content-Length: 5\r\n") + "{}\n {"), 400) << "no JSON, but a body";
+}
+
+TEST_F(ConnectionTest, WhatIsTooLargeIsAnsweredToWhoSendsAllOfItFirst) {
+  const std::string installer =
+      admin->post("/api/v1/tokens", {{"name", "i"}, {"role", "installer"}}).json().at("token").get<std::string>();
+  RawConnection connection(app->port());
+  connection.send(
+      head("POST /api/v1/tours", "Content-Length: 50000000\r\nAuthorization: Bearer " + installer + "\r\n"));
+  ASSERT_TRUE(connection.send(std::string(50'000'000, 'x')));
+  EXPECT_NE(connection.receive().find("HTTP/1.1 413"), std::string::npos);
+}
+
 TEST_F(ConnectionTest, AStrangerMayNotSendMoreThanASecret) {
   const std::string text(20'000, ' ');
   EXPECT_EQ(status_of(head("POST /api/v1/login", "Content-Length: 20000\r\n") + text), 413);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
 
+#include <zlib.h>
+
+#include "server/front/compressed_answers.hpp"
 #include "server/http/access.hpp"
 #include "server/http/router.hpp"
 #include "support/server_fixture.hpp"
@@ -32,6 +35,10 @@ TEST(Access, AnswersToItsOwnNamesAlone) {
   EXPECT_FALSE(access.host_allowed("evil.example"));
   EXPECT_FALSE(access.host_allowed("localhost.evil.example"));
   EXPECT_FALSE(access.host_allowed(""));
+  EXPECT_FALSE(access.host_allowed("localhost:80@evil.example")) << "that names evil.example";
+  EXPECT_FALSE(access.host_allowed("evil@localhost"));
+  EXPECT_FALSE(access.host_allowed("[::1]evil.example"));
+  EXPECT_FALSE(access.host_allowed("localhost:8080 "));
   EXPECT_TRUE(access.origin_allowed("http://localhost:8080", "localhost:8080"));
   EXPECT_FALSE(access.origin_allowed("http://localhost:9999", "localhost:8080")) << "another port is another site";
   EXPECT_FALSE(access.origin_allowed("null", "localhost:8080"));
@@ -136,6 +143,97 @@ TEST_F(FrontTest, SpeaksProperHttp) {
   EXPECT_NE(admin->get("/api/docs").body.find("openapi: 3.1"), std::string::npos);
 }
 
+TEST(EntityTags, AreFoundInListsWeakOrNot) {
+  EXPECT_TRUE(names_tag("\"a\"", "\"a\""));
+  EXPECT_TRUE(names_tag("W/\"a\"", "\"a\""));
+  EXPECT_TRUE(names_tag(" \"x,y\" , W/\"b\",\t\"a\"", "\"a\""));
+  EXPECT_TRUE(names_tag("*", "\"a\""));
+  EXPECT_FALSE(names_tag("", "\"a\""));
+  EXPECT_FALSE(names_tag("\"b\", \"c\"", "\"a\""));
+  EXPECT_FALSE(names_tag("a", "\"a\""));
+  EXPECT_FALSE(names_tag("\"a", "\"a\""));
+  EXPECT_FALSE(names_tag("\"b\" \"a", "\"a\""));
+}
+
+TEST(Compression, IsForWhoTakesIt) {
+  EXPECT_TRUE(accepts_gzip("gzip"));
+  EXPECT_TRUE(accepts_gzip("deflate, gzip;q=0.5, br"));
+  EXPECT_FALSE(accepts_gzip("gzip;q=0"));
+  EXPECT_FALSE(accepts_gzip("gzip;q=0.000"));
+  EXPECT_FALSE(accepts_gzip("br, x-gzip"));
+  EXPECT_FALSE(accepts_gzip(""));
+}
+
+TEST(Compression, ComesBackAsItWas) {
+  std::string text;
+  for (int i = 0; i < 5000; ++i) text += "place p" + std::to_string(i) + ", ";
+  const std::string bytes = gzip(text);
+  EXPECT_LT(bytes.size(), text.size() / 3);
+  std::string back(text.size() + 1, '\0');
+  z_stream stream{};
+  ASSERT_EQ(inflateInit2(&stream, 15 + 16), Z_OK);
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(back.data());
+  stream.avail_out = static_cast<uInt>(back.size());
+  EXPECT_EQ(inflate(&stream, Z_FINISH), Z_STREAM_END);
+  back.resize(stream.total_out);
+  inflateEnd(&stream);
+  EXPECT_EQ(back, text);
+}
+
+TEST_F(FrontTest, LongTextIsCompressedForWhoTakesIt) {
+  const std::filesystem::path web = config.data / "web";
+  std::filesystem::create_directories(web);
+  std::ofstream(web / "index.html") << std::string(5000, 'a');
+  config.web = web;
+  restart();
+  const testing::Headers takes = {{"Accept-Encoding", "gzip, br"}};
+  for (int i = 0; i < 2; ++i) {
+    testing::Answer page = admin->get("/", takes);
+    EXPECT_EQ(page.headers["content-encoding"], "gzip");
+    EXPECT_LT(page.body.size(), 200U);
+    EXPECT_EQ(page.headers["etag"].substr(0, 3), "W/\"");
+    EXPECT_EQ(admin->get("/", {{"If-None-Match", page.headers["etag"]}}).status, 304);
+  }
+  testing::Answer plain = admin->get("/");
+  EXPECT_FALSE(plain.headers.contains("content-encoding"));
+  EXPECT_EQ(plain.headers["vary"], "accept-encoding");
+  EXPECT_EQ(plain.body.size(), 5000U);
+  testing::Answer shorter = admin->get("/api/v1/maps", takes);
+  EXPECT_FALSE(shorter.headers.contains("content-encoding"));
+}
+
+TEST_F(FrontTest, AKeyBelongsToOneRequest) {
+  const testing::Headers key = {{"Idempotency-Key", "k1"}};
+  const testing::Answer first = admin->post(
+      "/api/v1/tours", {{"name", "a"}, {"camera", wire::camera_to_json(testing::small_panorama_camera())}}, key);
+  ASSERT_EQ(first.status, 201) << first.body;
+  const testing::Answer again = admin->post(
+      "/api/v1/tours", {{"name", "a"}, {"camera", wire::camera_to_json(testing::small_panorama_camera())}}, key);
+  EXPECT_EQ(again.body, first.body);
+  const testing::Answer other = admin->post(
+      "/api/v1/tours", {{"name", "b"}, {"camera", wire::camera_to_json(testing::small_panorama_camera())}}, key);
+  EXPECT_EQ(other.status, 422) << other.body;
+  EXPECT_EQ(other.json().at("where"), "Idempotency-Key");
+}
+
+TEST_F(FrontTest, SaysThatItIsNotReadyWithoutWhatItWasGiven) {
+  const std::string tour = add_tour();
+  ASSERT_EQ(put_image(tour, 0, testing::room_picture(1, 1)), 201);
+  app.reset();
+  const std::filesystem::path picture = config.data / "tours" / tour / "0.jpg";
+  std::filesystem::rename(picture, config.data / "picture");
+  start();
+  testing::HttpClient stranger(app->port());
+  const testing::Answer not_ready = stranger.get("/readyz");
+  EXPECT_EQ(not_ready.status, 503);
+  EXPECT_NE(not_ready.body.find("1 file"), std::string::npos) << not_ready.body;
+  EXPECT_EQ(not_ready.body.find(tour), std::string::npos) << "anybody may ask";
+  std::filesystem::rename(config.data / "picture", picture);
+  EXPECT_EQ(stranger.get("/readyz").status, 200);
+}
+
 TEST_F(FrontTest, ServesTheDashboardAndNothingBesideIt) {
   const std::filesystem::path web = config.data / "web";
   std::filesystem::create_directories(web / "assets");
@@ -147,6 +245,7 @@ TEST_F(FrontTest, ServesTheDashboardAndNothingBesideIt) {
   const testing::Answer page = admin->get("/");
   EXPECT_EQ(page.body, "<p>home</p>");
   EXPECT_EQ(admin->get("/", {{"If-None-Match", page.headers.at("etag")}}).status, 304);
+  EXPECT_EQ(admin->get("/", {{"If-None-Match", "\"old\", W/" + page.headers.at("etag")}}).status, 304);
   EXPECT_EQ(admin->get("/settings/users").body, "<p>home</p>") << "a page of the dashboard";
   EXPECT_EQ(admin->get("/assets/a.js").headers["content-type"], "text/javascript; charset=utf-8");
   EXPECT_EQ(admin->get("/assets/b.js").status, 404);
