@@ -51,7 +51,8 @@ void Report::print_table() const {
   std::vector<std::size_t> widths(cases_.size(), 0);
   std::size_t first_width = 0;
   for (std::size_t i = 0; i < cases_.size(); ++i) {
-    for (const auto& [path, value] : cases_[i].flatten().items()) {
+    const nlohmann::json flat = cases_[i].flatten();
+    for (const auto& [path, value] : flat.items()) {
       auto& row = rows[path.substr(1)];
       row.resize(cases_.size());
       row[i] = text_of(value);

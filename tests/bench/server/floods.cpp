@@ -51,27 +51,19 @@ SlowConnections::SlowConnections(std::uint16_t port, int count)
     : port_(port), count_(count), thread_([this](const std::stop_token& told) { flood(told); }) {}
 
 void SlowConnections::flood(const std::stop_token& told) {
-  struct Connection {
-    PlainSocket socket;
-    std::size_t sent = 0;
-  };
-  constexpr std::string_view kHead = "GET /api/v1/robots HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Slow: ";
-  constexpr int kRounds = 100;  // a second
+  constexpr std::string_view kHalfHead = "GET /api/v1/robots HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Slow: ";
+  constexpr std::size_t kRounds = 100;  // a second
   constexpr milliseconds kRound(1000 / kRounds);
-  std::vector<Connection> connections(static_cast<std::size_t>(count_));
+  std::vector<PlainSocket> connections(static_cast<std::size_t>(count_));
   auto next = Clock::now();
   for (std::size_t round = 0; !told.stop_requested(); round = (round + 1) % kRounds) {
     for (std::size_t i = round; i < connections.size(); i += kRounds) {
-      Connection& connection = connections[i];
-      if (!connection.socket.open() || !connection.socket.discard_what_came()) {
-        connection = {PlainSocket::connecting(port_), 0};
+      const bool stays = connections[i].open() && connections[i].discard_what_came();
+      if (!stays) {
+        connections[i] = PlainSocket::connecting(port_);
         ++opened_;
-        continue;
       }
-      const std::string_view byte = connection.sent < kHead.size() ? kHead.substr(connection.sent, 1) : "a";
-      if (connection.socket.send_some(byte) <= 0) continue;
-      ++connection.sent;
-      ++bytes_;
+      bytes_ += std::max(0L, connections[i].send_some(stays ? "a" : kHalfHead));
     }
     next += kRound;
     std::this_thread::sleep_until(next);

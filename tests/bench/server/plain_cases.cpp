@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cases without robots: reads and strangers.
+#include <cmath>
+#include <stdexcept>
+
 #include "cases.hpp"
 #include "floods.hpp"
 #include "generated_map.hpp"
@@ -73,7 +76,8 @@ void measure_strangers(const Setting& setting, int connections, std::uint64_t bo
   std::this_thread::sleep_for(std::chrono::seconds(setting.seconds));
   nlohmann::json figures = {{"strangers", bodies.figures()}, {"server", watch.figures()}};
   const nlohmann::json& memory = figures.at("server").at("memory_mib");
-  figures["memory_grew_by_mib"] = memory.at("most").get<double>() - memory.at("start").get<double>();
+  const double growth_mib = memory.at("most").get<double>() - memory.at("start").get<double>();
+  figures["memory_grew_by_mib"] = std::round(growth_mib * 10.0) / 10.0;
   report.add("strangers with large bodies", std::move(figures));
 }
 
