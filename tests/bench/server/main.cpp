@@ -10,7 +10,8 @@
 //   $P reads --bin build/release/bin                     graphs of a large map, its change, small reads
 //   $P strangers --bin build/release/bin                 memory under large bodies of those who may send none
 //
-// The load takes processor time from the server that it shares the machine with: "processor_s" says how much.
+// The load takes processor time from the server that it shares the machine with: "processor_s" says how much. An upload
+// that is larger than the server takes (--upload-mb) is refused and loads nothing: its "answers" show it.
 #include <CLI/CLI.hpp>
 #include <iostream>
 
