@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -48,6 +50,14 @@ struct FileBytes {
   std::size_t count = 0;
 };
 
+/// The first bytes of a file, as many as there are.
+void check_start(std::span<const std::uint8_t> bytes) {
+  const std::size_t known = std::min(bytes.size(), kSqliteStart.size());
+  if (std::memcmp(bytes.data(), kSqliteStart.data(), known) != 0) {
+    refuse(ErrorCode::kCorruptFile, "This file is not a Homeward map.");
+  }
+}
+
 /// A map is read from memory: what lies beside the file (a journal) changes nothing, and nothing appears beside it.
 FileBytes read_file(const std::filesystem::path& file) {
   const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
@@ -61,6 +71,11 @@ FileBytes read_file(const std::filesystem::path& file) {
   if (!S_ISREG(about.st_mode)) refuse(ErrorCode::kInvalidInput, "This is not a plain file and so not a map file.");
   if (about.st_size == 0) refuse(ErrorCode::kCorruptFile, "The map file is empty.");
   if (about.st_size > kMostBytes) refuse(ErrorCode::kTooLarge, "The file is larger than a map may be (4 GiB).");
+  // Before room is made for all of it: anybody may have sent this file.
+  std::array<std::uint8_t, kSqliteStart.size()> start{};
+  const ssize_t begun = ::pread(descriptor.value, start.data(), start.size(), 0);
+  if (begun < 0) refuse_for_errno("The map file cannot be read");
+  check_start(std::span(start).first(static_cast<std::size_t>(begun)));
   FileBytes read;
   read.count = static_cast<std::size_t>(about.st_size);
   read.bytes.reset(static_cast<std::uint8_t*>(sqlite3_malloc64(read.count)));
@@ -74,13 +89,6 @@ FileBytes read_file(const std::filesystem::path& file) {
     done += static_cast<std::size_t>(count);
   }
   return read;
-}
-
-void check_start(const FileBytes& read) {
-  const std::size_t known = std::min(read.count, kSqliteStart.size());
-  if (std::memcmp(read.bytes.get(), kSqliteStart.data(), known) != 0) {
-    refuse(ErrorCode::kCorruptFile, "This file is not a Homeward map.");
-  }
 }
 
 void give_bytes(SQLite::Database& database, FileBytes read) {
@@ -133,7 +141,6 @@ void check_checksum(SQLite::Database& database, int version, const std::string& 
 StoredMap read_map(const std::filesystem::path& file) {
   FileBytes read = read_file(file);
   const std::size_t bytes = read.count;
-  check_start(read);
   SQLite::Database database(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
   give_bytes(database, std::move(read));
   const int version = check_kind_and_version(database);
@@ -152,7 +159,7 @@ void put_graph_part(std::span<const std::uint8_t> bytes, map::TopologicalMap& ma
   read.bytes.reset(static_cast<std::uint8_t*>(sqlite3_malloc64(read.count)));
   if (!read.bytes) throw std::bad_alloc();
   std::memcpy(read.bytes.get(), bytes.data(), bytes.size());
-  check_start(read);
+  check_start(bytes);
   SQLite::Database database(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
   give_bytes(database, std::move(read));
   read_graph_part(database, map);

@@ -131,7 +131,7 @@ TEST_F(StoreDamage, AFlippedByteIsNoticedOrChangesNothing) {
   const std::string before = held();
   std::mt19937 random(20);
   int noticed = 0;
-  constexpr int kFlips = 400;
+  constexpr int kFlips = 250;
   for (int i = 0; i < kFlips; ++i) {
     std::string damaged = whole;
     const std::size_t at = random() % damaged.size();
