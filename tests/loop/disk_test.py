@@ -117,6 +117,11 @@ class Disk(unittest.TestCase):
         self.assertEqual(self.server.call("GET", f"/api/v1/tours/{tour}")["images"], 2)
         self.assertEqual(self.ready()[0], 200)
 
+    def test_1b_what_is_kept_is_for_its_owner_alone(self):
+        kept = [self.data / "server", *(self.data / "server").rglob("*")]
+        self.assertGreater(len(kept), 8)
+        self.assertEqual([str(one) for one in kept if one.stat().st_mode & 0o077], [])
+
     def test_2_an_import_is_whole_or_not_there_whichever_call_fails(self):
         file = (self.data / "map.hwmap").read_bytes()
         before = len(self.server.call("GET", "/api/v1/maps")["maps"])
