@@ -137,12 +137,19 @@ struct App::Parts {
     return snapshot;
   }
 
-  Status offer_setup(const AppConfig& config) {
+  // The secret of the one-time link; empty where there is an administrator already. Before the first request, so that
+  // nobody who asks is told otherwise.
+  Result<std::string> setup_secret() {
     const auto users = store->users();
     if (!users) return pass_on(users);
-    if (!users->empty()) return {};
-    const std::string secret = db::random_secret();
-    if (const Status status = store->set_setup_hash(db::secret_hash(secret)); !status) return status;
+    if (!users->empty()) return std::string();
+    std::string secret = db::random_secret();
+    if (const Status status = store->set_setup_hash(db::secret_hash(secret)); !status) return pass_on(status);
+    return secret;
+  }
+
+  Status offer_setup(const AppConfig& config, const std::string& secret) {
+    if (secret.empty()) return {};
     const bool any = config.address == "0.0.0.0" || config.address == "::";
     const std::string host = any ? "localhost" : (config.address == "::1" ? "[::1]" : config.address);
     setup_link = "http://" + host + ":" + std::to_string(http->port()) + "/setup?token=" + secret;
@@ -206,10 +213,12 @@ Result<std::unique_ptr<App>> App::start(const AppConfig& config, const Clock& cl
   parts.tell_condition();
   if (const Status status = parts.authenticator.load(); !status) return pass_on(status);
   if (const Status status = parts.driving.load(); !status) return pass_on(status);
+  const auto secret = parts.setup_secret();
+  if (!secret) return pass_on(secret);
   auto http = HttpServer::start(config.address, config.port, parts.front);
   if (!http) return pass_on(http);
   parts.http = std::move(*http);
-  if (const Status status = parts.offer_setup(config); !status) return pass_on(status);
+  if (const Status status = parts.offer_setup(config, *secret); !status) return pass_on(status);
   parts.http->every(static_cast<int>(wire::kPermitEvery_ms), [&parts] { parts.tick(); });
   return app;
 }

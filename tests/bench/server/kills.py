@@ -41,6 +41,8 @@ class Kills:
         self.builds = 0
         self.ready_s = []
         self.start()
+        while not (data / "setup-link").exists():
+            time.sleep(0.01)
         demo.set_up_account(self.server, data)
 
     def start(self):
