@@ -86,6 +86,7 @@ struct RecordedStep {
   std::optional<RecordedSweep> sweep;
   std::optional<RecordedPicture> picture;
   std::optional<RecordedRider> rider = {};
+  bool robot_link_up = true;  // as all older recordings have it
   // Out.
   double speed_mps = 0.0;
   double turn_radps = 0.0;

@@ -12,6 +12,7 @@ constexpr std::uint8_t kHasVector = 1;
 constexpr std::uint8_t kHasMinRange = 2;
 constexpr std::uint8_t kHasNearness = 4;
 constexpr std::uint8_t kHasRider = 8;
+constexpr std::uint8_t kRobotLinkDown = 16;
 
 bool get_rider(ByteReader& reader, RecordedRider& rider) {
   std::uint8_t deflected = 0;
@@ -40,7 +41,8 @@ std::vector<std::uint8_t> pack_step(const RecordedStep& step) {
                                           step.min_range_m.value_or(0.0)};
   ByteWriter writer;
   writer.put(static_cast<std::uint8_t>((step.vector ? kHasVector : 0) | (step.min_range_m ? kHasMinRange : 0) |
-                                       (vector.nearness ? kHasNearness : 0) | (step.rider ? kHasRider : 0)));
+                                       (vector.nearness ? kHasNearness : 0) | (step.rider ? kHasRider : 0) |
+                                       (step.robot_link_up ? 0 : kRobotLinkDown)));
   writer.put(numbers.data(), numbers.size());
   writer.put(vector.matches);
   writer.put(vector.inliers);
@@ -78,6 +80,7 @@ bool unpack_step(std::span<const std::uint8_t> bytes, RecordedStep& step) {
   if ((flags & kHasNearness) != 0) vector.nearness = n[9];
   if ((flags & kHasVector) != 0) step.vector = vector;
   if ((flags & kHasMinRange) != 0) step.min_range_m = n[10];
+  step.robot_link_up = (flags & kRobotLinkDown) == 0;
   return true;
 }
 

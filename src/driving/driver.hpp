@@ -25,6 +25,7 @@ struct Reading {
   std::optional<Scan> scan;                   // a new sweep, when there is one
   std::optional<Milliseconds> scan_t_ms;      // when it was taken; nothing: now
   std::optional<JoystickReading> rider = {};  // the newest reading of the rider's joystick, where the robot has one
+  bool robot_link_up = true;                  // false: the connection to the robot is lost or too slow
 };
 
 /// A picture with the odometry of the moment at which it was taken, of a robot that has it.

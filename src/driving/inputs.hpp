@@ -47,6 +47,7 @@ struct Inputs {
   bool link_up = false;
   std::optional<Milliseconds> sensors_now_ms;  // by the sensors' clock; nothing: it is the machine's own
   std::optional<JoystickReading> rider;        // the newest reading of the joystick, when there is one
+  bool robot_link_up = true;                   // false: the connection to the robot is lost or too slow for its sensors
 };
 
 }  // namespace homeward::driving

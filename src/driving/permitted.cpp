@@ -30,9 +30,12 @@ std::optional<wire::ReasonCode> reason_to_stop(const DrivingState& state, const 
   if (now_ms - state.last_message_ms > config.link_silence_ms) return wire::ReasonCode::kServerSilent;
   if (now_ms > state.permit_ends_ms) return wire::ReasonCode::kPermitOver;
   const Milliseconds patience_ms = state.pictured ? config.frame_silence_ms : config.first_frame_ms;
-  if (sensors_ms - state.last_picture_ms > patience_ms) return wire::ReasonCode::kCameraSilent;
-  if (!state.scan || sensors_ms - state.scan->taken_ms > config.scan_silence_ms)
-    return wire::ReasonCode::kRangeSensorSilent;
+  const bool camera_silent = sensors_ms - state.last_picture_ms > patience_ms;
+  const bool ranges_silent = !state.scan || sensors_ms - state.scan->taken_ms > config.scan_silence_ms;
+  // No sensor can be blamed for what does not reach us.
+  if ((camera_silent || ranges_silent) && !inputs.robot_link_up) return wire::ReasonCode::kRobotLinkLost;
+  if (camera_silent) return wire::ReasonCode::kCameraSilent;
+  if (ranges_silent) return wire::ReasonCode::kRangeSensorSilent;
   return std::nullopt;
 }
 

@@ -44,6 +44,7 @@ db::RecordedStep to_recorded(std::int64_t seq, const driving::Inputs& inputs, co
   step.sensors_ms = inputs.sensors_now_ms;
   step.odometry = inputs.odometry;
   step.link_up = inputs.link_up;
+  step.robot_link_up = inputs.robot_link_up;
   step.received = inputs.messages;
   if (inputs.scan) step.sweep = to_recorded(*inputs.scan);
   if (inputs.picture)
@@ -62,6 +63,7 @@ driving::Inputs inputs_of(const db::RecordedStep& step) {
   inputs.sensors_now_ms = step.sensors_ms;
   inputs.odometry = step.odometry;
   inputs.link_up = step.link_up;
+  inputs.robot_link_up = step.robot_link_up;
   inputs.messages = step.received;
   if (step.sweep) inputs.scan = from_recorded(*step.sweep);
   if (step.rider) {

@@ -154,7 +154,8 @@ Result<RosbridgeFile> rosbridge_from_json(const json& value, const std::string& 
   const int version = reader.format("homeward-rosbridge", 1, 2);
   RosbridgeFile file;
   file.address = reader.text("address", 300);
-  if (!file.address.starts_with("ws://") || file.address.size() < 6) {
+  const bool websocket = file.address.starts_with("ws://") || file.address.starts_with("wss://");
+  if (!websocket || file.address.ends_with("://")) {
     reader.problem("address", "The address of a rosbridge looks like ws://192.168.1.7:9090.");
   }
   file.camera = reader.text("camera");

@@ -45,7 +45,7 @@ struct RosRangeSensor {
 /// A robot behind a rosbridge (proto/schemas/rosbridge.schema.json), format "homeward-rosbridge", version 2; version 1
 /// has a scan always and no ranges. A robot has a scan or ranges or both.
 struct RosbridgeFile {
-  std::string address;  // ws://HOST:PORT
+  std::string address;  // ws://HOST:PORT or wss://HOST:PORT, perhaps with a path
   std::string camera;   // camera.json, relative to the file
   RosTopic cmd_vel;
   RosTopic odom;

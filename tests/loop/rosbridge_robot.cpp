@@ -6,10 +6,12 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <deque>
 #include <fstream>
 #include <iostream>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "imageio/decode.hpp"
 #include "scenario/simulator_driver.hpp"
@@ -26,13 +28,44 @@ std::atomic<bool> ended{false};
 std::atomic<bool> camera_silent{false};
 std::atomic<bool> scanner_silent{false};
 
-void send_pictures(driving::Driver& robot, testing::RosbridgeServer& bridge, const std::stop_token& stop) {
+/// The robot's clock, by which its messages are stamped. The simulation's own falls behind where the machine is busy,
+/// as no clock of a robot does.
+class RobotClock {
+ public:
+  /// The simulation has come so far.
+  std::int64_t note(driving::Milliseconds simulated_ms) {
+    const std::lock_guard lock(mutex_);
+    noted_.push_back({simulated_ms, now_us()});
+    while (noted_.size() > kMostNoted) noted_.pop_front();
+    return noted_.back().second;
+  }
+  /// When it was there.
+  std::int64_t stamp_us(driving::Milliseconds simulated_ms) {
+    const std::lock_guard lock(mutex_);
+    for (auto noted = noted_.rbegin(); noted != noted_.rend(); ++noted) {
+      if (noted->first <= simulated_ms) return noted->second;
+    }
+    return now_us();
+  }
+
+ private:
+  static std::int64_t now_us() {
+    return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now().time_since_epoch()).count();
+  }
+
+  static constexpr std::size_t kMostNoted = 500;  // ten seconds
+  std::mutex mutex_;
+  std::deque<std::pair<driving::Milliseconds, std::int64_t>> noted_;
+};
+
+void send_pictures(driving::Driver& robot, RobotClock& clock, testing::RosbridgeServer& bridge,
+                   const std::stop_token& stop) {
   constexpr int kQuality = 90;
   while (!stop.stop_requested()) {
     const auto taken = robot.next_picture(stop);
     if (!taken || !*taken) return;
     if (camera_silent) continue;
-    bridge.publish("/image", testing::picture_message(1000 * (*taken)->t_ms + 1,
+    bridge.publish("/image", testing::picture_message(clock.stamp_us((*taken)->t_ms),
                                                       imageio::encode_jpeg((*taken)->picture, kQuality)));
   }
 }
@@ -61,6 +94,7 @@ int run(const std::vector<std::string>& arguments) {
                                     heard = Clock::now();
                                     twist = {msg["linear"]["x"].get<double>(), msg["angular"]["z"].get<double>()};
                                   }});
+  bridge.take_up_after(std::chrono::milliseconds(5));
   const wire::RosbridgeFile described = testing::sample_rosbridge();
   for (const wire::RosTopic* topic : {&described.cmd_vel, &described.odom, &*described.scan, &described.image}) {
     bridge.serve_topic(topic->topic, topic->type);
@@ -68,7 +102,8 @@ int run(const std::vector<std::string>& arguments) {
   // Last: who finds this file finds the bridge listening.
   std::ofstream(arguments[6]) << wire::camera_to_json(robot.camera()).dump();
 
-  std::jthread pictures([&](const std::stop_token& stop) { send_pictures(robot, bridge, stop); });
+  RobotClock clock;
+  std::jthread pictures([&](const std::stop_token& stop) { send_pictures(robot, clock, bridge, stop); });
   constexpr auto kTick = std::chrono::milliseconds(20);
   constexpr int kTicksPerSweep = 5;
   auto next = Clock::now();
@@ -79,8 +114,8 @@ int run(const std::vector<std::string>& arguments) {
       robot.command(twist);
     }
     const driving::Reading reading = robot.read();
+    const std::int64_t stamp_us = clock.note(reading.t_ms);
     if (tick % kTicksPerSweep == 0) {
-      const std::int64_t stamp_us = 1000 * reading.t_ms + 1;
       bridge.publish("/odom", testing::odometry_message(stamp_us, reading.odometry, reading.speed_mps));
       const std::vector<double> ranges_m(reading.scan->ranges_m.begin(), reading.scan->ranges_m.end());
       if (!scanner_silent)

@@ -129,7 +129,7 @@ class Rosbridge(unittest.TestCase):
         self.assertLess(abs(after["x_m"] - before["x_m"]) + abs(after["y_m"] - before["y_m"]), AT_REST)
         self.assertEqual(after["collisions"], 0)
         ended = self.server.call("GET", f"/api/v1/robots/{self.robot}/missions/{mission['id']}")
-        self.assertEqual(ended["reason"]["code"], "range_sensor_silent")
+        self.assertEqual(ended["reason"]["code"], "robot_link_lost")
 
 
 class Wheelchair(Rosbridge):

@@ -6,6 +6,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <deque>
@@ -15,11 +16,14 @@
 #include <set>
 #include <thread>
 
+#include "support/ros_twists.hpp"
+
 namespace homeward::testing {
 namespace {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
+namespace http = beast::http;
 namespace websocket = beast::websocket;
 using Tcp = asio::ip::tcp;
 using Clock = std::chrono::steady_clock;
@@ -33,8 +37,19 @@ struct Subscription {
 };
 
 struct Waiting {
-  std::string topic;  // empty: a status
+  std::string topic;  // empty: any text
   std::string text;
+};
+
+/// What waits for its time.
+struct Due {
+  Clock::time_point at;
+  std::string text;
+};
+struct DueMessage {
+  Clock::time_point at;
+  std::string topic;
+  json msg;
 };
 
 }  // namespace
@@ -45,7 +60,16 @@ struct RosbridgeServer::Impl {
 
     void start() {
       stream.text(true);
-      stream.async_accept([self = shared_from_this()](beast::error_code error) {
+      http::async_read(stream.next_layer(), buffer, request,
+                       [self = shared_from_this()](beast::error_code error, std::size_t) {
+                         if (error) return self->end();
+                         self->impl.paths.emplace_back(self->request.target());
+                         self->accept();
+                       });
+    }
+
+    void accept() {
+      stream.async_accept(request, [self = shared_from_this()](beast::error_code error) {
         if (error) return self->end();
         ++self->impl.connections;
         self->read();
@@ -57,7 +81,8 @@ struct RosbridgeServer::Impl {
         if (error) return self->end();
         const std::string text = beast::buffers_to_string(self->buffer.data());
         self->buffer.consume(self->buffer.size());
-        self->impl.take(*self, text);
+        self->in.push_back({Clock::now() + self->impl.taken_up_after, text});
+        self->take_up();
         self->read();
       });
     }
@@ -79,14 +104,36 @@ struct RosbridgeServer::Impl {
       write();
     }
 
-    void status(const std::string& level, const std::string& what, const json& id) {
-      json message = {{"op", "status"}, {"level", level}, {"msg", what}};
-      if (!id.is_null()) message["id"] = id;
-      send("", message.dump(), 0);
+    /// What has come and whose time it is.
+    void take_up() {
+      while (!in.empty() && Clock::now() >= in.front().at) {
+        const std::string text = std::move(in.front().text);
+        in.pop_front();
+        impl.take(*this, text);
+      }
+    }
+
+    /// As the client is told of a message: whole, or in fragments.
+    void tell(const std::string& topic, const std::string& text, std::size_t queue_length) {
+      if (fragment_bytes == 0 || text.size() <= fragment_bytes) return send(topic, text, queue_length);
+      const std::size_t total = (text.size() + fragment_bytes - 1) / fragment_bytes;
+      for (std::size_t i = 0; i < total; ++i) {
+        const json part = {{"op", "fragment"},
+                           {"id", "0"},
+                           {"data", text.substr(i * fragment_bytes, fragment_bytes)},
+                           {"num", i},
+                           {"total", total}};
+        send("", part.dump(), 0);
+      }
+    }
+
+    void close() {
+      if (std::exchange(closing, true)) return;
+      stream.async_close(websocket::close_code::normal, [self = shared_from_this()](beast::error_code) {});
     }
 
     void write() {
-      if (writing || out.empty()) return;
+      if (writing || closing || out.empty()) return;
       writing = true;
       sending = std::move(out.front().text);
       out.pop_front();
@@ -105,9 +152,13 @@ struct RosbridgeServer::Impl {
     Impl& impl;
     websocket::stream<beast::tcp_stream> stream;
     beast::flat_buffer buffer;
+    http::request<http::string_body> request;
+    std::deque<Due> in;
     std::deque<Waiting> out;
     std::string sending;
     bool writing = false;
+    bool closing = false;
+    std::size_t fragment_bytes = 0;
     std::map<std::string, Subscription> subscriptions;
     std::set<std::string> advertised;
   };
@@ -122,7 +173,13 @@ struct RosbridgeServer::Impl {
   bool refused = false;
   std::set<std::shared_ptr<Session>> sessions;
   std::map<std::string, std::string> types;
+  std::deque<DueMessage> delayed;
+  std::chrono::milliseconds delay{0};
+  std::chrono::milliseconds taken_up_after{0};
+  std::size_t fragment_bytes = 0;
+  bool authenticates = false;
   std::vector<json> received;
+  std::vector<std::string> paths;
   int connections = 0;
   std::thread thread;
 
@@ -151,6 +208,7 @@ struct RosbridgeServer::Impl {
       if (error) return;
       if (!refused) {
         const auto session = std::make_shared<Session>(*this, std::move(socket));
+        session->fragment_bytes = fragment_bytes;
         sessions.insert(session);
         session->start();
       }
@@ -166,45 +224,41 @@ struct RosbridgeServer::Impl {
 
   void take(Session& session, const std::string& text) {
     const json message = json::parse(text, nullptr, false);
-    if (!message.is_object() || !message.contains("op") || !message["op"].is_string()) {
-      return session.status("error", "a message must be an object with an op", nullptr);
-    }
+    if (!message.is_object() || !message.contains("op") || !message["op"].is_string()) return;
     received.push_back(message);
-    const json id = message.value("id", json());
     const std::string op = message["op"];
+    if (authenticates && op != "auth") return session.close();
+    session.fragment_bytes = message.value("fragment_size", session.fragment_bytes);
     const std::string topic = message.value("topic", "");
-    if (op == "advertise") {
-      const std::string type = message.value("type", "");
-      const auto known = types.find(topic);
-      if (known != types.end() && known->second != type) {
-        return session.status("error", topic + " has the type " + known->second + ", not " + type, id);
-      }
-      types[topic] = type;
+    const std::string type = message.value("type", "");
+    const auto known = types.find(topic);
+    const bool fits = known == types.end() || type.empty() || names_type(type, known->second);
+    if (op == "advertise" && fits && !type.empty()) {
+      types.emplace(topic, type);
       session.advertised.insert(topic);
     } else if (op == "unadvertise") {
-      if (session.advertised.erase(topic) == 0) session.status("warning", topic + " was not advertised", id);
-    } else if (op == "publish") {
-      if (!types.contains(topic)) return session.status("error", "there is no topic " + topic, id);
-      if (!message.contains("msg")) return session.status("error", "a publish needs a msg", id);
-      if (events.published) events.published(topic, message["msg"]);
-    } else if (op == "subscribe") {
-      const auto known = types.find(topic);
-      const std::string type = message.value("type", "");
-      if (known == types.end() || (!type.empty() && known->second != type)) {
-        return session.status("error", "cannot subscribe to " + topic + " as " + type, id);
-      }
+      session.advertised.erase(topic);
+    } else if (op == "publish" && known != types.end()) {
+      const auto msg = as_published(known->second, message.value("msg", json::object()));
+      if (!msg) return;
+      if (events.published) events.published(topic, *msg);
+      send_out(topic, *msg);
+    } else if (op == "subscribe" && fits) {
       Subscription subscription;
       subscription.throttle = std::chrono::milliseconds(message.value("throttle_rate", 0));
       subscription.queue_length = message.value<std::size_t>("queue_length", 0);
       session.subscriptions[topic] = std::move(subscription);
     } else if (op == "unsubscribe") {
       session.subscriptions.erase(topic);
-    } else {
-      session.status("error", "unknown op " + op, id);
     }
   }
 
-  void publish(const std::string& topic, const json& msg) {
+  void publish(const std::string& topic, json msg) {
+    if (delay.count() == 0 && delayed.empty()) return send_out(topic, msg);
+    delayed.push_back({Clock::now() + delay, topic, std::move(msg)});
+  }
+
+  void send_out(const std::string& topic, const json& msg) {
     std::string text;
     for (const auto& session : sessions) {
       const auto found = session->subscriptions.find(topic);
@@ -224,16 +278,22 @@ struct RosbridgeServer::Impl {
     const auto now = Clock::now();
     if (subscription.held.empty() || now - subscription.sent < subscription.throttle) return;
     subscription.sent = now;
-    session.send(topic, std::move(subscription.held.front()), subscription.queue_length);
+    session.tell(topic, subscription.held.front(), subscription.queue_length);
     subscription.held.pop_front();
   }
 
-  /// Sends what a throttle held back, when its time has come.
+  /// What waits for its time, when that has come.
   void tick() {
     ticker.expires_after(std::chrono::milliseconds(10));
     ticker.async_wait([this](beast::error_code ended) {
       if (ended) return;
-      for (const auto& session : sessions) {
+      while (!delayed.empty() && Clock::now() >= delayed.front().at) {
+        const DueMessage due = std::move(delayed.front());
+        delayed.pop_front();
+        send_out(due.topic, due.msg);
+      }
+      for (const auto& session : std::set(sessions)) {
+        session->take_up();
         for (auto& [topic, subscription] : session->subscriptions) send_held(*session, topic, subscription);
       }
       tick();
@@ -276,6 +336,25 @@ void RosbridgeServer::send_raw(const std::string& text) {
   });
 }
 
+void RosbridgeServer::delay(std::chrono::milliseconds time) {
+  impl_->on_thread([this, time] { impl_->delay = time; });
+}
+
+void RosbridgeServer::take_up_after(std::chrono::milliseconds time) {
+  impl_->on_thread([this, time] { impl_->taken_up_after = time; });
+}
+
+void RosbridgeServer::authenticate() {
+  impl_->on_thread([this] { impl_->authenticates = true; });
+}
+
+void RosbridgeServer::fragment(std::size_t most_bytes) {
+  impl_->on_thread([this, most_bytes] {
+    impl_->fragment_bytes = most_bytes;
+    for (const auto& session : impl_->sessions) session->fragment_bytes = most_bytes;
+  });
+}
+
 void RosbridgeServer::cut() {
   impl_->on_thread([this] { impl_->cut(); });
 }
@@ -307,6 +386,10 @@ std::vector<std::string> RosbridgeServer::subscribed() const {
 
 std::vector<json> RosbridgeServer::received() const {
   return impl_->on_thread([this] { return impl_->received; });
+}
+
+std::vector<std::string> RosbridgeServer::paths() const {
+  return impl_->on_thread([this] { return impl_->paths; });
 }
 
 }  // namespace homeward::testing

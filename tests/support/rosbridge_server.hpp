@@ -10,10 +10,12 @@
 
 namespace homeward::testing {
 
-/// A rosbridge for tests, written from the public protocol description (version 2 of ROSBRIDGE_PROTOCOL.md in
-/// RobotWebTools/rosbridge_suite): advertise, unadvertise, publish, subscribe with throttle_rate and queue_length,
-/// unsubscribe, and status messages for what is wrong. It carries any JSON as a message and knows the types of the
-/// topics that it was told to serve. Functions may be called from any thread.
+/// A rosbridge for tests, which does what those of ROS 1 (rosbridge_suite 0.11.17) and ROS 2 do: advertise,
+/// unadvertise, publish, subscribe with throttle_rate and queue_length, unsubscribe, fragments. As they do it tells its
+/// clients nothing of what is wrong: a publication or subscription whose type's name or fields do not fit is passed
+/// over; whoever publishes on a topic and listens to it hears himself. It answers pings when nothing else is to be
+/// said. It carries any JSON as a message, but Twists as they are (ros_twists.hpp). Functions may be called from any
+/// thread.
 class RosbridgeServer {
  public:
   struct Events {
@@ -32,6 +34,15 @@ class RosbridgeServer {
   void publish(const std::string& topic, nlohmann::json msg);
   /// Any text to every client, whole or broken.
   void send_raw(const std::string& text);
+  /// From now on what nodes publish goes out so much later, while pings are answered at once: a bridge that waits until
+  /// its client takes more.
+  void delay(std::chrono::milliseconds time);
+  /// From now on what clients say is taken up so much later; what was not when the connection ends never is.
+  void take_up_after(std::chrono::milliseconds time);
+  /// From now on a first message that does not authenticate its client ends the connection.
+  void authenticate();
+  /// From now on messages longer than this go out in fragments, unless the client has asked for longer ones.
+  void fragment(std::size_t most_bytes);
   /// Ends all connections without a word, as a cable that is pulled.
   void cut();
   /// Neither reads nor writes for a while, as a network that stalls.
@@ -41,7 +52,8 @@ class RosbridgeServer {
 
   [[nodiscard]] int connections() const;                       // made so far
   [[nodiscard]] std::vector<std::string> subscribed() const;   // topics that a client listens to now
-  [[nodiscard]] std::vector<nlohmann::json> received() const;  // all that clients have said
+  [[nodiscard]] std::vector<nlohmann::json> received() const;  // all that clients have said and that was taken up
+  [[nodiscard]] std::vector<std::string> paths() const;        // that clients asked for when they connected
 
  private:
   struct Impl;

@@ -188,24 +188,16 @@ std::string text_at(const json& value, const char* key) {
   return found != value.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-bool is_stamped(const std::string& type) { return type.ends_with("Stamped"); }
-
-RosTwist twist_of(Fields twist) {
-  Fields linear = twist.inside("linear");
-  Fields angular = twist.inside("angular");
-  return {{linear.number("x"), angular.number("z")}};
+/// Of a Twist, or of a TwistStamped and then with its stamp.
+RosTwist twist_of(Fields& message, const std::string& type) {
+  RosTwist twist;
+  if (is_stamped(type)) twist.stamp_us = stamp_of(message);
+  Fields fields = is_stamped(type) ? message.inside("twist") : message;
+  Fields linear = fields.inside("linear");
+  Fields angular = fields.inside("angular");
+  twist.motion = {linear.number("x"), angular.number("z")};
+  return twist;
 }
-
-/// The topics of the robot's sensors, and the least time between two messages that are of use.
-std::vector<std::pair<const wire::RosTopic*, int>> sensed_topics(const wire::RosbridgeFile& robot) {
-  std::vector<std::pair<const wire::RosTopic*, int>> topics = {{&robot.odom, 20}};
-  if (robot.scan) topics.emplace_back(&*robot.scan, 40);
-  topics.emplace_back(&robot.image, 90);  // ten pictures a second are enough
-  for (const wire::RosRangeSensor& sensor : robot.ranges) topics.emplace_back(&sensor.topic, 40);
-  return topics;
-}
-
-json vector3(double x, double z_or_zero) { return {{"x", x}, {"y", 0.0}, {"z", z_or_zero}}; }
 
 }  // namespace
 
@@ -217,6 +209,11 @@ Result<RosMessage> decode_ros_message(std::string_view text, const wire::Rosbrid
   if (op == "status") {
     const std::string level = text_at(*parsed, "level");
     return RosMessage(RosStatus{level, text_at(*parsed, "msg")});
+  }
+  if (op == "fragment") {
+    return fail(ErrorCode::kInvalidInput,
+                "The rosbridge sends a message in fragments (its parameter max_message_size): let it send them whole.",
+                "rosbridge/op");
   }
   if (op != "publish") return RosMessage(RosOther{});
   const std::string topic = text_at(*parsed, "topic");
@@ -234,64 +231,13 @@ Result<RosMessage> decode_ros_message(std::string_view text, const wire::Rosbrid
     RosPicture picture{stamp_of(message), bytes_of(message, "data")};
     result = std::move(picture);
   }
-  if (robot.rider && topic == robot.rider->topic.topic) {
-    result = twist_of(is_stamped(robot.rider->topic.type) ? message.inside("twist") : message);
-  }
+  if (robot.rider && topic == robot.rider->topic.topic) result = twist_of(message, robot.rider->topic.type);
+  if (topic == robot.cmd_vel.topic) result = RosEcho{twist_of(message, robot.cmd_vel.type).motion};
   if (message.error()) return tl::unexpected<Error>(*message.error());
   return result;
 }
 
-std::vector<std::string> ros_greeting(const wire::RosbridgeFile& robot) {
-  std::vector<std::string> texts;
-  texts.push_back(json{
-      {"op", "advertise"}, {"id", "homeward:cmd_vel"}, {"topic", robot.cmd_vel.topic}, {"type", robot.cmd_vel.type}}
-                      .dump());
-  if (robot.rider) {
-    // Each reading of the joystick, at once.
-    texts.push_back(json{
-        {"op", "subscribe"},
-        {"id", "homeward:" + robot.rider->topic.topic},
-        {"topic", robot.rider->topic.topic},
-        {"type", robot.rider->topic.type},
-        {"throttle_rate", 0},
-        {"queue_length", 1},
-        {"compression",
-         "none"}}.dump());
-  }
-  // Of what waits only the newest matters.
-  for (const auto& [topic, least_ms] : sensed_topics(robot)) {
-    texts.push_back(json{
-        {"op", "subscribe"},
-        {"id", "homeward:" + topic->topic},
-        {"topic", topic->topic},
-        {"type", topic->type},
-        {"throttle_rate", least_ms},
-        {"queue_length", 1},
-        {"compression",
-         "none"}}.dump());
-  }
-  return texts;
-}
-
-std::vector<std::string> ros_farewell(const wire::RosbridgeFile& robot) {
-  std::vector<std::string> texts = {ros_motion(robot, {})};
-  for (const auto& [topic, least_ms] : sensed_topics(robot)) {
-    texts.push_back(json{{"op", "unsubscribe"}, {"id", "homeward:" + topic->topic}, {"topic", topic->topic}}.dump());
-  }
-  if (robot.rider) {
-    const std::string& topic = robot.rider->topic.topic;
-    texts.push_back(json{{"op", "unsubscribe"}, {"id", "homeward:" + topic}, {"topic", topic}}.dump());
-  }
-  texts.push_back(json{{"op", "unadvertise"}, {"id", "homeward:cmd_vel"}, {"topic", robot.cmd_vel.topic}}.dump());
-  return texts;
-}
-
-std::string ros_motion(const wire::RosbridgeFile& robot, const driving::Motion& motion) {
-  json twist = {{"linear", vector3(motion.speed_mps, 0.0)}, {"angular", vector3(0.0, motion.turn_radps)}};
-  // The bridge fills in a header that is left out, by the robot's own clock.
-  if (is_stamped(robot.cmd_vel.type)) twist = {{"twist", twist}};
-  return json{{"op", "publish"}, {"topic", robot.cmd_vel.topic}, {"msg", twist}}.dump();
-}
+bool is_stamped(const std::string& type) { return type.ends_with("Stamped"); }
 
 driving::Body body_of(const wire::RosBody& outline) {
   driving::Body body;

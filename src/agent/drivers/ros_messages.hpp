@@ -41,6 +41,10 @@ struct RosRange {
   float range_min_m = 0.0F;  // that it can measure
 };
 struct RosTwist {  // of the rider's joystick
+  RosStamp stamp_us;
+  driving::Motion motion;
+};
+struct RosEcho {  // of what was published for the wheels, by the agent or somebody else
   driving::Motion motion;
 };
 struct RosStatus {
@@ -48,7 +52,7 @@ struct RosStatus {
   std::string text;
 };
 struct RosOther {};  // a message that the agent has no use for
-using RosMessage = std::variant<RosOther, RosSweep, RosRange, RosOdometry, RosPicture, RosTwist, RosStatus>;
+using RosMessage = std::variant<RosOther, RosSweep, RosRange, RosOdometry, RosPicture, RosTwist, RosEcho, RosStatus>;
 
 inline constexpr std::size_t kMaxRosMessageBytes = 16UL * 1024 * 1024;
 inline constexpr std::size_t kMaxRosRanges = 20'000;
@@ -58,11 +62,8 @@ inline constexpr std::size_t kMaxRosRanges = 20'000;
 /// is too near. Errors: kInvalidInput, kTooLarge; each names the field.
 Result<RosMessage> decode_ros_message(std::string_view text, const wire::RosbridgeFile& robot);
 
-/// What is said first on a connection: the topics that are published and those that are wanted.
-std::vector<std::string> ros_greeting(const wire::RosbridgeFile& robot);
-/// What is said last: the robot stands, and topics are given back.
-std::vector<std::string> ros_farewell(const wire::RosbridgeFile& robot);
-std::string ros_motion(const wire::RosbridgeFile& robot, const driving::Motion& motion);
+/// Whether messages of this type bear a header.
+bool is_stamped(const std::string& type);
 
 /// The robot's body, its outline as it is.
 driving::Body body_of(const wire::RosBody& outline);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace homeward::agent {
 
@@ -42,11 +43,28 @@ Result<ServerAddress> parse_address(const std::string& text) {
               "The address must begin with http:// or https://. An address looks like " + example + ".", text);
 }
 
-Result<ServerAddress> parse_websocket_address(const std::string& text) {
+Result<WebSocketAddress> parse_websocket_address(const std::string& text) {
   const std::string example = "ws://192.168.1.7:9090";
-  if (text.starts_with("ws://")) return parse_host(text.substr(5), {false, "", "80"}, text, example);
-  return fail(ErrorCode::kInvalidInput, "The address must begin with ws://. An address looks like " + example + ".",
-              text);
+  const auto wrong = [&](const std::string& why) {
+    return fail(ErrorCode::kInvalidInput, why + " An address looks like " + example + ".", text);
+  };
+  const bool tls = text.starts_with("wss://");
+  if (!tls && !text.starts_with("ws://")) return wrong("The address must begin with ws:// or wss://.");
+  std::string host = text.substr(tls ? 6 : 5);
+  WebSocketAddress address;
+  if (const std::size_t slash = host.find('/'); slash != std::string::npos) {
+    address.path = host.substr(slash);
+    host.resize(slash);
+  }
+  // The path goes into a line of the handshake as it is.
+  const bool plain = std::all_of(address.path.begin(), address.path.end(), [](char c) { return c > 0x20 && c < 0x7F; });
+  if (!plain || address.path.find('#') != std::string::npos) {
+    return wrong("The path of the address has characters that do not belong there; write them as %20 and the like.");
+  }
+  auto server = parse_host(host, {tls, "", tls ? "443" : "80"}, text, example);
+  if (!server) return pass_on(server);
+  address.server = std::move(*server);
+  return address;
 }
 
 }  // namespace homeward::agent

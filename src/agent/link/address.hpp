@@ -21,7 +21,13 @@ struct ServerAddress {
 /// "http://127.0.0.1:8080" or "https://house.example". Errors: kInvalidInput.
 Result<ServerAddress> parse_address(const std::string& text);
 
-/// "ws://192.168.1.7:9090". Errors: kInvalidInput.
-Result<ServerAddress> parse_websocket_address(const std::string& text);
+/// Where a WebSocket is served.
+struct WebSocketAddress {
+  ServerAddress server;
+  std::string path = "/";  // with the query, if there is one
+};
+
+/// "ws://192.168.1.7:9090", "wss://chair.example/rosbridge". Errors: kInvalidInput.
+Result<WebSocketAddress> parse_websocket_address(const std::string& text);
 
 }  // namespace homeward::agent

@@ -21,9 +21,10 @@ std::string_view text_of(std::span<const std::uint8_t> bytes) {
   return {static_cast<const char*>(static_cast<const void*>(bytes.data())), bytes.size()};
 }
 
-SocketOptions options_for(ServerAddress address, std::size_t max_message_bytes) {
+SocketOptions options_for(WebSocketAddress address, std::size_t max_message_bytes) {
   SocketOptions options;
-  options.address = std::move(address);
+  options.address = std::move(address.server);
+  options.path = std::move(address.path);
   options.text = true;
   options.max_message_bytes = max_message_bytes;
   options.ping_period = kPingPeriod;
@@ -32,12 +33,12 @@ SocketOptions options_for(ServerAddress address, std::size_t max_message_bytes) 
 
 }  // namespace
 
-JsonSocket::JsonSocket(ServerAddress address, std::size_t max_message_bytes, Events events)
+JsonSocket::JsonSocket(WebSocketAddress address, std::size_t max_message_bytes, Events events)
     : events_(std::move(events)),
-      name_(address.host_header()),
+      name_(address.server.host_header()),
       socket_(options_for(std::move(address), max_message_bytes), {[this] { return greeting(); },
                                                                    [this](std::span<const std::uint8_t> message) {
-                                                                     events_.arrived(text_of(message));
+                                                                     arrived(text_of(message));
                                                                      return Status();
                                                                    },
                                                                    [this](const ConnectionEnd& end) { ended(end); }}) {}
@@ -52,8 +53,13 @@ void JsonSocket::finish(const std::vector<std::string>& texts, std::chrono::mill
 
 std::vector<ReconnectingSocket::Message> JsonSocket::greeting() {
   auto messages = bytes_of(events_.greeting());
-  events_.log("connected to " + name_);
+  if (!unheard_) events_.log("connected to " + name_);
   return messages;
+}
+
+void JsonSocket::arrived(std::string_view text) {
+  if (std::exchange(unheard_, false)) events_.log("connected to " + name_);
+  events_.arrived(text, socket_.lag());
 }
 
 void JsonSocket::ended(const ConnectionEnd& end) {
@@ -62,6 +68,10 @@ void JsonSocket::ended(const ConnectionEnd& end) {
   std::string what = was_open ? "connection lost: " : "no connection: ";
   if (end.stage == ConnectionEnd::Stage::kHandshake) what += "the handshake failed: ";
   what += end.why;
+  const bool unheard = was_open && !end.heard;
+  if (unheard) what += "; it said nothing before" + (events_.if_unheard.empty() ? "" : ": " + events_.if_unheard);
+  // It may end now in this way, now in that.
+  if (std::exchange(unheard_, unheard) && unheard) return;
   if (what != logged_before_) events_.log(what);
   logged_before_ = std::move(what);
 }

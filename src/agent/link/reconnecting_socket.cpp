@@ -21,14 +21,14 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kFirstPause(200);
 constexpr std::chrono::milliseconds kLongestPause(2000);
+constexpr const char* kEnded = "ended";
 
 /// How long to wait between one connection and the next.
 class Pauses {
  public:
   /// After a connection that, or the try to make it, lasted so long.
   std::chrono::milliseconds after(const ConnectionEnd& end, Clock::duration lasted, const SocketOptions& options) {
-    const bool settled =
-        options.settled_after ? lasted > *options.settled_after : end.stage == ConnectionEnd::Stage::kOpen;
+    const bool settled = options.settled_after ? lasted > *options.settled_after : end.heard && !end.given_up;
     pause_ = settled || pause_ == pause_.zero() ? kFirstPause : std::min(2 * pause_, kLongestPause);
     return pause_;
   }
@@ -56,8 +56,10 @@ struct ReconnectingSocket::Impl final : ConnectionOwner {
   Clock::time_point newest_good_until;
   bool finishing = false;
   bool finished = false;  // everything that waited while finishing is sent, or never will be
+  bool given_up = false;  // the present connection
   std::condition_variable_any pause;
   std::condition_variable_any flushed;
+  bool heard = false;  // a message on the present connection; of the socket's thread alone
   std::jthread thread;
 
   void run(const std::stop_token& stop) {
@@ -80,11 +82,13 @@ struct ReconnectingSocket::Impl final : ConnectionOwner {
   ConnectionEnd connect_once(const std::stop_token& stop) {
     ConnectionEnd end;
     std::unique_ptr<SocketConnection> made;
+    heard = false;
     try {
       made = make_connection(options, *this);
       {
         const std::lock_guard lock(mutex);
         connection = made.get();
+        given_up = false;
       }
       // Whoever stops after this cuts the connection.
       end.why = stop.stop_requested() ? "ended" : made->run();
@@ -92,9 +96,11 @@ struct ReconnectingSocket::Impl final : ConnectionOwner {
       end.why = broken.what();
     }
     if (made) end.stage = made->stage();
+    end.heard = heard;
     down();
     {
       const std::lock_guard lock(mutex);
+      end.given_up = given_up;
       connection = nullptr;
       open = false;
       waiting.clear();
@@ -134,7 +140,10 @@ struct ReconnectingSocket::Impl final : ConnectionOwner {
     return finishing && waiting.empty();
   }
 
-  Status arrived(std::span<const std::uint8_t> message) override { return events.arrived(message); }
+  Status arrived(std::span<const std::uint8_t> message) override {
+    heard = true;
+    return events.arrived(message);
+  }
 
   void answered(std::int64_t sent_ms) override { answered_ms = std::max(answered_ms.load(), sent_ms); }
 
@@ -153,7 +162,7 @@ ReconnectingSocket::~ReconnectingSocket() {
   impl_->thread.request_stop();
   {
     const std::lock_guard lock(impl_->mutex);
-    if (impl_->connection != nullptr) impl_->connection->cut();
+    if (impl_->connection != nullptr) impl_->connection->cut(kEnded);
   }
   impl_->thread.join();
 }
@@ -169,7 +178,7 @@ void ReconnectingSocket::send(Message message) {
   const std::lock_guard lock(impl_->mutex);
   if (!impl_->takes_messages()) return;
   impl_->waiting.push_back(std::move(message));
-  if (impl_->waiting.size() > impl_->options.max_waiting) impl_->connection->cut();
+  if (impl_->waiting.size() > impl_->options.max_waiting) impl_->connection->cut(kEnded);
   impl_->connection->wake();
 }
 
@@ -181,13 +190,21 @@ void ReconnectingSocket::send_newest(Message message, std::chrono::steady_clock:
   impl_->connection->wake();
 }
 
+void ReconnectingSocket::restart(const std::string& why) {
+  const std::lock_guard lock(impl_->mutex);
+  if (!impl_->takes_messages()) return;
+  impl_->given_up = true;
+  impl_->is_up = false;
+  impl_->connection->cut(why);
+}
+
 void ReconnectingSocket::finish(std::vector<Message> messages, std::chrono::milliseconds limit) {
   std::unique_lock lock(impl_->mutex);
   impl_->newest.reset();
   impl_->finishing = true;
   impl_->pause.notify_all();
   if (!impl_->is_up || !impl_->open) {
-    if (impl_->connection != nullptr) impl_->connection->cut();
+    if (impl_->connection != nullptr) impl_->connection->cut(kEnded);
     return;
   }
   for (Message& message : messages) impl_->waiting.push_back(std::move(message));

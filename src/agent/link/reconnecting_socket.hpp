@@ -15,8 +15,8 @@
 namespace homeward::agent {
 
 /// A WebSocket in a thread of its own, which connects, and connects again when the connection is lost: first after
-/// 0.2 s, then after twice as long each time, up to 2 s. All functions may be called from any thread and never wait for
-/// the network, but for `finish` and the end.
+/// 0.2 s, then after twice as long each time, up to 2 s; which connections end that, its options say. All functions may
+/// be called from any thread and never wait for the network, but for `finish` and the end.
 class ReconnectingSocket {
  public:
   using Message = std::vector<std::uint8_t>;
@@ -52,6 +52,8 @@ class ReconnectingSocket {
   /// meant before.
   void send_newest(Message message,
                    std::chrono::steady_clock::time_point good_until = std::chrono::steady_clock::time_point::max());
+  /// Gives the present connection up for this reason, with all that waits, and makes another.
+  void restart(const std::string& why);
   /// Sends what waits and then these, but not the newest; closes the connection in order within `limit`, and connects
   /// no more.
   void finish(std::vector<Message> messages, std::chrono::milliseconds limit);

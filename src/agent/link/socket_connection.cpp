@@ -73,8 +73,8 @@ class BeastConnection : public SocketConnection {
     asio::post(context_, [this] { write_next(); });
   }
 
-  void cut() override {
-    asio::post(context_, [this] { close("ended"); });
+  void cut(const std::string& why) override {
+    asio::post(context_, [this, why] { close(why); });
   }
 
  protected:
@@ -97,8 +97,8 @@ class BeastConnection : public SocketConnection {
   void upgrade() {
     stage_ = ConnectionEnd::Stage::kHandshake;
     lowest().expires_never();
-    socket_.set_option(
-        websocket::stream_base::timeout{options_.connect_limit, options_.silence_limit, !options_.ping_period});
+    // With pings of Beast's own, or else its timer counts messages only, and whoever has nothing to say is lost.
+    socket_.set_option(websocket::stream_base::timeout{options_.connect_limit, options_.silence_limit, true});
     socket_.set_option(websocket::stream_base::decorator([this](websocket::request_type& request) {
       for (const auto& [name, value] : options_.headers) request.set(name, value);
     }));
@@ -161,12 +161,22 @@ class BeastConnection : public SocketConnection {
   void read_next() {
     socket_.async_read(buffer_, [this](beast::error_code error, std::size_t) {
       if (error == websocket::error::message_too_big) return close("a message was larger than allowed");
+      if (error == websocket::error::closed) return close("the other side closed it" + said_at_the_end());
       if (error) return close(error.message());
       const auto taken = owner_.arrived({static_cast<const std::uint8_t*>(buffer_.cdata().data()), buffer_.size()});
       buffer_.consume(buffer_.size());
       if (!taken) return close(taken.error().message);
       read_next();
     });
+  }
+
+  /// Why the other side closed the connection, where it says so; foreign words.
+  [[nodiscard]] std::string said_at_the_end() const {
+    std::string words(socket_.reason().reason.data(), socket_.reason().reason.size());
+    for (char& c : words) {
+      if (c < 0x20 || c > 0x7E) c = '?';
+    }
+    return words.empty() ? words : ": " + words;
   }
 
   void close(const std::string& why) {

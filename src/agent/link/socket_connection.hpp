@@ -44,8 +44,8 @@ class SocketConnection {
   [[nodiscard]] virtual ConnectionEnd::Stage stage() const = 0;
   /// Asks the owner for what waits. From any thread.
   virtual void wake() = 0;
-  /// Ends it without a word, also one that does not run yet. From any thread.
-  virtual void cut() = 0;
+  /// Ends it without a word, also one that does not run yet; `run` gives `why`. From any thread.
+  virtual void cut(const std::string& why) = 0;
 };
 
 /// A connection, plain or with TLS as the address says; it keeps both references. Throws when TLS cannot be set up.

@@ -23,9 +23,10 @@ struct SocketOptions {
   std::chrono::milliseconds connect_limit{5000};  // for connecting, with TLS, and again for the handshake
   std::chrono::milliseconds silence_limit{2000};  // without a byte for so long, the connection is lost
   /// A ping is sent so often to measure the lag. Nothing: only when the other side is silent, to hear whether it lives.
+  /// Either way a side that has nothing to say lives as long as it answers pings.
   std::optional<std::chrono::milliseconds> ping_period = std::nullopt;
   /// The pauses between connections begin anew after a connection that took longer than this from its beginning to its
-  /// end, made or not. Nothing: after any that was made.
+  /// end, made or not. Nothing: after any on which a message came and that was not given up by `restart`.
   std::optional<std::chrono::milliseconds> settled_after = std::nullopt;
 };
 
@@ -38,6 +39,8 @@ struct ConnectionEnd {
   };
   Stage stage = Stage::kConnecting;
   std::string why;
+  bool heard = false;     // a message came on it
+  bool given_up = false;  // by `restart`
 };
 
 }  // namespace homeward::agent

@@ -103,6 +103,7 @@ driving::Inputs sensed(const driving::Reading& reading) {
   driving::Inputs inputs;
   inputs.odometry = reading.odometry;
   inputs.sensors_now_ms = reading.t_ms;
+  inputs.robot_link_up = reading.robot_link_up;
   if (reading.scan) inputs.scan = {reading.scan_t_ms.value_or(reading.t_ms), *reading.scan};
   return inputs;
 }

@@ -30,12 +30,29 @@ TEST(ParseAddress, TakesIPv6InBrackets) {
 TEST(ParseAddress, KnowsRosbridges) {
   const auto address = parse_websocket_address("ws://192.168.1.7:9090/");
   ASSERT_TRUE(address);
-  EXPECT_EQ(address->host, "192.168.1.7");
-  EXPECT_EQ(address->port, "9090");
-  EXPECT_FALSE(address->tls);
-  for (const char* text : {"wss://robot:9090", "http://robot:9090", "ws://", "ws://robot:9090/path"}) {
+  EXPECT_EQ(address->server.host, "192.168.1.7");
+  EXPECT_EQ(address->server.port, "9090");
+  EXPECT_FALSE(address->server.tls);
+  EXPECT_EQ(address->path, "/");
+  EXPECT_EQ(parse_websocket_address("ws://robot:9090")->path, "/");
+  for (const char* text : {"http://robot:9090", "robot:9090", "ws://", "wss://", "ws:///path", "ws://robot:ninety/path",
+                           "ws://robot/a b", "ws://robot/a\r\nHost: other", "ws://robot/a#b", "ws://robot/\xc3\xa4"}) {
     EXPECT_EQ(parse_websocket_address(text).error().code, ErrorCode::kInvalidInput) << text;
   }
+}
+
+TEST(ParseAddress, KnowsRosbridgesWithTlsAndBehindPaths) {
+  const auto safe = parse_websocket_address("wss://chair.example/robots/3/rosbridge?of=2");
+  ASSERT_TRUE(safe) << safe.error().message;
+  EXPECT_TRUE(safe->server.tls);
+  EXPECT_EQ(safe->server.host, "chair.example");
+  EXPECT_EQ(safe->server.port, "443");
+  EXPECT_EQ(safe->path, "/robots/3/rosbridge?of=2");
+  const auto deep = parse_websocket_address("ws://[::1]:9090/a:b");
+  ASSERT_TRUE(deep) << deep.error().message;
+  EXPECT_EQ(deep->server.host, "::1");
+  EXPECT_EQ(deep->server.port, "9090");
+  EXPECT_EQ(deep->path, "/a:b");
 }
 
 TEST(ParseAddress, RefusesTheRestAndNamesIt) {

@@ -35,10 +35,10 @@ class StalledSocketTest : public ::testing::Test {
       peer_.freeze(500ms);
       return std::vector{said(std::string(kMoreThanBuffers_bytes, 'x')), said("after the long one")};
     };
-    events.arrived = [](std::string_view) {};
+    events.arrived = [](std::string_view, std::chrono::milliseconds) {};
     events.lost = [] {};
     events.log = [](const std::string&) {};
-    socket_.emplace(ServerAddress{false, "127.0.0.1", std::to_string(peer_.port())}, 1 << 20, std::move(events));
+    socket_.emplace(WebSocketAddress{{false, "127.0.0.1", std::to_string(peer_.port())}}, 1 << 20, std::move(events));
     ASSERT_TRUE(eventually([this] { return socket_->up(); }));
   }
 

@@ -267,6 +267,47 @@ TEST_F(ReconnectingSocketTest, PingsMeasureTheLag) {
   EXPECT_TRUE(eventually([this] { return socket_->lag() == 1h; }));
 }
 
+TEST_F(ReconnectingSocketTest, APeerThatAnswersPingsAloneIsNotLost) {
+  options_.ping_period = 100ms;
+  options_.silence_limit = 1s;
+  connect();
+  std::this_thread::sleep_for(3500ms);
+  EXPECT_TRUE(socket_->up());
+  EXPECT_TRUE(ends().empty());
+  peer_.freeze(4s);
+  ASSERT_TRUE(eventually([this] { return !socket_->up(); })) << "one that does not is";
+}
+
+TEST_F(ReconnectingSocketTest, WhoNeverSaysAnythingIsAskedLessAndLessOften) {
+  connect();
+  const auto begun = Clock::now();
+  for (int ends_wanted = 1; ends_wanted <= 4; ++ends_wanted) {
+    peer_.cut();
+    ASSERT_TRUE(eventually([&] { return socket_->up() && peer_.connections() == ends_wanted + 1; }));
+  }
+  EXPECT_GT(Clock::now() - begun, 2900ms) << "0.2 s, 0.4, 0.8 and 1.6";
+  for (const ConnectionEnd& end : ends()) EXPECT_FALSE(end.heard);
+  // One word, and the pauses begin anew.
+  peer_.send_raw("a word");
+  std::this_thread::sleep_for(200ms);
+  const auto cut = Clock::now();
+  peer_.cut();
+  ASSERT_TRUE(eventually([&] { return socket_->up() && peer_.connections() == 6; }));
+  EXPECT_LT(Clock::now() - cut, 1200ms);
+  EXPECT_TRUE(ends().back().heard);
+}
+
+TEST_F(ReconnectingSocketTest, RestartGivesTheConnectionUpAndMakesAnother) {
+  connect();
+  peer_.send_raw("a word");
+  std::this_thread::sleep_for(100ms);
+  socket_->restart("it lags");
+  EXPECT_FALSE(socket_->up());
+  expect_lost("it lags");
+  EXPECT_TRUE(ends()[0].heard);
+  EXPECT_TRUE(ends()[0].given_up);
+}
+
 TEST_F(ReconnectingSocketTest, WithoutPingsNothingIsKnownOfTheLag) {
   connect();
   EXPECT_EQ(socket_->lag(), 1h);

@@ -103,12 +103,6 @@ TEST(RosRanges, AreOfTheirSensorAndWithinWhatItHears) {
     ASSERT_FALSE(refused_range) << key;
     EXPECT_EQ(refused_range.error().where.find("/sonar/1"), 0U) << refused_range.error().where;
   }
-  // Its topics are asked for and given back.
-  const auto asks = [&](const std::vector<std::string>& texts) {
-    return std::ranges::count_if(texts, [](const std::string& text) { return text.find("/sonar/") != text.npos; });
-  };
-  EXPECT_EQ(asks(ros_greeting(robot)), 3);
-  EXPECT_EQ(asks(ros_farewell(robot)), 3);
 }
 
 TEST(RosTwists, OfTheRidersJoystickComePlainOrStamped) {
@@ -124,12 +118,9 @@ TEST(RosTwists, OfTheRidersJoystickComePlainOrStamped) {
     ASSERT_TRUE(std::holds_alternative<RosTwist>(*message));
     EXPECT_DOUBLE_EQ(std::get<RosTwist>(*message).motion.speed_mps, 0.3);
     EXPECT_DOUBLE_EQ(std::get<RosTwist>(*message).motion.turn_radps, -0.4);
+    EXPECT_EQ(std::get<RosTwist>(*message).stamp_us, stamped ? RosStamp(5) : std::nullopt);
     const auto other = decode_ros_message(published("/joy_vel", stamped ? twist : json{{"twist", twist}}), robot);
     EXPECT_FALSE(other);
-    const auto greeting = ros_greeting(robot);
-    EXPECT_TRUE(std::any_of(greeting.begin(), greeting.end(), [](const std::string& text) {
-      return text.find("subscribe") != std::string::npos && text.find("/joy_vel") != std::string::npos;
-    }));
   }
 }
 
@@ -203,6 +194,18 @@ TEST(RosMessages, OfOtherKindsArePassedOver) {
   EXPECT_EQ(std::get<RosStatus>(*status).text, "no such topic");
 }
 
+TEST(RosMessages, OnTheWheelsTopicAreCommandsThatComeBack) {
+  const json twist = {{"linear", {{"x", 0.3}}}, {"angular", {{"z", -0.4}}}};
+  EXPECT_EQ(decoded<RosEcho>("/cmd_vel", twist).motion.speed_mps, 0.3);
+  EXPECT_EQ(decoded<RosEcho>("/cmd_vel", twist).motion.turn_radps, -0.4);
+}
+
+TEST(RosMessages, InFragmentsAreRefusedWithWhatToDo) {
+  const Error error = refused(R"({"op":"fragment","id":"0","data":"{\"op\":","num":0,"total":3})");
+  EXPECT_NE(error.message.find("fragments"), std::string::npos) << error.message;
+  EXPECT_NE(error.message.find("max_message_size"), std::string::npos) << error.message;
+}
+
 TEST(RosMessages, AreRefusedWhenTheyAreNone) {
   for (const char* text : {"", "{", "[]", "3", "{}", R"({"op":3})", R"({"op":""})", "\xff\xfe", "{\"op\":NaN}"}) {
     EXPECT_EQ(refused(text).code, ErrorCode::kInvalidInput) << text;
@@ -243,27 +246,6 @@ TEST(RosMessages, SurviveDamage) {
     }
   }
   EXPECT_GT(refusals, 1000);
-}
-
-TEST(RosGreeting, AdvertisesAndSubscribesWithTypes) {
-  const auto texts = ros_greeting(sample_rosbridge());
-  ASSERT_EQ(texts.size(), 4U);
-  const json first = json::parse(texts[0]);
-  EXPECT_EQ(first["op"], "advertise");
-  EXPECT_EQ(first["type"], "geometry_msgs/msg/Twist");
-  const json scan = json::parse(texts[2]);
-  EXPECT_EQ(scan["op"], "subscribe");
-  EXPECT_EQ(scan["topic"], "/scan");
-  EXPECT_EQ(scan["queue_length"], 1);
-  EXPECT_GT(scan["throttle_rate"], 0);
-}
-
-TEST(RosMotion, IsATwistOrAStampedOne) {
-  wire::RosbridgeFile robot = sample_rosbridge();
-  EXPECT_EQ(json::parse(ros_motion(robot, {0.25, -0.5})), json::parse(R"({"op":"publish","topic":"/cmd_vel","msg":
-    {"linear":{"x":0.25,"y":0.0,"z":0.0},"angular":{"x":0.0,"y":0.0,"z":-0.5}}})"));
-  robot.cmd_vel.type = "geometry_msgs/TwistStamped";
-  EXPECT_EQ(json::parse(ros_motion(robot, {0.25, 0.0}))["msg"]["twist"]["linear"]["x"], 0.25);
 }
 
 TEST(RosBodies, CoverTheirOutline) {

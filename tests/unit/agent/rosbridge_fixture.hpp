@@ -71,12 +71,16 @@ class RosbridgeDriverTest : public ::testing::Test {
     });
     EXPECT_TRUE(driver) << (driver ? "" : driver.error().message + " " + driver.error().where);
     driver_ = std::move(*driver);
-    EXPECT_TRUE(eventually([&] { return bridge_->subscribed().size() == sensed.size(); }));
+    const std::size_t listened_to = sensed.size() + 1;  // and to the commands as they come back
+    EXPECT_TRUE(eventually([&] { return bridge_->subscribed().size() == listened_to; }));
   }
 
   void heard(const std::string& topic, const json& msg) {
     const std::lock_guard lock(mutex_);
-    if (topic == "/cmd_vel") heard_.push_back({Clock::now(), msg["linear"]["x"], msg["angular"]["z"]});
+    if (topic != "/cmd_vel") return;
+    const json& twist = msg.contains("twist") ? msg["twist"] : msg;
+    heard_.push_back({Clock::now(), twist["linear"]["x"], twist["angular"]["z"]});
+    if (msg.contains("header")) stamps_.push_back(msg["header"]["stamp"]["sec"]);
   }
   std::vector<Heard> heard_since(Clock::time_point then) {
     const std::lock_guard lock(mutex_);
@@ -91,11 +95,22 @@ class RosbridgeDriverTest : public ::testing::Test {
     return std::any_of(log_.begin(), log_.end(),
                        [&](const std::string& what) { return what.find(part) != std::string::npos; });
   }
+  /// How often a line with this was logged.
+  std::ptrdiff_t times_logged(const std::string& part) {
+    const std::lock_guard lock(mutex_);
+    return std::count_if(log_.begin(), log_.end(),
+                         [&](const std::string& what) { return what.find(part) != std::string::npos; });
+  }
+  /// Now by the robot's clock, which has nothing to do with ours but its speed. Never the same twice.
+  std::int64_t stamp_us() {
+    const auto elapsed = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begun_);
+    return stamp_us_ = std::max<std::int64_t>(stamp_us_ + 1, 50'000'000 + elapsed.count());
+  }
   /// Sends odometry and a sweep, as a live robot does ten times a second.
   void sense() {
-    stamp_us_ += 100'000;
-    bridge_->publish("/odom", odometry_message(stamp_us_, {0.001 * static_cast<double>(++sensed_), 0.0, 0.0}, 0.2));
-    bridge_->publish("/scan", sweep_message(stamp_us_, {1.0, 2.0, 3.0, 4.0}));
+    const std::int64_t now_us = stamp_us();
+    bridge_->publish("/odom", odometry_message(now_us, {0.001 * static_cast<double>(++moments_), 0.0, 0.0}, 0.2));
+    bridge_->publish("/scan", sweep_message(now_us, {1.0, 2.0, 3.0, 4.0}));
   }
   /// Whether a sweep comes through within a while of a live robot. Meanwhile the agent commands `motion`.
   bool sweeps_come(std::chrono::milliseconds within, const driving::Motion& motion = {}) {
@@ -134,8 +149,10 @@ class RosbridgeDriverTest : public ::testing::Test {
   std::vector<std::string> log_;
   std::unique_ptr<RosbridgeServer> bridge_;
   std::unique_ptr<driving::Driver> driver_;
-  std::int64_t stamp_us_ = 50'000'000;  // the robot's clock has nothing to do with ours
-  int sensed_ = 0;
+  std::vector<std::int64_t> stamps_;  // of the Twists that bear one, in seconds
+  Clock::time_point begun_ = Clock::now();
+  std::int64_t stamp_us_ = 0;  // the newest
+  int moments_ = 0;            // that were sensed
 };
 
 }  // namespace homeward::agent

@@ -20,10 +20,10 @@ class RosbridgeRing : public RosbridgeDriverTest {
 
   /// Odometry and the words of all sensors but `silent`, as a live robot sends them.
   void sense_ring(int silent = -1) {
-    stamp_us_ += 100'000;
-    bridge_->publish("/odom", odometry_message(stamp_us_, {}, 0.2));
+    const std::int64_t now_us = stamp_us();
+    bridge_->publish("/odom", odometry_message(now_us, {}, 0.2));
     for (int i = 0; i < kSensors; ++i) {
-      if (i != silent) bridge_->publish("/sonar/" + std::to_string(i), range_message(stamp_us_, i == 0 ? 1.0 : 4.0));
+      if (i != silent) bridge_->publish("/sonar/" + std::to_string(i), range_message(now_us, i == 0 ? 1.0 : 4.0));
     }
   }
   std::optional<driving::Scan> ring_sweep(std::chrono::milliseconds within, int silent = -1) {
@@ -78,9 +78,10 @@ TEST_F(RosbridgeRing, ARepeatedWordIsNoNewOne) {
   ASSERT_TRUE(ring_sweep(4s));
   std::this_thread::sleep_for(500ms);
   driver_->read();
+  const std::int64_t repeated_us = stamp_us();
   for (int i = 0; i < 10; ++i) {
-    bridge_->publish("/odom", odometry_message(stamp_us_ += 100'000, {}, 0.2));
-    for (int k = 0; k < kSensors; ++k) bridge_->publish("/sonar/" + std::to_string(k), range_message(40'000'000, 1.0));
+    bridge_->publish("/odom", odometry_message(stamp_us(), {}, 0.2));
+    for (int k = 0; k < kSensors; ++k) bridge_->publish("/sonar/" + std::to_string(k), range_message(repeated_us, 1.0));
     std::this_thread::sleep_for(50ms);
     if (i >= 3) {
       EXPECT_FALSE(driver_->read().scan) << i;
@@ -95,7 +96,7 @@ TEST_F(RosbridgeRingBesideAScan, AScannerAloneSaysNothingAndBothTogetherDo) {
   bool came = false;
   for (int i = 0; i < 60 && !came; ++i) {
     sense_ring();
-    bridge_->publish("/scan", sweep_message(stamp_us_, {2.0, 2.0, 2.0, 2.0}));
+    bridge_->publish("/scan", sweep_message(stamp_us(), {2.0, 2.0, 2.0, 2.0}));
     std::this_thread::sleep_for(50ms);
     driver_->command({});
     const auto scan = driver_->read().scan;

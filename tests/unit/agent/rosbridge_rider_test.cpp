@@ -14,7 +14,9 @@ wire::RosbridgeFile ridden(bool relayed) {
 
 class RiderOnABridge : public RosbridgeDriverTest {
  protected:
-  explicit RiderOnABridge(bool relayed = true) : RosbridgeDriverTest(ridden(relayed)) {}
+  explicit RiderOnABridge(bool relayed = true) : RosbridgeDriverTest(ridden(relayed)) {
+    std::this_thread::sleep_for(600ms);  // a connection that was just made is no word of a hand
+  }
 
   void push(double speed_mps, double turn_radps) {
     bridge_->publish("/joy_vel", {{"linear", {{"x", speed_mps}, {"y", 0.0}, {"z", 0.0}}},

@@ -34,6 +34,7 @@ class RecordingFile : public ::testing::Test {
     steps.back().state = wire::DriveState::kStopped;
     steps.back().reason = wire::Reason{wire::ReasonCode::kServerSilent};
     steps.back().link_up = false;
+    steps.back().robot_link_up = false;
     steps.back().picture.reset();
     steps.back().received.clear();
     ASSERT_TRUE((*writer)->append(steps));
@@ -70,6 +71,7 @@ TEST_F(RecordingFile, GivesEveryNumberBackBitForBit) {
   const RecordedStep expected = homeward::testing::sample_recorded_step(1);
   EXPECT_EQ(step.now_ms, expected.now_ms);
   EXPECT_EQ(step.sensors_ms, expected.sensors_ms);
+  EXPECT_TRUE(step.robot_link_up);
   EXPECT_EQ(bits(step.odometry.x_m), bits(-0.0));
   EXPECT_EQ(bits(step.odometry.y_m), bits(1.0 / 3.0));
   EXPECT_EQ(bits(step.odometry.theta_rad), bits(5e-324));
@@ -97,6 +99,17 @@ TEST_F(RecordingFile, GivesEveryNumberBackBitForBit) {
   EXPECT_EQ(wire::encode(step.received[0]), wire::encode(expected.received[0]));
   ASSERT_EQ(step.sent.size(), 1U);
   EXPECT_EQ(wire::encode(step.sent[0]), wire::encode(expected.sent[0]));
+}
+
+TEST_F(RecordingFile, KeepsWhetherTheRobotWasReached) {
+  record();
+  auto reader = RecordingReader::open(file());
+  ASSERT_TRUE(reader) << reader.error().message;
+  for (const bool reached : {true, true, false}) {
+    const auto step = (*reader)->next();
+    ASSERT_TRUE(step && *step);
+    EXPECT_EQ((*step)->robot_link_up, reached);
+  }
 }
 
 TEST_F(RecordingFile, IsOneFileOnceItEnded) {

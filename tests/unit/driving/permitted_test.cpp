@@ -178,6 +178,25 @@ TEST_F(StepTest, ARangeSensorThatFallsSilentStops) {
   expect_stays();
 }
 
+TEST_F(StepTest, ARobotThatIsNotReachedIsToldOfAsThat) {
+  set_off();
+  sweeps_ = robot_link_up_ = false;
+  const Milliseconds after_ms = until_stopped(true);
+  EXPECT_LE(after_ms, config_.scan_silence_ms + kTick_ms) << "as for any silence";
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kRobotLinkLost});
+  expect_stays();
+}
+
+TEST_F(StepTest, ARobotThatIsNotReachedForAMomentDrivesOn) {
+  set_off();
+  robot_link_up_ = false;
+  for (int k = 0; k < 30; ++k) tick({permit("m1", 1, ++seq_)});
+  EXPECT_EQ(state_.drive, DriveState::kDriving) << "what is sensed comes all the same";
+  pictures_ = false;
+  EXPECT_LE(until_stopped(true), config_.frame_silence_ms + kTick_ms);
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kRobotLinkLost});
+}
+
 TEST_F(StepTest, WithoutAnySweepItNeverSetsOff) {
   sweeps_ = false;
   EXPECT_TRUE(stands(tick({mission("m1", 1, 1)})));

@@ -61,6 +61,7 @@ class StepTest : public ::testing::Test {
     ++ticks_;
     Inputs inputs;
     inputs.link_up = link_up_;
+    inputs.robot_link_up = robot_link_up_;
     inputs.odometry = pose_;
     inputs.messages = std::move(messages);
     if (server_talks_) inputs.messages.emplace_back(belief_);
@@ -154,7 +155,7 @@ class StepTest : public ::testing::Test {
 
   /// Everything is fine again, and permits come: it must not move.
   void expect_stays() {
-    link_up_ = server_talks_ = pictures_ = sweeps_ = true;
+    link_up_ = robot_link_up_ = server_talks_ = pictures_ = sweeps_ = true;
     covered_ = false;
     const Pose2 before = pose_;
     for (int k = 0; k < 40; ++k) {
@@ -177,6 +178,7 @@ class StepTest : public ::testing::Test {
   Milliseconds picture_age_ms_ = 0;  // when it is given
   Milliseconds sweep_age_ms_ = 0;
   bool link_up_ = true;
+  bool robot_link_up_ = true;
   bool server_talks_ = true;
   wire::BeliefReport belief_;  // that it tells each time
   bool pictures_ = true;

@@ -84,7 +84,9 @@ class RecordedDrive : public ::testing::Test {
       inputs.picture = look(sent, *eye_).value();
       bytes = sent.bytes;
     }
-    inputs.scan = driving::SeenScan{now_ms_, {std::vector<float>(60, 3.0F), 0.0, kPi / 30.0, 3.0, {}}};
+    if (robot_link_up_)
+      inputs.scan = driving::SeenScan{now_ms_, {std::vector<float>(60, 3.0F), 0.0, kPi / 30.0, 3.0, {}}};
+    inputs.robot_link_up = robot_link_up_;
     inputs.rider = hand_;
     if (hand_) inputs.rider->said_ms = now_ms_;
     const driving::Outputs outputs = recorder_->step(state_, inputs, bytes, now_ms_);
@@ -128,6 +130,7 @@ class RecordedDrive : public ::testing::Test {
   driving::DrivingState state_;
   driving::Milliseconds now_ms_ = 50'000;
   std::int64_t seq_ = 1;
+  bool robot_link_up_ = true;
   Pose2 pose_;
   bool pictures_ = true;
   std::optional<driving::JoystickReading> hand_;

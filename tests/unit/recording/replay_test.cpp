@@ -67,6 +67,20 @@ TEST_F(Replay, ReproducesARiderWhoTakesOver) {
   EXPECT_EQ(deflected.getInt(), 1);
 }
 
+TEST_F(Replay, ReproducesARobotThatIsNotReached) {
+  open_recorder();
+  tick({mission("m1", 1)});
+  for (int i = 0; i < 5; ++i) tick();
+  ASSERT_EQ(state_.drive, wire::DriveState::kDriving) << state_.reason;
+  robot_link_up_ = false;
+  for (int i = 0; i < 10; ++i) tick();
+  close_recorder();
+  const auto replayed = result();
+  ASSERT_TRUE(replayed) << replayed.error().message << " " << replayed.error().where;
+  EXPECT_TRUE(replayed->same()) << replayed->differing.front().what;
+  EXPECT_EQ(replayed->why->reason, wire::Reason{wire::ReasonCode::kRobotLinkLost});
+}
+
 TEST_F(Replay, TellsFeaturesThatWereTrackedOtherwise) {
   record();
   change(
