@@ -147,7 +147,11 @@ struct App::Parts {
     return config.setup_file.empty() ? Status() : write_private_file(config.setup_file, setup_link);
   }
 
-  void tick() { driving.tick(clock.steady()); }
+  void tick() {
+    const SteadyTime now = clock.steady();
+    driving.tick(now);
+    events.beat(now);
+  }
 
   void work_off() {
     passwords.work_off();
