@@ -168,7 +168,11 @@ struct App::Parts {
     }
   }
 
-  void tick() { driving.tick(clock.steady()); }
+  void tick() {
+    const SteadyTime now = clock.steady();
+    driving.tick(now);
+    events.beat(now);
+  }
 
   void work_off() {
     passwords.work_off();

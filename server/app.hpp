@@ -45,7 +45,7 @@ class App {
   [[nodiscard]] const Router& router() const;
 
   // For tests that let the clock's time pass. From any thread.
-  /// What it does by itself every wire::kPermitEvery_ms.
+  /// What it does by itself every wire::kPermitEvery_ms: permits, leases that end, heartbeats.
   void tick();
   /// Returns once no request, picture, job or write to the store waits or is being worked on.
   void work_off();

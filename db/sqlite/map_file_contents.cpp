@@ -237,9 +237,10 @@ void get_destinations(SQLite::Database& database, ContentDigest& digest, map::To
 }
 
 void get_edits(SQLite::Database& database, ContentDigest& digest, map::TopologicalMap& map) {
-  DigestedRows select(database,
-                      "SELECT kind, image_a, image_b, text, images_json, by, t_us, undone FROM edits ORDER BY position",
-                      digest);
+  const bool knows_changes = version_of(database) >= kFirstVersionWithChanges;
+  const std::string sql = std::string("SELECT kind, image_a, image_b, text, images_json, by, t_us, undone") +
+                          (knows_changes ? ", change, redoable" : "") + " FROM edits ORDER BY position";
+  DigestedRows select(database, sql.c_str(), digest);
   while (select.step()) {
     map::Edit edit;
     const int kind = select.column(0).getInt();
@@ -255,6 +256,10 @@ void get_edits(SQLite::Database& database, ContentDigest& digest, map::Topologic
     edit.by = select.column(5).getString();
     edit.t_us = select.column(6).getInt64();
     edit.undone = select.column(7).getInt() != 0;
+    // In files of before each edit is a change of its own.
+    edit.change = knows_changes ? select.column(8).getInt64() : static_cast<std::int64_t>(map.edits.size()) + 1;
+    if (edit.change < 1) refuse("An edit belongs to no change.", "edits");
+    if (knows_changes) edit.redoable = select.column(9).getInt() != 0;
     map.edits.push_back(std::move(edit));
   }
 }

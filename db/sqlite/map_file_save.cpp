@@ -202,7 +202,7 @@ void put_destinations(SQLite::Database& database, const map::TopologicalMap& map
 }
 
 void put_edits(SQLite::Database& database, const map::TopologicalMap& map) {
-  SQLite::Statement insert(database, "INSERT INTO edits VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  SQLite::Statement insert(database, "INSERT INTO edits VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   std::int64_t position = 0;
   for (const map::Edit& edit : map.edits) {
     json images = json::array();
@@ -216,6 +216,8 @@ void put_edits(SQLite::Database& database, const map::TopologicalMap& map) {
     insert.bind(7, edit.by);
     insert.bind(8, edit.t_us);
     insert.bind(9, edit.undone ? 1 : 0);
+    insert.bind(10, edit.change);
+    insert.bind(11, edit.redoable ? 1 : 0);
     insert.exec();
     insert.reset();
   }

@@ -6,14 +6,15 @@ namespace homeward::db {
 /// "HWMP" in SQLite's application_id field: what makes an SQLite file a Homeward map.
 inline constexpr int kMapApplicationId = 0x48574D50;
 /// user_version of the map file. A released schema is never edited; a newer file is refused.
-inline constexpr int kMapFileVersion = 5;
-/// Version 4 knows no shortcuts. Version 3 is without document frequencies in its appearances
-/// (wire/appearance_blob.hpp). Version 2 is without the checksum, and its edges do not say what their length was taken
-/// from and how much both ends see.
+inline constexpr int kMapFileVersion = 6;
+/// Version 5 does not say which edits belong to one change. Version 4 knows no shortcuts. Version 3 is without document
+/// frequencies in its appearances (wire/appearance_blob.hpp). Version 2 is without the checksum, and its edges do not
+/// say what their length was taken from and how much both ends see.
 inline constexpr int kOldestMapFileVersion = 2;
 inline constexpr int kFirstVersionWithChecksum = 3;
 inline constexpr int kFirstVersionWithLengthSource = 3;
 inline constexpr int kFirstVersionWithShortcuts = 5;
+inline constexpr int kFirstVersionWithChanges = 6;
 
 inline constexpr const char* kSelectChecksum = "SELECT value FROM meta WHERE key = 'checksum'";
 inline constexpr const char* kInsertChecksum = "INSERT INTO meta(key, value) VALUES ('checksum', ?)";
@@ -52,7 +53,7 @@ CREATE TABLE destinations (
 CREATE TABLE edits (
   position INTEGER PRIMARY KEY, kind INTEGER NOT NULL, image_a TEXT NOT NULL, image_b TEXT NOT NULL,
   text TEXT NOT NULL, images_json TEXT NOT NULL, by TEXT NOT NULL, t_us INTEGER NOT NULL,
-  undone INTEGER NOT NULL) STRICT;
+  undone INTEGER NOT NULL, change INTEGER NOT NULL, redoable INTEGER NOT NULL) STRICT;
 CREATE TABLE thumbnails (image TEXT PRIMARY KEY, jpeg BLOB NOT NULL) STRICT;
 )sql";
 

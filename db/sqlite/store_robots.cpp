@@ -48,6 +48,7 @@ wire::MissionView mission_of(SQLite::Statement& row) {
   mission.created_us = integer(row, 12);
   mission.by = text(row, 13);
   mission.arrival_probability = optional_number(row, 14);
+  mission.ended_us = optional_integer(row, 15);
   return mission;
 }
 
@@ -57,10 +58,10 @@ std::optional<std::string> reason_column(const wire::MissionView& mission) {
 
 constexpr const char* kOneMission =
     "SELECT id, robot, map, revision, destination, place, state, reason, epoch, seq, path, path_index, created_us, by, "
-    "arrival_probability FROM missions WHERE id = ?";
+    "arrival_probability, ended_us FROM missions WHERE id = ?";
 constexpr const char* kMissionsOfRobot =
     "SELECT id, robot, map, revision, destination, place, state, reason, epoch, seq, path, path_index, created_us, by, "
-    "arrival_probability FROM missions WHERE robot = ? ORDER BY created_us DESC, rowid DESC LIMIT ?";
+    "arrival_probability, ended_us FROM missions WHERE robot = ? ORDER BY created_us DESC, rowid DESC LIMIT ?";
 
 [[noreturn]] void no_such_mission(const MissionId& id) {
   refuse(ErrorCode::kNotFound, "There is no mission with this id.", "missions/" + id.str());
@@ -138,10 +139,11 @@ Result<wire::MissionView> SqliteStore::add_mission(wire::MissionView mission) {
     if (mission.id.empty()) mission.id = MissionId(random_id());
     json path = json::array();
     for (const PlaceId& place : mission.path) path.push_back(place.str());
-    execute(database, "INSERT INTO missions VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", mission.id,
+    execute(database, "INSERT INTO missions VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", mission.id,
             mission.robot, mission.map, mission.revision, mission.destination, mission.place,
             std::string(wire::mission_state_name(mission.state)), reason_column(mission), mission.epoch, mission.seq,
-            path.dump(), mission.path_index, mission.created_us, mission.by, mission.arrival_probability);
+            path.dump(), mission.path_index, mission.created_us, mission.by, mission.arrival_probability,
+            mission.ended_us);
     return mission;
   });
 }
@@ -152,10 +154,10 @@ Status SqliteStore::update_mission(const wire::MissionView& mission) {
     for (const PlaceId& place : mission.path) path.push_back(place.str());
     if (execute(database,
                 "UPDATE missions SET state = ?, reason = ?, epoch = ?, seq = ?, revision = ?, path = ?, "
-                "path_index = ?, arrival_probability = ? WHERE id = ?",
+                "path_index = ?, arrival_probability = ?, ended_us = ? WHERE id = ?",
                 std::string(wire::mission_state_name(mission.state)), reason_column(mission), mission.epoch,
                 mission.seq, mission.revision, path.dump(), mission.path_index, mission.arrival_probability,
-                mission.id) == 0) {
+                mission.ended_us, mission.id) == 0) {
       no_such_mission(mission.id);
     }
   });

@@ -128,6 +128,7 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
   }
   if (!status) {
     mission.state = wire::MissionState::kRefused;
+    mission.ended_us = clock_.wall_us();
     mission.reason = wire::reason_of(status.error());
     keep(mission);
     return pass_on(status);
@@ -179,6 +180,7 @@ void Driving::end_mission(RobotUnit& unit, wire::MissionState state, std::option
   unit.looks_since.reset();
   if (!unit.mission) return;
   unit.mission->state = state;
+  unit.mission->ended_us = clock_.wall_us();
   spdlog::info("robot {} mission {} {}{}{}", unit.id.str(), unit.mission->id.str(), wire::mission_state_name(state),
                reason ? ": " : "", reason ? wire::english(*reason) : "");
   if (reason) unit.mission->reason = std::move(reason);

@@ -144,10 +144,13 @@ Response edit(MapService& maps, const Request& request) {
   return revision_response(maps.edit(map_in(request), std::get<std::int64_t>(revision), *edits, request.caller.name));
 }
 
-Response undo(MapService& maps, const Request& request) {
+using Step = Result<std::int64_t> (MapService::*)(const MapId& id, std::int64_t revision);
+
+// A step through the changes of a map, back or forth.
+Response go(MapService& maps, Step step, const Request& request) {
   auto revision = asked_revision(request);
   if (auto* refusal = std::get_if<Response>(&revision)) return *refusal;
-  return revision_response(maps.undo(map_in(request), std::get<std::int64_t>(revision)));
+  return revision_response((maps.*step)(map_in(request), std::get<std::int64_t>(revision)));
 }
 
 Response history(MapService& maps, const Request& request) {
@@ -215,7 +218,8 @@ void add_map_routes(Router& router, MapService& maps, BuildJobs& jobs, db::Store
               }});
   router.add({operation("edit_map"), [m](Request& request) { return edit(*m, request); }});
   router.add({operation("get_history"), [m](Request& request) { return history(*m, request); }});
-  router.add({operation("undo_edit"), [m](Request& request) { return undo(*m, request); }});
+  router.add({operation("undo_edit"), [m](Request& request) { return go(*m, &MapService::undo, request); }});
+  router.add({operation("redo_edit"), [m](Request& request) { return go(*m, &MapService::redo, request); }});
   router.add({operation("export_map"), [db](Request& request) { return export_map(*db, request); }});
   router.add({operation("import_map"), [m](Request& request) { return import_map(*m, request); }});
   router.add({operation("get_route"), [m](Request& request) { return answer_route(*m, map_in(request), request); }});

@@ -59,6 +59,7 @@ inline constexpr std::array kOperations = [] {
       Operation{"edit_map", "POST", "/api/v1/maps/{map}/edits", kInstaller, Lane::kWork, kMaxJsonBody},
       Operation{"get_history", "GET", "/api/v1/maps/{map}/history", kViewer, Lane::kWork, kMaxJsonBody},
       Operation{"undo_edit", "POST", "/api/v1/maps/{map}/undo", kInstaller, Lane::kWork, kMaxJsonBody},
+      Operation{"redo_edit", "POST", "/api/v1/maps/{map}/redo", kInstaller, Lane::kWork, kMaxJsonBody},
       Operation{"export_map", "GET", "/api/v1/maps/{map}/export", kViewer, Lane::kWork, kMaxJsonBody},
       Operation{"import_map", "POST", "/api/v1/maps/import", kInstaller, Lane::kHeavy, kMaxMapBody},
       Operation{"localise", "POST", "/api/v1/maps/{map}/localise", kViewer, Lane::kHeavy, kMaxImageBody},

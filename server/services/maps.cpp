@@ -149,6 +149,7 @@ Result<std::int64_t> MapService::change(const MapId& id, std::int64_t revision,
 Result<std::int64_t> MapService::edit(const MapId& id, std::int64_t revision,
                                       const std::vector<wire::EditRequest>& edits, const std::string& by) {
   return change(id, revision, [&](map::TopologicalMap& map) -> Status {
+    const std::int64_t one_change = mapping::next_change(map);
     for (std::size_t i = 0; i < edits.size(); ++i) {
       const std::string where = "body/edits/" + std::to_string(i);
       const map::EditKind kind = edits[i].kind;
@@ -159,8 +160,9 @@ Result<std::int64_t> MapService::edit(const MapId& id, std::int64_t revision,
                         std::string(wire::edit_kind_name(kind)) + ".",
                     where);
       }
-      const auto lasting = wire::edit_for_map(edits[i], map, by, clock_.wall_us());
+      auto lasting = wire::edit_for_map(edits[i], map, by, clock_.wall_us());
       if (!lasting) return fail(lasting.error().code, lasting.error().message, where);
+      lasting->change = one_change;
       if (const Status status = mapping::apply_edit(map, *lasting); !status) {
         return fail(status.error().code, status.error().message, where);
       }
@@ -170,7 +172,11 @@ Result<std::int64_t> MapService::edit(const MapId& id, std::int64_t revision,
 }
 
 Result<std::int64_t> MapService::undo(const MapId& id, std::int64_t revision) {
-  return change(id, revision, [](map::TopologicalMap& map) { return mapping::undo_last_edit(map); });
+  return change(id, revision, [](map::TopologicalMap& map) { return mapping::undo_change(map); });
+}
+
+Result<std::int64_t> MapService::redo(const MapId& id, std::int64_t revision) {
+  return change(id, revision, [](map::TopologicalMap& map) { return mapping::redo_change(map); });
 }
 
 Result<db::MapRecord> MapService::keep_build(const MapId& id, map::TopologicalMap contents,
@@ -181,10 +187,8 @@ Result<db::MapRecord> MapService::keep_build(const MapId& id, map::TopologicalMa
   if (record->revision > 0) {
     const auto present = load(id);
     if (!present) return pass_on(present);
-    // Edits that people made while this was built.
-    if ((*present)->map.edits.size() != contents.edits.size()) {
-      mapping::replay_edits(contents, (*present)->map.edits);
-    }
+    // Edits that people made, undid or redid while this was built.
+    if ((*present)->map.edits != contents.edits) mapping::replay_edits(contents, (*present)->map.edits);
   }
   contents.revision = record->revision + 1;
   auto saved = store_.save_map_contents(id, contents, thumbnails, record->revision);

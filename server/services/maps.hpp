@@ -37,12 +37,14 @@ class MapService {
   /// The graph of a map as the contract has it (wire::graph_to_json), as text. Kept for a map that is in memory; where
   /// its places are drawn stays through edits that do not move them.
   std::shared_ptr<const std::string> graph(const MapId& id, const LoadedMap& loaded);
-  /// Applies all edits or none. Errors: kStaleRevision, kInvalidInput (kinds that this version does not apply), those
-  /// of mapping::apply_edit. Returns the new revision.
+  /// Applies all edits as one change, or none. Errors: kStaleRevision, kInvalidInput (kinds that this version does not
+  /// apply), those of mapping::apply_edit. Returns the new revision.
   Result<std::int64_t> edit(const MapId& id, std::int64_t revision, const std::vector<wire::EditRequest>& edits,
                             const std::string& by);
-  /// Errors: kStaleRevision, those of mapping::undo_last_edit.
+  /// Takes the latest change back, all that one edit() did. Errors: kStaleRevision, those of mapping::undo_change.
   Result<std::int64_t> undo(const MapId& id, std::int64_t revision);
+  /// Applies again what undo() took back last. Errors: kStaleRevision, those of mapping::redo_change.
+  Result<std::int64_t> redo(const MapId& id, std::int64_t revision);
   /// A small picture of an image of the map. Errors: kNotFound.
   Result<std::vector<std::uint8_t>> thumbnail(const MapId& id, const ImageId& image);
   /// Where a single picture was taken, from a uniform start.

@@ -15,6 +15,7 @@ std::string key_of(const wire::Event& event) {
     std::string operator()(const wire::JobView& job) const { return "job/" + job.id.str(); }
     std::string operator()(const wire::MapInfoView& map) const { return "map/" + map.id.str(); }
     std::string operator()(const wire::MissionView& mission) const { return "mission/" + mission.id.str(); }
+    std::string operator()(const wire::Heartbeat&) const { return "heartbeat"; }
   };
   return std::visit(Key{}, event);
 }
@@ -105,6 +106,15 @@ void EventHub::publish(const wire::Event& event) {
   }
   const std::string key = key_of(event);
   for (const auto& target : targets) target->add(key, event);
+}
+
+void EventHub::beat(std::chrono::steady_clock::time_point now) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (beat_at_ && now - *beat_at_ < kHeartbeatEvery) return;
+    beat_at_ = now;
+  }
+  publish(wire::Heartbeat{});
 }
 
 std::shared_ptr<SocketHandler> EventHub::subscribe(const MakeSnapshot& snapshot) {

@@ -90,7 +90,9 @@ Status shortcuts(const MapShortcutsOptions& options) {
   if (!stored) return pass_on(stored);
   const auto edits = edits_of(options, stored->map);
   if (!edits) return pass_on(edits);
-  for (const map::Edit& edit : *edits) {
+  const std::int64_t change = mapping::next_change(stored->map);
+  for (map::Edit edit : *edits) {
+    edit.change = change;
     if (const Status applied = mapping::apply_edit(stored->map, edit); !applied) return applied;
   }
   if (!edits->empty()) {

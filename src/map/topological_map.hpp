@@ -148,6 +148,10 @@ struct Edit {
   std::string by;               // user name
   TimeUs t_us = 0;
   bool undone = false;
+  std::int64_t change = 0;  // edits of one request have the same, from 1: they are undone and redone together
+  bool redoable = false;    // undone, and nothing was edited since
+
+  bool operator==(const Edit&) const = default;
 };
 
 /// A map: places joined by drivable edges, and why it is so. Plain data; algorithms are in graph.hpp.

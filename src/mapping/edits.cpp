@@ -2,6 +2,8 @@
 #include "mapping/edits.hpp"
 
 #include <algorithm>
+#include <ranges>
+#include <utility>
 
 #include "map/lookup.hpp"
 #include "mapping/place_edits.hpp"
@@ -196,46 +198,79 @@ Status undo_add_edge(TopologicalMap& map, const Edit& undone) {
   return {};
 }
 
+Status undo_edit(TopologicalMap& map, const Edit& undone) {
+  switch (undone.kind) {
+    case EditKind::kRename:
+      return undo_rename(map, undone);
+    case EditKind::kBlockEdge:
+      return undo_block(map, undone);
+    case EditKind::kAddEdge:
+      return undo_add_edge(map, undone);
+    case EditKind::kDecideShortcut:
+      return undo_shortcut_decision(map, undone);
+    default:
+      return fail(ErrorCode::kConflict,
+                  "This edit changed which places and edges there are: rebuild the map to take it back.");
+  }
+}
+
 }  // namespace
+
+std::int64_t next_change(const TopologicalMap& map) {
+  std::int64_t latest = 0;
+  for (const Edit& edit : map.edits) latest = std::max(latest, edit.change);
+  return latest + 1;
+}
 
 Status apply_edit(TopologicalMap& map, const Edit& edit) {
   if (const Status applied = apply_to(map, edit); !applied) return applied;
   settle_shortcuts(map);
+  const std::int64_t next = next_change(map);
+  for (Edit& earlier : map.edits) earlier.redoable = false;
   map.edits.push_back(edit);
-  map.edits.back().undone = false;
+  Edit& logged = map.edits.back();
+  if (logged.change == 0) logged.change = next;
+  logged.undone = false;
+  logged.redoable = false;
   ++map.revision;
   return {};
 }
 
-Status undo_last_edit(TopologicalMap& map) {
-  const auto latest =
-      std::ranges::find_if(map.edits.rbegin(), map.edits.rend(), [](const Edit& e) { return !e.undone; });
-  if (latest == map.edits.rend()) return fail(ErrorCode::kNotFound, "There is no edit to undo.");
-  latest->undone = true;
-  Status undone;
-  switch (latest->kind) {
-    case EditKind::kRename:
-      undone = undo_rename(map, *latest);
-      break;
-    case EditKind::kBlockEdge:
-      undone = undo_block(map, *latest);
-      break;
-    case EditKind::kAddEdge:
-      undone = undo_add_edge(map, *latest);
-      break;
-    case EditKind::kDecideShortcut:
-      undone = undo_shortcut_decision(map, *latest);
-      break;
-    default:
-      undone = fail(ErrorCode::kConflict,
-                    "This edit changed which places and edges there are: rebuild the map to take it back.");
+Status undo_change(TopologicalMap& map) {
+  const auto latest = std::ranges::find(map.edits.rbegin(), map.edits.rend(), false, &Edit::undone);
+  if (latest == map.edits.rend()) return fail(ErrorCode::kNotFound, "There is no change to undo.");
+  const std::int64_t change = latest->change;
+  TopologicalMap changed = map;  // where one edit cannot be undone, the others stand too
+  std::vector<Edit> undone;      // latest first
+  for (Edit& edit : std::views::reverse(changed.edits)) {
+    if (edit.change != change || edit.undone) continue;
+    edit.undone = true;
+    edit.redoable = true;
+    undone.push_back(edit);
   }
-  if (!undone) {
-    latest->undone = false;
-    return undone;
+  for (const Edit& edit : undone) {
+    if (const Status status = undo_edit(changed, edit); !status) return status;
   }
-  settle_shortcuts(map);
-  ++map.revision;
+  settle_shortcuts(changed);
+  ++changed.revision;
+  map = std::move(changed);
+  return {};
+}
+
+Status redo_change(TopologicalMap& map) {
+  const auto earliest = std::ranges::find(map.edits, true, &Edit::redoable);
+  if (earliest == map.edits.end()) return fail(ErrorCode::kNotFound, "There is no change to redo.");
+  const std::int64_t change = earliest->change;
+  TopologicalMap changed = map;
+  for (Edit& edit : changed.edits) {
+    if (edit.change != change || !edit.redoable) continue;
+    if (const Status status = apply_to(changed, edit); !status) return status;
+    edit.undone = false;
+    edit.redoable = false;
+  }
+  settle_shortcuts(changed);
+  ++changed.revision;
+  map = std::move(changed);
   return {};
 }
 
@@ -245,8 +280,11 @@ void replay_edits(TopologicalMap& map, const std::vector<Edit>& log) {
     // What the rebuilt map no longer has cannot be edited; the person's word stays in the log for the next rebuild.
     if (!edit.undone) static_cast<void>(apply_to(map, edit));
   }
+  const std::vector<Edit> applied = std::exchange(map.edits, log);
+  for (std::size_t i = 0; i < std::min(applied.size(), log.size()); ++i) {
+    if (log[i].undone && !applied[i].undone) static_cast<void>(undo_edit(map, log[i]));
+  }
   settle_shortcuts(map);
-  map.edits = log;
 }
 
 }  // namespace homeward::mapping

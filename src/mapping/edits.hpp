@@ -18,18 +18,29 @@ namespace homeward::mapping {
 ///   kBlockEdge   the edge from image_a's to image_b's place is blocked ("true") or opened again ("false")
 ///   kDecideShortcut  the shortcut between image_a and image_b is accepted, and then an edge both ways, or rejected
 ///   kDecide      the hypothesis image_a, image_b is accepted or rejected; the two places merge or split accordingly
-/// Shortcuts whose pictures are no longer the prototypes of two places go. Errors: kInvalidInput (what is wrong with
-/// the edit), kNotFound (image, edge, hypothesis or shortcut), kConflict (a shortcut that no longer holds); the map is
-/// then unchanged.
+/// It belongs to the change that `edit.change` names, which is the latest of the log or the next; 0: it is a change of
+/// its own. Changes that were undone can be redone no more. Shortcuts whose pictures are no longer the prototypes of
+/// two places go. Errors: kInvalidInput (what is wrong with the edit), kNotFound (image, edge, hypothesis or shortcut),
+/// kConflict (a shortcut that no longer holds); the map is then unchanged.
 Status apply_edit(map::TopologicalMap& map, const map::Edit& edit);
 
-/// Takes back the latest edit that still stands: it stays in the log, marked undone; the revision rises by one.
-/// Labels, blocked edges, added edges and shortcuts return to what the edits before them say. Errors: kNotFound (no
-/// edit to undo), kConflict (the edit changed which images make up a place: only a rebuild can take it back).
-Status undo_last_edit(map::TopologicalMap& map);
+/// The number of the next change of a map.
+std::int64_t next_change(const map::TopologicalMap& map);
 
-/// Applies the edits of `log` that stand to a rebuilt map, oldest first, and makes `log` its log. Edits whose images or
-/// edges are gone are kept in the log and skipped. The revision is left as it is.
+/// Takes back the latest change that still stands, all its edits: they stay in the log, marked undone; the revision
+/// rises by one. Labels, blocked edges, added edges and shortcuts return to what the edits before them say. Errors:
+/// kNotFound (no change to undo), kConflict (an edit of it changed which images make up a place: only a rebuild can
+/// take it back); the map is then unchanged.
+Status undo_change(map::TopologicalMap& map);
+
+/// Applies the change again that was undone last, all its edits; the revision rises by one. Errors: kNotFound (no
+/// change was undone since the latest edit), those of apply_edit where a rebuild has changed the map meanwhile; the map
+/// is then unchanged.
+Status redo_change(map::TopologicalMap& map);
+
+/// Applies the edits of `log` that stand to a rebuilt map, oldest first, and makes `log` its log. What stands in the
+/// map's own log, an earlier state of `log`, and was undone since, is taken back. Edits whose images or edges are gone
+/// are kept in the log and skipped. The revision is left as it is.
 void replay_edits(map::TopologicalMap& map, const std::vector<map::Edit>& log);
 
 }  // namespace homeward::mapping

@@ -192,7 +192,9 @@ json logged_edit_to_json(const map::Edit& edit) {
           {"images", ids_to_json(edit.images)},
           {"by", edit.by},
           {"t_us", edit.t_us},
-          {"undone", edit.undone}};
+          {"undone", edit.undone},
+          {"change", edit.change},
+          {"redoable", edit.redoable}};
 }
 
 }  // namespace homeward::wire

@@ -41,7 +41,7 @@ nlohmann::json edits_to_json(const std::vector<EditRequest>& edits);
 Result<map::Edit> edit_for_map(const EditRequest& request, const map::TopologicalMap& map, const std::string& by,
                                TimeUs t_us);
 
-/// An entry of a map's log: {kind, image_a, image_b, text, images, by, t_us, undone}.
+/// An entry of a map's log: {kind, image_a, image_b, text, images, by, t_us, undone, change, redoable}.
 nlohmann::json logged_edit_to_json(const map::Edit& edit);
 
 }  // namespace homeward::wire

@@ -24,6 +24,7 @@ json body(const RobotView& robot) { return {{"type", "robot"}, {"robot", robot_t
 json body(const JobView& job) { return {{"type", "job"}, {"job", job_to_json(job)}}; }
 json body(const MapInfoView& map) { return {{"type", "map"}, {"map", map_info_to_json(map)}}; }
 json body(const MissionView& mission) { return {{"type", "mission"}, {"mission", mission_to_json(mission)}}; }
+json body(const Heartbeat&) { return {{"type", "heartbeat"}}; }
 
 }  // namespace
 

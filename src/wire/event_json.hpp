@@ -24,7 +24,10 @@ struct Snapshot {
   std::vector<MapInfoView> maps;
 };
 
-using Event = std::variant<Snapshot, RobotView, JobView, MapInfoView, MissionView>;
+/// Says that the server lives, where nothing else is to be said.
+struct Heartbeat {};
+
+using Event = std::variant<Snapshot, RobotView, JobView, MapInfoView, MissionView, Heartbeat>;
 
 /// One message to dashboards (proto/schemas/event.schema.json): {type, v, seq, ...}. `seq` rises by one with each
 /// message of a running server.

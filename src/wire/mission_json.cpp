@@ -55,6 +55,7 @@ json mission_to_json(const MissionView& mission) {
           {"path_index", mission.path_index},
           {"arrival_probability", or_null(mission.arrival_probability)},
           {"created_us", mission.created_us},
+          {"ended_us", or_null(mission.ended_us)},
           {"by", mission.by}};
 }
 
@@ -79,6 +80,7 @@ Result<MissionView> mission_from_json(const json& value, const std::string& path
   if (!reader.value("arrival_probability").is_null())
     mission.arrival_probability = reader.number("arrival_probability", 0.0, 1.0);
   mission.created_us = reader.integer("created_us", 0, kLargest);
+  if (!reader.value("ended_us").is_null()) mission.ended_us = reader.integer("ended_us", 0, kLargest);
   mission.by = reader.text("by", 200);
   if (const Status status = reader.finish(); !status) return pass_on(status);
   return mission;

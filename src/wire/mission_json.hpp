@@ -39,7 +39,8 @@ struct MissionView {
   /// ended. Nothing: not known.
   std::optional<double> arrival_probability = std::nullopt;
   TimeUs created_us = 0;
-  std::string by;  // user name
+  std::optional<TimeUs> ended_us = std::nullopt;  // nothing: it has not, or nobody knows when
+  std::string by;                                 // user name
 };
 
 nlohmann::json mission_to_json(const MissionView& mission);

@@ -184,6 +184,60 @@ const checks = [
     }),
   ],
   [
+    'a server that falls silent is noticed, as is a STOP that nobody hears, and both end', // how soon: silence_test.mjs
+    withHouse(async (page, house) => {
+      const stopWord = page.getByTestId('stop-word');
+      const silence = page.getByText('The house server cannot be reached.');
+      await destination(page, 'Living room').click();
+      await phaseIs(page, 'driving');
+      house.steer({ do: 'silent', on: true });
+      await page.keyboard.press('Escape');
+      await stopWord.getByText('STOP was not heard').waitFor();
+      await stopWord.getByText('Use the stop button on the chair!').waitFor();
+      await silence.waitFor();
+      await page.getByText(/^What you see is \d+ s old\.$/).waitFor();
+      await page
+        .locator('.where')
+        .getByText(/^Last heard \d s ago\.$/)
+        .waitFor();
+      await page.getByText('The house server is out of reach, so the chair cannot be sent.').waitFor();
+      assert.equal(await destination(page, 'Kitchen').getAttribute('aria-disabled'), 'true');
+      await shoot(page, out, 'silent');
+      await page.setViewportSize(kPhone);
+      await page.waitForTimeout(300);
+      await shoot(page, out, 'silent-phone');
+      assert.ok(!(await sticksOut(page)), 'the page is wider than a phone');
+      await page.setViewportSize(kWide);
+      // Long enough for more than one attempt to reach the server, none of which is heard.
+      await page.waitForTimeout(7000);
+      await stopWord.getByText('STOP was not heard').waitFor();
+      house.steer({ do: 'silent', on: false });
+      await stopWord.getByText('Chair has stopped.').waitFor();
+      await silence.waitFor({ state: 'detached' });
+      await page.waitForTimeout(1000); // what was asked for meanwhile is heard now too
+      // No alarm is left for the next drive.
+      await destination(page, 'Kitchen').click();
+      await phaseIs(page, 'driving');
+      await page.waitForTimeout(5000);
+      assert.equal(await page.locator('.stop-word.bad').count(), 0);
+    }),
+  ],
+  [
+    'a chair that arrived while the server was silent ends the alarm of a STOP that nobody heard',
+    withHouse(async (page, house) => {
+      await destination(page, 'Kitchen').click();
+      await phaseIs(page, 'driving');
+      house.steer({ do: 'silent', on: true });
+      await page.keyboard.press('Escape');
+      await page.getByTestId('stop-word').getByText('STOP was not heard').waitFor();
+      await page.waitForTimeout(2000);
+      assert.equal(house.robots[0].mission.state, 'arrived');
+      house.steer({ do: 'silent', on: false });
+      await phaseIs(page, 'arrived');
+      await page.locator('.stop-word.bad').waitFor({ state: 'detached' });
+    }),
+  ],
+  [
     'a chair that does not know where it is says so, and a refusal gives its reason',
     withHouse(async (page, house) => {
       house.steer({
@@ -353,6 +407,55 @@ const checks = [
     ),
   ],
   [
+    'another destination while the chair drives is asked for again first, on both pages',
+    withHouse(async (page, house) => {
+      house.step_ms = 1500;
+      const asked = page.getByText('Chair is on the way to Living room.');
+      const goal = () => house.robots[0].mission.destination;
+      await destination(page, 'Living room').click();
+      await phaseIs(page, 'driving');
+      const first = house.robots[0].mission.id;
+      await destination(page, 'Living room').click(); // it goes there already
+      await destination(page, 'Kitchen').click();
+      await asked.waitFor();
+      await shoot(page, out, 'diversion');
+      assert.deepEqual([goal(), house.robots[0].mission.id], ['living_room', first]);
+      await page.getByRole('button', { name: 'Go on to Living room' }).click();
+      await asked.waitFor({ state: 'detached' });
+      await tab(page, 'Map');
+      await page.getByRole('button', { name: 'Bathroom', exact: true }).click();
+      await page.getByRole('button', { name: 'Send the chair here' }).click();
+      await asked.waitFor();
+      assert.equal(goal(), 'living_room');
+      await page.getByRole('button', { name: 'Go to Bathroom instead' }).click();
+      await journey(page).getByText('to Bathroom').waitFor();
+      await asked.waitFor({ state: 'detached' });
+      assert.equal(house.robots[0].mission.place, 'p13');
+    }),
+  ],
+  [
+    'who stopped the chair, a driver who went away and a lost connection have words of their own, with when',
+    withHouse(async (page, house) => {
+      for (const [reason, words] of [
+        [{ code: 'stopped_by', parameters: { by: 'vera' } }, 'Stopped by vera on the way to Kitchen'],
+        [{ code: 'nobody_watching', parameters: {} }, 'Nobody was driving any more on the way to Kitchen'],
+        [{ code: 'robot_gone', parameters: {} }, 'Connection lost on the way to Kitchen'],
+      ]) {
+        house.robots[0].belief.place = 'p1';
+        await destination(page, 'Kitchen').click();
+        await phaseIs(page, 'driving');
+        house.steer({ do: 'halt', reason });
+        await journey(page).getByText(words, { exact: true }).waitFor();
+        await journey(page)
+          .getByText(/^Sent by anna at .*\. Ended at .*\.$/)
+          .waitFor();
+        await shoot(page, out, `ended-${reason.code}`);
+      }
+      await tab(page, 'Robots');
+      await page.getByText(/That was at .*\./).waitFor();
+    }),
+  ],
+  [
     'loading the page again lets the chair go on, and the session that ended says so',
     withHouse(async (page, house) => {
       await destination(page, 'Living room').click();
@@ -386,6 +489,29 @@ const checks = [
     }),
   ],
   [
+    'what is being typed stays when somebody else names the place, and that is said',
+    withHouse(async (page, house) => {
+      await tab(page, 'Map');
+      await page.getByRole('button', { name: 'Kitchen', exact: true }).click();
+      const name = page.getByLabel('Name', { exact: true });
+      await name.fill('Cooking corn');
+      house.steer({ do: 'change', edits: [{ kind: 'rename', place: 'p5', label: 'Galley' }], by: 'ben' });
+      await page.getByRole('heading', { name: 'Galley' }).waitFor();
+      await page.getByText('Somebody has named this place “Galley” meanwhile.').waitFor();
+      assert.equal(await name.inputValue(), 'Cooking corn');
+      await name.pressSequentially('er');
+      await shoot(page, out, 'rename-both');
+      await page.getByRole('button', { name: 'Save', exact: true }).click();
+      await page.getByText('Named Cooking corner.').waitFor();
+      await page.getByRole('heading', { name: 'Cooking corner' }).waitFor();
+      // Where nothing is being typed, the field follows.
+      house.steer({ do: 'change', edits: [{ kind: 'rename', place: 'p5', label: 'Galley' }], by: 'ben' });
+      await page.getByRole('heading', { name: 'Galley' }).waitFor();
+      assert.equal(await name.inputValue(), 'Galley');
+      assert.equal(await page.getByText('meanwhile').count(), 0);
+    }),
+  ],
+  [
     'a place that gets a name becomes a goal for riders',
     withHouse(async (page) => {
       await tab(page, 'Map');
@@ -408,9 +534,47 @@ const checks = [
       await page.getByRole('button', { name: 'Kitchen', exact: true }).click();
       await page.getByRole('button', { name: 'Close the way to Near the kitchen' }).click();
       await page.getByText('This way is closed now.').waitFor();
-      assert.equal(house.graph.edges.filter((one) => one.blocked).length, 1);
+      assert.equal(house.graph.edges.filter((one) => one.blocked).length, 2);
       await page.getByRole('button', { name: 'Send the chair here' }).click();
       await journey(page).getByText('There is no way from here to there.').waitFor();
+    }),
+  ],
+  [
+    'closing a way is one change: it is taken back as a whole, and made again',
+    withHouse(async (page, house) => {
+      await tab(page, 'Map');
+      await page.getByRole('button', { name: 'Kitchen', exact: true }).click();
+      const place = page.getByRole('region', { name: 'Chosen place: Kitchen' });
+      const history = page.getByRole('region', { name: 'Changes by people' });
+      const closed = place.getByText('Closed', { exact: true });
+      const blocked = () => house.graph.edges.filter((one) => one.blocked).length;
+      const back = history.getByRole('button', { name: /^Take the newest back/ });
+      const again = history.getByRole('button', { name: /^Make it again/ });
+      assert.ok((await back.isDisabled()) && (await again.isDisabled()), 'nothing was changed yet');
+      await place.getByRole('button', { name: 'Close the way to Near the kitchen' }).click();
+      await closed.waitFor();
+      await history.getByText('closed a way: Kitchen – Near the kitchen').waitFor();
+      assert.equal(await history.getByRole('listitem').count(), 1);
+      assert.equal(blocked(), 2);
+      await back.click();
+      await history.getByText('The newest change was taken back.').waitFor();
+      await closed.waitFor({ state: 'detached' });
+      await history.getByText('(taken back)').waitFor();
+      assert.equal(blocked(), 0);
+      assert.ok(await back.isDisabled(), 'no change stands');
+      await again.click();
+      await history.getByText('The change was made again.').waitFor();
+      await closed.waitFor();
+      assert.equal(blocked(), 2);
+      await history.scrollIntoViewIfNeeded();
+      await shoot(page, out, 'history');
+      // One direction alone is not closed, and says so.
+      const opened = { kind: 'block_edge', from: 'p5', to: 'p4', blocked: false };
+      house.steer({ do: 'change', edits: [opened], by: 'ben' });
+      await place.getByText('Closed in one direction', { exact: true }).waitFor();
+      await place.getByRole('button', { name: 'Open the way to Near the kitchen' }).click();
+      await page.getByText('This way is open again.').waitFor();
+      assert.equal(blocked(), 0);
     }),
   ],
   [
@@ -425,7 +589,7 @@ const checks = [
       assert.deepEqual([house.graph.shortcuts[0].state, house.graph.shortcuts[0].by], ['accepted', 'anna']);
       await card.getByRole('button', { name: /^Reject the shortcut/ }).click();
       await card.getByText('Rejected', { exact: true }).waitFor();
-      await page.getByText('accepted or rejected a shortcut').first().waitFor();
+      await page.getByText('rejected a shortcut').first().waitFor();
     }),
   ],
   [
@@ -479,6 +643,60 @@ const checks = [
     }),
   ],
   [
+    'an upload that ends while its page is left and opened again is in the list of tours',
+    withHouse(async (page, house) => {
+      const folder = mkdtempSync(join(tmpdir(), 'homeward-tour-'));
+      for (let n = 0; n < 5; ++n) writeFileSync(join(folder, `000${n}.jpg`), `picture ${n}`);
+      writeFileSync(join(folder, 'camera.json'), JSON.stringify(kCamera));
+      await tab(page, 'Tours');
+      await page.getByLabel('Name of the tour').fill('Upstairs');
+      await page.getByLabel('Folder of pictures').setInputFiles(folder);
+      await page.route('**/complete', async (route) => {
+        await new Promise((done) => setTimeout(done, 1500));
+        await route.continue();
+      });
+      await page.getByRole('button', { name: 'Send 5 pictures' }).click();
+      const row = page
+        .getByRole('region', { name: 'Tours', exact: true })
+        .locator('li', { hasText: 'Upstairs' });
+      await row.getByText('Not complete').waitFor(); // it is known while it is being sent
+      await tab(page, 'Go');
+      await tab(page, 'Tours');
+      await row.getByText('Not complete').waitFor();
+      await row.getByText('Complete', { exact: true }).waitFor();
+      await row.getByText(/^5 pictures/).waitFor();
+      assert.equal(house.tours.at(-1).state, 'complete');
+    }),
+  ],
+  [
+    'a map is built from what was chosen, and no tour of another map is chosen by itself',
+    withHouse(async (page, house) => {
+      house.tours.push({ ...house.tours[0], id: 't8', name: 'Garden house' });
+      await tab(page, 'Tours');
+      const tick = (name) => page.getByRole('checkbox', { name });
+      await tick('Garden house').waitFor();
+      assert.deepEqual(
+        [await tick('Ground floor').isChecked(), await tick('Garden house').isChecked()],
+        [false, true],
+      );
+      house.tours.push({ ...house.tours[0], id: 't9', name: 'Upstairs' });
+      await page.reload();
+      await tick('Upstairs').waitFor();
+      assert.equal(
+        await page.getByRole('checkbox', { checked: true }).count(),
+        0,
+        'nobody knows which belong together',
+      );
+      await page.getByLabel('Name of the map').fill('Upper floor');
+      assert.ok(await page.getByRole('button', { name: 'Build the map' }).isDisabled());
+      await tick('Upstairs').check();
+      await shoot(page, out, 'build-choice');
+      await page.getByRole('button', { name: 'Build the map' }).click();
+      await page.getByRole('progressbar', { name: 'Building Upper floor' }).waitFor();
+      assert.deepEqual(house.maps.at(-1).tours, ['t9']);
+    }),
+  ],
+  [
     'tours join a map that is there',
     withHouse(async (page, house) => {
       await tab(page, 'Tours');
@@ -498,17 +716,60 @@ const checks = [
     }),
   ],
   [
+    'a warning of a build shows its pictures without ids, and stays away once it was put away',
+    withHouse(async (page) => {
+      await tab(page, 'Tours');
+      await page.getByLabel('Name of the map').fill('Again');
+      await page.getByRole('checkbox', { name: 'Ground floor' }).check();
+      await page.getByRole('button', { name: 'Build the map' }).click();
+      const row = page.locator('li', { hasText: 'Again' });
+      await row.getByText('The tour jumps at 1 of 25 steps: p5.jpg to p11.jpg.').waitFor();
+      assert.ok(!(await row.innerText()).includes('t1/'), 'the id of the tour is shown');
+      await row.getByRole('img', { name: 'p5.jpg' }).waitFor();
+      await row.getByRole('img', { name: 'p11.jpg' }).waitFor();
+      await row.scrollIntoViewIfNeeded();
+      await shoot(page, out, 'build-warning');
+      await row.getByRole('button', { name: 'Hide what is to be known of Again' }).click();
+      await row.getByText('The tour jumps').waitFor({ state: 'detached' });
+      await page.reload();
+      await row.getByText('Ready').waitFor();
+      assert.equal(await row.getByText('The tour jumps').count(), 0);
+    }),
+  ],
+  [
+    'of places that look alike those are shown that somebody can tell, with why they are open',
+    withHouse(async (page) => {
+      await tab(page, 'Map');
+      const card = page.getByRole('region', { name: 'Places that look alike' });
+      await card
+        .getByText('Between 55 % and 80 % sure that they are one place: too little to decide.')
+        .waitFor();
+      assert.equal(await card.locator('.pairs > li').count(), 1, 'places beside each other are no question');
+      assert.ok(!(await card.innerText()).includes('100 %'));
+      await card.scrollIntoViewIfNeeded();
+      await shoot(page, out, 'look-alikes');
+    }),
+  ],
+  [
     'what drives saw is taken or discarded, and a map may keep it at once',
     withHouse(async (page, house) => {
       await tab(page, 'Tours');
       house.steer({ do: 'offer' });
-      await page.getByText('2 new appearances from drives. kitchen would gain 2 new appearances.').waitFor();
+      await page
+        .getByText(
+          '3 new appearances from drives. kitchen would gain 2 new appearances. Near the kitchen would gain 1 new appearance.',
+        )
+        .waitFor();
+      await page.getByRole('img', { name: 'Near the kitchen' }).waitFor();
+      await shoot(page, out, 'drive-news');
       await page.getByRole('button', { name: 'Take what drives saw into Ground floor' }).click();
       await page.getByText('kitchen gained 2 new appearances.').waitFor();
+      await page.getByRole('button', { name: 'Hide what drives taught Ground floor' }).click();
+      await page.getByText('kitchen gained 2 new appearances.').waitFor({ state: 'detached' });
       house.steer({ do: 'offer' });
       await tab(page, 'Map');
       await page.getByRole('button', { name: 'Discard what drives saw for Ground floor' }).click();
-      await page.getByText('2 new appearances from drives.').waitFor({ state: 'detached' });
+      await page.getByText('3 new appearances from drives.').waitFor({ state: 'detached' });
       assert.equal(house.jobs.at(-1).state, 'cancelled');
       await tab(page, 'Tours');
       const setting = page.getByLabel('When a drive saw places of Ground floor in a new light');

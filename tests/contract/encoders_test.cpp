@@ -120,7 +120,7 @@ TEST(Encoders, WriteEventsThatTheSchemaAccepts) {
   RobotView unseen;
   unseen.id = RobotId("r2");
   const Snapshot snapshot{"0.1.0", {sample_robot(), unseen}, {job}, {map}};
-  for (const Event& event : std::vector<Event>{snapshot, sample_robot(), job, map, sample_mission()}) {
+  for (const Event& event : std::vector<Event>{snapshot, sample_robot(), job, map, sample_mission(), Heartbeat{}}) {
     const json written = event_to_json(event, 7);
     EXPECT_THAT(schemas().problems("event", written), IsEmpty()) << written.dump();
     EXPECT_EQ(written["seq"], 7);

@@ -153,7 +153,8 @@ TEST(OpenApi, WhatMakesThingsMayBeRepeatedSafely) {
 
 TEST(OpenApi, ChangesOfMapsNameTheRevisionTheyWereMadeAgainst) {
   for (const Operation& operation : operations()) {
-    if (operation.path != "/maps/{map}/edits" && operation.path != "/maps/{map}/undo") continue;
+    const std::set<std::string> changes = {"/maps/{map}/edits", "/maps/{map}/undo", "/maps/{map}/redo"};
+    if (!changes.contains(operation.path)) continue;
     EXPECT_THAT(parameter_names(operation, "header"), Contains("If-Match"));
     EXPECT_TRUE(operation.value["responses"].contains("412"));
     EXPECT_TRUE(operation.value["responses"].contains("428"));

@@ -103,6 +103,7 @@ inline map::TopologicalMap sample_map() {
   edit.images = {map.images[2].id};
   edit.by = "anna";
   edit.t_us = 1'700'000'000'000'000;
+  edit.change = 1;
   map.edits = {edit};
   map.next_place_number = 3;
   map.next_destination_number = 2;

@@ -79,14 +79,46 @@ describe('the mock server', () => {
     expect(problemsOf('map_info', set)).toEqual([]);
   });
 
-  it('tells events as the schema says, the snapshot first', async () => {
+  it('takes a request of several edits for one change, back and forth', async () => {
+    const root = 'maps/m1';
+    let { revision } = (await ask('GET', `${root}/graph`)).body;
+    const change = (path, body) => ask('POST', `${root}/${path}`, body, { 'If-Match': `"r${revision}"` });
+    const blocked = async () =>
+      (await ask('GET', `${root}/graph`)).body.edges.filter((one) => one.blocked).length;
+    const nothing = await change('undo');
+    expect([nothing.status, nothing.body.code]).toEqual([404, 'not_found']);
+    const edits = [
+      { kind: 'block_edge', from: 'p4', to: 'p5', blocked: true },
+      { kind: 'block_edge', from: 'p5', to: 'p4', blocked: true },
+    ];
+    ({ revision } = (await change('edits', { edits })).body);
+    expect([await blocked(), (await ask('POST', `${root}/undo`)).status]).toEqual([2, 428]);
+    ({ revision } = (await change('undo')).body);
+    const { body: history } = await ask('GET', `${root}/history`);
+    expect(history.edits.map((one) => [one.change, one.undone, one.redoable])).toEqual([
+      [1, true, true],
+      [1, true, true],
+    ]);
+    expect(await blocked()).toBe(0);
+    ({ revision } = (await change('redo')).body);
+    expect([await blocked(), (await change('redo')).body.code]).toEqual([2, 'not_found']);
+    ({ revision } = (await change('undo')).body);
+    const stale = await ask('POST', `${root}/redo`, undefined, { 'If-Match': '"r1"' });
+    expect([stale.status, stale.body.code]).toEqual([412, 'stale_revision']);
+    const nowhere = await change('edits', {
+      edits: [{ kind: 'block_edge', from: 'p1', to: 'p9', blocked: true }],
+    });
+    expect([nowhere.status, nowhere.body.code]).toEqual([404, 'not_found']);
+  });
+
+  it('tells events as the schema says, the snapshot first, and that it lives', async () => {
     const socket = new WebSocket(`${mock.url.replace('http', 'ws')}/api/v1/events`, { headers: { cookie } });
     const events = await new Promise((done, fail) => {
       const heard = [];
       socket.on('error', fail);
       socket.on('message', (data) => {
         heard.push(JSON.parse(data.toString()));
-        if (heard.length >= 4) done(heard);
+        if (heard.length >= 4 && heard.some((one) => one.type === 'heartbeat')) done(heard);
       });
     });
     socket.close();

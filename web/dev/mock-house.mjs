@@ -51,12 +51,9 @@ export function pictureOf(place) {
 }
 
 export function neighboursOf(graph, place) {
-  return graph.edges
-    .filter((one) => !one.blocked && (one.from === place || one.to === place))
-    .map((one) => (one.from === place ? one.to : one.from));
+  return graph.edges.filter((one) => !one.blocked && one.from === place).map((one) => one.to);
 }
 
-/** The shortest way in numbers of places, breadth first; null when there is none. */
 /** What a job tells of the kitchen. */
 export function kitchenNote(code) {
   return {
@@ -65,6 +62,31 @@ export function kitchenNote(code) {
   };
 }
 
+/** And of the place beside it, which nobody has named. */
+export function unnamedNote(code) {
+  return {
+    code,
+    parameters: { place: { code: 'place_numbered', parameters: { place: 'p4' } }, appearances: 1 },
+  };
+}
+
+/** What a build says of a tour in which two pictures were taken out of their order. */
+export const kJumpNote = {
+  code: 'warning_at',
+  parameters: {
+    warning: {
+      code: 'tour_jumps',
+      parameters: {
+        jumps: 1,
+        steps: 25,
+        pictures: [{ code: 'jump', parameters: { from: 'p5.jpg', to: 'p11.jpg' } }],
+      },
+    },
+    image: 't1/p11.jpg',
+  },
+};
+
+/** The shortest way in numbers of places, breadth first; null when there is none. */
 export function wayBetween(graph, from, to) {
   const before = new Map([[from, null]]);
   for (const place of before.keys())
@@ -85,9 +107,12 @@ export function newGraph(map) {
     x,
     y,
   }));
-  const edges = kWays.map((way, i) => {
-    const [from, to] = way.split('-');
-    return {
+  const edges = kWays.flatMap((way, i) => {
+    const [a, b] = way.split('-');
+    return [
+      [a, b],
+      [b, a],
+    ].map(([from, to]) => ({
       from,
       to,
       bearing_rad: 0.1 * i,
@@ -99,7 +124,7 @@ export function newGraph(map) {
       weak: way === 'p12-p13',
       blocked: false,
       shortcut: false,
-    };
+    }));
   });
   const destinations = places
     .filter((one) => one.label)
@@ -122,6 +147,27 @@ export function newGraph(map) {
         support: 0.05,
         plausibility: 0.15,
         decision: 'rejected',
+        by: 'method',
+      },
+      {
+        // Beside each other, and so much alike that nothing but the tour's own steps keeps them apart.
+        prototype_a: 't1/p2.jpg',
+        prototype_b: 't1/p3.jpg',
+        masses_before: masses(0.95, 0),
+        masses_after: masses(1, 0),
+        support: 1,
+        plausibility: 1,
+        decision: 'undecided',
+        by: 'method',
+      },
+      {
+        prototype_a: 't1/p4.jpg',
+        prototype_b: 't1/p12.jpg',
+        masses_before: masses(0.6, 0.1),
+        masses_after: masses(0.55, 0.2),
+        support: 0.55,
+        plausibility: 0.8,
+        decision: 'undecided',
         by: 'method',
       },
     ],

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The routes of the mock server: [method and path, least role, handler(house, {user, body, headers, args})].
+import { edit, redo, undo } from './mock-edits.mjs';
 import { kitchenNote, wayBetween } from './mock-house.mjs';
 import { Refusal } from './mock-refusal.mjs';
 
@@ -77,6 +78,7 @@ function startMission(house, { user, body, args }) {
     path_index: 0,
     arrival_probability: null,
     created_us: Date.now() * 1000,
+    ended_us: null,
     by: user.name,
   };
   house.drive(robot, mission);
@@ -97,56 +99,6 @@ function stop(house, { user, args }) {
   const robot = house.find(house.robots, args[0]);
   setTimeout(() => house.halt(robot, { code: 'stopped_by', parameters: { by: user.name } }), 200);
   return { status: 202, body: { stop_id: house.newId('s') } };
-}
-
-function edit(house, { user, body, headers, args }) {
-  const map = house.find(house.maps, args[0]);
-  if (!headers['if-match']) throw new Refusal(428, 'conflict', 'say which revision you saw');
-  if (headers['if-match'] !== `"r${house.graph.revision}"`)
-    throw new Refusal(412, 'stale_revision', 'the map has changed');
-  for (const one of body.edits) {
-    if (one.kind === 'rename') rename(house.graph, one);
-    else if (one.kind === 'block_edge') block(house.graph, one);
-    else if (one.kind === 'decide_shortcut') decideShortcut(house.graph, one, user.name);
-    else throw new Refusal(422, 'invalid_input', `this version cannot ${one.kind}`);
-    house.edits.push(logged(one, user.name));
-  }
-  map.revision = house.graph.revision += 1;
-  house.send('map', map);
-  return { body: { revision: map.revision } };
-}
-
-function logged(one, by) {
-  const image_a = one.image_a ?? `t1/${one.place ?? one.from}.jpg`;
-  const t_us = Date.now() * 1000;
-  return {
-    kind: one.kind,
-    image_a,
-    image_b: one.image_b ?? null,
-    text: one.label ?? '',
-    images: [],
-    by,
-    t_us,
-    undone: false,
-  };
-}
-
-function rename(graph, { place, label }) {
-  const found = graph.places.find((one) => one.id === place);
-  if (!found) throw new Refusal(404, 'unknown_place', `there is no '${place}'`);
-  found.label = label;
-  for (const one of graph.destinations) if (one.place === place) one.label = label;
-}
-
-function block(graph, { from, to, blocked }) {
-  for (const one of graph.edges)
-    if ((one.from === from && one.to === to) || (one.from === to && one.to === from)) one.blocked = blocked;
-}
-
-function decideShortcut(graph, { image_a, image_b, accept }, by) {
-  const found = graph.shortcuts.find((one) => one.image_a === image_a && one.image_b === image_b);
-  if (!found) throw new Refusal(404, 'not_found', 'there is no such shortcut');
-  Object.assign(found, { state: accept ? 'accepted' : 'rejected', by });
 }
 
 function addTour(house, { body }) {
@@ -325,6 +277,8 @@ export const kRoutes = [
     (_, { args }) => ({ picture: args[0] }),
   ],
   [/^POST maps\/([^/]+)\/edits$/, 'installer', edit],
+  [/^POST maps\/([^/]+)\/undo$/, 'installer', undo],
+  [/^POST maps\/([^/]+)\/redo$/, 'installer', redo],
   [/^GET tours$/, 'viewer', (house) => ({ body: { tours: house.tours } })],
   [/^GET tours\/([^/]+)$/, 'viewer', (house, { args }) => ({ body: house.find(house.tours, args[0]) })],
   [/^POST tours$/, 'installer', addTour],

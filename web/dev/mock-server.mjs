@@ -33,10 +33,12 @@ export function startMock({ port = 8099, dist, step_ms = 900, fresh = false } = 
   const root = resolve(dist ?? fileURLToPath(new URL('../dist', import.meta.url)));
   const events = new WebSocketServer({ noServer: true });
   house.tell = (message) => {
+    if (house.silent) return;
     for (const client of events.clients) client.send(JSON.stringify(message));
   };
   const server = createServer((request, response) => void answer(house, root, request, response));
-  server.on('upgrade', (request, socket, head) => {
+  server.on('upgrade', async (request, socket, head) => {
+    await house.silent?.over;
     if (request.url !== '/api/v1/events' || !house.userOf(request) || house.unreachable)
       return void socket.destroy();
     events.handleUpgrade(request, socket, head, (client) => client.send(JSON.stringify(house.snapshot())));
@@ -59,6 +61,7 @@ async function answer(house, root, request, response) {
     house.steer(JSON.parse((await bodyOf(request)).toString()));
     return void response.writeHead(204).end();
   }
+  await house.silent?.over;
   if (house.unreachable) return void request.socket.destroy();
   if (!url.pathname.startsWith('/api/v1/')) return void serveFile(root, url.pathname, response);
   try {

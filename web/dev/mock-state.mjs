@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the mock server knows and does: accounts, robots, leases, missions that progress, maps, tours, jobs.
-import { kitchenNote, newGraph } from './mock-house.mjs';
+import { edit } from './mock-edits.mjs';
+import { kJumpNote, kitchenNote, newGraph, unnamedNote } from './mock-house.mjs';
 import { kRoutes } from './mock-routes.mjs';
 import { Refusal } from './mock-refusal.mjs';
 
@@ -13,6 +14,7 @@ export class House {
       seq: 0,
       ids: 0,
       unreachable: false,
+      silent: null, // while nothing is told or answered, what waits for the end of it
       sureness: 0.995, // of the next arrivals
       tell: () => undefined,
       dropClients: () => undefined,
@@ -22,7 +24,8 @@ export class House {
       : ['anna:admin', 'ben:rider', 'vera:viewer'].map((one) => this.newUser(...one.split(':'), 'homeward'));
     this.sessions = new Map();
     this.tokens = [];
-    this.graph = newGraph('m1');
+    this.taught = newGraph('m1');
+    this.graph = structuredClone(this.taught);
     this.edits = [];
     const tour = {
       id: 't1',
@@ -38,10 +41,14 @@ export class House {
     this.jobs = [];
     this.robots = fresh ? [] : [this.newRobot('Chair', 'm1')];
     this.timers = new Set();
-    this.beat = setInterval(() => this.robots.forEach((one) => one.online && this.tellRobot(one)), 1000);
+    this.beat = setInterval(() => {
+      this.robots.forEach((one) => one.online && this.tellRobot(one));
+      this.tell({ type: 'heartbeat', v: 1, seq: (this.seq += 1) });
+    }, 1000);
   }
 
   close() {
+    this.beSilent(false);
     clearInterval(this.beat);
     for (const timer of this.timers) clearInterval(timer);
   }
@@ -195,7 +202,7 @@ export class House {
     };
     const arrived = mission.state === 'driving' && mission.path_index >= mission.path.length - 1;
     robot.mission = arrived
-      ? { ...mission, state: 'arrived', arrival_probability: this.sureness }
+      ? { ...this.ended(mission, 'arrived'), arrival_probability: this.sureness }
       : {
           ...mission,
           state: 'driving',
@@ -229,12 +236,11 @@ export class House {
     this.answers.push({ here, by });
     robot.question = null;
     robot.mission = here
-      ? { ...robot.mission, state: 'arrived', arrival_probability: 0.97 }
-      : {
-          ...robot.mission,
-          state: 'failed',
-          reason: { code: 'destination_denied', parameters: { destination: label } },
-        };
+      ? { ...this.ended(robot.mission, 'arrived'), arrival_probability: 0.97 }
+      : this.ended(robot.mission, 'failed', {
+          code: 'destination_denied',
+          parameters: { destination: label },
+        });
     robot.state = robot.mission.state;
     this.tellRobot(robot);
   }
@@ -253,9 +259,12 @@ export class House {
     clearInterval(robot.timer);
     robot.question = null;
     if (robot.mission && ['accepted', 'driving'].includes(robot.mission.state))
-      robot.mission = { ...robot.mission, state: 'stopped', reason };
+      robot.mission = this.ended(robot.mission, 'stopped', reason);
     robot.state = 'stopped';
     this.tellRobot(robot);
+  }
+  ended(mission, state, reason = mission.reason) {
+    return { ...mission, state, reason, ended_us: Date.now() * 1000 };
   }
 
   /** What drives would teach a map, waiting for a person. */
@@ -268,8 +277,8 @@ export class House {
       progress: { stage: 'places', share: 1 },
       error: null,
       skipped: 0,
-      gained: 2,
-      notes: [kitchenNote('place_would_gain')],
+      gained: 3,
+      notes: [kitchenNote('place_would_gain'), unnamedNote('place_would_gain')],
       created_us: Date.now() * 1000,
     };
     this.jobs.push(job);
@@ -297,6 +306,7 @@ export class House {
       if (ended) {
         clearInterval(timer);
         if (job.state === 'running') job.state = 'done';
+        if (job.state === 'done' && tours.includes('t1')) job.notes = [kJumpNote];
         Object.assign(
           map,
           this.mapInfo(map.id, map.name, job.state === 'done' ? 'ready' : 'failed', map.revision + 1, tours),
@@ -309,21 +319,41 @@ export class House {
     return job;
   }
 
-  /** Orders of the tests: {do: "unreachable", on}, {do: "robot", set: {...}}, {do: "edit"}, {do: "hold", holder}, {do: "offer"},
+  /** While the server is frozen, or the network loses all that is sent, connections stay open and nothing comes. What was
+   *  asked meanwhile is answered afterwards. */
+  beSilent(on) {
+    this.silent?.end();
+    this.silent = null;
+    if (!on) return;
+    this.silent = {};
+    this.silent.over = new Promise((done) => (this.silent.end = done));
+  }
+
+  /** Orders of the tests: {do: "unreachable", on}, {do: "silent", on}, {do: "robot", set: {...}}, {do: "edit"},
+   *  {do: "change", edits, by}, {do: "hold", holder}, {do: "offer"}, {do: "halt", reason},
    *  {do: "ask"}: the robot that is under way stands and asks whether this is it. */
   steer(order) {
     const robot = this.robots[0];
     if (order.do === 'unreachable') {
       this.unreachable = order.on;
       if (order.on) this.dropClients();
+    } else if (order.do === 'silent') {
+      this.beSilent(order.on);
     } else if (order.do === 'robot') {
       Object.assign(robot, order.set);
       this.tellRobot(robot);
     } else if (order.do === 'edit') {
       // Another person's change that this browser has not heard of yet.
       this.graph.revision += 1;
+    } else if (order.do === 'change') {
+      // One that every browser hears of.
+      const headers = { 'if-match': `"r${this.graph.revision}"` };
+      const { edits, by } = order;
+      edit(this, { user: { name: by }, headers, args: [this.maps[0].id], body: { edits } });
     } else if (order.do === 'ask') {
       this.ask(robot);
+    } else if (order.do === 'halt') {
+      this.halt(robot, order.reason);
     } else if (order.do === 'offer') {
       this.offer(this.maps[0]);
     } else if (order.do === 'hold') {

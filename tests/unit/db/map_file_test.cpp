@@ -48,6 +48,8 @@ TEST_F(MapFile, GivesBackWhatWasSaved) {
   before.calibration = {0.25, 0.75};
   before.edges[1].shortcut = true;
   before.edits[0].kind = map::EditKind::kDecideShortcut;
+  before.edits[0].change = 7;
+  before.edits[0].undone = before.edits[0].redoable = true;
   const Thumbnails thumbnails = {{before.images[0].id, {1, 2, 3}}};
   ASSERT_TRUE(save_map(file(), before, thumbnails));
   const auto stored = load_map(file());
@@ -100,7 +102,7 @@ TEST_F(MapFile, GivesBackWhatWasSaved) {
   ASSERT_EQ(after.destinations.size(), 1U);
   EXPECT_EQ(after.destinations[0].appearance.size(), 15);
   ASSERT_EQ(after.edits.size(), 1U);
-  EXPECT_EQ(after.edits[0].images, before.edits[0].images);
+  EXPECT_EQ(after.edits, before.edits);
   EXPECT_EQ(after.next_place_number, 3);
   EXPECT_EQ(stored->thumbnails, thumbnails);
   EXPECT_GT(stored->bytes, 0);
@@ -180,6 +182,31 @@ TEST_F(MapFile, OpensFilesFromBeforeShortcuts) {
   EXPECT_EQ(old->map.edges[0].inliers, 64);
 }
 
+TEST_F(MapFile, InFilesFromBeforeChangesEachEditIsOne) {
+  map::TopologicalMap map = sample_map();
+  map.edits.push_back(map.edits[0]);  // of the same change
+  map.edits[1].undone = map.edits[1].redoable = true;
+  ASSERT_TRUE(save_map(file(), map, {}));
+  change("ALTER TABLE edits DROP COLUMN change; ALTER TABLE edits DROP COLUMN redoable; PRAGMA user_version = 5");
+  change("DELETE FROM meta WHERE key = 'checksum'");
+  {
+    SQLite::Database database(file().string(), SQLite::OPEN_READWRITE);
+    const std::string checksum = read_contents(database).checksum;
+    database.exec("INSERT INTO meta(key, value) VALUES ('checksum', '" + checksum + "')");
+  }
+  const auto old = load_map(file());
+  ASSERT_TRUE(old) << old.error().message;
+  ASSERT_EQ(old->map.edits.size(), 2U);
+  EXPECT_EQ(old->map.edits[0].change, 1);
+  EXPECT_EQ(old->map.edits[1].change, 2);
+  EXPECT_TRUE(old->map.edits[1].undone);
+  EXPECT_FALSE(old->map.edits[1].redoable) << "nobody wrote down whether";
+  forget_checksum();
+  change("PRAGMA user_version = 6; ALTER TABLE edits ADD COLUMN change INTEGER; UPDATE edits SET change = 0");
+  change("ALTER TABLE edits ADD COLUMN redoable INTEGER");
+  EXPECT_THAT(load_map(file()).error().message, ::testing::HasSubstr("belongs to no change"));
+}
+
 TEST_F(MapFile, RefusesShortcutsThatCannotBe) {
   ASSERT_TRUE(save_map(file(), sample_map(), {}));
   forget_checksum();
@@ -194,7 +221,7 @@ TEST_F(MapFile, RefusesOtherDatabasesNewerVersionsAndDanglingReferences) {
   change("UPDATE edges SET length_from = 9");
   EXPECT_THAT(load_map(file()).error().message, ::testing::HasSubstr("unknown source"));
   forget_checksum();
-  for (const auto& [version, what] : {std::pair("1", "Rebuild the map"), std::pair("6", "A newer Homeward wrote it")}) {
+  for (const auto& [version, what] : {std::pair("1", "Rebuild the map"), std::pair("7", "A newer Homeward wrote it")}) {
     change(std::string("PRAGMA user_version = ") + version);
     const auto refused = load_map(file());
     ASSERT_FALSE(refused);

@@ -72,6 +72,7 @@ TEST_F(StoreDurability, MissionsUnderWayAreStoppedByARestart) {
   arrived.state = wire::MissionState::kArrived;
   arrived.path_index = 1;
   arrived.arrival_probability = 0.96875;
+  arrived.ended_us = 7;
   ASSERT_TRUE(store().update_mission(arrived));
   open();
   const wire::MissionView stopped = store().mission(driving).value();
@@ -83,6 +84,8 @@ TEST_F(StoreDurability, MissionsUnderWayAreStoppedByARestart) {
   EXPECT_EQ(all[0].state, wire::MissionState::kArrived);
   EXPECT_EQ(all[0].path_index, 1);
   EXPECT_EQ(all[0].arrival_probability, 0.96875);
+  EXPECT_EQ(all[0].ended_us, 7);
+  EXPECT_EQ(stopped.ended_us, std::nullopt) << "nobody knows when";
   EXPECT_EQ(all[1].arrival_probability, std::nullopt) << "it was never known";
 }
 
@@ -97,7 +100,7 @@ TEST_F(StoreDurability, AnEmptyFileBecomesADatabaseAndANewerOneIsRefused) {
   close();
   {
     SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
-    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 7);
+    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 8);
     EXPECT_EQ(database.execAndGet("PRAGMA journal_mode").getString(), "wal");
     database.exec("PRAGMA user_version = 999");
   }

@@ -67,12 +67,12 @@ TEST(Edits, RenameAndUndo) {
   EXPECT_EQ(map.places[0].label, "kitchen");
   ASSERT_TRUE(apply_edit(map, make(EditKind::kRename, 0, -1, "pantry")));
   EXPECT_EQ(map.revision, 3);
-  ASSERT_TRUE(undo_last_edit(map));
+  ASSERT_TRUE(undo_change(map));
   EXPECT_EQ(map.places[0].label, "kitchen");
-  ASSERT_TRUE(undo_last_edit(map));
+  ASSERT_TRUE(undo_change(map));
   EXPECT_EQ(map.places[0].label, "");
   EXPECT_EQ(map.revision, 5);
-  EXPECT_EQ(undo_last_edit(map).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(undo_change(map).error().code, ErrorCode::kNotFound);
   EXPECT_EQ(map.edits.size(), 2U);
 }
 
@@ -90,7 +90,7 @@ TEST(Edits, MergeTakesEverythingAlong) {
   EXPECT_EQ(map.edges.size(), 2U);
   EXPECT_FALSE(map.edges[0].bearing_rad);  // it belonged to another prototype
   EXPECT_EQ(map.destinations[0].place.str(), "p3");
-  EXPECT_EQ(undo_last_edit(map).error().code, ErrorCode::kConflict);
+  EXPECT_EQ(undo_change(map).error().code, ErrorCode::kConflict);
   EXPECT_FALSE(map.edits.back().undone);
 }
 
@@ -125,15 +125,91 @@ TEST(Edits, EdgesComeGoAndAreBlocked) {
   ASSERT_TRUE(apply_edit(map, make(EditKind::kAddEdge, 0, 5)));
   EXPECT_TRUE(joined(map, "p1", "p3"));
   EXPECT_EQ(map.edges.back().by, map::Decider::kPerson);
-  ASSERT_TRUE(undo_last_edit(map));
+  ASSERT_TRUE(undo_change(map));
   EXPECT_EQ(map::find_edge(map, PlaceId("p1"), PlaceId("p3")), nullptr);
   ASSERT_TRUE(apply_edit(map, make(EditKind::kBlockEdge, 0, 3, "true")));
   EXPECT_TRUE(map::find_edge(map, PlaceId("p1"), PlaceId("p2"))->blocked);
   EXPECT_FALSE(map::find_edge(map, PlaceId("p2"), PlaceId("p1"))->blocked);  // one direction alone
-  ASSERT_TRUE(undo_last_edit(map));
+  ASSERT_TRUE(undo_change(map));
   EXPECT_FALSE(map::find_edge(map, PlaceId("p1"), PlaceId("p2"))->blocked);
   ASSERT_TRUE(apply_edit(map, make(EditKind::kRemoveEdge, 3, 5)));
   EXPECT_EQ(map.edges.size(), 2U);
+}
+
+/// Closes the way between p1 and p2 in both directions, as one request does.
+void close_both_ways(map::TopologicalMap& map) {
+  const std::int64_t change = next_change(map);
+  for (const auto& [a, b] : {std::pair(1, 3), {3, 1}}) {
+    map::Edit edit = make(EditKind::kBlockEdge, a, b, "true");
+    edit.change = change;
+    ASSERT_TRUE(apply_edit(map, edit));
+  }
+}
+
+/// Of the edges from p1 to p2 and back, whether they are blocked.
+std::pair<bool, bool> closed(map::TopologicalMap& map) {
+  return {map::find_edge(map, PlaceId("p1"), PlaceId("p2"))->blocked,
+          map::find_edge(map, PlaceId("p2"), PlaceId("p1"))->blocked};
+}
+
+TEST(Edits, EditsOfOneChangeAreUndoneAndRedoneTogether) {
+  auto map = three_places();
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kRename, 0, -1, "porch")));
+  close_both_ways(map);
+  EXPECT_EQ(closed(map), std::pair(true, true));
+  ASSERT_TRUE(undo_change(map));
+  EXPECT_EQ(closed(map), std::pair(false, false));
+  EXPECT_EQ(map.places[0].label, "porch") << "a change of its own";
+  EXPECT_EQ(map.revision, 5);
+  ASSERT_TRUE(redo_change(map));
+  EXPECT_EQ(closed(map), std::pair(true, true));
+  EXPECT_EQ(map.revision, 6);
+  EXPECT_EQ(redo_change(map).error().code, ErrorCode::kNotFound);
+}
+
+TEST(Edits, ChangesAreRedoneInTheirOrderUntilSomethingElseIsChanged) {
+  auto map = three_places();
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kRename, 0, -1, "porch")));
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kRename, 0, -1, "hall")));
+  ASSERT_TRUE(undo_change(map));
+  ASSERT_TRUE(undo_change(map));
+  EXPECT_EQ(map.places[0].label, "");
+  ASSERT_TRUE(redo_change(map));
+  EXPECT_EQ(map.places[0].label, "porch");
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kRename, 5, -1, "attic")));
+  EXPECT_EQ(redo_change(map).error().code, ErrorCode::kNotFound) << "it was of a map that is no more";
+  ASSERT_TRUE(undo_change(map));
+  ASSERT_TRUE(redo_change(map));
+  EXPECT_EQ(map.places[2].label, "attic");
+  EXPECT_EQ(map.places[0].label, "porch");
+}
+
+TEST(Edits, AChangeThatCannotBeUndoneWhollyStandsWholly) {
+  auto map = three_places();
+  map::Edit rename = make(EditKind::kRename, 5, -1, "attic");
+  map::Edit merge = make(EditKind::kMerge, 0, 3);
+  rename.change = merge.change = next_change(map);
+  ASSERT_TRUE(apply_edit(map, merge));
+  ASSERT_TRUE(apply_edit(map, rename));
+  EXPECT_EQ(undo_change(map).error().code, ErrorCode::kConflict);
+  EXPECT_EQ(map::find_place_of(map, ImageId("t/5"))->label, "attic");
+  EXPECT_FALSE(map.edits[0].undone || map.edits[1].undone);
+  EXPECT_EQ(map.revision, 3);
+}
+
+TEST(Edits, WhatWasUndoneWhileAMapWasBuiltIsNotBroughtBackByIt) {
+  auto present = three_places();
+  close_both_ways(present);
+  ASSERT_TRUE(apply_edit(present, make(EditKind::kRename, 5, -1, "attic")));
+  auto built = present;
+  ASSERT_TRUE(undo_change(present));
+  ASSERT_TRUE(undo_change(present));
+  replay_edits(built, present.edits);
+  EXPECT_EQ(closed(built), std::pair(false, false));
+  EXPECT_EQ(map::find_place_of(built, ImageId("t/5"))->label, "");
+  ASSERT_TRUE(redo_change(present));
+  replay_edits(built, present.edits);
+  EXPECT_EQ(closed(built), std::pair(true, true));
 }
 
 TEST(Edits, WhatCannotBeIsRefusedAndChangesNothing) {

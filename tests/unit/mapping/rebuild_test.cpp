@@ -191,7 +191,7 @@ TEST_F(Rebuild, EditsOfImagesThatAreGoneStayInTheLog) {
 
 TEST_F(Rebuild, AnUndoneEditIsNotReplayed) {
   edit(map::EditKind::kRename, kFirst, -1, "kitchen");
-  ASSERT_TRUE(undo_last_edit(map_));
+  ASSERT_TRUE(undo_change(map_));
   map::TopologicalMap again = make_map(tour_.input(), {}, &map_);
   EXPECT_EQ(map::find_place_of(again, image(kFirst))->label, "");
   EXPECT_EQ(again.edits.size(), 1U);

@@ -81,9 +81,9 @@ TEST(ShortcutEdges, ADecisionCanBeChangedAndTakenBack) {
   ASSERT_TRUE(apply_edit(map, decide("reject")));
   EXPECT_EQ(edge(map), nullptr);
   EXPECT_EQ(map.shortcuts[0].state, ShortcutState::kRejected);
-  ASSERT_TRUE(undo_last_edit(map));
+  ASSERT_TRUE(undo_change(map));
   EXPECT_NE(edge(map), nullptr);
-  ASSERT_TRUE(undo_last_edit(map));
+  ASSERT_TRUE(undo_change(map));
   EXPECT_EQ(edge(map), nullptr);
   EXPECT_EQ(map.shortcuts[0].state, ShortcutState::kProposed);
   EXPECT_EQ(map.shortcuts[0].by, "method");
@@ -93,7 +93,7 @@ TEST(ShortcutEdges, ADecisionTakenBackDuringABuildIsNotBroughtBackByIt) {
   map::TopologicalMap present = with_shortcut();
   ASSERT_TRUE(apply_edit(present, decide("accept")));
   map::TopologicalMap built = present;
-  ASSERT_TRUE(undo_last_edit(present));
+  ASSERT_TRUE(undo_change(present));
   replay_edits(built, present.edits);
   EXPECT_EQ(built.shortcuts[0].state, ShortcutState::kProposed);
   EXPECT_EQ(edge(built), nullptr);

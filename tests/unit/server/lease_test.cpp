@@ -72,6 +72,32 @@ TEST_F(LeaseTest, NoMissionWithoutLeaseOrRobot) {
   EXPECT_EQ(stranger.post(root + "/stop").status, 401);
 }
 
+TEST_F(LeaseTest, AStopALeaseThatRanOutAndALostLinkAreToldApartWithWhenTheyWere) {
+  add_robot();
+  put_on_map();
+  for (const std::string code : {"stopped_by", "nobody_watching", "robot_gone"}) {
+    FakeAgent agent;
+    ASSERT_EQ(agent.connect(app->port(), robot, token), 101);
+    const std::string lease = take_lease(*admin);
+    find_itself(agent);
+    const Answer sent = send_home(lease);
+    ASSERT_EQ(sent.status, 201) << sent.body;
+    const auto order = agent.await<wire::MissionOrder>();
+    ASSERT_TRUE(order);
+    agent.status(wire::DriveState::kDriving, order, 1);
+    EXPECT_TRUE(wait_for_state(sent.json(), "driving").at("ended_us").is_null());
+    const TimeUs before = clock.wall_us();
+    if (code == "stopped_by") signed_in("vera", "viewer").post(root + "/stop");
+    if (code == "nobody_watching") clock.pass(std::chrono::seconds(11));
+    if (code == "robot_gone") agent.socket.cut();
+    const json ended = wait_for_state(sent.json(), "stopped");
+    EXPECT_EQ(ended.at("reason").at("code"), code);
+    EXPECT_EQ(ended.at("reason").at("parameters").value("by", ""), code == "stopped_by" ? "vera" : "");
+    EXPECT_GE(ended.at("ended_us"), before) << code;
+    EXPECT_LE(ended.at("ended_us"), clock.wall_us()) << code;
+  }
+}
+
 TEST_F(LeaseTest, WithoutALeaseNoOtherWayIsDriven) {
   add_robot();
   put_on_map();

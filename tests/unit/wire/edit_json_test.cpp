@@ -87,7 +87,8 @@ TEST(EditJson, NamesTheFieldThatIsWrong) {
 TEST(EditJson, LogsEditsWithNullForNoSecondImage) {
   const json logged = logged_edit_to_json(sample_map().edits.front());
   EXPECT_EQ(logged, json::parse(R"({"kind":"rename","image_a":"tour/00002.jpg","image_b":null,"text":"kitchen",
-    "images":["tour/00002.jpg"],"by":"anna","t_us":1700000000000000,"undone":false})"));
+    "images":["tour/00002.jpg"],"by":"anna","t_us":1700000000000000,"undone":false,
+    "change":1,"redoable":false})"));
 }
 
 }  // namespace

@@ -141,6 +141,11 @@ export const undo = (map: string, revision: number) =>
     method: 'POST',
     headers: { 'If-Match': `"r${revision}"` },
   });
+export const redo = (map: string, revision: number) =>
+  call<{ revision: number }>(`/maps/${id(map)}/redo`, {
+    method: 'POST',
+    headers: { 'If-Match': `"r${revision}"` },
+  });
 export const placeThumbnailUrl = (map: string, place: string, revision: number) =>
   `${kRoot}/maps/${id(map)}/places/${id(place)}/thumbnail?r=${revision}`;
 /** `image` is a picture's lasting id, "tour/file". */

@@ -16,19 +16,22 @@ class FakeSocket implements SocketLike {
 
 function bench() {
   const sockets: FakeSocket[] = [];
-  const timers: { delay_ms: number; call: () => void }[] = [];
+  const timers: { at_ms: number; delay_ms: number; call: () => void }[] = [];
   const views: EventSocketView[] = [];
+  let now_ms = 5000;
   const events = new EventSocket({
     open: () => {
       const socket = new FakeSocket();
       sockets.push(socket);
       return socket;
     },
-    now_ms: () => 5000,
+    now_ms: () => now_ms,
     after: (delay_ms, call) => {
-      const timer = { delay_ms, call };
+      const timer = { at_ms: now_ms + delay_ms, delay_ms, call };
       timers.push(timer);
-      return () => void timers.splice(timers.indexOf(timer), 1);
+      return () => {
+        if (timers.includes(timer)) timers.splice(timers.indexOf(timer), 1);
+      };
     },
     random: () => 0.5,
   });
@@ -41,9 +44,22 @@ function bench() {
     jobs: [],
     maps: [],
   });
+  /** Lets time pass, and what is due happen at its time. */
+  const pass = (time_ms: number) => {
+    const end_ms = now_ms + time_ms;
+    for (;;) {
+      const [next] = timers.filter((one) => one.at_ms <= end_ms).sort((a, b) => a.at_ms - b.at_ms);
+      if (!next) break;
+      timers.splice(timers.indexOf(next), 1);
+      now_ms = next.at_ms;
+      next.call();
+    }
+    now_ms = end_ms;
+  };
   return {
     sockets,
     timers,
+    pass,
     views,
     events,
     snapshot,
@@ -73,16 +89,16 @@ describe('EventSocket', () => {
   });
 
   it('asks for a snapshot when there was none, and keeps the old state on screen as offline meanwhile', () => {
-    const { events, sockets, timers, views, listen, snapshot } = bench();
+    const { events, sockets, pass, views, listen, snapshot } = bench();
     events.subscribe(listen);
     sockets[0]?.say(snapshot(1));
     sockets[0]?.onclose?.({ code: 1006 });
     expect(views.at(-1)).toMatchObject({ state: 'offline', server: { seq: 1 } });
-    timers.shift()?.call();
+    pass(400);
     expect(sockets).toHaveLength(2);
     sockets[1]?.say({ type: 'map', v: 1, seq: 2, map: { id: 'm' } }); // a change without its snapshot
     expect(sockets[1]?.closed).toBe(true);
-    timers.shift()?.call();
+    pass(800);
     sockets[2]?.say(snapshot(9));
     expect(views.at(-1)).toMatchObject({ state: 'live', server: { seq: 9 } });
   });
@@ -110,6 +126,39 @@ describe('EventSocket', () => {
     sockets[0]?.onclose?.({ code: 1006 });
     stop();
     expect(timers).toHaveLength(0);
+  });
+
+  it('says within 3 s that a connection has fallen silent, and shows meanwhile what it knew', () => {
+    const { events, sockets, pass, views, listen, snapshot } = bench();
+    events.subscribe(listen);
+    sockets[0]?.say(snapshot(1));
+    for (let seq = 2; seq < 6; ++seq) {
+      pass(1000);
+      sockets[0]?.say({ type: 'heartbeat', v: 1, seq });
+    }
+    expect(views.every((view) => view.state !== 'offline')).toBe(true);
+    pass(2400);
+    expect(views.at(-1)?.state).toBe('live');
+    pass(500);
+    expect(views.at(-1)).toMatchObject({ state: 'offline', last_message_ms: 9000, server: { seq: 5 } });
+    sockets[0]?.say({ type: 'heartbeat', v: 1, seq: 6 }); // it was only late
+    expect(views.at(-1)).toMatchObject({ state: 'live', server: { seq: 6 } });
+    expect(sockets).toHaveLength(1);
+  });
+
+  it('gives a silent connection up for a new one, and each new one that nobody answers', () => {
+    const { events, sockets, pass, views, listen, snapshot } = bench();
+    events.subscribe(listen);
+    sockets[0]?.say(snapshot(1));
+    pass(6500);
+    expect(sockets.map((one) => one.closed)).toEqual([true, false]);
+    pass(6500);
+    pass(6500);
+    expect(sockets.map((one) => one.closed)).toEqual([true, true, true, false]);
+    expect(views.at(-1)?.state).toBe('offline');
+    sockets[3]?.say(snapshot(1));
+    expect(views.at(-1)?.state).toBe('live');
+    expect(sockets).toHaveLength(4);
   });
 });
 

@@ -28,15 +28,21 @@ type Listener = (view: EventSocketView) => void;
 
 const kFirstRetryMs = 400;
 const kLongestRetryMs = 8000;
+// The server beats each second (proto/asyncapi.yaml). After this the page says that what it shows is old.
+const kSilenceMs = 2500;
+// A connection that tells nothing for so long is given up for a new one; until then it may go on where it was.
+const kDeadMs = 6000;
 
 /**
  * The one connection for events: opened with the first subscriber, closed with the last, opened again after every loss
- * with growing pauses. What cannot be read drops the connection, because a new one begins with a full snapshot.
+ * with growing pauses. What cannot be read drops the connection, because a new one begins with a full snapshot. One that
+ * falls silent counts as offline while it lasts: an open connection alone says nothing of whoever is at its other end.
  */
 export class EventSocket {
   private readonly listeners_ = new Set<Listener>();
   private socket_: SocketLike | null = null;
   private cancelRetry_: (() => void) | null = null;
+  private cancelWatch_: (() => void) | null = null;
   private failures_ = 0;
   private view_: EventSocketView = { state: 'closed', server: null, last_message_ms: null };
 
@@ -74,9 +80,10 @@ export class EventSocket {
   private connect(): void {
     this.cancelRetry_?.();
     this.cancelRetry_ = null;
-    this.change({ state: this.view_.server ? this.view_.state : 'connecting' });
+    this.change({ state: this.view_.state === 'closed' ? 'connecting' : this.view_.state });
     const socket = this.options_.open();
     this.socket_ = socket;
+    this.watch(kDeadMs, () => this.giveUp());
     socket.onmessage = (event) => this.receive(event.data);
     socket.onclose = () => {
       if (this.socket_ !== socket) return;
@@ -94,15 +101,35 @@ export class EventSocket {
     }
     this.socketState_ = server;
     this.failures_ = 0;
+    this.watch(kSilenceMs, () => this.fallSilent());
     this.change({ state: 'live', server, last_message_ms: this.options_.now_ms() });
   }
 
   // The state that this connection has told; what an earlier one told stays on screen until then, marked as old.
   private socketState_: ServerState | null = null;
 
+  /** What becomes of the connection when it tells nothing for so long. */
+  private watch(silence_ms: number, call: () => void): void {
+    this.cancelWatch_?.();
+    this.cancelWatch_ = this.options_.after(silence_ms, call);
+  }
+
+  private fallSilent(): void {
+    this.change({ state: 'offline' });
+    this.watch(kDeadMs - kSilenceMs, () => this.giveUp());
+  }
+
+  /** The silence was pause enough: the next attempt follows soon. */
+  private giveUp(): void {
+    this.failures_ = 0;
+    this.reconnect();
+  }
+
   private drop(): void {
     this.cancelRetry_?.();
     this.cancelRetry_ = null;
+    this.cancelWatch_?.();
+    this.cancelWatch_ = null;
     const socket = this.socket_;
     this.socket_ = null;
     if (!socket) return;
@@ -112,6 +139,8 @@ export class EventSocket {
   }
 
   private lost(): void {
+    this.cancelWatch_?.();
+    this.cancelWatch_ = null;
     this.socketState_ = null;
     const pause_ms = Math.min(kLongestRetryMs, kFirstRetryMs * 2 ** this.failures_);
     this.failures_ += 1;

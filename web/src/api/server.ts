@@ -41,9 +41,9 @@ export async function findOutWho(): Promise<void> {
   }
 }
 
-const kSilenceMs = 12_000;
+const kAskWhoMs = 12_000;
 
-/** Starts clock, events and their watchdog; called once by main. */
+/** Starts clock and events; called once by main. */
 export function startServerConnection(): void {
   calls.whenSignedOut(() => {
     if (me.peek()) wasSignedOut.value = true;
@@ -72,25 +72,12 @@ export function startServerConnection(): void {
   document.addEventListener('visibilitychange', () => {
     if (!document.hidden) socket.retryNow();
   });
-  setInterval(() => void checkSilence(), kSilenceMs);
+  setInterval(() => void askWho(), kAskWhoMs);
 }
 
-/** A quiet connection may be a dead one: a small question over REST tells. */
-async function checkSilence(): Promise<void> {
-  const { state, last_message_ms } = connection.peek();
-  if (state === 'offline' && me.peek()) {
-    // A socket that is refused does not say why; REST does (401 leads to the sign-in page).
-    await calls.whoAmI().catch(() => undefined);
-    return;
-  }
-  if (state !== 'live' || last_message_ms === null || Date.now() - last_message_ms < kSilenceMs) return;
-  try {
-    await calls.whoAmI();
-    if (connection.peek().last_message_ms === last_message_ms && connection.peek().state === 'live')
-      connection.value = { ...connection.peek(), last_message_ms: Date.now() };
-  } catch {
-    socket.reconnect();
-  }
+/** A socket that is refused does not say why; REST does (401 leads to the sign-in page). */
+async function askWho(): Promise<void> {
+  if (connection.peek().state === 'offline' && me.peek()) await calls.whoAmI().catch(() => undefined);
 }
 
 /** A map's graph as last loaded: what it shows, whether it is being loaded, and why it could not be. */

@@ -31,6 +31,7 @@ const mission: Mission = {
   path_index: 0,
   arrival_probability: null,
   created_us: 10,
+  ended_us: null,
   by: 'anna',
 };
 

@@ -46,6 +46,8 @@ export function applyEvent(
       return { ...next, maps: withChanged(state.maps, event.map) };
     case 'mission':
       return { ...next, robots: state.robots.map((robot) => withMission(robot, event.mission)) };
+    case 'heartbeat':
+      return next;
     default:
       return next; // a kind that this version does not know: counted, not shown
   }

@@ -8,8 +8,11 @@ export interface Loaded<T> {
   again: () => void;
 }
 
-/** What `ask` answers, asked on the first showing and whenever `again` is called; the old value stays meanwhile. */
-export function useLoaded<T>(ask: () => Promise<T>): Loaded<T> {
+/**
+ * What `ask` answers, asked on the first showing, whenever `again` is called and when what it tells of has another
+ * `version`; the old value stays meanwhile.
+ */
+export function useLoaded<T>(ask: () => Promise<T>, version = 0): Loaded<T> {
   const [value, setValue] = useState<T | null>(null);
   const [problem, setProblem] = useState<ProblemError | null>(null);
   const [round, setRound] = useState(0);
@@ -30,6 +33,6 @@ export function useLoaded<T>(ask: () => Promise<T>): Loaded<T> {
     };
     // `ask` is one of the functions of api/calls; a new closure of it is no reason to ask again.
     // eslint-disable-next-line react-hooks/exhaustive-deps
-  }, [round]);
+  }, [round, version]);
   return { value, problem, again: useCallback(() => setRound((n) => n + 1), []) };
 }

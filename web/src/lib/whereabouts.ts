@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Belief, Graph } from '../api/types';
+import type { Belief, Destination, Graph } from '../api/types';
 import { inSentence } from './words';
 
 export type Sureness = 'sure' | 'fairly sure' | 'unsure' | 'lost';
@@ -46,6 +46,17 @@ export function nameOf(graph: Graph, place: string): string | null {
   if (label) return inSentence(label);
   const destination = graph.destinations.find((one) => one.place === place);
   return destination ? inSentence(destination.label) : null;
+}
+
+/**
+ * What a destination is called: by the name that people gave its place since the tour; of several in one place, each by
+ * its own.
+ */
+export function destinationLabel(graph: Graph, destination: Destination): string {
+  const { place, label } = destination;
+  const own = graph.places.find((one) => one.id === place)?.label.trim() ?? '';
+  const alone = graph.destinations.filter((one) => one.place === place).length === 1;
+  return alone && own !== '' ? own : label;
 }
 
 /** Names of people and things that carry a capital or a possessive go without an article. */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
-import { ageText, count, percent, titled } from './words';
+import { ageText, count, dateText, percent, timeText, titled } from './words';
 
 describe('words', () => {
   it('writes labels as people do', () => {
@@ -15,6 +15,12 @@ describe('words', () => {
     expect(ageText(90_000)).toBe('2 min');
     expect(ageText(3 * 3600e3)).toBe('3 h');
     expect(ageText(72 * 3600e3)).toBe('3 days');
+  });
+
+  it('gives the time of day, and the date where it was another day', () => {
+    const noon_us = new Date(2026, 4, 7, 12, 5).getTime() * 1000;
+    expect(timeText(noon_us, noon_us / 1000 + 3600e3)).toMatch(/^12:05/);
+    expect(timeText(noon_us, noon_us / 1000 + 24 * 3600e3)).toBe(dateText(noon_us));
   });
 
   it('keeps shares between 0 and 100 %', () => {

@@ -30,6 +30,13 @@ export function count(n: number, one: string, many = `${one}s`): string {
   return `${n} ${n === 1 ? one : many}`;
 }
 
+/** Microseconds since the Unix epoch as the reader's time of day, with the date where it is of another day than now. */
+export function timeText(t_us: number, now_ms: number): string {
+  const then = new Date(t_us / 1000);
+  if (then.toDateString() !== new Date(now_ms).toDateString()) return dateText(t_us);
+  return then.toLocaleTimeString(undefined, { timeStyle: 'short' });
+}
+
 /** Microseconds since the Unix epoch as the reader's date and time. */
 export function dateText(t_us: number): string {
   return new Date(t_us / 1000).toLocaleString(undefined, { dateStyle: 'medium', timeStyle: 'short' });

@@ -4,7 +4,7 @@ import * as calls from '../../api/calls';
 import { connection, me } from '../../api/server';
 import { asProblem } from '../../api/problem';
 import type { Lease } from '../../api/types';
-import { isActive, journeyOf, type Command, type Target } from './journey';
+import { isActive, journeyOf, wishOf, type Command, type Journey, type Target } from './journey';
 
 /** What this page asked of each robot, and the leases that it holds. */
 export const commands = signal<Readonly<Record<string, Command>>>({});
@@ -24,8 +24,36 @@ export function forgetCommand(robot: string): void {
   commands.value = Object.fromEntries(Object.entries(commands.peek()).filter(([id]) => id !== robot));
 }
 
-/** Sends a robot: takes its lease when need be (from somebody else only with `take_over`) and starts the mission. */
-export async function send(robot: string, target: Target, take_over = false): Promise<void> {
+/** What somebody has said yes to: taking over from whoever drives, giving up the drive that is under way. */
+export interface Sure {
+  take_over?: boolean;
+  divert?: boolean;
+}
+
+/** The newest journey of a robot, as this page knows it. */
+function journeyNow(robot: string): Journey | null {
+  const reported = connection.peek().server?.robots.find((one) => one.id === robot);
+  return reported ? journeyOf(reported, commands.peek()[robot]) : null;
+}
+
+/**
+ * Sends a robot: takes its lease when need be (from somebody else only with `take_over`) and starts the mission. One that
+ * is under way to somewhere else goes on until somebody is sure.
+ */
+export async function send(robot: string, target: Target, sure: Sure = {}): Promise<void> {
+  const { take_over = false, divert = take_over } = sure;
+  const holder = holderOf(robot);
+  const ours = holder === null || holder === me.peek()?.name; // of somebody else's drive the lease asks
+  const wish = divert || !ours ? 'new' : wishOf(journeyNow(robot), target);
+  if (wish === 'same') return;
+  if (wish === 'diversion') {
+    tell(robot, { kind: 'diversion', target });
+    return;
+  }
+  await begin(robot, target, take_over);
+}
+
+async function begin(robot: string, target: Target, take_over: boolean): Promise<void> {
   tell(robot, { kind: 'asking', target });
   try {
     const lease_id = await ensureLease(robot, take_over);
@@ -35,7 +63,7 @@ export async function send(robot: string, target: Target, take_over = false): Pr
     const holder = holderOf(robot);
     // Another window of the same person gives way without a question.
     if (problem.code === 'lease_held' && !take_over && holder !== null && holder === me.peek()?.name)
-      await send(robot, target, true);
+      await begin(robot, target, true);
     else if (problem.code === 'lease_held') tell(robot, { kind: 'held', target, holder });
     else tell(robot, { kind: 'refused', target, reason: problem.message });
   }
@@ -96,8 +124,7 @@ function drop(robot: string): void {
 async function renew(robot: string): Promise<void> {
   const held = leases.get(robot);
   if (!held) return;
-  const reported = connection.peek().server?.robots.find((one) => one.id === robot);
-  const journey = reported ? journeyOf(reported, commands.peek()[robot]) : null;
+  const journey = journeyNow(robot);
   const busy = journey !== null && (isActive(journey.phase) || journey.phase === 'asking');
   held.idle_since_ms = busy ? null : (held.idle_since_ms ?? Date.now());
   try {

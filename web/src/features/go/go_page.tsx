@@ -6,9 +6,11 @@ import { Notice, Waiting } from '../../components/notice';
 import { RobotPicker } from '../../components/robot_picker';
 import { chosen, chosenGraph, chosenMap, connected } from '../../lib/chosen';
 import { atLeast } from '../../lib/roles';
+import { destinationLabel, placeTitle } from '../../lib/whereabouts';
 import { titled } from '../../lib/words';
 import { DestinationCard } from './destination_card';
-import { commands, forgetCommand, send } from './driving';
+import { DiversionPrompt } from './diversion_prompt';
+import { commands, forgetCommand, send, type Sure } from './driving';
 import { goalsOf, leadsTo, targetOf } from './goals';
 import { FirstSteps } from './first_steps';
 import { hindrance, journeyOf, type Journey, type Target } from './journey';
@@ -48,11 +50,12 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
   const newest = journeyOf(robot, command);
   const journey = newest && newest.id !== null && hidden.value.has(newest.id) ? null : newest;
   const held = command?.kind === 'held' ? command : null;
+  const diversion = command?.kind === 'diversion' ? command : null;
   const mayDrive = atLeast(me.value?.role, 'rider');
   const barrier = hindrance(robot, connected.value, mayDrive);
-  const go = (target: Target, take_over = false) => {
-    void send(robot.id, target, take_over);
-    // What becomes of it is told at the top; on a phone that may be out of sight.
+  const go = (target: Target, sure: Sure = {}) => {
+    void send(robot.id, target, sure);
+    // What becomes of it, or what is asked first, is told at the top; on a phone that may be out of sight.
     requestAnimationFrame(() => document.getElementById('go-top')?.scrollIntoView({ block: 'nearest' }));
   };
   const again = journey && againTarget(journey.destination, journey.place, graph);
@@ -68,10 +71,22 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
           {barrier}
         </Notice>
       )}
+      <div id="go-top" />
       {held && (
         <LeasePrompt
           held={held}
-          onTakeOver={() => go(held.target, true)}
+          onTakeOver={() => go(held.target, { take_over: true })}
+          onLeave={() => forgetCommand(robot.id)}
+        />
+      )}
+      {diversion && (
+        <DiversionPrompt
+          name={robot.name}
+          journey={newest}
+          graph={graph}
+          target={diversion.target}
+          disabled={barrier !== null}
+          onGo={() => go(diversion.target, { divert: true })}
           onLeave={() => forgetCommand(robot.id)}
         />
       )}
@@ -80,7 +95,7 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
         {journey && announcement(journey, graph)}
       </p>
       <QuestionCard robot={robot} mayAnswer={mayDrive} />
-      <div id="go-top" class={journey ? 'go-top two' : 'go-top'}>
+      <div class={journey ? 'go-top two' : 'go-top'}>
         <WhereaboutsCard robot={robot} graph={graph} />
         {journey && (
           <JourneyCard
@@ -114,8 +129,8 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
 
 function againTarget(destination: string | null, place: string | null, graph: Graph | null): Target | null {
   const found = graph?.destinations.find((one) => one.id === destination);
-  if (found) return { destination: found.id, label: titled(found.label) };
-  return place === null ? null : { place, label: place };
+  if (graph && found) return { destination: found.id, label: titled(destinationLabel(graph, found)) };
+  return place === null ? null : { place, label: graph ? placeTitle(graph, place) : 'the place you chose' };
 }
 
 interface DestinationsProps {

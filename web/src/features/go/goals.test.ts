@@ -32,6 +32,13 @@ it('offers the destinations and every other place with a name, each once', () =>
   ]);
 });
 
+it('calls a destination by the name that its place was given since, where it is the only one there', () => {
+  const renamed = { ...graph, places: [place('p1', 'Cooking corner')] };
+  expect(goalsOf(renamed).map((one) => one.name)).toEqual(['Cooking corner']);
+  const two = [...graph.destinations, { id: 'd2', place: 'p1', image: 't/p1b.jpg', label: 'sink' }];
+  expect(goalsOf({ ...renamed, destinations: two }).map((one) => one.name)).toEqual(['Kitchen', 'Sink']);
+});
+
 it('knows which goal a journey leads to', () => {
   const robot = {
     id: 'r',

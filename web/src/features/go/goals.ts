@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Graph } from '../../api/types';
+import { destinationLabel } from '../../lib/whereabouts';
 import { titled } from '../../lib/words';
-import type { Journey, Target } from './journey';
+import { leadsThere, type Journey, type Target } from './journey';
 
 /** Something that a rider can choose: a destination of the tour, or another place that a person has named. */
 export interface Goal {
@@ -18,7 +19,7 @@ export function goalsOf(graph: Graph): Goal[] {
     destination: one.id,
     place: one.place,
     image: one.image,
-    name: titled(one.label) || one.place,
+    name: titled(destinationLabel(graph, one)) || one.place,
   }));
   const covered = new Set(destinations.map((one) => one.place));
   const named = graph.places
@@ -41,7 +42,5 @@ export function targetOf(goal: Goal): Target {
 
 /** Whether a journey leads to this goal. */
 export function leadsTo(journey: Journey, goal: Goal): boolean {
-  return goal.destination === null
-    ? journey.destination === null && journey.place === goal.place
-    : journey.destination === goal.destination;
+  return leadsThere(journey, targetOf(goal));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
 import type { Mission, Robot } from '../../api/types';
-import { hindrance, journeyOf, placesToGo, progressOf } from './journey';
+import { hindrance, journeyOf, placesToGo, progressOf, wishOf } from './journey';
 
 const mission: Mission = {
   format: 'homeward-mission',
@@ -20,6 +20,7 @@ const mission: Mission = {
   path_index: 2,
   arrival_probability: null,
   created_us: 100,
+  ended_us: null,
   by: 'anna',
 };
 const robot: Robot = {
@@ -67,6 +68,22 @@ describe('journeyOf', () => {
 
   it('has nothing to show for a robot that was never sent anywhere', () => {
     expect(journeyOf({ ...robot, mission: null }, undefined)).toBeNull();
+  });
+});
+
+describe('wishOf', () => {
+  it('is another way for a robot that is under way, and nothing new where it goes there already', () => {
+    const under_way = journeyOf(robot, undefined);
+    expect(wishOf(under_way, target)).toBe('diversion');
+    expect(wishOf(under_way, { destination: 'kitchen', label: 'Kitchen' })).toBe('same');
+    expect(wishOf(under_way, { place: 'p5', label: 'p5' })).toBe('diversion');
+    expect(wishOf(journeyOf(robot, { kind: 'asking', target }), target)).toBe('same');
+  });
+
+  it('is a new drive for one that stands', () => {
+    expect(wishOf(null, target)).toBe('new');
+    for (const state of ['arrived', 'stopped', 'failed', 'refused'] as const)
+      expect(wishOf(journeyOf({ ...robot, mission: { ...mission, state } }, undefined), target)).toBe('new');
   });
 });
 

@@ -5,6 +5,7 @@ import type { Mission, Reason, Robot } from '../../api/types';
 export type Command =
   | { kind: 'asking'; target: Target }
   | { kind: 'held'; target: Target; holder: string | null }
+  | { kind: 'diversion'; target: Target } // it is under way to somewhere else: whoever asked has to say so again
   | { kind: 'refused'; target: Target; reason: string }
   | { kind: 'sent'; target: Target; mission: Mission };
 
@@ -25,6 +26,8 @@ export interface Journey {
   reason: Reason | null; // as the mission tells it
   refusal: string | null; // what the server answered instead of a mission
   by: string | null;
+  created_us: number | null;
+  ended_us: number | null; // null: it has not, or nobody knows when
   path: readonly string[];
   path_index: number;
   arrival_probability: number | null; // what the robot states of being there
@@ -44,6 +47,8 @@ export function journeyOf(robot: Robot, command: Command | undefined): Journey |
       reason: null,
       refusal: command.kind === 'refused' ? command.reason : null,
       by: null,
+      created_us: null,
+      ended_us: null,
       path: [],
       path_index: 0,
       arrival_probability: null,
@@ -59,10 +64,28 @@ export function journeyOf(robot: Robot, command: Command | undefined): Journey |
     reason: mission.reason,
     refusal: null,
     by: mission.by,
+    created_us: mission.created_us,
+    ended_us: mission.ended_us,
     path: mission.path,
     path_index: Math.min(Math.max(0, mission.path_index), Math.max(0, mission.path.length - 1)),
     arrival_probability: mission.arrival_probability,
   };
+}
+
+/** Whether a journey leads where somebody wants to go. */
+export function leadsThere(journey: Journey, target: Target): boolean {
+  return target.destination === undefined
+    ? journey.destination === null && journey.place === target.place
+    : journey.destination === target.destination;
+}
+
+/**
+ * What a wish to go somewhere is to a robot on this journey: a new drive, nothing new, or another way than the one it is
+ * on, which riders beside it may count on.
+ */
+export function wishOf(journey: Journey | null, target: Target): 'new' | 'same' | 'diversion' {
+  if (!journey || !(isActive(journey.phase) || journey.phase === 'asking')) return 'new';
+  return leadsThere(journey, target) ? 'same' : 'diversion';
 }
 
 /** The robot's word counts for the same mission; of two missions the later one. */

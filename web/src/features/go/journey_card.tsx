@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as calls from '../../api/calls';
+import { now_ms } from '../../api/server';
 import type { Graph } from '../../api/types';
 import { Icon } from '../../components/icons';
 import { Bar } from '../../components/notice';
+import { connected } from '../../lib/chosen';
 import { placeTitle } from '../../lib/whereabouts';
 import { count } from '../../lib/words';
 import { isActive, placesToGo, progressOf, type Journey } from './journey';
-import { arrivalSureness, heading, reasonOf, toneOf } from './journey_words';
+import { arrivalSureness, heading, reasonOf, recordWords, toneOf } from './journey_words';
 
 const kShownSteps = 6;
 
@@ -22,6 +24,7 @@ export function JourneyCard({ journey, graph, onAgain, onDismiss }: Props) {
   const { phase } = journey;
   const reason = reasonOf(journey);
   const sureness = arrivalSureness(journey, graph);
+  const record = recordWords(journey, now_ms.value);
   const active = isActive(phase) || phase === 'asking';
   const steps = Math.max(0, journey.path.length - 1);
   return (
@@ -32,9 +35,18 @@ export function JourneyCard({ journey, graph, onAgain, onDismiss }: Props) {
       data-testid="journey"
     >
       <div class="row journey-head">
-        {active ? <span class="spinner" /> : <Icon name={phase === 'arrived' ? 'done' : 'warn'} size={30} />}
+        {active && connected.value ? (
+          <span class="spinner" />
+        ) : (
+          <Icon name={phase === 'arrived' ? 'done' : 'warn'} size={30} />
+        )}
         <h2>{heading(journey, graph)}</h2>
       </div>
+      {active && !connected.value && (
+        <p>
+          <span class="pill warn">As last heard</span>
+        </p>
+      )}
       {reason !== null && <p>{reason}</p>}
       {sureness !== null && <p>{sureness}</p>}
       {isActive(phase) && steps > 0 && (
@@ -46,6 +58,7 @@ export function JourneyCard({ journey, graph, onAgain, onDismiss }: Props) {
         </div>
       )}
       {isActive(phase) && graph && <Way journey={journey} graph={graph} />}
+      {record !== null && <p class="soft small">{record}</p>}
       {!active && (
         <div class="row">
           {onAgain && (

@@ -2,7 +2,7 @@
 import { describe, expect, it } from 'vitest';
 import type { Journey } from './journey';
 import type { Graph } from '../../api/types';
-import { announcement, arrivalSureness, heading, reasonOf } from './journey_words';
+import { announcement, arrivalSureness, heading, reasonOf, recordWords } from './journey_words';
 
 const journey: Journey = {
   id: 'one',
@@ -12,6 +12,8 @@ const journey: Journey = {
   reason: null,
   refusal: null,
   by: 'anna',
+  created_us: null,
+  ended_us: null,
   path: ['p1', 'p5'],
   path_index: 1,
   arrival_probability: null,
@@ -35,6 +37,28 @@ describe('what a journey says', () => {
   it('says where it ended', () => {
     expect(heading(journey, null)).toBe('Arrived: the place you chose');
     expect(reasonOf(journey)).toBeNull();
+  });
+
+  it('tells a stop by a person, a driver who went away and a lost connection apart', () => {
+    const ended = (code: string, parameters = {}) =>
+      heading({ ...journey, phase: 'stopped', reason: { code, parameters } }, graph);
+    expect(ended('stopped_by', { by: 'Vera' })).toBe('Stopped by Vera on the way to South hall');
+    expect(ended('taken_over_by', { by: 'Ben' })).toBe('Taken over by Ben on the way to South hall');
+    expect(ended('nobody_watching')).toBe('Nobody was driving any more on the way to South hall');
+    expect(ended('robot_gone')).toBe('Connection lost on the way to South hall');
+    expect(ended('server_silent')).toBe('Connection lost on the way to South hall');
+    expect(ended('rider_took_over')).toBe('The rider took over on the way to South hall');
+    expect(ended('too_long')).toBe('Stopped on the way to South hall');
+  });
+
+  it('says who sent it and when it ended, as far as that is known', () => {
+    const noon_ms = new Date(2026, 4, 7, 12, 5).getTime();
+    const sent = { ...journey, created_us: 1000 * noon_ms };
+    expect(recordWords(journey, noon_ms)).toBeNull();
+    expect(recordWords(sent, noon_ms)).toMatch(/^Sent by anna at 12:05.*\.$/);
+    expect(recordWords({ ...sent, ended_us: 1000 * (noon_ms + 120e3) }, noon_ms)).toMatch(
+      / Ended at 12:07.*\.$/,
+    );
   });
 
   it('says what was not right where it arrived', () => {

@@ -20,6 +20,7 @@ const mission: Mission = {
   path_index: 1,
   arrival_probability: 0.8,
   created_us: 100,
+  ended_us: null,
   by: 'anna',
 };
 const robot: Robot = {

@@ -3,7 +3,7 @@ import { useEffect } from 'preact/hooks';
 import type { Robot } from '../../api/types';
 import { Icon } from '../../components/icons';
 import { Notice } from '../../components/notice';
-import { chosenAge } from '../../lib/chosen';
+import { chosenAge, connected } from '../../lib/chosen';
 import { useCommand } from '../../lib/command';
 import { answer } from './driving';
 import { questionOf, questionWords, waitWords } from './question';
@@ -46,11 +46,16 @@ function Asked({ robot, mayAnswer }: Props) {
       <p>I am not certain that I have arrived. {waitWords(question, chosenAge.value ?? 0)}</p>
       {mayAnswer ? (
         <div class="question-answers">
-          <button type="button" class="button main" disabled={busy} onClick={() => say(true)}>
+          <button
+            type="button"
+            class="button main"
+            disabled={busy || !connected.value}
+            onClick={() => say(true)}
+          >
             <Icon name="done" size={30} />
             Yes, this is it
           </button>
-          <button type="button" class="button" disabled={busy} onClick={() => say(false)}>
+          <button type="button" class="button" disabled={busy || !connected.value} onClick={() => say(false)}>
             <Icon name="close" size={30} />
             No
           </button>

@@ -43,6 +43,7 @@ const mission: Mission = {
   path_index: 0,
   arrival_probability: null,
   created_us: 100,
+  ended_us: null,
   by: 'anna',
 };
 const robot: Robot = {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Graph, Robot } from '../../api/types';
-import { withArticle, type Whereabouts } from '../../lib/whereabouts';
+import { destinationLabel, withArticle, type Whereabouts } from '../../lib/whereabouts';
 import { inSentence, titled } from '../../lib/words';
 import { isActive } from './journey';
 
@@ -19,7 +19,7 @@ export function spotsOf(graph: Graph): Spot[] {
     const name = titled(label);
     if (name !== '' && !spots.has(label)) spots.set(label, { label, name, place, image });
   };
-  for (const one of graph.destinations) add(one.label, one.place, one.image);
+  for (const one of graph.destinations) add(destinationLabel(graph, one), one.place, one.image);
   for (const one of graph.places) add(one.label, one.id, one.prototype);
   return [...spots.values()];
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect } from 'preact/hooks';
-import { connection, now_ms } from '../../api/server';
+import { now_ms } from '../../api/server';
 import { chosen, robots } from '../../lib/chosen';
-import { stop, stopState } from './stop';
+import { followStops, stop, stopState } from './stop';
 import { stopWords } from './stop_words';
 
 function stopChosen(): void {
@@ -12,6 +12,7 @@ function stopChosen(): void {
 
 /** STOP: on every page, by press or by Escape from anywhere, also out of a field. */
 export function StopButton() {
+  useEffect(followStops, []);
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => {
       if (event.key !== 'Escape' || event.repeat) return;
@@ -24,7 +25,10 @@ export function StopButton() {
 
   const robot = chosen.value;
   if (!robot) return null;
-  const words = stopWords(stopState.value, robot, connection.value.server?.heard_ms[robot.id], now_ms.value);
+  const state = stopState.value;
+  const stopped =
+    state.kind === 'ready' ? null : (robots.value.find((one) => one.id === state.robot) ?? null);
+  const words = stopWords(state, stopped, now_ms.value);
   return (
     <section class="stop-dock" aria-label="Stop">
       <p class={words?.bad ? 'stop-word bad' : 'stop-word'} role="alert" data-testid="stop-word">

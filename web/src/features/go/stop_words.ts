@@ -11,31 +11,26 @@ export interface StopWords {
 const kSilenceMs = 4000;
 const kShownMs = 12_000;
 
-/**
- * What is told about the last press on STOP; null when there is nothing to tell (any more).
- * `heard_ms` is when the robot was last heard of, on the same clock as `now_ms`.
- */
-export function stopWords(
-  state: StopState,
-  robot: Robot | null,
-  heard_ms: number | undefined,
-  now_ms: number,
-): StopWords | null {
+/** What is told about the last press on STOP; null when there is nothing to tell (any more). `robot`: that it was of. */
+export function stopWords(state: StopState, robot: Robot | null, now_ms: number): StopWords | null {
   switch (state.kind) {
     case 'ready':
       return null;
     case 'sending':
-      return state.tries === 1
-        ? { text: 'Stopping …', bad: false }
-        : {
-            text: 'The house server does not answer. Trying again. Use the stop button on the chair!',
+      return state.unheard
+        ? {
+            text: 'STOP was not heard: the house server does not answer. Use the stop button on the chair! Trying again …',
             bad: true,
-          };
+          }
+        : { text: 'Stopping …', bad: false };
     case 'failed':
       return {
         text: `STOP did not get through: ${state.reason} Use the stop button on the chair!`,
         bad: true,
       };
+    case 'stands':
+      if (!robot || now_ms - state.at_ms > kShownMs) return null;
+      return { text: `${robot.name} has stopped.`, bad: false };
     case 'sent': {
       if (!robot) return { text: 'Stop received.', bad: false };
       if (!robot.online)
@@ -43,9 +38,6 @@ export function stopWords(
           text: `Stop received, but ${robot.name} is not connected. It stops by itself then.`,
           bad: true,
         };
-      const heard = heard_ms !== undefined && heard_ms > state.at_ms;
-      if (heard && robot.state !== 'driving')
-        return now_ms - state.at_ms > kShownMs ? null : { text: `${robot.name} has stopped.`, bad: false };
       return now_ms - state.at_ms > kSilenceMs
         ? {
             text: `Stop received, but ${robot.name} has not confirmed it. Use the stop button on the chair!`,

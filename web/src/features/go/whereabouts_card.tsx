@@ -33,8 +33,9 @@ export function WhereaboutsCard({ robot, graph }: { robot: Robot; graph: Graph |
           {words(robot, found)}
         </p>
         {known && <Sureness found={found} />}
-        {stale && robot.online && <p class="soft small">Last heard {ageText(age)} ago.</p>}
-        {!robot.online && age !== null && <p class="soft small">Last heard {ageText(age)} ago.</p>}
+        {age !== null && (stale || !robot.online || !connected.value) && (
+          <p class="soft small">Last heard {ageText(age)} ago.</p>
+        )}
       </div>
     </section>
   );

@@ -53,7 +53,11 @@ export function graphStyle(diameter: number, zoom: number): StylesheetJson {
     { selector: 'edge.proposed', style: { 'line-style': 'dashed', 'line-color': token('focus'), width: 2 } },
     { selector: 'edge.way', style: { width: 7, 'line-color': token('brand') } },
     {
-      selector: 'edge.blocked',
+      selector: 'edge.closed-one_way',
+      style: { 'line-color': token('danger'), 'line-style': 'dotted' },
+    },
+    {
+      selector: 'edge.closed-both',
       style: {
         'line-color': token('danger'),
         'line-style': 'dotted',

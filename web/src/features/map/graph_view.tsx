@@ -150,9 +150,7 @@ function elementsOf(graph: Graph): ElementDefinition[] {
   }));
   const edges = drawnEdges(graph).map((edge) => ({
     data: { id: edge.id, source: edge.from, target: edge.to },
-    classes: [edge.weak ? 'weak' : '', edge.blocked ? 'blocked' : '', edge.shortcut ? 'shortcut' : ''].join(
-      ' ',
-    ),
+    classes: [edge.weak ? 'weak' : '', `closed-${edge.closed}`, edge.shortcut ? 'shortcut' : ''].join(' '),
   }));
   const proposed = proposedLines(graph).map((line) => ({
     data: { id: line.id, source: line.from, target: line.to },

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useEffect, useRef } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import type { Edit, Graph, Place } from '../../api/types';
 import { TextField } from '../../components/field';
-import { Notice } from '../../components/notice';
-import type { CommandHandle } from '../../lib/command';
+import { useDraft } from '../../lib/draft';
 import { nameOf, placeTitle } from '../../lib/whereabouts';
-import { count } from '../../lib/words';
-import { waysOut } from './place_views';
+import { count, inSentence } from '../../lib/words';
+import { Outcome, type OutcomeOf } from './outcome';
+import { waysOut, type WayOut } from './place_views';
 import { Shortcuts } from './shortcuts';
 
 const kShownPictures = 5;
@@ -16,15 +16,15 @@ interface Props {
   graph: Graph;
   place: Place;
   mayEdit: boolean;
-  command: CommandHandle; // of the latest edit
-  done: string | null; // what the latest edit did
+  busy: boolean; // an edit is under way
+  outcome: OutcomeOf | null; // of the latest edit
   onEdit: (edits: Edit[], done: string) => void;
   onChoose: (place: string) => void;
   onGo: (() => void) | null;
 }
 
 /** One place: its name, its pictures, and the ways out of it. */
-export function Inspector({ graph, place, mayEdit, command, done, onEdit, onChoose, onGo }: Props) {
+export function Inspector({ graph, place, mayEdit, busy, outcome, onEdit, onChoose, onGo }: Props) {
   const title = placeTitle(graph, place.id);
   const heading = useRef<HTMLHeadingElement>(null);
   // A place that was chosen further down the page comes into view, for eyes and for screen readers.
@@ -42,18 +42,10 @@ export function Inspector({ graph, place, mayEdit, command, done, onEdit, onChoo
         )}
       </div>
       <Pictures graph={graph} place={place} title={title} />
-      {mayEdit && <Rename graph={graph} place={place} busy={command.busy} onEdit={onEdit} />}
-      {command.problem && <Notice tone="bad">{command.problem.message}</Notice>}
-      {done !== null && !command.busy && !command.problem && <Notice>{done}</Notice>}
-      <Ways
-        graph={graph}
-        place={place}
-        mayEdit={mayEdit}
-        busy={command.busy}
-        onEdit={onEdit}
-        onChoose={onChoose}
-      />
-      <Shortcuts graph={graph} place={place.id} mayEdit={mayEdit} busy={command.busy} onEdit={onEdit} />
+      {mayEdit && <Rename key={place.id} graph={graph} place={place} busy={busy} onEdit={onEdit} />}
+      {outcome && <Outcome of={outcome} />}
+      <Ways graph={graph} place={place} mayEdit={mayEdit} busy={busy} onEdit={onEdit} onChoose={onChoose} />
+      <Shortcuts graph={graph} place={place.id} mayEdit={mayEdit} busy={busy} onEdit={onEdit} />
     </section>
   );
 }
@@ -81,20 +73,12 @@ function Pictures({ graph, place, title }: { graph: Graph; place: Place; title: 
   );
 }
 
-type RenameProps = Pick<Props, 'graph' | 'place' | 'onEdit'> & { busy: boolean };
+type RenameProps = Pick<Props, 'graph' | 'place' | 'onEdit' | 'busy'>;
 
 function Rename({ graph, place, busy, onEdit }: RenameProps) {
   const present = nameOf(graph, place.id) ?? '';
-  const [name, setName] = useState(present);
-  // Another place, or a new name from elsewhere, replaces the text; a reload after a refused edit keeps it. Said while
-  // rendering: an effect would run after the next paint and take away what was typed until then.
-  const subject = `${place.id} ${present}`;
-  const [subjectBefore, setSubjectBefore] = useState(subject);
-  if (subject !== subjectBefore) {
-    setSubjectBefore(subject);
-    setName(present);
-  }
-  const wanted = name.trim();
+  const { text, type, newer } = useDraft(present);
+  const wanted = inSentence(text);
   return (
     <form
       class="rename"
@@ -107,15 +91,27 @@ function Rename({ graph, place, busy, onEdit }: RenameProps) {
           );
       }}
     >
-      <TextField label="Name" value={name} onInput={setName} required={false} />
+      <TextField label="Name" value={text} onInput={type} required={false} />
       <button type="submit" class="button" disabled={busy || wanted === present}>
         {busy ? 'Saving …' : 'Save'}
       </button>
+      <p class="rename-news soft small" role="status">
+        {newer &&
+          (present === ''
+            ? 'Somebody has taken the name away meanwhile.'
+            : `Somebody has named this place “${present}” meanwhile.`)}
+      </p>
     </form>
   );
 }
 
-type WaysProps = Pick<Props, 'graph' | 'place' | 'mayEdit' | 'onEdit' | 'onChoose'> & { busy: boolean };
+const kSaid: Readonly<Record<WayOut['closed'], { words: string; tone: string } | null>> = {
+  no: null,
+  one_way: { words: 'Closed in one direction', tone: 'warn' },
+  both: { words: 'Closed', tone: 'bad' },
+};
+
+type WaysProps = Pick<Props, 'graph' | 'place' | 'mayEdit' | 'onEdit' | 'onChoose' | 'busy'>;
 
 function Ways({ graph, place, mayEdit, busy, onEdit, onChoose }: WaysProps) {
   const ways = waysOut(graph, place.id);
@@ -125,6 +121,7 @@ function Ways({ graph, place, mayEdit, busy, onEdit, onChoose }: WaysProps) {
         (one) => (one.from === place.id && one.to === other) || (one.to === place.id && one.from === other),
       )
       .filter((one) => one.blocked !== blocked)
+      .sort((a, b) => Number(b.from === place.id) - Number(a.from === place.id)) // told as a way from here
       .map((one) => ({ kind: 'block_edge' as const, from: one.from, to: one.to, blocked }));
     onEdit(edits, blocked ? 'This way is closed now.' : 'This way is open again.');
   };
@@ -135,6 +132,7 @@ function Ways({ graph, place, mayEdit, busy, onEdit, onChoose }: WaysProps) {
       <ul class="list">
         {ways.map((way) => {
           const title = placeTitle(graph, way.other);
+          const said = kSaid[way.closed];
           return (
             <li key={way.other}>
               <button type="button" class="place-row compact" onClick={() => onChoose(way.other)}>
@@ -148,18 +146,22 @@ function Ways({ graph, place, mayEdit, busy, onEdit, onChoose }: WaysProps) {
               <span class="row">
                 {way.weak && <span class="pill warn">Hard to drive</span>}
                 {way.shortcut && <span class="pill">Shortcut</span>}
-                {way.blocked && <span class="pill bad">Closed</span>}
-                {mayEdit && (
-                  <button
-                    type="button"
-                    class="button small"
-                    disabled={busy}
-                    aria-label={`${way.blocked ? 'Open' : 'Close'} the way to ${title}`}
-                    onClick={() => setBlocked(way.other, !way.blocked)}
-                  >
-                    {way.blocked ? 'Open' : 'Close'}
-                  </button>
-                )}
+                {said && <span class={`pill ${said.tone}`}>{said.words}</span>}
+                {mayEdit &&
+                  (['Close', 'Open'] as const)
+                    .filter((verb) => (verb === 'Close' ? way.closed !== 'both' : way.closed !== 'no'))
+                    .map((verb) => (
+                      <button
+                        key={verb}
+                        type="button"
+                        class="button small"
+                        disabled={busy}
+                        aria-label={`${verb} the way to ${title}`}
+                        onClick={() => setBlocked(way.other, verb === 'Close')}
+                      >
+                        {verb}
+                      </button>
+                    ))}
               </span>
             </li>
           );

@@ -1,50 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as calls from '../../api/calls';
-import type { Graph, Hypothesis } from '../../api/types';
-import { percent } from '../../lib/words';
+import type { Graph } from '../../api/types';
+import { placeTitle } from '../../lib/whereabouts';
+import { count } from '../../lib/words';
+import { openBecause, openPairs } from './look_alike_words';
 
 const kShown = 12;
 
-const kSaid: Readonly<Record<Hypothesis['decision'], string>> = {
-  accepted: 'One place',
-  rejected: 'Two places',
-  undecided: 'Undecided',
-};
-
-/** Pairs of places that look alike, as two pictures side by side, and what was decided about them. */
+/** Pairs of places that may be one and that nothing has decided: two pictures side by side, and why. */
 export function LookAlikes({ graph }: { graph: Graph }) {
-  if (graph.hypotheses.length === 0) return null;
-  // Those that were nearest to the other decision are the ones worth a look.
-  const doubt = (one: Hypothesis) => Math.abs((one.support + one.plausibility) / 2 - 0.5);
-  const shown = [...graph.hypotheses].sort((a, b) => doubt(a) - doubt(b)).slice(0, kShown);
+  const open = openPairs(graph);
+  if (open.length === 0) return null;
+  const titleOf = (image: string) => {
+    const place = graph.places.find((one) => one.members.includes(image));
+    return place ? placeTitle(graph, place.id) : 'A place';
+  };
   return (
     <section class="card stack" aria-label="Places that look alike">
       <h2>Places that look alike</h2>
-      <p class="soft">Pairs of pictures that might show one place, the most doubtful first.</p>
+      <p class="soft">
+        {count(open.length, 'pair')} of pictures might show one place, and nothing that was seen decides it.
+        The map keeps them apart. Where they do show one place, drive the way to it once more and add that
+        tour.
+      </p>
       <ul class="pairs">
-        {shown.map((one) => (
+        {open.slice(0, kShown).map((one) => (
           <li key={`${one.prototype_a}|${one.prototype_b}`}>
             <div class="pair">
-              <img
-                class="picture whole"
-                src={calls.imageThumbnailUrl(graph.map, one.prototype_a)}
-                alt="First place"
-                loading="lazy"
-              />
-              <img
-                class="picture whole"
-                src={calls.imageThumbnailUrl(graph.map, one.prototype_b)}
-                alt="Second place"
-                loading="lazy"
-              />
+              {[one.prototype_a, one.prototype_b].map((image) => (
+                <img
+                  key={image}
+                  class="picture whole"
+                  src={calls.imageThumbnailUrl(graph.map, image)}
+                  alt={titleOf(image)}
+                  loading="lazy"
+                />
+              ))}
             </div>
-            <p class="row small">
-              <span class="pill">{kSaid[one.decision]}</span>
-              <span class="soft">
-                {percent(one.support)} to {percent(one.plausibility)} likely one place
-                {one.by === 'person' ? ', decided by a person' : ''}
-              </span>
+            <p class="small">
+              <strong>
+                {titleOf(one.prototype_a)} – {titleOf(one.prototype_b)}
+              </strong>
             </p>
+            <p class="soft small">{openBecause(one)}</p>
           </li>
         ))}
       </ul>

@@ -6,30 +6,21 @@ import type { Graph, LoggedEdit } from '../../api/types';
 import { Icon } from '../../components/icons';
 import { Notice } from '../../components/notice';
 import { dateText } from '../../lib/words';
+import { changesOf, changeWords, redoable, undoable, type Change } from './changes';
+import { Outcome, type OutcomeOf } from './outcome';
 
 const kShown = 8;
-
-const kVerbs: Readonly<Record<LoggedEdit['kind'], string>> = {
-  rename: 'named a place',
-  merge: 'joined two places',
-  split: 'split a place',
-  delete: 'removed a place',
-  move: 'moved pictures',
-  add_edge: 'added a way',
-  remove_edge: 'removed a way',
-  block_edge: 'closed or opened a way',
-  decide: 'decided whether two places are one',
-  decide_shortcut: 'accepted or rejected a shortcut',
-};
 
 interface Props {
   graph: Graph;
   busy: boolean;
+  outcome: OutcomeOf | null; // of the latest step
   onUndo: (() => void) | null;
+  onRedo: (() => void) | null;
 }
 
-/** What people changed, newest first, and taking the newest back. */
-export function MapHistory({ graph, busy, onUndo }: Props) {
+/** What people changed, newest first, taking the newest back, and making again what was taken back. */
+export function MapHistory({ graph, busy, outcome, onUndo, onRedo }: Props) {
   const [edits, setEdits] = useState<readonly LoggedEdit[] | null>(null);
   const [problem, setProblem] = useState<string | null>(null);
   useEffect(() => {
@@ -48,31 +39,54 @@ export function MapHistory({ graph, busy, onUndo }: Props) {
       wanted = false;
     };
   }, [graph.map, graph.revision]);
-  const newest = edits?.slice(-kShown).reverse() ?? [];
-  const undoable = newest.some((one) => !one.undone);
+  const changes = changesOf(edits ?? []);
+  const back = undoable(changes);
+  const forth = redoable(changes);
+  const name = (what: string, change: Change | null) =>
+    change ? `${what}: ${change.by} ${changeWords(change, graph)}` : what;
   return (
     <section class="card stack" aria-label="Changes by people">
       <div class="row apart">
         <h2>Changes by people</h2>
-        {onUndo && (
-          <button type="button" class="button" disabled={busy || !undoable} onClick={onUndo}>
-            <Icon name="undo" /> Take the newest back
-          </button>
+        {onUndo && onRedo && (
+          <div class="row">
+            <button
+              type="button"
+              class="button"
+              disabled={busy || !back}
+              aria-label={name('Take the newest back', back)}
+              onClick={onUndo}
+            >
+              <Icon name="undo" /> Take the newest back
+            </button>
+            <button
+              type="button"
+              class="button"
+              disabled={busy || !forth}
+              aria-label={name('Make it again', forth)}
+              onClick={onRedo}
+            >
+              <Icon name="redo" /> Make it again
+            </button>
+          </div>
         )}
       </div>
+      {outcome && <Outcome of={outcome} />}
       {problem !== null && <Notice tone="warn">The changes could not be loaded. {problem}</Notice>}
       {edits?.length === 0 && <p class="soft">Nobody has changed this map yet.</p>}
       <ul class="list">
-        {newest.map((one, i) => (
-          <li key={`${one.t_us}-${i}`}>
-            <span>
-              <strong>{one.by}</strong> {kVerbs[one.kind]}
-              {one.kind === 'rename' && one.text !== '' && <> “{one.text}”</>}
-              {one.undone && <span class="soft"> (taken back)</span>}
-            </span>
-            <span class="soft small">{dateText(one.t_us)}</span>
-          </li>
-        ))}
+        {changes
+          .slice(-kShown)
+          .reverse()
+          .map((one) => (
+            <li key={one.number}>
+              <span>
+                <strong>{one.by}</strong> {changeWords(one, graph)}
+                {one.undone && <span class="soft"> (taken back)</span>}
+              </span>
+              <span class="soft small">{dateText(one.t_us)}</span>
+            </li>
+          ))}
       </ul>
     </section>
   );

@@ -19,6 +19,7 @@ import { GraphView } from './graph_view';
 import { Inspector } from './inspector';
 import { LookAlikes } from './look_alikes';
 import { MapHistory } from './map_history';
+import type { OutcomeOf } from './outcome';
 import { PlaceList } from './place_list';
 import { Shortcuts } from './shortcuts';
 
@@ -93,9 +94,12 @@ function ShownMap({ map }: { map: MapInfo }) {
   return <Waiting what="Loading the map …" />;
 }
 
+/** The part of the page in which a change was asked for, and where what became of it is said. */
+type Part = 'place' | 'shortcuts' | 'history';
+
 function Drawn({ map, graph }: { map: MapInfo; graph: Graph }) {
   const command = useCommand();
-  const [done, setDone] = useState<string | null>(null);
+  const [latest, setLatest] = useState<{ part: Part; done: string | null } | null>(null);
   const robot = chosen.value?.map === map.id ? chosen.value : null;
   const belief = robot?.online ? robot.belief : null;
   const mission = robot?.mission && isActive(robot.mission.state) ? robot.mission : null;
@@ -104,12 +108,12 @@ function Drawn({ map, graph }: { map: MapInfo; graph: Graph }) {
   const mayEdit = atLeast(me.value?.role, 'installer');
   const barrier = robot ? hindrance(robot, connected.value, atLeast(me.value?.role, 'rider')) : 'none';
 
-  const change = (ask: () => Promise<unknown>, said: string) => {
-    setDone(null);
+  const change = (part: Part, ask: () => Promise<unknown>, said: string) => {
+    setLatest({ part, done: null });
     command.run(async () => {
       try {
         await ask();
-        setDone(said);
+        setLatest({ part, done: said });
       } catch (thrown) {
         if (asProblem(thrown).code !== 'stale_revision') throw thrown;
         wantGraph(map, true);
@@ -118,10 +122,13 @@ function Drawn({ map, graph }: { map: MapInfo; graph: Graph }) {
       wantGraph(map, true);
     });
   };
-  const edit = (edits: Edit[], said: string) => change(() => calls.edit(map.id, graph.revision, edits), said);
+  const editIn = (part: Part) => (edits: Edit[], said: string) =>
+    change(part, () => calls.edit(map.id, graph.revision, edits), said);
+  const outcomeIn = (part: Part): OutcomeOf | null =>
+    latest?.part === part && !command.busy ? { done: latest.done, problem: command.problem } : null;
   const choose = (id: string) => {
     wantedPlace.value = id;
-    setDone(null);
+    setLatest(null);
     command.forget();
   };
   return (
@@ -140,9 +147,9 @@ function Drawn({ map, graph }: { map: MapInfo; graph: Graph }) {
               graph={graph}
               place={place}
               mayEdit={mayEdit}
-              command={command}
-              done={done}
-              onEdit={edit}
+              busy={command.busy}
+              outcome={outcomeIn('place')}
+              onEdit={editIn('place')}
               onChoose={choose}
               onGo={
                 robot && barrier === null
@@ -157,14 +164,32 @@ function Drawn({ map, graph }: { map: MapInfo; graph: Graph }) {
           <PlaceList graph={graph} belief={belief} chosen={place?.id ?? null} onChoose={choose} />
         </div>
       </div>
-      <Shortcuts graph={graph} place={null} mayEdit={mayEdit} busy={command.busy} onEdit={edit} />
+      <Shortcuts
+        graph={graph}
+        place={null}
+        mayEdit={mayEdit}
+        busy={command.busy}
+        outcome={outcomeIn('shortcuts')}
+        onEdit={editIn('shortcuts')}
+      />
       <LookAlikes graph={graph} />
       <MapHistory
         graph={graph}
         busy={command.busy}
+        outcome={outcomeIn('history')}
         onUndo={
           mayEdit
-            ? () => change(() => calls.undo(map.id, graph.revision), 'The newest change was taken back.')
+            ? () =>
+                change(
+                  'history',
+                  () => calls.undo(map.id, graph.revision),
+                  'The newest change was taken back.',
+                )
+            : null
+        }
+        onRedo={
+          mayEdit
+            ? () => change('history', () => calls.redo(map.id, graph.revision), 'The change was made again.')
             : null
         }
       />

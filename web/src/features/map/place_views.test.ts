@@ -68,13 +68,24 @@ describe('placeViews', () => {
 describe('ways', () => {
   it('takes two directions as one way with the worse of both', () => {
     expect(waysOut(graph, 'p2')).toEqual([
-      { other: 'p1', length_m: 2, weak: false, blocked: true, shortcut: false },
-      { other: 'p3', length_m: 1, weak: true, blocked: false, shortcut: false },
+      { other: 'p1', length_m: 2, weak: false, closed: 'one_way', shortcut: false },
+      { other: 'p3', length_m: 1, weak: true, closed: 'no', shortcut: false },
     ]);
-    expect(drawnEdges(graph).map((one) => [one.id, one.blocked])).toEqual([
-      ['p1|p2', true],
-      ['p2|p3', false],
+    expect(drawnEdges(graph).map((one) => [one.id, one.closed])).toEqual([
+      ['p1|p2', 'one_way'],
+      ['p2|p3', 'no'],
     ]);
+  });
+
+  it('calls a way closed only where no direction of it is left', () => {
+    const closed = (...edges: Edge[]) => waysOut({ ...graph, edges }, 'p2').map((one) => one.closed);
+    const there = edge('p1', 'p2', { blocked: true });
+    const back = edge('p2', 'p1', { blocked: true });
+    expect(closed(there, back)).toEqual(['both']);
+    expect(closed(there)).toEqual(['both']);
+    expect(closed(edge('p1', 'p2'), back)).toEqual(['one_way']);
+    expect(closed(back, edge('p1', 'p2'))).toEqual(['one_way']);
+    expect(closed(edge('p1', 'p2'), edge('p2', 'p1'))).toEqual(['no']);
   });
 });
 

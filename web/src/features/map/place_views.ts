@@ -47,7 +47,7 @@ export interface WayOut {
   other: string;
   length_m: number;
   weak: boolean;
-  blocked: boolean;
+  closed: 'no' | 'one_way' | 'both'; // to no direction that it has, to one of two, or to all
   shortcut: boolean;
 }
 
@@ -61,11 +61,17 @@ export function waysOut(graph: Graph, place: string): WayOut[] {
       other,
       length_m: seen ? Math.max(seen.length_m, edge.length_m) : edge.length_m,
       weak: edge.weak || (seen?.weak ?? false),
-      blocked: edge.blocked || (seen?.blocked ?? false),
+      closed: withDirection(seen?.closed ?? null, edge.blocked),
       shortcut: edge.shortcut,
     });
   }
   return [...ways.values()];
+}
+
+/** How closed a way is when one more direction of it is known; null: it is the first. */
+function withDirection(before: WayOut['closed'] | null, blocked: boolean): WayOut['closed'] {
+  const own = blocked ? 'both' : 'no';
+  return before === null || before === own ? own : 'one_way';
 }
 
 function otherEnd(edge: Edge, place: string): string | null {
@@ -79,7 +85,7 @@ export interface Line {
   from: string;
   to: string;
   weak: boolean;
-  blocked: boolean;
+  closed: WayOut['closed'];
   shortcut: boolean;
 }
 
@@ -94,7 +100,7 @@ export function drawnEdges(graph: Graph): Line[] {
       from: edge.from,
       to: edge.to,
       weak: edge.weak || (seen?.weak ?? false),
-      blocked: edge.blocked || (seen?.blocked ?? false),
+      closed: withDirection(seen?.closed ?? null, edge.blocked),
       shortcut: edge.shortcut,
     });
   }

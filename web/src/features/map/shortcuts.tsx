@@ -2,6 +2,7 @@
 import * as calls from '../../api/calls';
 import type { Edit, Graph, Shortcut } from '../../api/types';
 import { placeTitle } from '../../lib/whereabouts';
+import { Outcome, type OutcomeOf } from './outcome';
 import { evidenceOf, shortcutsAt, shortcutsToShow } from './shortcut_words';
 
 const kSaid: Readonly<Record<Shortcut['state'], string>> = {
@@ -15,11 +16,12 @@ interface Props {
   place: string | null; // of this one alone; null: of the whole map
   mayEdit: boolean;
   busy: boolean;
+  outcome?: OutcomeOf | null;
   onEdit: (edits: Edit[], done: string) => void;
 }
 
 /** Straight ways that no tour drove: two pictures, the evidence in words, and the decision. */
-export function Shortcuts({ graph, place, mayEdit, busy, onEdit }: Props) {
+export function Shortcuts({ graph, place, mayEdit, busy, outcome, onEdit }: Props) {
   const shown = place === null ? shortcutsToShow(graph) : shortcutsAt(graph, place);
   if (shown.length === 0) return null;
   const title = place === null ? 'Shortcuts' : 'Shortcuts from here';
@@ -34,6 +36,7 @@ export function Shortcuts({ graph, place, mayEdit, busy, onEdit }: Props) {
       <p class="soft">
         Straight ways that no tour drove. Accept one only if you know that the chair fits through there.
       </p>
+      {outcome && <Outcome of={outcome} />}
       <ul class="pairs">
         {shown.map((one) => {
           const from = placeTitle(graph, one.place_a);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { DriveState, Robot } from '../../api/types';
+import { timeText } from '../../lib/words';
 import { reasonSentence } from '../../words/reasons';
 
 const kStates: Readonly<Record<DriveState, string>> = {
@@ -26,6 +27,14 @@ export function whyStopped(robot: Robot): string | null {
   if (robot.state !== 'stopped' && robot.state !== 'failed') return null;
   const reason = robot.reason ?? robot.mission?.reason ?? null;
   return reason === null ? null : reasonSentence(reason);
+}
+
+/** When that was, as a sentence; null where it is not known, or where something else than its last drive was stopped. */
+export function endOf(robot: Robot, now_ms: number): string | null {
+  const { reason = null, mission } = robot;
+  if (whyStopped(robot) === null || mission === null || mission.ended_us === null) return null;
+  const same = reason === null || JSON.stringify(reason) === JSON.stringify(mission.reason);
+  return same ? `That was at ${timeText(mission.ended_us, now_ms)}.` : null;
 }
 
 /** A direction as people say it; angles are counter-clockwise from ahead. */

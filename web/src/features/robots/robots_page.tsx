@@ -7,12 +7,13 @@ import type { Robot } from '../../api/types';
 import { Choice, TextField } from '../../components/field';
 import { Notice, Waiting } from '../../components/notice';
 import { SecretOnce } from '../../components/secret_once';
-import { maps, robots } from '../../lib/chosen';
+import { connected, maps, robots } from '../../lib/chosen';
 import { useCommand } from '../../lib/command';
+import { without } from '../../lib/draft';
 import { atLeast } from '../../lib/roles';
 import { ageText, percent } from '../../lib/words';
 import { LivePicture } from './live_picture';
-import { directionWord, stateTone, stateWord, whyStopped } from './robot_words';
+import { directionWord, endOf, stateTone, stateWord, whyStopped } from './robot_words';
 
 export function RobotsPage() {
   const mayInstall = atLeast(me.value?.role, 'installer');
@@ -35,17 +36,23 @@ export function RobotsPage() {
 
 function RobotCard({ robot, mayInstall }: { robot: Robot; mayInstall: boolean }) {
   const why = whyStopped(robot);
+  const ended = endOf(robot, now_ms.value);
   return (
     <section class="card robot" aria-labelledby={`robot-${robot.id}`}>
       <LivePicture robot={robot} />
       <div class="stack">
         <div class="row apart">
           <h2 id={`robot-${robot.id}`}>{robot.name}</h2>
-          <span class={`pill ${stateTone(robot)}`}>{stateWord(robot)}</span>
+          {connected.value ? (
+            <span class={`pill ${stateTone(robot)}`}>{stateWord(robot)}</span>
+          ) : (
+            <span class="pill warn">As last heard: {stateWord(robot)}</span>
+          )}
         </div>
         {why !== null && (
           <Notice tone="warn" still>
             <strong>Why it stopped:</strong> {why}
+            {ended !== null && <span class="soft"> {ended}</span>}
           </Notice>
         )}
         <Facts robot={robot} />
@@ -107,7 +114,7 @@ function AddRobot() {
     event.preventDefault();
     run(async () => {
       setMade(await calls.addRobot({ name: name.trim() }));
-      setName('');
+      setName(without(name));
     });
   };
   return (

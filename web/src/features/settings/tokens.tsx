@@ -9,6 +9,7 @@ import { SecretOnce } from '../../components/secret_once';
 import { SureButton } from '../../components/sure_button';
 import { robots } from '../../lib/chosen';
 import { useCommand } from '../../lib/command';
+import { without } from '../../lib/draft';
 import { useLoaded } from '../../lib/loaded';
 import { roleWord, tokenRoles } from './role_words';
 
@@ -74,7 +75,7 @@ function AddToken({ onAdded }: { onAdded: () => void }) {
     run(async () => {
       const { token } = await calls.addToken({ name: name.trim(), role: wanted, ...bound });
       setMade({ name: name.trim(), token });
-      setName('');
+      setName(without(name));
       onAdded();
     });
   };

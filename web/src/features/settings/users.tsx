@@ -5,6 +5,7 @@ import { Choice, TextField } from '../../components/field';
 import { Loading } from '../../components/loading';
 import { Notice } from '../../components/notice';
 import { useCommand } from '../../lib/command';
+import { without } from '../../lib/draft';
 import { useLoaded } from '../../lib/loaded';
 import { personRoles, roleWord } from './role_words';
 
@@ -43,8 +44,8 @@ function AddUser({ onAdded }: { onAdded: () => void }) {
     run(async () => {
       await calls.addUser({ name: name.trim(), password, role: wanted });
       setAdded(name.trim());
-      setName('');
-      setPassword('');
+      setName(without(name));
+      setPassword(without(password));
       onAdded();
     });
   };

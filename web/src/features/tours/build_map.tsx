@@ -5,23 +5,26 @@ import type { MapInfo, Tour } from '../../api/types';
 import { Choice, TextField } from '../../components/field';
 import { Notice } from '../../components/notice';
 import { useCommand } from '../../lib/command';
+import { without } from '../../lib/draft';
 import { count } from '../../lib/words';
+import { offeredTours, suggested } from './tour_choice';
 
 /** Building a map from complete tours, or adding them to one that is there. */
 export function BuildMap({ tours, maps }: { tours: readonly Tour[]; maps: readonly MapInfo[] }) {
   const [target, setTarget] = useState('');
-  const grown = maps.find((one) => one.id === target) ?? null;
-  const complete = tours.filter((one) => one.state === 'complete' && !(grown?.tours ?? []).includes(one.id));
+  const ready = maps.filter((one) => one.state === 'ready');
+  const grown = ready.find((one) => one.id === target) ?? null;
+  const complete = offeredTours(tours, grown);
   const [name, setName] = useState('');
-  const [left_out, setLeftOut] = useState<ReadonlySet<string>>(new Set());
+  const [ticks, setTicks] = useState<ReadonlyMap<string, boolean>>(new Map()); // as somebody has set them
   const [begun, setBegun] = useState<string | null>(null);
   const { busy, problem, run } = useCommand();
-  const chosen = complete.filter((one) => !left_out.has(one.id));
-  const toggle = (tour: string) => {
-    const next = new Set(left_out);
-    if (!next.delete(tour)) next.add(tour);
-    setLeftOut(next);
-  };
+  const likely = suggested(complete, maps);
+  const isChosen = (tour: Tour) => ticks.get(tour.id) ?? tour.id === likely;
+  const chosen = complete.filter(isChosen);
+  // Once somebody has chosen, no tour that comes later changes what is chosen.
+  const toggle = (tour: Tour) =>
+    setTicks(new Map([...complete.map((one) => [one.id, isChosen(one) !== (one === tour)] as const)]));
   const submit = (event: Event) => {
     event.preventDefault();
     const wanted = name.trim();
@@ -31,24 +34,26 @@ export function BuildMap({ tours, maps }: { tours: readonly Tour[]; maps: readon
       if (grown) {
         await calls.addToMap(grown.id, ids);
         setBegun(`Adding to ${grown.name}`);
+        setTicks(new Map());
         return;
       }
       await calls.buildMap({ name: wanted, tours: ids });
       setBegun(`Building ${wanted}`);
-      setName('');
+      setName(without(name));
+      setTicks(new Map());
     });
   };
   return (
     <section class="card stack" aria-labelledby="build-map">
       <h2 id="build-map">Build a map</h2>
-      {maps.length > 0 && (
+      {ready.length > 0 && (
         <Choice
           label="What to make of the tours"
           value={grown?.id ?? ''}
           onChange={setTarget}
           options={[
             { value: '', label: 'A new map' },
-            ...maps.map((one) => ({ value: one.id, label: `More of the map ${one.name}` })),
+            ...ready.map((one) => ({ value: one.id, label: `More of the map ${one.name}` })),
           ]}
           hint={
             grown
@@ -67,9 +72,12 @@ export function BuildMap({ tours, maps }: { tours: readonly Tour[]; maps: readon
         <form class="stack" onSubmit={submit}>
           <fieldset>
             <legend class="label">From these tours</legend>
+            {!grown && complete.length > 1 && (
+              <p class="soft small">Choose tours of one building that go through some of the same rooms.</p>
+            )}
             {complete.map((one) => (
               <label class="check" key={one.id}>
-                <input type="checkbox" checked={!left_out.has(one.id)} onChange={() => toggle(one.id)} />
+                <input type="checkbox" checked={isChosen(one)} onChange={() => toggle(one)} />
                 {one.name} <span class="soft small">{count(one.images, 'picture')}</span>
               </label>
             ))}

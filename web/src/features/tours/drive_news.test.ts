@@ -23,18 +23,20 @@ const job = (part: Partial<Job>): Job => ({
 });
 
 it('says what drives would teach and where', () => {
-  expect(driveNews(job({}))).toBe('3 new appearances from drives. kitchen would gain 3 new appearances.');
-  expect(driveNews(job({ gained: 1, notes: [] }))).toBe('1 new appearance from drives. ');
+  expect(driveNews(job({}), null)).toBe(
+    '3 new appearances from drives. kitchen would gain 3 new appearances.',
+  );
+  expect(driveNews(job({ gained: 1, notes: [] }), null)).toBe('1 new appearance from drives. ');
 });
 
 it('says nothing of drives that taught nothing or that a person discarded', () => {
-  expect(driveNews(job({ state: 'done', gained: 0, notes: [] }))).toBeNull();
-  expect(driveNews(job({ state: 'cancelled' }))).toBeNull();
+  expect(driveNews(job({ state: 'done', gained: 0, notes: [] }), null)).toBeNull();
+  expect(driveNews(job({ state: 'cancelled' }), null)).toBeNull();
 });
 
 it('says why nothing could be learnt', () => {
   const error = { type: 'about:blank', title: 'No', status: 422, detail: 'they cannot be compared' };
-  expect(driveNews(job({ state: 'failed', error: error as Job['error'] }))).toContain(
+  expect(driveNews(job({ state: 'failed', error: error as Job['error'] }), null)).toContain(
     'They cannot be compared',
   );
 });

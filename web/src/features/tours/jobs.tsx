@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as calls from '../../api/calls';
-import { connection } from '../../api/server';
+import { connection, graphs } from '../../api/server';
 import { sentence } from '../../api/problem';
 import type { Job, MapInfo } from '../../api/types';
 import { Bar, Notice } from '../../components/notice';
 import { useCommand } from '../../lib/command';
 import { percent } from '../../lib/words';
-import { reasonText } from '../../words/reasons';
+import { dismiss, isDismissed } from '../../lib/dismissed';
+import { NotePictures } from './note_pictures';
+import { noteWords } from './notes';
 
 /** The newest job of a map that is of one of these kinds; null when there is none. */
 export function newestJob(
@@ -33,9 +35,28 @@ export function stageWords(job: Job): string {
   return kStages[stage] ?? sentence(stage).replace(/\.$/, '');
 }
 
-/** What a person should know of a job. */
-export function noteWords(job: Job): string {
-  return job.notes.map(reasonText).join(' ');
+/** What is to be known of the map that a job made, until the reader puts it away. */
+function BuildNotes({ job, map }: { job: Job; map: MapInfo }) {
+  if (job.notes.length === 0 || isDismissed(job.id)) return null;
+  const plain = job.kind === 'add' && job.skipped === 0;
+  return (
+    <Notice tone={plain ? 'plain' : 'warn'}>
+      <div class="stack tight">
+        <p>{noteWords(job, graphs.value[map.id]?.graph ?? null)}</p>
+        <NotePictures job={job} map={map} graph={graphs.value[map.id]?.graph ?? null} />
+        <div class="row">
+          <button
+            type="button"
+            class="button small"
+            aria-label={`Hide what is to be known of ${map.name}`}
+            onClick={() => dismiss(job.id)}
+          >
+            Hide this
+          </button>
+        </div>
+      </div>
+    </Notice>
+  );
 }
 
 /** How the building of a map goes, why it ended without one, or what is to be known of the one that it made. */
@@ -44,10 +65,7 @@ export function BuildProgress({ map, mayCancel }: { map: MapInfo; mayCancel: boo
   const { busy, problem, run } = useCommand();
   if (!job) return null;
   const adds = job.kind === 'add';
-  if (job.state === 'done')
-    return job.notes.length > 0 ? (
-      <Notice tone={adds && job.skipped === 0 ? 'plain' : 'warn'}>{noteWords(job)}</Notice>
-    ) : null;
+  if (job.state === 'done') return <BuildNotes job={job} map={map} />;
   if (job.state === 'failed')
     return (
       <Notice tone="bad">

@@ -3,12 +3,13 @@ import { useId, useState } from 'preact/hooks';
 import type { Tour } from '../../api/types';
 import { Choice, TextField } from '../../components/field';
 import { Bar, Notice } from '../../components/notice';
+import { without } from '../../lib/draft';
 import { count } from '../../lib/words';
 import { tourFiles, type TourFiles } from './tour_folder';
 import { cancelUpload, upload, uploadTour } from './upload';
 
 /** Uploading a folder of pictures as a tour, or going on with one that was broken off. */
-export function NewTour({ tours, onEnd }: { tours: readonly Tour[]; onEnd: () => void }) {
+export function NewTour({ tours }: { tours: readonly Tour[] }) {
   const [name, setName] = useState('');
   const [goOn, setGoOn] = useState('');
   const [files, setFiles] = useState<TourFiles<File> | null>(null);
@@ -25,9 +26,8 @@ export function NewTour({ tours, onEnd }: { tours: readonly Tour[]; onEnd: () =>
     if (!files || !ready || running) return;
     void uploadTour(continued?.name ?? name.trim(), files, cameraFile, continued).then(() => {
       // The name is asked for again, so that a second press cannot send the same tour twice.
-      if (upload.peek().kind === 'done') setName('');
+      if (upload.peek().kind === 'done') setName(without(name));
       setGoOn('');
-      onEnd();
     });
   };
   return (

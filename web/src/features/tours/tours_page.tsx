@@ -14,9 +14,10 @@ import { BuildMap } from './build_map';
 import { DriveNews, RefineSetting } from './drive_news';
 import { BuildProgress } from './jobs';
 import { NewTour } from './new_tour';
+import { tourListVersion } from './upload';
 
 export function ToursPage() {
-  const tours = useLoaded(calls.tours);
+  const tours = useLoaded(calls.tours, tourListVersion.value);
   const mayInstall = atLeast(me.value?.role, 'installer');
   return (
     <>
@@ -31,8 +32,8 @@ export function ToursPage() {
             <div class="stack">
               {mayInstall ? (
                 <>
-                  <NewTour tours={answer.tours} onEnd={tours.again} />
-                  <BuildMap tours={answer.tours} maps={maps.value.filter((one) => one.state === 'ready')} />
+                  <NewTour tours={answer.tours} />
+                  <BuildMap tours={answer.tours} maps={maps.value} />
                 </>
               ) : (
                 <Notice still>Somebody who may install things adds tours and builds maps.</Notice>

@@ -5,7 +5,7 @@ import * as calls from '../../api/calls';
 import { ProblemError } from '../../api/problem';
 import type { Tour } from '../../api/types';
 import { tourFiles } from './tour_folder';
-import { arrived, upload, uploadTour } from './upload';
+import { arrived, tourListVersion, upload, uploadTour } from './upload';
 
 afterEach(() => vi.restoreAllMocks());
 
@@ -60,6 +60,25 @@ it('begins no tour where a table is broken, and says where a sweep is refused', 
   await uploadTour('house', tourFiles([...kPictures, table, kScans]), camera, null);
   expect(upload.value).toMatchObject({ reason: 'scans.csv, 0.jpg: A range is wrong. (body/ranges_m/0)' });
   expect(server.complete).not.toHaveBeenCalled();
+});
+
+it('says that the list of tours is old when it has begun one and when it has ended, however it ends', async () => {
+  const server = pretendServer();
+  const camera = file('camera.json', '{}');
+  const before = tourListVersion.value;
+  let during = before;
+  server.pictures.mockImplementation(() => {
+    during = tourListVersion.value;
+    return Promise.resolve(undefined);
+  });
+  await uploadTour('house', tourFiles(kPictures), camera, null);
+  expect(during).toBeGreaterThan(before);
+  expect(tourListVersion.value).toBeGreaterThan(during);
+  const ended = tourListVersion.value;
+  server.complete.mockRejectedValue(new ProblemError('conflict', 409, 'No.'));
+  await uploadTour('house', tourFiles(kPictures), camera, null);
+  expect(upload.value).toMatchObject({ kind: 'failed' });
+  expect(tourListVersion.value).toBeGreaterThan(ended + 1);
 });
 
 it('goes on after what has arrived, and fills the gaps', () => {

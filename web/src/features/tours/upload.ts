@@ -14,6 +14,9 @@ export type UploadState =
 
 export const upload = signal<UploadState>({ kind: 'none' });
 
+/** Rises when an upload has begun a tour and when one has ended, whatever page is shown: lists of tours are old then. */
+export const tourListVersion = signal(0);
+
 const kAtOnce = 3;
 const kRetries = 8;
 const kPauseMs = 1500;
@@ -47,6 +50,7 @@ export async function uploadTour(
         : null;
     const marks = files.marks ? marksIn(await files.marks.text()) : null;
     const tour = open ?? (await begin(name, camera));
+    tourListVersion.value += 1;
     // A sweep is sent again where its picture has arrived: whether it has as well is not known.
     const left = files.images
       .map((file, n) => ({ file, n, known: arrived(tour, n), sweep: sweeps?.get(file.name) }))
@@ -76,6 +80,8 @@ export async function uploadTour(
     stopper.abort(); // the other workers need not go on
     const reason = stopped ? 'It was stopped. Choose the same folder to go on.' : asProblem(thrown).message;
     upload.value = { kind: 'failed', name, reason };
+  } finally {
+    tourListVersion.value += 1;
   }
 }
 
