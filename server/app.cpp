@@ -110,6 +110,7 @@ struct App::Parts {
     passwords.stop();
     workers.stop();
     heavy.stop();
+    driving.keep_what_is_left();
     journal.finish();
   }
 

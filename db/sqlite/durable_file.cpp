@@ -29,8 +29,6 @@ void flush(const Descriptor& descriptor, const std::filesystem::path& file) {
   if (::fsync(descriptor.value()) != 0) throw std::system_error(errno, std::generic_category(), file.string());
 }
 
-void flush_folder(const std::filesystem::path& folder) { flush(Descriptor(folder, O_RDONLY | O_DIRECTORY), folder); }
-
 /// FILE.part until it is whole; what does not become whole does not stay.
 class UnfinishedFile {
  public:
@@ -66,6 +64,8 @@ class UnfinishedFile {
 };
 
 }  // namespace
+
+void flush_folder(const std::filesystem::path& folder) { flush(Descriptor(folder, O_RDONLY | O_DIRECTORY), folder); }
 
 bool is_disk_full(const std::error_code& failure) {
   return failure == std::errc::no_space_on_device ||

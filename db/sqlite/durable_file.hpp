@@ -21,6 +21,9 @@ namespace homeward::db {
 /// of it stays. Throws std::system_error.
 void write_durably(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
+/// Brings the names of a folder to the disk. Throws std::system_error.
+void flush_folder(const std::filesystem::path& folder);
+
 /// Makes a folder whose parent exists, durably. Throws std::system_error.
 void make_folder_durably(const std::filesystem::path& folder);
 

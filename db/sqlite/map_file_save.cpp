@@ -344,7 +344,7 @@ void write_file(const std::filesystem::path& file, SQLite::Database& database) {
 }
 
 /// A rename is on the disk only when its folder is.
-bool flush_folder(const std::filesystem::path& folder) {
+bool folder_flushed(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return false;
   const bool flushed = ::fsync(descriptor) == 0;
@@ -378,7 +378,7 @@ Status save_map(const std::filesystem::path& file, const map::TopologicalMap& ma
   } catch (const std::exception& failure) {
     return fail(ErrorCode::kIo, std::string("The map could not be written: ") + failure.what() + ".", file.string());
   }
-  if (!flush_folder(folder)) {
+  if (!folder_flushed(folder)) {
     return fail(ErrorCode::kIo, "The map's folder could not be flushed to the disk.", folder.string());
   }
   return {};

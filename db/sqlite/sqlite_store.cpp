@@ -20,14 +20,20 @@ void make_private_folder(const std::filesystem::path& folder) {
   std::filesystem::permissions(folder, std::filesystem::perms::owner_all);
 }
 
+const std::filesystem::path& checked(const std::filesystem::path& database) {
+  check_write_ahead_log(database);
+  return database;
+}
+
 }  // namespace
 
 SqliteStore::SqliteStore(const std::filesystem::path& folder)
-    : lock_(folder), folder_(folder), database_(folder / "homeward.db") {
+    : lock_(folder), folder_(folder), database_(checked(folder / "homeward.db")) {
   make_folder_durably(folder_ / "tours");
   make_folder_durably(folder_ / "maps");
   const Status stopped = database_.work(stop_missions);
-  if (!stopped) throw StoreFailure(stopped.error());
+  // On a full disk a server starts all the same: whoever reads those missions takes them for stopped.
+  if (!stopped && stopped.error().code != ErrorCode::kDiskFull) throw StoreFailure(stopped.error());
   sort_map_files();
   sort_pictures();
 }
@@ -36,7 +42,6 @@ Result<std::unique_ptr<Store>> open_sqlite_store(const std::filesystem::path& da
   try {
     const std::filesystem::path folder = std::filesystem::absolute(data_directory);
     make_private_folder(folder);
-    check_write_ahead_log(folder / "homeward.db");
     return std::make_unique<SqliteStore>(folder);
   } catch (...) {
     return tl::unexpected<Error>(StoreDatabase::present_error((data_directory / "homeward.db").string()));

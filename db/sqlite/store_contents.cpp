@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <sys/statvfs.h>
 
+#include <algorithm>
 #include <charconv>
 #include <set>
 #include <string_view>
@@ -14,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMapFileEnd = ".homeward";
+constexpr std::ptrdiff_t kMostLookedFor = 200;
 constexpr std::size_t kMostNamed = 20;  // missing files, each by its name
 
 std::vector<fs::path> entries_of(const fs::path& folder) {
@@ -56,12 +58,13 @@ fs::path removed_name(const fs::path& file) { return file.string() + std::string
 
 void SqliteStore::put_aside(const fs::path& stray) {
   const fs::path wanted = folder_ / "quarantine" / stray.lexically_relative(folder_);
-  fs::create_directories(wanted.parent_path());
+  std::error_code failure;  // of a full disk, or another one: then it stays where it is, and is no harm
+  fs::create_directories(wanted.parent_path(), failure);
   fs::path free = wanted;
   for (int number = 2; fs::exists(fs::symlink_status(free)); ++number)
     free = wanted.string() + "~" + std::to_string(number);
-  fs::rename(stray, free);
-  contents_.quarantined.push_back(named(free, folder_));
+  if (!failure) fs::rename(stray, free, failure);
+  if (!failure) contents_.quarantined.push_back(named(free, folder_));
 }
 
 void SqliteStore::sort_map_files() {
@@ -117,8 +120,8 @@ void SqliteStore::sort_pictures() {
   }
   for (const fs::path& folder : entries_of(folder_ / "tours")) {
     if (folders.contains(folder)) continue;
-    if (folder.extension() == kRemovedEnd || (fs::is_directory(folder) && fs::is_empty(folder))) {
-      std::error_code ignored;
+    std::error_code ignored;
+    if (folder.extension() == kRemovedEnd || fs::is_empty(folder, ignored)) {
       fs::remove_all(folder, ignored);
     } else {
       put_aside(folder);
@@ -140,10 +143,15 @@ StoreCondition SqliteStore::condition() {
   {
     const std::scoped_lock lock(contents_mutex_);
     condition.quarantined = contents_.quarantined;
-    std::erase_if(contents_.missing, [](const fs::path& file) {
-      std::error_code ignored;
-      return fs::is_regular_file(file, ignored);
-    });
+    // A few at a time: anybody may ask how the store is.
+    const auto first = contents_.missing.begin();
+    const auto last = first + std::min<std::ptrdiff_t>(kMostLookedFor, std::ssize(contents_.missing));
+    contents_.missing.erase(std::remove_if(first, last,
+                                           [](const fs::path& file) {
+                                             std::error_code ignored;
+                                             return fs::is_regular_file(file, ignored);
+                                           }),
+                            last);
     condition.missing_files = static_cast<std::int64_t>(contents_.missing.size());
     for (const fs::path& file : contents_.missing) {
       if (condition.missing.size() < kMostNamed) condition.missing.push_back(named(file, folder_));

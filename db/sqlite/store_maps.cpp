@@ -267,7 +267,7 @@ Result<MapRecord> SqliteStore::import_map(MapRecord map, std::span<const std::ui
     if (map.name.empty()) map.name = stored->map.name;
     const std::filesystem::path file = map_file(map.id, map.revision);
     std::filesystem::rename(arrived, file);
-    make_folder_durably(folder_ / "maps");
+    flush_folder(folder_ / "maps");
     Result<MapRecord> added = database_.work([&](SQLite::Database& database) { return insert_map(database, map); });
     if (!added) forget_file_after(added.error(), file);
     return added;
@@ -285,8 +285,10 @@ Status SqliteStore::remove_map(const MapId& id) {
   const std::filesystem::path file = map_file(id, kept->revision);
   std::error_code none;  // where there is no file
   std::filesystem::rename(file, removed_name(file), none);
-  const Status removed =
-      database_.work([&](SQLite::Database& database) { execute(database, "DELETE FROM maps WHERE id = ?", id); });
+  const Status removed = database_.work([&](SQLite::Database& database) {
+    flush_folder(folder_ / "maps");
+    execute(database, "DELETE FROM maps WHERE id = ?", id);
+  });
   if (!removed) {
     std::filesystem::rename(removed_name(file), file, none);
     return removed;

@@ -76,6 +76,11 @@ void check_new_image(SQLite::Database& database, const Tour& tour, const TourIma
   }
 }
 
+/// Whether a file is there and is what was uploaded.
+bool holds(const std::filesystem::path& file, const std::string& sha256) {
+  return std::filesystem::is_regular_file(file) && sha256_hex(read_whole(file)) == sha256;
+}
+
 void insert_image(SQLite::Database& database, const TourId& tour, const TourImage& image) {
   const auto part = [&](double Pose2::*value) {
     return image.odometry ? std::optional((*image.odometry).*value) : std::nullopt;
@@ -142,7 +147,7 @@ Result<PutImage> SqliteStore::put_image(const TourId& tour, TourImage image, std
   // First the file, then the row: a row always has its file.
   const std::filesystem::path file = image_file(tour, image.number, *before ? (*before)->type : image.type);
   try {
-    if (!*before || !std::filesystem::exists(file)) write_durably(file, bytes);
+    if (!*before || !holds(file, image.sha256)) write_durably(file, bytes);
   } catch (...) {
     return tl::unexpected<Error>(StoreDatabase::present_error(file.string()));
   }
@@ -228,6 +233,7 @@ Status SqliteStore::remove_tour(const TourId& id) {
     std::error_code failure;
     std::filesystem::rename(folder, removed_name(folder), failure);
     renamed = !failure;
+    flush_folder(folder_ / "tours");
   });
   std::error_code failure;
   if (!removed) {

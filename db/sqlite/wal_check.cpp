@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -54,6 +55,8 @@ class Log {
     salt_ = pair_at(bytes, 16);
   }
 
+  /// Nothing where the header is damaged.
+  [[nodiscard]] std::optional<Pair> salt() const { return whole_ ? std::optional(salt_) : std::nullopt; }
   /// Of pages of this size.
   [[nodiscard]] std::vector<Frame> frames(std::size_t page_bytes) const {
     const bool big = (big_endian(bytes_, 0) & 1U) != 0;
@@ -76,16 +79,9 @@ class Log {
   Pair salt_;
 };
 
-/// Whether a transaction is lost that another one followed: it was on the disk before that one began.
-bool loses_something(const std::vector<Frame>& frames) {
-  if (frames.empty() || frames.back().whole) return false;
-  // Older frames may follow, that the log has begun anew before; what is newest begins it.
-  const auto count = [&](const Pair& salt) {
-    return std::ranges::count_if(frames, [&](const Frame& frame) { return frame.salt == salt; });
-  };
-  const Pair salt = frames.size() > 1 && count(frames[0].salt) < count(frames[1].salt) && !frames[0].whole
-                        ? frames[1].salt
-                        : frames[0].salt;
+/// Whether a transaction is lost that another one followed: it was on the disk before that one began. `salt`: of the
+/// frames that belong to the log; older ones may stand behind them, from before it was begun anew.
+bool loses_something(const std::vector<Frame>& frames, const Pair& salt) {
   bool lost = false;       // a frame that is not whole
   bool committed = false;  // and then a transaction ended
   for (const Frame& frame : frames) {
@@ -94,6 +90,16 @@ bool loses_something(const std::vector<Frame>& frames) {
     committed = committed || (lost && frame.commits && frame.salt == salt);
   }
   return false;
+}
+
+/// Of a log whose header is damaged: its first frames'. One of them may be damaged too.
+Pair likeliest_salt(const std::vector<Frame>& frames) {
+  const auto count = [&](const Pair& salt) {
+    return std::ranges::count_if(frames, [&](const Frame& frame) { return frame.salt == salt; });
+  };
+  if (frames.empty()) return {};
+  const bool second = frames.size() > 1 && count(frames[0].salt) < count(frames[1].salt);
+  return frames[second ? 1 : 0].salt;
 }
 
 }  // namespace
@@ -108,7 +114,10 @@ void check_write_ahead_log(const std::filesystem::path& database) {
   const std::size_t in_database = std::size_t{head[16]} << 8 | head[17];
   const std::size_t page_bytes = in_database == 1 ? 65536 : in_database == 0 ? big_endian(log, 8) : in_database;
   if (page_bytes < 512 || page_bytes > 65536) return;  // SQLite says what is wrong with it
-  if (!loses_something(Log(log).frames(page_bytes))) return;
+  const Log read(log);
+  const std::vector<Frame> frames = read.frames(page_bytes);
+  // A whole header says which frames are its own: none yet, where the log was just begun anew.
+  if (!loses_something(frames, read.salt().value_or(likeliest_salt(frames)))) return;
   refuse(ErrorCode::kCorruptFile,
          "The log of the database's newest changes is damaged. Restore a backup; or move this file away, to go on "
          "without what it holds.",

@@ -147,7 +147,14 @@ Result<Authenticator::SignedIn> Authenticator::set_up(const std::string& token, 
 }
 
 Result<Authenticator::SignedIn> Authenticator::begin_session(db::User user) {
-  SignedIn result{std::move(user), db::random_secret()};
+  const std::scoped_lock alone(accounts_mutex_);
+  // As he is now: checking a password takes a while.
+  const auto now = store_.user(user.id);
+  if (!now) return pass_on(now);
+  if (!*now || (*now)->password_hash != user.password_hash) {
+    return fail(ErrorCode::kUnauthenticated, "The name or the password is wrong.", "login");
+  }
+  SignedIn result{**now, db::random_secret()};
   db::Session session;
   session.hash = db::secret_hash(result.secret);
   session.user = result.user.id;
@@ -192,12 +199,16 @@ Result<db::User> Authenticator::set_password(const UserId& id, const std::string
   if (!user) return pass_on(user);
   if (!*user) return fail(ErrorCode::kNotFound, "There is no person with this id.", "users/" + id.str());
   if (const Status status = check_new_account((*user)->name, password); !status) return pass_on(status);
-  if (const Status set = store_.set_password_hash(id, hash_of_password(password)); !set) return pass_on(set);
+  db::User changed = **user;
+  changed.password_hash = hash_of_password(password);
+  const std::scoped_lock alone(accounts_mutex_);
+  if (const Status set = store_.set_password_hash(id, changed.password_hash); !set) return pass_on(set);
   end_sessions(id);
-  return **user;
+  return changed;
 }
 
 Status Authenticator::set_role(const UserId& id, wire::Role role) {
+  const std::scoped_lock alone(accounts_mutex_);
   if (const Status set = store_.set_role(id, role); !set) return set;
   const std::scoped_lock lock(mutex_);
   for (auto& [hash, holder] : sessions_) {
@@ -207,6 +218,7 @@ Status Authenticator::set_role(const UserId& id, wire::Role role) {
 }
 
 Status Authenticator::remove_user(const UserId& id) {
+  const std::scoped_lock alone(accounts_mutex_);
   if (const Status removed = store_.remove_user(id); !removed) return removed;
   end_sessions(id);
   return {};

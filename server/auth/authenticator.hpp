@@ -45,7 +45,7 @@ class Authenticator {
   Result<SignedIn> set_up(const std::string& token, const std::string& name, const std::string& password,
                           const std::string& remote);
   Status log_out(const Request& request);
-  /// A session of a user who has shown who he is.
+  /// A session of a user who has shown who he is. Errors: kUnauthenticated (removed, or another password, meanwhile).
   Result<SignedIn> begin_session(db::User user);
   /// Errors: kNotFound, kForbidden (another one), kRateLimited.
   Status check_password(const UserId& id, const std::string& password, const std::string& remote);
@@ -77,7 +77,8 @@ class Authenticator {
   const Clock& clock_;
   FailureCounter failures_;                                           // by address and name
   FailureCounter failures_of_address_{20, std::chrono::seconds(60)};  // whoever it tries to be
-  mutable std::mutex mutex_;
+  std::mutex accounts_mutex_;  // who may change what a person may do, one at a time; taken before mutex_
+  mutable std::mutex mutex_;   // of sessions_ and tokens_
   Holders sessions_;
   Holders tokens_;
 };

@@ -40,6 +40,8 @@ class Driving : public LinkListener {
   Status load();
   /// Every wire::kPermitEvery_ms, on the socket thread: permits, leases that end, agents that fell silent.
   void tick(SteadyTime now);
+  /// At the end: once more, what the store has not taken of missions. Before the journal finishes.
+  void keep_what_is_left() { mission_journal_.try_again(SteadyTime::max()); }
 
   // Robots. Errors: kNotFound.
   Result<wire::RobotView> add(const std::string& name);

@@ -21,6 +21,13 @@ Status Driving::load() {
     const auto missions = store_.missions(record.id, 1);
     if (!missions) return pass_on(missions);
     if (!missions->empty()) unit->mission = missions->front();
+    // Where the store could not say so at its start, its disk being full.
+    if (unit->mission && (unit->mission->state == wire::MissionState::kAccepted ||
+                          unit->mission->state == wire::MissionState::kDriving)) {
+      unit->mission->state = wire::MissionState::kStopped;
+      unit->mission->reason = wire::Reason{wire::ReasonCode::kServerRestarted};
+      mission_journal_.keep(*unit->mission);
+    }
     const std::scoped_lock lock(mutex_);
     units_[record.id] = unit;
   }

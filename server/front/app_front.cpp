@@ -86,8 +86,10 @@ void AppFront::answer(std::shared_ptr<Request> request, Reply reply) {
   }
   // A wrong token is refused even where nobody needs one.
   if (!caller) return reply(problem_of(caller));
-  const bool queued = queue(route->operation.lane, request->remote, [this, request, route, reply, caller = *caller] {
-    reply(checked(*request, *route, caller));
+  const bool queued = queue(route->operation.lane, request->remote, [this, request, route, reply] {
+    // And again: while it waited a role may have been taken away.
+    const auto now = parts_.authenticator.identify(*request);
+    reply(now ? checked(*request, *route, *now) : problem_of(now));
   });
   if (!queued) reply(problem({ErrorCode::kOverloaded, "The server is busy; try again in a second.", request->path}));
 }

@@ -16,8 +16,9 @@ using beast::error_code;
 constexpr std::chrono::seconds kHandshakeTimeout{10};
 // Pings go out at half of it; an end that does not even answer those is gone.
 constexpr std::chrono::seconds kIdleTimeout{20};
-// For each message to be taken; an end that reads nothing may still send.
+// For each 64 KiB of a message to be taken, and a part of them; an end that reads nothing may still send.
 constexpr std::chrono::seconds kTakenWithin{10};
+constexpr std::size_t kTaken_bytes = 64UL * 1024;
 
 }  // namespace
 
@@ -110,7 +111,7 @@ void WebSocketSession::write() {
   if (!guarded([&] { next = handler_->next_message(); }) || !next) return;
   being_written_ = std::move(*next);
   writing_ = true;
-  taken_within_.expires_after(kTakenWithin);
+  taken_within_.expires_after(kTakenWithin * (1 + static_cast<int>(being_written_.bytes->size() / kTaken_bytes)));
   taken_within_.async_wait([weak = weak_from_this()](error_code error) {
     const auto self = weak.lock();
     if (!error && self && self->writing_) self->cut();

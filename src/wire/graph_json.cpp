@@ -57,6 +57,7 @@ std::string revision_tag(std::int64_t revision) { return "\"r" + std::to_string(
 
 Result<std::int64_t> revision_from_tag(const std::string& tag) {
   std::string_view text = tag;
+  if (text.starts_with("W/")) text.remove_prefix(2);  // of an answer that was compressed; the number alone decides
   if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
   std::int64_t revision = 0;
   const bool starts = text.size() > 1 && text.front() == 'r';

@@ -146,10 +146,10 @@ class RosbridgeDriverTest : public ::testing::Test {
   ScratchFolder folder_;
   std::mutex mutex_;
   std::vector<Heard> heard_;
+  std::vector<std::int64_t> stamps_;  // of the Twists that bear one, in seconds
   std::vector<std::string> log_;
   std::unique_ptr<RosbridgeServer> bridge_;
   std::unique_ptr<driving::Driver> driver_;
-  std::vector<std::int64_t> stamps_;  // of the Twists that bear one, in seconds
   Clock::time_point begun_ = Clock::now();
   std::int64_t stamp_us_ = 0;  // the newest
   int moments_ = 0;            // that were sensed

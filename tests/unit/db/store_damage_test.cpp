@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
+#include <cstring>
 #include <fstream>
 #include <random>
 
@@ -195,6 +196,28 @@ TEST_F(StoreDamage, ADamagedLogOfAKilledProcessLosesNothingInSilence) {
     EXPECT_EQ((*opened)->robots()->size(), static_cast<std::size_t>(kRobots)) << "byte " << at;
   }
   EXPECT_GT(noticed, 150);
+  // A log that SQLite was about to begin anew, with all of it in the database: a new head before old frames.
+  put(database);
+  std::string anew = log;
+  anew[16] = static_cast<char>(anew[16] + 1);  // the salt
+  const auto word = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, anew.data() + at, sizeof value);
+    return (anew[3] & 1) != 0 ? __builtin_bswap32(value) : value;
+  };
+  std::uint32_t first = 0;
+  std::uint32_t second = 0;
+  for (std::size_t at = 0; at < 24; at += 8) {
+    first += word(at) + second;
+    second += word(at + 4) + first;
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    anew[24 + i] = static_cast<char>(first >> (24 - 8 * i));
+    anew[28 + i] = static_cast<char>(second >> (24 - 8 * i));
+  }
+  std::ofstream(log_file, std::ios::binary | std::ios::trunc) << anew;
+  open();
+  close();
   put(database);
   std::ofstream(log_file, std::ios::binary | std::ios::trunc) << log.substr(0, log.size() - 100);
   open();
