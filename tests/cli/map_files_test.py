@@ -60,7 +60,7 @@ class MapFiles(CliTest):
         self.assertEqual({one["state"] for one in accepted["shortcuts"]} - {"accepted"}, set())
 
     def test_another_version(self):
-        for version, advice in ((1, "Rebuild the map"), (6, "newer Homeward")):
+        for version, advice in ((1, "Rebuild the map"), (1000, "newer Homeward")):
             database = sqlite3.connect(self.good_map(f"v{version}.map"))
             database.execute(f"PRAGMA user_version = {version}")
             database.commit()
