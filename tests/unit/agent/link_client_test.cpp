@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 TEST(LinkClient, IsNeverUpWithWhoIsNoServer) {
   std::mutex mutex;
   std::vector<std::string> log;
-  testing::RosbridgeServer bridge(0, {});  // answers the hello with a text that is no message of a server
+  testing::RosbridgeServer bridge(0, {});  // says what is no message of a server
   const wire::Hello hello{"homeward-agent/test", "a robot", "session", testing::sphere_camera(64)};
   LinkClient link({false, "127.0.0.1", std::to_string(bridge.port())}, RobotId("1"), "token", hello,
                   [&](const std::string& what) {
@@ -31,6 +31,7 @@ TEST(LinkClient, IsNeverUpWithWhoIsNoServer) {
   for (int i = 0; i < 2000 && bridge.connections() < 2; ++i) {
     EXPECT_FALSE(link.up());
     link.send(wire::Stopped{"1", 0});
+    bridge.send_raw("no message");
     std::this_thread::sleep_for(5ms);
   }
   EXPECT_GE(bridge.connections(), 2) << "it tries again";
