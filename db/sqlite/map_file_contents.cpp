@@ -264,6 +264,16 @@ void get_edits(SQLite::Database& database, ContentDigest& digest, map::Topologic
   }
 }
 
+/// Places and all that joins, names and edits them.
+void get_graph(SQLite::Database& database, ContentDigest& digest, map::TopologicalMap& map) {
+  get_places(database, digest, map);
+  get_edges(database, digest, map);
+  get_hypotheses(database, digest, map);
+  get_shortcuts(database, digest, map);
+  get_destinations(database, digest, map);
+  get_edits(database, digest, map);
+}
+
 /// A map that points at places or images that it does not hold must not reach a robot.
 void check_references(const map::TopologicalMap& map) {
   std::set<ImageId> images;
@@ -313,12 +323,7 @@ void read_graph_part(SQLite::Database& database, map::TopologicalMap& map) {
   ContentDigest ignored;  // whoever keeps a part watches over its bytes
   map::TopologicalMap part;
   get_meta(database, ignored, part);
-  get_places(database, ignored, part);
-  get_edges(database, ignored, part);
-  get_hypotheses(database, ignored, part);
-  get_shortcuts(database, ignored, part);
-  get_destinations(database, ignored, part);
-  get_edits(database, ignored, part);
+  get_graph(database, ignored, part);
   const auto same = [](const map::Place& a, const map::Place& b) { return a.id == b.id && a.prototype == b.prototype; };
   if (!std::ranges::equal(part.places, map.places, same)) refuse("The edits are of a map with other places.");
   for (std::size_t i = 0; i < map.places.size(); ++i) map.places[i].label = part.places[i].label;
@@ -334,12 +339,7 @@ MapContents read_contents(SQLite::Database& database) {
   map::TopologicalMap& map = contents.stored.map;
   get_meta(database, digest, map);
   get_images(database, digest, map);
-  get_places(database, digest, map);
-  get_edges(database, digest, map);
-  get_hypotheses(database, digest, map);
-  get_shortcuts(database, digest, map);
-  get_destinations(database, digest, map);
-  get_edits(database, digest, map);
+  get_graph(database, digest, map);
   get_thumbnails(database, digest, contents.stored);
   check_references(map);
   contents.checksum = digest.hexadecimal();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/services/maps.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -75,6 +77,16 @@ Result<LoadedMap> MapService::load(const MapId& id) {
   const std::scoped_lock lock(mutex_);
   keep_in_memory({id, loaded});
   return LoadedMap(loaded);
+}
+
+Result<LoadedMap> MapService::to_build_on(const MapId& id) {
+  const auto record = store_.map(id);
+  if (!record) return pass_on(record);
+  if (record->revision == 0) return LoadedMap();
+  auto loaded = load(id);
+  if (loaded || loaded.error().code != ErrorCode::kNotFound) return loaded;
+  spdlog::warn("map {} is built without its older contents: {}", id.str(), loaded.error().message);
+  return LoadedMap();
 }
 
 void MapService::keep_in_memory(Cached entry) {
@@ -184,12 +196,10 @@ Result<db::MapRecord> MapService::keep_build(const MapId& id, map::TopologicalMa
   const std::scoped_lock changing(changing_);
   const auto record = store_.map(id);
   if (!record) return pass_on(record);
-  if (record->revision > 0) {
-    const auto present = load(id);
-    if (!present) return pass_on(present);
-    // Edits that people made, undid or redid while this was built.
-    if ((*present)->map.edits != contents.edits) mapping::replay_edits(contents, (*present)->map.edits);
-  }
+  const auto present = to_build_on(id);
+  if (!present) return pass_on(present);
+  // Edits that people made, undid or redid while this was built.
+  if (*present && (*present)->map.edits != contents.edits) mapping::replay_edits(contents, (*present)->map.edits);
   contents.revision = record->revision + 1;
   auto saved = store_.save_map_contents(id, contents, thumbnails, record->revision);
   if (saved) tell(*saved);

@@ -32,6 +32,9 @@ class MapService {
 
   /// The present revision; kept in memory while it is used. Errors: kNotFound, kConflict (not built yet).
   Result<LoadedMap> load(const MapId& id);
+  /// What a build goes on from: null where the map was not built yet, or its file is gone, with which its edits are.
+  /// Errors: as load().
+  Result<LoadedMap> to_build_on(const MapId& id);
   /// Where the pictures of a map were taken (map::metric_layout); computed once for a map that is in memory.
   std::shared_ptr<const map::MetricLayout> layout(const LoadedMap& loaded);
   /// The graph of a map as the contract has it (wire::graph_to_json), as text. Kept for a map that is in memory; where

@@ -93,9 +93,9 @@ Result<wire::JobView> BuildJobs::rebuild(const MapId& map) {
     return fail(ErrorCode::kConflict, "The map was imported; its pictures are not here.", where);
   };
   if (record->tours.empty()) return imported();
-  if (record->revision > 0) {
-    const auto loaded = maps_.load(map);
-    if (!loaded) return pass_on(loaded);
+  const auto loaded = maps_.to_build_on(map);
+  if (!loaded) return pass_on(loaded);
+  if (*loaded) {
     // An imported map may have gained tours of this server since.
     for (const auto& image : (*loaded)->map.images) {
       const TourId tour(image.id.str().substr(0, image.id.str().find('/')));
@@ -235,17 +235,13 @@ Result<wire::JobState> BuildJobs::build(wire::JobView& job, const std::stop_toke
   if (!record) return pass_on(record);
   const auto tours = open_tours(store_, record->tours);
   if (!tours) return pass_on(tours);
-  LoadedMap previous;
-  if (record->revision > 0) {
-    const auto loaded = maps_.load(job.map);
-    if (!loaded) return pass_on(loaded);
-    previous = *loaded;
-  }
+  const auto previous = maps_.to_build_on(job.map);
+  if (!previous) return pass_on(previous);
   pipeline::BuildOptions options;
   options.name = record->name;
   options.threads = threads_;
-  auto built = pipeline::build_noted_map(tours->views(), tours->camera, options, previous ? &previous->map : nullptr,
-                                         progress_of(job), stop);
+  auto built = pipeline::build_noted_map(tours->views(), tours->camera, options,
+                                         *previous ? &(*previous)->map : nullptr, progress_of(job), stop);
   if (!built) return pass_on(built);
   std::vector<wire::Reason> notes = notes_of(built->notes);
   job.skipped = static_cast<std::int64_t>(built->notes.skipped.size());

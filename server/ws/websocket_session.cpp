@@ -114,7 +114,9 @@ void WebSocketSession::write() {
   taken_within_.expires_after(kTakenWithin * (1 + static_cast<int>(being_written_.bytes->size() / kTaken_bytes)));
   taken_within_.async_wait([weak = weak_from_this()](error_code error) {
     const auto self = weak.lock();
-    if (!error && self && self->writing_) self->cut();
+    // It may have run out just as that message was taken, and the next one was begun.
+    const bool late = self && self->taken_within_.expiry() <= std::chrono::steady_clock::now();
+    if (!error && late && self->writing_) self->cut();
   });
   stream_.text(being_written_.text);
   stream_.async_write(asio::buffer(*being_written_.bytes), [self = shared_from_this()](error_code error, std::size_t) {

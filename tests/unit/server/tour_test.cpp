@@ -215,6 +215,21 @@ TEST_F(TourTest, AMapIsBuiltAskedAndEdited) {
   EXPECT_EQ(admin->get(root).status, 404);
 }
 
+TEST_F(TourTest, AMapWhoseFileIsGoneIsToldAndBuiltAgain) {
+  const std::string map = built_map(2);
+  app.reset();
+  std::filesystem::remove(config.data / "maps" / (map + ".r1.homeward"));
+  start();
+  EXPECT_EQ(admin->get("/readyz").status, 503);
+  EXPECT_EQ(admin->get("/api/v1/maps/" + map + "/graph").status, 404);
+  const testing::Answer begun = admin->post("/api/v1/maps/" + map + "/builds");
+  ASSERT_EQ(begun.status, 202) << begun.body;
+  const nlohmann::json job = wait_for_job(begun.json().at("job").at("id"));
+  EXPECT_EQ(job.at("state"), "done") << job.dump();
+  EXPECT_EQ(admin->get("/api/v1/maps/" + map + "/graph").status, 200);
+  EXPECT_EQ(admin->get("/readyz").status, 200);
+}
+
 TEST_F(TourTest, ABuildDoesWithoutPicturesThatWereDamagedAndSaysSo) {
   const std::string tour = complete_tour(3);
   const auto damage = [&](int number) {
