@@ -431,7 +431,8 @@ const checks = [
       await journey(page).getByText('to Bathroom').waitFor();
       await asked.waitFor({ state: 'detached' });
       // The question goes before the server has answered.
-      for (let i = 0; i < 100 && house.robots[0].mission.place !== 'p13'; i += 1) await page.waitForTimeout(50);
+      for (let i = 0; i < 100 && house.robots[0].mission.place !== 'p13'; i += 1)
+        await page.waitForTimeout(50);
       assert.equal(house.robots[0].mission.place, 'p13');
     }),
   ],
