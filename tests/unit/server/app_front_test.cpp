@@ -71,7 +71,13 @@ TEST_F(AppFrontTest, AStopIsAnsweredAtOnceWhileAllWorkersAreTaken) {
 }
 
 TEST_F(AppFrontTest, WhatFindsNoRoomInTheQueueIsTurnedAwayAndAStopIsNot) {
+  std::latch taken(1);
   std::latch let_go(1);
+  ASSERT_TRUE(workers_.try_run([&] {
+    taken.count_down();
+    let_go.wait();
+  }));
+  taken.wait();  // the queue has all its room from here on
   while (workers_.try_run([&] { let_go.wait(); })) continue;
   int listed = 0;
   front_.answer(request("GET", "/api/v1/robots"), [&](const Response& response) { listed = response.status; });
