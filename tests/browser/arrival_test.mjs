@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A rider's arrival against a running server with a connected robot: signs in, presses a destination, waits until the page
-// says that the robot has arrived, and looks at the map. Pictures of both pages, wide and on a phone, are left in DIR.
+// says that the robot has arrived, and looks at the map; on the way it looks at the other pages. Pictures of all of them, wide
+// and on a phone, are left in DIR.
 // Usage: node tests/browser/arrival_test.mjs --base URL --name N --password P --destination LABEL --out DIR [--robot NAME]
 import { parseArgs } from 'node:util';
-import { kPhone, kWide, launch, openPage, shoot, signIn, sticksOut } from './browser.mjs';
+import { findings, kPhone, kWide, launch, openPage, shoot, signIn, sticksOut } from './browser.mjs';
 
 const kKnowsPlaceMs = 60_000;
 const kArrivalMs = 240_000;
@@ -64,6 +65,10 @@ async function drive(page) {
         pictured = true;
         await page.waitForTimeout(kUnderWayMs);
         await shootBoth(page, 'go');
+        for (const name of ['Tours', 'Robots', 'Settings', 'Go']) {
+          await open(page, name);
+          await shootBoth(page, name.toLowerCase());
+        }
       }
       active ||= phase !== 'asking';
     } else if (phase === 'refused' || (active && (phase === 'failed' || phase === 'stopped'))) {
@@ -76,9 +81,14 @@ async function drive(page) {
   throw new Error(`no arrival within ${kArrivalMs / 1000} s; the page says: ${shown}`);
 }
 
+async function open(page, name) {
+  await page.getByRole('navigation', { name: 'Pages' }).getByRole('link', { name }).click();
+  await page.waitForLoadState('networkidle');
+}
+
 /** The map of the real house: drawn, with the destination among its places. */
 async function lookAtTheMap(page) {
-  await page.getByRole('navigation', { name: 'Pages' }).getByRole('link', { name: 'Map' }).click();
+  await open(page, 'Map');
   const place = page
     .getByRole('button', { name: new RegExp(`^${escaped(values.destination)}`, 'i') })
     .first();
@@ -89,17 +99,24 @@ async function lookAtTheMap(page) {
   await shootBoth(page, 'map');
 }
 
-/** The page as it is, on a desk and on a phone, where nothing may stick out sideways. */
+/** The page as it is, on a desk and on a phone: nothing may stick out sideways, and axe-core may find nothing. */
 async function shootBoth(page, name) {
   await page.evaluate(() => scrollTo(0, 0));
   await page.waitForTimeout(300);
   await shoot(page, values.out, `${name}-desktop`);
+  await accessible(page, name);
   await page.setViewportSize(kPhone);
   await page.waitForTimeout(600);
   if (await sticksOut(page)) throw new Error(`the ${name} page can be scrolled sideways on a phone`);
   await shoot(page, values.out, `${name}-phone`);
+  await accessible(page, name);
   await page.setViewportSize(kWide);
   await page.waitForTimeout(300);
+}
+
+async function accessible(page, name) {
+  const found = await findings(page);
+  if (found.length > 0) throw new Error(`the ${name} page is not accessible:\n${found.join('\n')}`);
 }
 
 function escaped(text) {

@@ -49,9 +49,7 @@ export async function signIn(page, name, password) {
   await page.getByRole('navigation', { name: 'Pages' }).waitFor();
 }
 
-const kSerious = ['serious', 'critical'];
-
-/** Serious findings of axe-core on the page as it is, one line each. */
+/** Findings of axe-core on the page as it is, whatever their impact, one line each. */
 export async function findings(page) {
   // Evaluated through the debugger, so that the page's own content policy stays in force for the page.
   await page.evaluate(readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8'));
@@ -60,13 +58,12 @@ export async function findings(page) {
       runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'],
     }),
   );
-  return violations
-    .filter((one) => kSerious.includes(one.impact))
-    .flatMap((one) =>
-      one.nodes.map(
-        (node) => `${one.id}: ${node.html.slice(0, 140)} (${node.failureSummary?.replace(/\s+/g, ' ')})`,
-      ),
-    );
+  return violations.flatMap((one) =>
+    one.nodes.map(
+      (node) =>
+        `${one.id} (${one.impact}): ${node.html.slice(0, 140)} (${node.failureSummary?.replace(/\s+/g, ' ')})`,
+    ),
+  );
 }
 
 /** Whether the page can be scrolled sideways, which no width of screen should need. */

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The dashboard in a real browser against the pretended house of web/dev/mock-server.mjs.
-// Usage: node tests/browser/mock_test.mjs [FOLDER FOR SCREENSHOTS]     after web/build.sh
+// Usage: node tests/browser/mock_test.mjs [FOLDER FOR SCREENSHOTS [WORDS]]     after web/build.sh; WORDS: only checks that
+// have them in their name
 import assert from 'node:assert/strict';
 import { existsSync, mkdtempSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { largeGraph } from '../../web/dev/mock-large.mjs';
 import { startMock, kCamera } from '../../web/dev/mock-server.mjs';
 import {
   findings,
@@ -60,6 +62,16 @@ async function askAt(page, house, name) {
 
 async function phaseIs(page, phase) {
   await page.locator(`[data-testid=journey][data-phase=${phase}]`).waitFor();
+}
+
+/** The share of the viewport that STOP and what stays in view with it take. */
+function dockShare(page) {
+  return page.evaluate(() => {
+    const rail = document.querySelector('.rail');
+    const stays = getComputedStyle(rail).position === 'static' ? rail.querySelector('.stop-dock') : rail;
+    const { width, height } = stays.getBoundingClientRect();
+    return (width * height) / (innerWidth * innerHeight);
+  });
 }
 
 const checks = [
@@ -151,14 +163,21 @@ const checks = [
           { width: 844, height: 390 },
           { width: 640, height: 400 },
           { width: 320, height: 568 },
+          { width: 375, height: 540 },
+          { width: 320, height: 320 },
         ]) {
           await page.setViewportSize(size);
           await page.waitForTimeout(200); // dynamic viewport units follow a little later
           const box = await page.getByRole('button', { name: /^STOP/ }).boundingBox();
           const name = `${size.width} x ${size.height}`;
           assert.ok(box && box.y >= 0 && box.y + box.height <= size.height, `STOP is out of view at ${name}`);
-          assert.ok(box.width >= 200 && box.height >= 64, `STOP is small at ${name}`);
+          assert.ok(
+            box.width >= 200 && box.height >= Math.min(64, size.height / 6),
+            `STOP is small at ${name}`,
+          );
           assert.ok(!(await sticksOut(page)), `the page is wider than ${name}`);
+          const share = await dockShare(page);
+          assert.ok(size.height > 600 || share <= 0.25, `what stays in view takes ${share} of ${name}`);
           await shoot(page, out, `size-${size.width}x${size.height}`);
         }
         await page.getByRole('button', { name: /^STOP/ }).click();
@@ -614,6 +633,37 @@ const checks = [
     }),
   ],
   [
+    'of a map of 5,000 places only the rows in view are made, and few pictures asked for',
+    withHouse(async (page, house) => {
+      house.graph = largeGraph('m1', 5000);
+      await page.reload();
+      let pictures = 0;
+      page.on('request', (one) => (pictures += Number(one.url().includes('/thumbnail'))));
+      await tab(page, 'Map');
+      const list = page.getByRole('region', { name: 'Places', exact: true });
+      await list.getByText('5000 places').waitFor();
+      await list.getByRole('button', { name: 'Laboratory 16' }).waitFor();
+      await page.getByTestId('graph').locator('canvas').first().waitFor();
+      await page.waitForTimeout(500);
+      assert.ok((await list.getByRole('listitem').count()) < 30, 'rows out of view are made');
+      assert.ok(pictures < 100, `${pictures} pictures were asked for`);
+      await shoot(page, out, 'large-map');
+      // The tab key goes on to rows that were not made before, and a row with the focus stays.
+      await page.getByLabel('Find a place').focus();
+      for (let i = 0; i < 20; i += 1) await page.keyboard.press('Tab');
+      const row = page.locator('.long-list li:focus-within');
+      assert.equal(await row.getAttribute('aria-posinset'), '20');
+      assert.equal(await row.getAttribute('aria-setsize'), '5000');
+      await list.locator('.long-list').evaluate((one) => (one.scrollTop = 200_000));
+      await list.getByText('Near the').first().waitFor();
+      assert.equal(await row.getAttribute('aria-posinset'), '20');
+      await page.getByLabel('Find a place').fill('office 33');
+      await list.getByRole('button', { name: 'Office 33', exact: true }).click();
+      await page.getByRole('heading', { name: 'Office 33' }).waitFor();
+      await shoot(page, out, 'large-map-chosen');
+    }),
+  ],
+  [
     'a folder of pictures becomes a tour, and the tour a map',
     withHouse(async (page, house) => {
       const folder = mkdtempSync(join(tmpdir(), 'homeward-tour-'));
@@ -871,6 +921,7 @@ async function accessible() {
   assert.deepEqual(all, []);
 }
 
-await runChecks(checks);
+const wanted = process.argv[3] ?? '';
+await runChecks(checks.filter(([name]) => name.includes(wanted)));
 await browser.close();
 process.stdout.write(`screenshots: ${out}\n`);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Belief, Destination, Graph } from '../api/types';
-import { inSentence } from './words';
+import { indexOf } from './graph_index';
 
 export type Sureness = 'sure' | 'fairly sure' | 'unsure' | 'lost';
 
@@ -42,10 +42,7 @@ export function placeTitle(graph: Graph, place: string): string {
 }
 
 export function nameOf(graph: Graph, place: string): string | null {
-  const label = graph.places.find((one) => one.id === place)?.label;
-  if (label) return inSentence(label);
-  const destination = graph.destinations.find((one) => one.place === place);
-  return destination ? inSentence(destination.label) : null;
+  return indexOf(graph).names.get(place) ?? null;
 }
 
 /**
@@ -54,8 +51,9 @@ export function nameOf(graph: Graph, place: string): string | null {
  */
 export function destinationLabel(graph: Graph, destination: Destination): string {
   const { place, label } = destination;
-  const own = graph.places.find((one) => one.id === place)?.label.trim() ?? '';
-  const alone = graph.destinations.filter((one) => one.place === place).length === 1;
+  const { places, destinations_at } = indexOf(graph);
+  const own = places.get(place)?.label.trim() ?? '';
+  const alone = destinations_at.get(place)?.length === 1;
   return alone && own !== '' ? own : label;
 }
 
@@ -65,24 +63,5 @@ export function withArticle(name: string): string {
 }
 
 function nearestNamed(graph: Graph, place: string): string | null {
-  const neighbours = new Map<string, string[]>();
-  for (const edge of graph.edges) {
-    neighbours.set(edge.from, [...(neighbours.get(edge.from) ?? []), edge.to]);
-    neighbours.set(edge.to, [...(neighbours.get(edge.to) ?? []), edge.from]);
-  }
-  const seen = new Set([place]);
-  let ring = [place];
-  while (ring.length > 0) {
-    const next: string[] = [];
-    for (const one of ring)
-      for (const other of neighbours.get(one) ?? []) {
-        if (seen.has(other)) continue;
-        seen.add(other);
-        const name = nameOf(graph, other);
-        if (name !== null) return name;
-        next.push(other);
-      }
-    ring = next;
-  }
-  return null;
+  return indexOf(graph).nearest_names.get(place) ?? null;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Graph, LoggedEdit } from '../../api/types';
+import { indexOf } from '../../lib/graph_index';
 import { placeTitle } from '../../lib/whereabouts';
 
 /** What one request of a person changed on a map: undone and redone as a whole. */
@@ -47,7 +48,7 @@ const kVerbs: Readonly<Record<LoggedEdit['kind'], (text: string) => string>> = {
 };
 
 function titleOf(graph: Graph, image: string | null): string | null {
-  const place = graph.places.find((one) => image !== null && one.members.includes(image));
+  const place = image === null ? undefined : indexOf(graph).place_of_image.get(image);
   return place ? placeTitle(graph, place.id) : null;
 }
 

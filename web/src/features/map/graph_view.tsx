@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Core, ElementDefinition } from 'cytoscape';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import type { Belief, Graph } from '../../api/types';
 import { graphStyle } from './graph_style';
-import { drawnEdges, pictureShare, placeViews } from './place_views';
+import { showDetailInView } from './detail_in_view';
+import { PlaceMarks } from './place_marks';
+import { drawnEdges, pictureShare, placeViews, probabilities } from './place_views';
 import { proposedLines } from './shortcut_words';
 
 const kSize = 1000; // the unit square of the layout, in the drawing's own units
 const kMargin = 26;
+const kLargestPicturePx = 120;
+const kManyPlaces = 500; // from here on the drawing moves as a picture of itself
 
 interface Props {
   graph: Graph;
@@ -21,11 +25,12 @@ interface Props {
 /** The map as a drawing. Everything it offers is also in the list beside it, so it is hidden from screen readers. */
 export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
   const box = useRef<HTMLDivElement>(null);
-  const core = useRef<Core | null>(null);
+  const [drawing, setDrawing] = useState<Core | null>(null);
   const choose = useRef(onChoose);
   choose.current = onChoose;
-
-  const [made, setMade] = useState(0);
+  const diameter = useMemo(() => kSize * pictureShare(placeViews(graph)), [graph]);
+  const shares = useMemo(() => probabilities(belief), [belief]);
+  const look = useRef<{ map: string; zoom: number; pan: { x: number; y: number } } | null>(null);
 
   useEffect(() => {
     const container = box.current;
@@ -34,55 +39,60 @@ export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
     let wanted = true;
     void import('cytoscape').then(({ default: cytoscape }) => {
       if (!wanted) return;
-      const views = placeViews(graph, null);
-      const diameter = kSize * pictureShare(views);
+      const views = placeViews(graph);
       const placed = views.every((view) => view.x !== null && view.y !== null);
       leaveStylesToUs();
-      const drawing = cytoscape({
+      const made = cytoscape({
         container,
         elements: elementsOf(graph),
-        style: graphStyle(diameter, Math.min(container.clientWidth, container.clientHeight) / kSize),
+        style: graphStyle(diameter),
         layout: { name: placed ? 'preset' : 'cose', fit: true, padding: kMargin, animate: false },
         minZoom: 0.1,
-        maxZoom: 3,
+        maxZoom: Math.max(3, kLargestPicturePx / diameter),
         autoungrabify: true,
         boxSelectionEnabled: false,
+        textureOnViewport: views.length > kManyPlaces,
       });
-      drawing.on('tap', 'node', (event) => choose.current((event.target as { id(): string }).id()));
-      const unwatch = watchLook(drawing, container, diameter);
-      core.current = drawing;
-      setMade((n) => n + 1);
+      // A change of the map leaves what the reader looks at where it was.
+      if (look.current?.map === graph.map) made.viewport(look.current);
+      made.on('tap', 'node', (event) => choose.current((event.target as { id(): string }).id()));
+      const unwatch = watchLook(made, container, diameter);
+      const forget = showDetailInView(made, diameter);
+      setDrawing(made);
       destroy = () => {
+        look.current = { map: graph.map, zoom: made.zoom(), pan: { ...made.pan() } };
         unwatch();
-        core.current = null;
-        drawing.destroy();
+        forget();
+        setDrawing(null);
+        made.destroy();
       };
     });
     return () => {
       wanted = false;
       destroy?.();
     };
-  }, [graph]);
+  }, [graph, diameter]);
 
   useEffect(() => {
-    const drawing = core.current;
     if (!drawing) return;
     drawing.batch(() => {
-      for (const view of placeViews(graph, belief)) {
-        const node = drawing.$id(view.id);
-        node.data('belief', view.probability);
-        node.toggleClass('chosen', view.id === chosen);
-      }
-      drawing.edges().removeClass('way');
+      drawing.edges('.way').removeClass('way');
       way.forEach((to, i) => {
         const from = way[i - 1];
         if (from !== undefined) drawing.$id(from < to ? `${from}|${to}` : `${to}|${from}`).addClass('way');
       });
     });
-  }, [graph, belief, chosen, way, made]);
+  }, [drawing, way]);
+
+  useEffect(() => {
+    const node = drawing?.$id(chosen ?? '');
+    if (!drawing || !node?.nonempty()) return;
+    const { x, y } = node.position();
+    const { x1, x2, y1, y2 } = drawing.extent();
+    if (x < x1 || x > x2 || y < y1 || y > y2) drawing.center(node);
+  }, [drawing, chosen]);
 
   const zoom = (factor: number) => {
-    const drawing = core.current;
     if (!drawing) return;
     const centre = { x: drawing.width() / 2, y: drawing.height() / 2 };
     drawing.zoom({ level: drawing.zoom() * factor, renderedPosition: centre });
@@ -90,6 +100,7 @@ export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
   return (
     <div class="graph">
       <div class="graph-canvas" ref={box} aria-hidden="true" data-testid="graph" />
+      <PlaceMarks drawing={drawing} diameter={diameter} shares={shares} chosen={chosen} />
       <div class="graph-tools" role="group" aria-label="Size of the drawing">
         <button type="button" aria-label="Larger" onClick={() => zoom(1.4)}>
           +
@@ -97,11 +108,7 @@ export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
         <button type="button" aria-label="Smaller" onClick={() => zoom(1 / 1.4)}>
           −
         </button>
-        <button
-          type="button"
-          aria-label="Show all"
-          onClick={() => void core.current?.fit(undefined, kMargin)}
-        >
+        <button type="button" aria-label="Show all" onClick={() => void drawing?.fit(undefined, kMargin)}>
           ⤢
         </button>
       </div>
@@ -112,12 +119,15 @@ export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
 /** Follows the size of the container and the change between light and dark; returns its end. */
 function watchLook(drawing: Core, container: HTMLElement, diameter: number): () => void {
   const dark = matchMedia('(prefers-color-scheme: dark)');
-  const restyle = () => void drawing.style(graphStyle(diameter, drawing.zoom()));
+  const restyle = () => void drawing.style(graphStyle(diameter));
   dark.addEventListener('change', restyle);
+  let size = `${container.clientWidth} x ${container.clientHeight}`;
   const sizes = new ResizeObserver(() => {
+    const present = `${container.clientWidth} x ${container.clientHeight}`;
+    if (present === size) return; // an observer tells the size once at first
+    size = present;
     drawing.resize();
     drawing.fit(undefined, kMargin);
-    restyle();
   });
   sizes.observe(container);
   return () => {
@@ -139,11 +149,10 @@ function leaveStylesToUs(): void {
 }
 
 function elementsOf(graph: Graph): ElementDefinition[] {
-  const nodes = placeViews(graph, null).map((view) => ({
+  const nodes = placeViews(graph).map((view) => ({
     data: {
       id: view.id,
       ...(view.named ? { name: view.title } : {}),
-      belief: 0,
       picture: calls.placeThumbnailUrl(graph.map, view.id, graph.revision),
     },
     position: { x: kSize * (view.x ?? 0), y: kSize * (view.y ?? 0) },

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Graph, Hypothesis } from '../../api/types';
+import { indexOf } from '../../lib/graph_index';
 import { percent } from '../../lib/words';
 
 // Places beside each other share most of what they show: that they look like one is no question.
@@ -12,10 +13,11 @@ const kEnoughSupport = 0.8;
  * be one. What was decided, or lies side by side on the way, is left out; the likeliest stand first.
  */
 export function openPairs(graph: Graph): Hypothesis[] {
-  const place_of = new Map(graph.places.flatMap((one) => one.members.map((image) => [image, one.id])));
+  const { place_of_image } = indexOf(graph);
   return graph.hypotheses
     .filter((one) => {
-      const [a, b] = [place_of.get(one.prototype_a), place_of.get(one.prototype_b)];
+      const a = place_of_image.get(one.prototype_a)?.id;
+      const b = place_of_image.get(one.prototype_b)?.id;
       if (one.decision !== 'undecided' || one.by === 'person' || a === undefined || b === undefined)
         return false;
       return !around(graph, a, kBesideSteps).has(b);
@@ -25,14 +27,10 @@ export function openPairs(graph: Graph): Hypothesis[] {
 
 /** The places that are so many ways from one at most, itself too. */
 function around(graph: Graph, place: string, steps: number): ReadonlySet<string> {
+  const { neighbours } = indexOf(graph);
   const found = new Set([place]);
-  for (let step = 0; step < steps; ++step) {
-    const before = new Set(found);
-    for (const { from, to } of graph.edges) {
-      if (before.has(from)) found.add(to);
-      if (before.has(to)) found.add(from);
-    }
-  }
+  for (let step = 0; step < steps; ++step)
+    for (const one of [...found]) for (const other of neighbours.get(one) ?? []) found.add(other);
   return found;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+import { useMemo } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import type { Graph } from '../../api/types';
+import { indexOf } from '../../lib/graph_index';
 import { placeTitle } from '../../lib/whereabouts';
 import { count } from '../../lib/words';
 import { openBecause, openPairs } from './look_alike_words';
@@ -9,10 +11,10 @@ const kShown = 12;
 
 /** Pairs of places that may be one and that nothing has decided: two pictures side by side, and why. */
 export function LookAlikes({ graph }: { graph: Graph }) {
-  const open = openPairs(graph);
+  const open = useMemo(() => openPairs(graph), [graph]);
   if (open.length === 0) return null;
   const titleOf = (image: string) => {
-    const place = graph.places.find((one) => one.members.includes(image));
+    const place = indexOf(graph).place_of_image.get(image);
     return place ? placeTitle(graph, place.id) : 'A place';
   };
   return (

@@ -8,6 +8,7 @@ import type { Edit, Graph, MapInfo } from '../../api/types';
 import { Notice, Waiting } from '../../components/notice';
 import { chosen, chosenMap, connected, maps } from '../../lib/chosen';
 import { useCommand } from '../../lib/command';
+import { indexOf } from '../../lib/graph_index';
 import { atLeast } from '../../lib/roles';
 import { navigate } from '../../lib/router';
 import { placeTitle } from '../../lib/whereabouts';
@@ -103,8 +104,10 @@ function Drawn({ map, graph }: { map: MapInfo; graph: Graph }) {
   const robot = chosen.value?.map === map.id ? chosen.value : null;
   const belief = robot?.online ? robot.belief : null;
   const mission = robot?.mission && isActive(robot.mission.state) ? robot.mission : null;
-  const way = useMemo(() => mission?.path.slice(Math.max(0, mission.path_index - 1)) ?? [], [mission]);
-  const place = graph.places.find((one) => one.id === wantedPlace.value) ?? null;
+  // Each event brings a new mission that mostly says the same.
+  const ahead = mission?.path.slice(Math.max(0, mission.path_index - 1)).join('\n') ?? '';
+  const way = useMemo(() => ahead.split('\n'), [ahead]);
+  const place = indexOf(graph).places.get(wantedPlace.value ?? '') ?? null;
   const mayEdit = atLeast(me.value?.role, 'installer');
   const barrier = robot ? hindrance(robot, connected.value, atLeast(me.value?.role, 'rider')) : 'none';
 

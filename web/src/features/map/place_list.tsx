@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-import { useState } from 'preact/hooks';
+import { useMemo, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import type { Belief, Graph } from '../../api/types';
 import { TextField } from '../../components/field';
+import { LongList } from '../../components/long_list';
 import { count, percent } from '../../lib/words';
-import { matching, placeViews } from './place_views';
+import { matching, placeViews, probabilities } from './place_views';
 
 interface Props {
   graph: Graph;
@@ -13,10 +14,14 @@ interface Props {
   onChoose: (place: string) => void;
 }
 
+const kRowPx = 60;
+const kToldShare = 0.02;
+
 /** Every place of the map, to be found by name and chosen. */
 export function PlaceList({ graph, belief, chosen, onChoose }: Props) {
   const [text, setText] = useState('');
-  const found = matching(placeViews(graph, belief), text);
+  const found = useMemo(() => matching(placeViews(graph), text), [graph, text]);
+  const shares = probabilities(belief);
   return (
     <section class="card stack" aria-label="Places">
       <div class="row apart">
@@ -26,9 +31,14 @@ export function PlaceList({ graph, belief, chosen, onChoose }: Props) {
         </span>
       </div>
       <TextField label="Find a place" value={text} onInput={setText} required={false} />
-      <ul class="place-list" tabIndex={-1}>
-        {found.map((view) => (
-          <li key={view.id}>
+      <LongList
+        key={text} // what is found begins at its top
+        items={found}
+        keyOf={(view) => view.id}
+        row_px={kRowPx}
+        row={(view) => {
+          const share = shares.get(view.id) ?? 0;
+          return (
             <button
               type="button"
               class="place-row"
@@ -37,11 +47,11 @@ export function PlaceList({ graph, belief, chosen, onChoose }: Props) {
             >
               <img src={calls.placeThumbnailUrl(graph.map, view.id, graph.revision)} alt="" loading="lazy" />
               <span class={view.named ? 'place-title' : 'soft'}>{view.title}</span>
-              {view.probability > 0.02 && <span class="pill warn">Chair {percent(view.probability)}</span>}
+              {share > kToldShare && <span class="pill warn">Chair {percent(share)}</span>}
             </button>
-          </li>
-        ))}
-      </ul>
+          );
+        }}
+      />
     </section>
   );
 }

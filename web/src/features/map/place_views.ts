@@ -1,45 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Belief, Edge, Graph } from '../../api/types';
-import { nameOf, placeTitle } from '../../lib/whereabouts';
+import { indexOf } from '../../lib/graph_index';
+import { placeTitle } from '../../lib/whereabouts';
 
 /** A place as the list and the drawing show it. */
 export interface PlaceView {
   id: string;
   title: string;
   named: boolean;
-  probability: number; // of the robot being there; 0 when unknown
+  sought: string; // what a search looks through
   x: number | null;
   y: number | null;
 }
 
-/** All places: those with a name first, by name, then the rest in the order of the map. */
-export function placeViews(graph: Graph, belief: Belief | null): PlaceView[] {
-  const views = graph.places.map((place) => ({
-    id: place.id,
-    title: placeTitle(graph, place.id),
-    named: nameOf(graph, place.id) !== null,
-    probability: probabilityOf(belief, place.id),
-    x: place.x,
-    y: place.y,
-  }));
-  return views.sort((a, b) => {
-    if (a.named !== b.named) return a.named ? -1 : 1;
-    return a.named ? a.title.localeCompare(b.title) : 0;
-  });
+const known = new WeakMap<Graph, readonly PlaceView[]>();
+const order = new Intl.Collator();
+
+/** All places: those with a name first, by name, then the rest in the order of the map. Made once for each graph. */
+export function placeViews(graph: Graph): readonly PlaceView[] {
+  let views = known.get(graph);
+  if (!views) known.set(graph, (views = viewsOf(graph)));
+  return views;
 }
 
-function probabilityOf(belief: Belief | null, place: string): number {
-  if (!belief || belief.lost) return 0;
-  const found = belief.top.find((one) => one.place === place)?.probability;
-  return found ?? (belief.place === place ? (belief.probability ?? 0) : 0);
+function viewsOf(graph: Graph): readonly PlaceView[] {
+  const { names } = indexOf(graph);
+  const views = graph.places.map(({ id, x, y }) => {
+    const title = placeTitle(graph, id);
+    return { id, title, named: names.has(id), sought: `${title} ${id}`.toLowerCase(), x, y };
+  });
+  const named = views.filter((one) => one.named).sort((a, b) => order.compare(a.title, b.title));
+  return [...named, ...views.filter((one) => !one.named)];
+}
+
+/** How probable it is for each place that a robot is there; places that the belief does not tell of are left out. */
+export function probabilities(belief: Belief | null): ReadonlyMap<string, number> {
+  const shares = new Map<string, number>();
+  if (!belief || belief.lost) return shares;
+  if (belief.place !== null) shares.set(belief.place, belief.probability ?? 0);
+  for (const { place, probability } of belief.top) shares.set(place, probability);
+  return shares;
 }
 
 /** Places whose title or id holds every word of `text`. */
-export function matching(views: readonly PlaceView[], text: string): PlaceView[] {
+export function matching(views: readonly PlaceView[], text: string): readonly PlaceView[] {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
-  return views.filter((view) =>
-    words.every((word) => `${view.title} ${view.id}`.toLowerCase().includes(word)),
-  );
+  return words.length === 0
+    ? views
+    : views.filter((view) => words.every((word) => view.sought.includes(word)));
 }
 
 /** One way out of a place; two directed edges between the same places are one way. */
@@ -109,12 +117,24 @@ export function drawnEdges(graph: Graph): Line[] {
 
 /** A diameter at which most pictures of places do not overlap, as a share of the drawing's width. */
 export function pictureShare(views: readonly PlaceView[]): number {
-  const points = views.flatMap((view) =>
-    view.x === null || view.y === null ? [] : [{ x: view.x, y: view.y }],
-  );
-  const nearest = points
-    .map((a) => Math.min(...points.filter((b) => b !== a).map((b) => Math.hypot(a.x - b.x, a.y - b.y)), 1))
-    .sort((a, b) => a - b);
+  const points = views.flatMap(({ x, y }) => (x === null || y === null ? [] : [{ x, y }]));
+  const nearest = nearestDistances(points).sort((a, b) => a - b);
   const typical = nearest[Math.floor(nearest.length / 4)] ?? 0.2;
-  return Math.min(0.14, Math.max(0.03, 0.85 * typical));
+  const least = Math.min(0.03, 0.3 / Math.sqrt(points.length));
+  return Math.min(0.14, Math.max(least, 0.85 * typical));
+}
+
+/** The distance of each point to its nearest other, at most 1; by a sweep, as points beyond the nearest in x alone need no look. */
+function nearestDistances(points: readonly { x: number; y: number }[]): number[] {
+  const sorted = [...points].sort((a, b) => a.x - b.x);
+  return sorted.map((a, i) => {
+    let nearest = 1;
+    for (const step of [-1, 1])
+      for (let j = i + step; ; j += step) {
+        const b = sorted[j];
+        if (!b || Math.abs(b.x - a.x) >= nearest) break;
+        nearest = Math.min(nearest, Math.hypot(a.x - b.x, a.y - b.y));
+      }
+    return nearest;
+  });
 }

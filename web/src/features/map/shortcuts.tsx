@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+import { useMemo, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import type { Edit, Graph, Shortcut } from '../../api/types';
 import { placeTitle } from '../../lib/whereabouts';
+import { count } from '../../lib/words';
 import { Outcome, type OutcomeOf } from './outcome';
 import { evidenceOf, shortcutsAt, shortcutsToShow } from './shortcut_words';
+
+const kShown = 12; // at first, and with each press
 
 const kSaid: Readonly<Record<Shortcut['state'], string>> = {
   proposed: 'Proposed',
@@ -22,8 +26,13 @@ interface Props {
 
 /** Straight ways that no tour drove: two pictures, the evidence in words, and the decision. */
 export function Shortcuts({ graph, place, mayEdit, busy, outcome, onEdit }: Props) {
-  const shown = place === null ? shortcutsToShow(graph) : shortcutsAt(graph, place);
-  if (shown.length === 0) return null;
+  const [most, setMost] = useState(kShown);
+  const all = useMemo(
+    () => (place === null ? shortcutsToShow(graph) : shortcutsAt(graph, place)),
+    [graph, place],
+  );
+  if (all.length === 0) return null;
+  const shown = all.slice(0, most);
   const title = place === null ? 'Shortcuts' : 'Shortcuts from here';
   const decide = (one: Shortcut, accept: boolean) =>
     onEdit(
@@ -91,6 +100,11 @@ export function Shortcuts({ graph, place, mayEdit, busy, outcome, onEdit }: Prop
           );
         })}
       </ul>
+      {all.length > most && (
+        <button type="button" class="button" onClick={() => setMost(most + kShown)}>
+          Show more of {count(all.length, 'shortcut')}
+        </button>
+      )}
     </section>
   );
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Graph, Job, Reason } from '../../api/types';
+import { indexOf } from '../../lib/graph_index';
 import { placeTitle } from '../../lib/whereabouts';
 import { reasonText } from '../../words/reasons';
 
@@ -56,7 +57,7 @@ export function noteWords(job: Job, graph: Graph | null): string {
 export function unnamedPlaces(job: Job, graph: Graph | null): string[] {
   const places = job.notes.flatMap(all).map(numberedPlace);
   return places.filter(
-    (one): one is string => one !== null && (graph?.places.some((p) => p.id === one) ?? false),
+    (one): one is string => one !== null && graph !== null && indexOf(graph).places.has(one),
   );
 }
 
