@@ -72,7 +72,9 @@ struct RosbridgeServer::Impl {
       stream.async_accept(request, [self = shared_from_this()](beast::error_code error) {
         if (error) return self->end();
         ++self->impl.connections;
+        self->open = true;
         self->read();
+        self->write();
       });
     }
 
@@ -128,12 +130,12 @@ struct RosbridgeServer::Impl {
     }
 
     void close() {
-      if (std::exchange(closing, true)) return;
+      if (!open || std::exchange(closing, true)) return;
       stream.async_close(websocket::close_code::normal, [self = shared_from_this()](beast::error_code) {});
     }
 
     void write() {
-      if (writing || closing || out.empty()) return;
+      if (!open || writing || closing || out.empty()) return;
       writing = true;
       sending = std::move(out.front().text);
       out.pop_front();
@@ -156,6 +158,7 @@ struct RosbridgeServer::Impl {
     std::deque<Due> in;
     std::deque<Waiting> out;
     std::string sending;
+    bool open = false;  // the answer to the handshake is out
     bool writing = false;
     bool closing = false;
     std::size_t fragment_bytes = 0;
