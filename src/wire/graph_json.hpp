@@ -21,7 +21,7 @@ nlohmann::json graph_to_json(const map::TopologicalMap& map, const MapId& id,
 /// The entity tag of a revision, with its quotes: "r12".
 std::string revision_tag(std::int64_t revision);
 
-/// The revision in an If-Match header ("r12", with or without quotes). Errors: kInvalidInput.
+/// The revision in an If-Match header ("r12", with or without quotes, also weak). Errors: kInvalidInput.
 Result<std::int64_t> revision_from_tag(const std::string& tag);
 
 }  // namespace homeward::wire

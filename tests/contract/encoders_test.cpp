@@ -227,7 +227,8 @@ TEST(GraphExport, KnowsThreeFormats) {
 TEST(RevisionTag, IsReadBackWithAndWithoutQuotes) {
   EXPECT_EQ(revision_from_tag(revision_tag(12)).value(), 12);
   EXPECT_EQ(revision_from_tag("r3").value(), 3);
-  for (const char* wrong : {"", "r", "3", "\"r3", "r3x", "r-1", "W/\"r3\"", "*"}) {
+  EXPECT_EQ(revision_from_tag("W/\"r4\"").value(), 4) << "as of an answer that was compressed";
+  for (const char* wrong : {"", "r", "3", "\"r3", "r3x", "r-1", "W/", "W/\"r3", "*"}) {
     EXPECT_EQ(revision_from_tag(wrong).error().code, ErrorCode::kInvalidInput) << wrong;
   }
 }
