@@ -27,7 +27,10 @@ namespace {
 
 constexpr int kRequestWorkers = 4;
 constexpr std::size_t kRequestQueue = 256;
+constexpr int kRequestNiceness = 5;  // behind the pictures of those who drive
 constexpr std::size_t kHeavyQueue = 64;
+constexpr std::size_t kBulkQueue = 4;
+constexpr int kBulkNiceness = 10;  // as builds
 constexpr std::size_t kJournalQueue = 100'000;
 
 int threads_of(const AppConfig& config) {
@@ -77,8 +80,9 @@ struct App::Parts {
   Parts(const AppConfig& config, std::unique_ptr<db::Store> opened, const Clock& clock_in)
       : clock(clock_in),
         store(std::move(opened)),
-        workers(kRequestWorkers, kRequestQueue),
+        workers(kRequestWorkers, kRequestQueue, kRequestNiceness),
         heavy(threads_of(config), kHeavyQueue),
+        bulk(1, kBulkQueue, kBulkNiceness),
         journal(1, kJournalQueue),
         access(config.allowed_hosts, config.trusted_proxies),
         files(config.web),
@@ -88,7 +92,7 @@ struct App::Parts {
         maps(*store, events, clock),
         driving(*store, maps, events, heavy, journal, clock, config.longest_mission_s),
         jobs(*store, maps, events, clock, threads_of(config)),
-        front({router, access, files, authenticator, idempotency, metrics, workers, heavy, passwords, clock}) {
+        front({router, access, files, authenticator, idempotency, metrics, workers, heavy, bulk, passwords, clock}) {
     driving.when_arrived([this](const db::Drive& drive) { jobs.add_drive(drive); });
     add_account_routes(router, authenticator, *store);
     add_user_routes(router, authenticator, *store, clock);
@@ -110,6 +114,7 @@ struct App::Parts {
     passwords.stop();
     workers.stop();
     heavy.stop();
+    bulk.stop();
     driving.keep_what_is_left();
     journal.finish();
   }
@@ -179,6 +184,7 @@ struct App::Parts {
     passwords.work_off();
     workers.work_off();
     heavy.work_off();
+    bulk.work_off();
     journal.work_off();  // what the others have given it
     jobs.work_off();     // and what that has given them
   }
@@ -189,6 +195,7 @@ struct App::Parts {
   Metrics metrics;
   WorkPool workers;
   WorkPool heavy;
+  WorkPool bulk;
   WorkPool journal;
   PasswordQueue passwords;
   AccessPolicy access;

@@ -89,13 +89,17 @@ void AppFront::answer(std::shared_ptr<Request> request, Reply reply) {
   const bool queued = queue(route->operation.lane, request->remote, [this, request, route, reply] {
     // And again: while it waited a role may have been taken away.
     const auto now = parts_.authenticator.identify(*request);
-    reply(now ? checked(*request, *route, *now) : problem_of(now));
+    Response response = now ? checked(*request, *route, *now) : problem_of(now);
+    // Here, not on the socket thread: to give a gigabyte back takes a while.
+    std::string().swap(request->body);
+    reply(std::move(response));
   });
   if (!queued) reply(problem({ErrorCode::kOverloaded, "The server is busy; try again in a second.", request->path}));
 }
 
 bool AppFront::queue(Lane lane, const std::string& address, WorkPool::Task task) {
   if (lane == Lane::kPassword) return parts_.passwords.try_run(address, std::move(task));
+  if (lane == Lane::kBulk) return parts_.bulk.try_run(std::move(task));
   return (lane == Lane::kHeavy ? parts_.heavy : parts_.workers).try_run(std::move(task));
 }
 

@@ -33,6 +33,8 @@ struct HttpServer::State {
 
   void run();
   asio::awaitable<void> accept_all();
+  void begin(tcp::socket socket);
+  void accept_waiting();
   void tick(const std::shared_ptr<asio::steady_timer>& timer, int period_ms,
             const std::shared_ptr<std::function<void()>>& call);
   void close_unwelcome();
@@ -50,6 +52,26 @@ struct HttpServer::State {
   bool ending = false;  // socket thread alone
 };
 
+void HttpServer::State::begin(tcp::socket socket) {
+  asio::co_spawn(
+      context, serve_connection({front, limits, context, open, sockets, ending}, beast::tcp_stream(std::move(socket))),
+      asio::detached);
+}
+
+// Connections that wait behind the one that was accepted. One at a time would be one for each round of all that is
+// ready: fewer than a flood opens while large answers are written, and who comes to stop a robot would wait behind
+// them.
+void HttpServer::State::accept_waiting() {
+  constexpr int kAtOnce = 64;
+  for (int i = 0; i < kAtOnce && acceptor.is_open(); ++i) {
+    error_code error;
+    tcp::socket socket(context);
+    acceptor.accept(socket, error);
+    if (error) return;
+    begin(std::move(socket));
+  }
+}
+
 asio::awaitable<void> HttpServer::State::accept_all() {
   while (acceptor.is_open()) {
     error_code error;
@@ -59,10 +81,8 @@ asio::awaitable<void> HttpServer::State::accept_all() {
       if (error == asio::error::operation_aborted) co_return;
       short_of_something = static_cast<bool>(error);
       if (!error) {
-        asio::co_spawn(
-            context,
-            serve_connection({front, limits, context, open, sockets, ending}, beast::tcp_stream(std::move(socket))),
-            asio::detached);
+        begin(std::move(socket));
+        accept_waiting();
       }
     } catch (const std::exception& exception) {
       spdlog::error("a connection could not be taken: {}", exception.what());
@@ -133,6 +153,7 @@ Result<std::unique_ptr<HttpServer>> HttpServer::start(const std::string& address
   if (!error) state.acceptor.set_option(asio::socket_base::reuse_address(true), error);
   if (!error) state.acceptor.bind(endpoint, error);
   if (!error) state.acceptor.listen(asio::socket_base::max_listen_connections, error);
+  if (!error) state.acceptor.non_blocking(true, error);
   if (error) return fail(ErrorCode::kIo, "Cannot listen on " + where + ": " + error.message() + ".", where);
   state.port = state.acceptor.local_endpoint().port();
   asio::co_spawn(state.context, state.accept_all(), asio::detached);

@@ -61,7 +61,7 @@ inline constexpr std::array kOperations = [] {
       Operation{"undo_edit", "POST", "/api/v1/maps/{map}/undo", kInstaller, Lane::kWork, kMaxJsonBody},
       Operation{"redo_edit", "POST", "/api/v1/maps/{map}/redo", kInstaller, Lane::kWork, kMaxJsonBody},
       Operation{"export_map", "GET", "/api/v1/maps/{map}/export", kViewer, Lane::kWork, kMaxJsonBody},
-      Operation{"import_map", "POST", "/api/v1/maps/import", kInstaller, Lane::kHeavy, kMaxMapBody},
+      Operation{"import_map", "POST", "/api/v1/maps/import", kInstaller, Lane::kBulk, kMaxMapBody},
       Operation{"localise", "POST", "/api/v1/maps/{map}/localise", kViewer, Lane::kHeavy, kMaxImageBody},
       Operation{"get_route", "GET", "/api/v1/maps/{map}/route", kViewer, Lane::kWork, kMaxJsonBody},
       Operation{"get_job", "GET", "/api/v1/jobs/{job}", kViewer, Lane::kWork},

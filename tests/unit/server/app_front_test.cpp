@@ -18,14 +18,15 @@ class AppFrontTest : public ::testing::Test {
  protected:
   void SetUp() override {
     db::Token token;
-    token.name = "viewer";
+    token.name = "installer";
     token.hash = db::secret_hash("secret");
-    token.role = wire::Role::kViewer;
+    token.role = wire::Role::kInstaller;
     ASSERT_TRUE(store_->add_token(token));
     ASSERT_TRUE(authenticator_.load());
     const auto answer = [](Request&) { return empty_response(202); };
     router_.add({operation("stop_robot"), answer});
     router_.add({operation("list_robots"), answer});
+    router_.add({operation("import_map"), answer});
   }
   std::shared_ptr<Request> request(const std::string& method, const std::string& path) {
     auto asked = std::make_shared<Request>();
@@ -46,9 +47,10 @@ class AppFrontTest : public ::testing::Test {
   Metrics metrics_;
   WorkPool workers_{1, 4};
   WorkPool heavy_{1, 4};
+  WorkPool bulk_{1, 4};
   PasswordQueue passwords_;
   AppFront front_{
-      {router_, access_, files_, authenticator_, idempotency_, metrics_, workers_, heavy_, passwords_, clock_}};
+      {router_, access_, files_, authenticator_, idempotency_, metrics_, workers_, heavy_, bulk_, passwords_, clock_}};
 };
 
 TEST_F(AppFrontTest, AStopIsAnsweredAtOnceWhileAllWorkersAreTaken) {
@@ -87,6 +89,29 @@ TEST_F(AppFrontTest, WhatFindsNoRoomInTheQueueIsTurnedAwayAndAStopIsNot) {
   EXPECT_EQ(stopped, 202);
   let_go.count_down();
   workers_.work_off();
+}
+
+TEST_F(AppFrontTest, AWholeMapTakesNoWorkerOfPicturesAndItsBodyIsGivenBack) {
+  std::latch taken(1);
+  std::latch let_go(1);
+  ASSERT_TRUE(bulk_.try_run([&] {
+    taken.count_down();
+    let_go.wait();
+  }));
+  taken.wait();
+  std::atomic<int> imported = 0;
+  const auto map = request("POST", "/api/v1/maps/import");
+  map->body = std::string(1'000'000, 'm');
+  front_.answer(map, [&](const Response& response) {
+    EXPECT_EQ(map->body.capacity(), std::string().capacity());
+    imported = response.status;
+  });
+  heavy_.work_off();
+  workers_.work_off();
+  EXPECT_EQ(imported, 0) << "one at a time";
+  let_go.count_down();
+  bulk_.work_off();
+  EXPECT_EQ(imported, 202);
 }
 
 }  // namespace
