@@ -12,7 +12,7 @@ import { launch, openPage, signIn } from '../../browser/browser.mjs';
 
 const { values } = parseArgs({ options: { places: { type: 'string', default: '5000' } } });
 const places = Number(values.places);
-const kRuns = 1;
+const kRuns = 9;
 const kBeliefs = 60;
 
 const dist = fileURLToPath(new URL('../../../web/dist', import.meta.url));
@@ -23,18 +23,20 @@ const browser = await launch();
 const page = await openPage(browser, { base: mock.url });
 await signIn(page, 'anna', 'homeward');
 
-const rows = page.getByRole('region', { name: 'Places' }).getByRole('listitem');
+// Noted in the page itself: what is asked from outside waits for what the page is doing.
+await page.addInitScript(() => {
+  const look = () => {
+    if (!document.querySelector('.place-row')) return requestAnimationFrame(look);
+    return setTimeout(() => (globalThis.firstListAt = performance.now()));
+  };
+  requestAnimationFrame(look);
+});
 const first_list_ms = [];
 for (let i = 0; i < kRuns; i += 1) {
   await page.goto('/map', { waitUntil: 'commit' });
-  await rows.first().waitFor();
-  first_list_ms.push(
-    await page.evaluate(
-      () => new Promise((done) => requestAnimationFrame(() => setTimeout(() => done(performance.now())))),
-    ),
-  );
   await page.getByTestId('graph').locator('canvas').first().waitFor();
   await page.waitForTimeout(2000);
+  first_list_ms.push(await page.evaluate(() => globalThis.firstListAt));
 }
 
 const field = page.getByLabel('Find a place');

@@ -10,7 +10,7 @@ import { drawnEdges, pictureShare, placeViews, probabilities } from './place_vie
 import { proposedLines } from './shortcut_words';
 
 const kSize = 1000; // the unit square of the layout, in the drawing's own units
-const kMargin = 26;
+const kMarginPx = { x: 56, y: 30 }; // names stand below their places and reach beyond them
 const kLargestPicturePx = 120;
 const kManyPlaces = 500; // from here on the drawing moves as a picture of itself
 
@@ -37,7 +37,8 @@ export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
     if (!container) return;
     let destroy: (() => void) | null = null;
     let wanted = true;
-    void import('cytoscape').then(({ default: cytoscape }) => {
+    // The list is shown first: to draw thousands of places takes a while.
+    void Promise.all([import('cytoscape'), nextPaint()]).then(([{ default: cytoscape }]) => {
       if (!wanted) return;
       const views = placeViews(graph);
       const placed = views.every((view) => view.x !== null && view.y !== null);
@@ -46,7 +47,7 @@ export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
         container,
         elements: elementsOf(graph),
         style: graphStyle(diameter),
-        layout: { name: placed ? 'preset' : 'cose', fit: true, padding: kMargin, animate: false },
+        layout: { name: placed ? 'preset' : 'cose', fit: false, animate: false },
         minZoom: 0.1,
         maxZoom: Math.max(3, kLargestPicturePx / diameter),
         autoungrabify: true,
@@ -55,6 +56,7 @@ export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
       });
       // A change of the map leaves what the reader looks at where it was.
       if (look.current?.map === graph.map) made.viewport(look.current);
+      else showAll(made, diameter);
       made.on('tap', 'node', (event) => choose.current((event.target as { id(): string }).id()));
       const unwatch = watchLook(made, container, diameter);
       const forget = showDetailInView(made, diameter);
@@ -108,12 +110,38 @@ export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
         <button type="button" aria-label="Smaller" onClick={() => zoom(1 / 1.4)}>
           −
         </button>
-        <button type="button" aria-label="Show all" onClick={() => void drawing?.fit(undefined, kMargin)}>
+        <button type="button" aria-label="Show all" onClick={() => drawing && showAll(drawing, diameter)}>
           ⤢
         </button>
       </div>
     </div>
   );
+}
+
+/** Once the page as it is has been painted. */
+function nextPaint(): Promise<void> {
+  return new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+}
+
+/** All places in view. Cytoscape's own fit measures every name and line of the drawing. */
+function showAll(drawing: Core, diameter: number): void {
+  const points = drawing.nodes().map((node) => node.position());
+  if (points.length === 0) return;
+  const [x1, y1] = [Math.min(...points.map((one) => one.x)), Math.min(...points.map((one) => one.y))];
+  const [x2, y2] = [Math.max(...points.map((one) => one.x)), Math.max(...points.map((one) => one.y))];
+  const zoom = Math.min(
+    (drawing.width() - 2 * kMarginPx.x) / (x2 - x1 + diameter),
+    (drawing.height() - 2 * kMarginPx.y) / (y2 - y1 + diameter),
+    drawing.maxZoom(),
+  );
+  if (!(zoom > 0)) return; // the container has no size yet
+  drawing.viewport({
+    zoom,
+    pan: {
+      x: (drawing.width() - zoom * (x1 + x2)) / 2,
+      y: (drawing.height() - zoom * (y1 + y2)) / 2,
+    },
+  });
 }
 
 /** Follows the size of the container and the change between light and dark; returns its end. */
@@ -127,7 +155,7 @@ function watchLook(drawing: Core, container: HTMLElement, diameter: number): () 
     if (present === size) return; // an observer tells the size once at first
     size = present;
     drawing.resize();
-    drawing.fit(undefined, kMargin);
+    showAll(drawing, diameter);
   });
   sizes.observe(container);
   return () => {
