@@ -2,9 +2,10 @@
 """The agent with a rosbridge as robots have it: one of ROS 1, unmodified, a roscore, and the simulated robot as a ROS node.
 
 It needs ../shared/peers/rosbridge beside the checkout and the Debian packages that its start.sh names, and is skipped
-where they are absent. A joystick is enough for most of it; one mission needs the server too.
-usage: real_rosbridge_test.py BIN_FOLDER WEB_FOLDER
+where they are absent. A joystick is enough for most of it; missions need the server too.
+usage: real_rosbridge_test.py BIN_FOLDER WEB_FOLDER [--profile disc|chair] [--to ROOM ...] [TEST ...]
 """
+import argparse
 import json
 import os
 import pathlib
@@ -20,7 +21,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "deploy"))
 import demo  # noqa: E402
 import taught_house  # noqa: E402
-from rest_client import Server  # noqa: E402
+from rest_client import Failed, Server  # noqa: E402
 
 PEER = ROOT.parent / "shared" / "peers" / "rosbridge"
 PYTHON = "/usr/bin/python3"  # Debian's, which has ROS's packages
@@ -28,6 +29,8 @@ PORT = 18491
 ROBOT_PORT, BRIDGE_PORT, SLOW_PORT, MASTER_PORT = PORT + 1, PORT + 2, PORT + 3, PORT + 4
 SLOW_BYTES_PER_S = 400_000  # less than the robot's pictures take
 LATE_S = 0.8  # a motion so long after the stick was let go is an old one: 0.3 s of its age, 0.3 s of a hand, and some
+BODIES = {"disc": {"radius_m": 0.35}, "chair": {"rectangle": {"front_m": 0.85, "back_m": 0.25, "width_m": 0.65}}}
+LOSSY_BYTES_PER_S, LOSSY_JITTER_S, LOSSY_SHARE = 500_000, 0.2, 0.05
 TYPES = {"cmd_vel": "geometry_msgs/Twist", "odom": "nav_msgs/Odometry", "scan": "sensor_msgs/LaserScan",
          "image": "sensor_msgs/CompressedImage"}
 
@@ -59,7 +62,7 @@ class RealRosbridge(unittest.TestCase):
         self.environment = {**os.environ, "ROS_MASTER_URI": f"http://127.0.0.1:{MASTER_PORT}", "ROS_IP": "127.0.0.1",
                             "ROS_HOSTNAME": "127.0.0.1", "ROS_HOME": str(self.data / "ros"), "PYTHONUNBUFFERED": "1"}
         self.start("robot", BIN.parent / "tests" / "homeward-rosbridge-robot", str(ROBOT_PORT), demo.WORLD, "bedroom",
-                   "disc", self.data / "truth.jsonl", self.data / "camera.json")
+                   OPTIONS.profile, self.data / "truth.jsonl", self.data / "camera.json")
         self.start("master", "roscore", "-p", str(MASTER_PORT))
         self.wait("the robot is there", lambda: (self.data / "camera.json").exists(), 120)
         self.wait("the master is there", lambda: "started core service" in self.log("master"), 60)
@@ -107,7 +110,7 @@ class RealRosbridge(unittest.TestCase):
     def start_agent(self, port=BRIDGE_PORT, server=f"http://127.0.0.1:{PORT}", robot="1", token_file=None, **types):
         described = json.loads((ROOT / "proto/examples/rosbridge/valid/ros2_round.json").read_text())
         described.update(address=f"ws://127.0.0.1:{port}", body={
-            "radius_m": 0.35, "max_speed_mps": 0.8, "max_turn_radps": 1.2, "deceleration_mps2": 1.0,
+            **BODIES[OPTIONS.profile], "max_speed_mps": 0.8, "max_turn_radps": 1.2, "deceleration_mps2": 1.0,
             "turn_deceleration_radps2": 5.0})
         for key, name in {**TYPES, **types}.items():
             described[key]["type"] = name
@@ -137,7 +140,8 @@ class RealRosbridge(unittest.TestCase):
     def moved(self):
         return any(turn != 0 for _, turn, _ in self.twists())
 
-    def test_a_mission_arrives(self):
+    def start_server(self):
+        """A server with a map of the house; gives it, the robot, its token and the map."""
         taught_house.bring(self.data)
         self.start("server", BIN / "homeward-server", "--data", self.data / "server", "--listen", f"127.0.0.1:{PORT}",
                    "--web", WEB, "--print-setup-file", self.data / "setup-link")
@@ -147,11 +151,45 @@ class RealRosbridge(unittest.TestCase):
         robot, token_file = demo.robot_with_token(server, self.data)
         map_id = demo.teach(server, BIN, self.data, token_file)
         server.call("PUT", f"/api/v1/robots/{robot}/map", {"map": map_id})
+        return server, robot, token_file, map_id
+
+    def test_missions_arrive(self):
+        server, robot, token_file, map_id = self.start_server()
         self.start_bridge()
         self.start_node()
         self.start_agent(server=server.address, robot=robot, token_file=token_file)
-        self.assertTrue(demo.drive(server, robot, map_id, "kitchen", self.data))
+        for room in OPTIONS.to:
+            self.assertTrue(demo.drive(server, robot, map_id, room, self.data), room)
         self.assertNotIn("no command comes back", self.log("agent"))
+
+    def test_on_a_link_that_loses_nothing_moves_late_and_the_robot_says_why_it_stands(self):
+        server, robot, token_file, map_id = self.start_server()
+        self.start_bridge()
+        self.start_node()
+        self.start("lossy", sys.executable, ROOT / "tests/loop/lossy_link.py", str(SLOW_PORT), str(BRIDGE_PORT),
+                   str(LOSSY_BYTES_PER_S), str(LOSSY_JITTER_S), str(LOSSY_SHARE))
+        self.wait("the link carries", lambda: "carries" in self.log("lossy"))
+        self.start_agent(SLOW_PORT, server=server.address, robot=robot, token_file=token_file)
+        time.sleep(4.0)
+        let_go = self.push(2.0, tail_s=6.0)
+        late = [(at - let_go, turn) for at, turn, _ in self.twists() if turn != 0 and at > let_go + LATE_S]
+        self.assertEqual(late, [], "after the stick was let go")
+        arrived, ended = None, None
+        try:
+            arrived = demo.drive(server, robot, map_id, OPTIONS.to[0], self.data)
+            ended = time.monotonic()
+        except Failed as failed:  # it never found out where it is
+            self.assertIn("did not find out where it is", str(failed))
+        state = server.call("GET", f"/api/v1/robots/{robot}")
+        print("on the lossy link:", "arrived" if arrived else json.dumps(state)[:600], flush=True)
+        collisions = json.loads((self.data / "truth.jsonl").read_text().splitlines()[-1])["collisions"]
+        self.assertEqual(collisions, 0)
+        if ended is not None:
+            time.sleep(3.0)
+            late = [at - ended for at, turn, _ in self.twists() if turn != 0 and at > ended + LATE_S]
+            self.assertEqual(late, [], "after the mission ended")
+        if not arrived:
+            self.assertRegex(self.log("agent"), "lagged|connection lost")
 
     def test_a_hand_is_obeyed_and_let_go_the_wheels_are_told_so(self):
         self.start_bridge()
@@ -259,4 +297,8 @@ if __name__ == "__main__":
         sys.exit(__doc__)
     BIN = pathlib.Path(sys.argv[1]).resolve()
     WEB = pathlib.Path(sys.argv[2]).resolve()
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
+    options = argparse.ArgumentParser(usage=__doc__)
+    options.add_argument("--profile", choices=BODIES, default="disc")
+    options.add_argument("--to", nargs="+", default=["kitchen"])
+    OPTIONS, rest = options.parse_known_args(sys.argv[3:])
+    unittest.main(argv=[sys.argv[0], *rest], verbosity=2)
