@@ -37,4 +37,8 @@ void measure_reads(const Setting& setting, int changes, std::uint64_t upload_byt
 /// What the server holds while strangers send it large bodies.
 void measure_strangers(const Setting& setting, int connections, std::uint64_t body_bytes, Report& report);
 
+/// All floods, robots that send frames, and builds, so many times, which together take the setting's seconds; what the
+/// server holds after each, when the floods have gone, and at most during it.
+void measure_everything(const Setting& setting, const FloodSizes& sizes, int times, Report& report);
+
 }  // namespace homeward::bench

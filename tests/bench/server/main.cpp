@@ -9,6 +9,8 @@
 //   $P frames --bin build/release/bin [--build]          from a frame to its belief, with a map built beside it
 //   $P reads --bin build/release/bin                     graphs of a large map, its change, small reads
 //   $P strangers --bin build/release/bin                 memory under large bodies of those who may send none
+//   $P everything --bin build/release/bin                30 minutes of all of it: whether memory and descriptors stay
+//   flat
 //
 // The load takes processor time from the server that it shares the machine with: "processor_s" says how much. An upload
 // that is larger than the server takes (--upload-mb) is refused and loads nothing: its "answers" show it.
@@ -31,6 +33,8 @@ struct Options {
   Setting of_frames{{}, 60, 0};
   Setting of_reads{{}, 20, 0};
   Setting of_strangers{{}, 20, 0};
+  Setting of_everything{{}, 1800, 0};
+  int times = 6;
   FloodSizes floods;
   bool upload = false;
   bool build = false;
@@ -86,6 +90,17 @@ void add_commands(CLI::App& program, Options& options, Report& report) {
   strangers.add_option("--body-mb", options.body_mb, "size that each states")->capture_default_str();
   strangers.callback(
       [&] { measure_strangers(options.of_strangers, options.strangers, options.body_mb * kMegabyte, report); });
+
+  CLI::App& everything =
+      *program.add_subcommand("everything", "What the server holds after all floods, again and again");
+  add_setting(everything, options.of_everything);
+  everything.add_option("--times", options.times, "that the floods come and go")
+      ->check(CLI::Range(2, 100))
+      ->capture_default_str();
+  everything.callback([&] {
+    const FloodSizes sizes{1000, 24, 8, options.upload_mb * kMegabyte};
+    measure_everything(options.of_everything, sizes, options.times, report);
+  });
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cases with robots that send frames: floods and frames.
+// The cases with robots that send frames: floods, frames, and everything at once.
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -17,6 +18,7 @@ using std::chrono::seconds;
 
 constexpr seconds kGraceOfBeliefs{2};  // for those of the last frames
 constexpr seconds kSettles{1};         // after a load has gone
+constexpr seconds kComesToRest{5};     // until what the load had asked for is answered too
 
 using Floods = std::map<std::string, std::unique_ptr<Flood>>;
 
@@ -97,6 +99,40 @@ void measure_frames(const Setting& setting, bool with_build, Report& report) {
   nlohmann::json figures = {{"frames", robots.log.figures()}, {"server", watch.figures()}};
   if (builds) figures["builds_done"] = builds->done();
   report.add(with_build ? "frames beside a build" : "frames", std::move(figures));
+}
+
+void measure_everything(const Setting& setting, const FloodSizes& sizes, int times, Report& report) {
+  ServerProcess server(setting.bin, setting.threads);
+  allow_many_sockets();
+  const std::string large_map = server.import_map(corridor_map(kLargeMap, false));
+  Robots robots(server, server.import_map(corridor_map(kUsualMap, true)));
+  nlohmann::json resident_mib = nlohmann::json::array();
+  nlohmann::json peak_mib = nlohmann::json::array();
+  nlohmann::json descriptors = nlohmann::json::array();
+  nlohmann::json last;
+  robots.log.begin();
+  for (int i = 0; i < times; ++i) {
+    server.forget_peak();
+    {
+      const BuildLoad builds(server);
+      const Floods floods = begin_floods(sizes, server, large_map);
+      std::this_thread::sleep_for(std::chrono::duration<double>(double(setting.seconds) / times));
+      last = figures_of(floods);
+      last["builds_done"] = builds.done();
+    }
+    std::this_thread::sleep_for(kComesToRest);
+    const Usage usage = server.usage();
+    resident_mib.push_back(std::round(usage.resident_mib));
+    peak_mib.push_back(std::round(usage.peak_mib));
+    descriptors.push_back(usage.descriptors);
+  }
+  robots.log.end();
+  std::this_thread::sleep_for(kGraceOfBeliefs);
+  report.add("everything at once", {{"resident_mib", resident_mib},
+                                    {"peak_mib", peak_mib},
+                                    {"descriptors", descriptors},
+                                    {"frames", robots.log.figures()},
+                                    {"last_time", last}});
 }
 
 }  // namespace homeward::bench
