@@ -2,6 +2,7 @@
 
 option(HOMEWARD_ASAN "Address and undefined behaviour sanitizers" OFF)
 option(HOMEWARD_TSAN "Thread sanitizer" OFF)
+option(HOMEWARD_FUZZ "Guide the fuzzing of tests/fuzz/targets by what is reached; needs Clang" OFF)
 option(HOMEWARD_TIDY "Run clang-tidy on every source" OFF)
 option(HOMEWARD_NATIVE "Use the instructions of this machine's processor" OFF)
 option(HOMEWARD_BATCHES "Compile some sources of a folder at once" ON)
@@ -75,6 +76,10 @@ if(HOMEWARD_ASAN)
   target_link_options(homeward_unwatched_options INTERFACE -fsanitize=address,undefined)
   # Eigen allocates in another way under the sanitizer; what OpenGV's library allocated has to be freed as it was.
   target_compile_definitions(homeward_unwatched_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
+endif()
+if(HOMEWARD_FUZZ)
+  # Clang warns of other things than the compiler that everything is made for.
+  target_compile_options(homeward_unwatched_options INTERFACE -fsanitize=fuzzer-no-link -Wno-error)
 endif()
 add_library(homeward_options INTERFACE)
 target_link_libraries(homeward_options INTERFACE homeward_unwatched_options)

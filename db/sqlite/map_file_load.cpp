@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "db/map_file.hpp"
+#include "db/sqlite/failure_words.hpp"
 #include "db/sqlite/map_file_contents.hpp"
 #include "db/sqlite/map_file_schema.hpp"
 #include "db/sqlite/map_graph_part.hpp"
@@ -176,8 +177,7 @@ Result<StoredMap> load_map(const std::filesystem::path& file) {
     return fail(ErrorCode::kCorruptFile, "The map file is damaged: an entry of it cannot be understood.",
                 file.string());
   } catch (const std::exception& failure) {
-    return fail(ErrorCode::kCorruptFile, std::string("The map file is damaged: ") + failure.what() + ".",
-                file.string());
+    return fail(ErrorCode::kCorruptFile, "The map file is damaged: " + words_of(failure) + ".", file.string());
   }
 }
 

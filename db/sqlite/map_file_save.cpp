@@ -14,6 +14,7 @@
 
 #include "db/map_file.hpp"
 #include "db/sqlite/durable_file.hpp"
+#include "db/sqlite/failure_words.hpp"
 #include "db/sqlite/map_file_contents.hpp"
 #include "db/sqlite/map_file_schema.hpp"
 #include "db/sqlite/map_graph_part.hpp"
@@ -374,9 +375,9 @@ Status save_map(const std::filesystem::path& file, const map::TopologicalMap& ma
     write_file(file, database);
   } catch (const std::system_error& failure) {
     if (is_disk_full(failure.code())) return tl::unexpected<Error>(disk_full(file.string()));
-    return fail(ErrorCode::kIo, std::string("The map could not be written: ") + failure.what() + ".", file.string());
+    return fail(ErrorCode::kIo, "The map could not be written: " + words_of(failure) + ".", file.string());
   } catch (const std::exception& failure) {
-    return fail(ErrorCode::kIo, std::string("The map could not be written: ") + failure.what() + ".", file.string());
+    return fail(ErrorCode::kIo, "The map could not be written: " + words_of(failure) + ".", file.string());
   }
   if (!folder_flushed(folder)) {
     return fail(ErrorCode::kIo, "The map's folder could not be flushed to the disk.", folder.string());

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "db/recording.hpp"
+#include "db/sqlite/failure_words.hpp"
 #include "db/sqlite/recording_rows.hpp"
 #include "db/sqlite/recording_schema.hpp"
 #include "db/sqlite/store_database.hpp"
@@ -29,11 +30,11 @@ Error present_error(const fs::path& file) {
     const int code = failure.getErrorCode();
     const bool trouble = code == SQLITE_CANTOPEN || code == SQLITE_IOERR || code == SQLITE_BUSY || code == SQLITE_PERM;
     if (trouble) {
-      return {ErrorCode::kIo, std::string("The recording cannot be read: ") + failure.what() + ".", file.string()};
+      return {ErrorCode::kIo, "The recording cannot be read: " + words_of(failure) + ".", file.string()};
     }
-    return {ErrorCode::kCorruptFile, std::string("The recording is damaged: ") + failure.what() + ".", file.string()};
+    return {ErrorCode::kCorruptFile, "The recording is damaged: " + words_of(failure) + ".", file.string()};
   } catch (const std::exception& failure) {
-    return {ErrorCode::kIo, std::string("The recording cannot be read: ") + failure.what() + ".", file.string()};
+    return {ErrorCode::kIo, "The recording cannot be read: " + words_of(failure) + ".", file.string()};
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "db/recording.hpp"
+#include "db/sqlite/failure_words.hpp"
 #include "db/sqlite/recording_rows.hpp"
 #include "db/sqlite/recording_schema.hpp"
 #include "db/sqlite/store_database.hpp"
@@ -22,7 +23,7 @@ Status told_as_status(const std::filesystem::path& file, Work&& work) {
     work();
     return {};
   } catch (const std::exception& failure) {
-    return fail(ErrorCode::kIo, std::string("The recording cannot be written: ") + failure.what() + ".", file.string());
+    return fail(ErrorCode::kIo, "The recording cannot be written: " + words_of(failure) + ".", file.string());
   }
 }
 

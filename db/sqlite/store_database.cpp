@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "db/sqlite/durable_file.hpp"
+#include "db/sqlite/failure_words.hpp"
 #include "db/sqlite/migrations.hpp"
 
 namespace homeward::db {
@@ -115,16 +116,15 @@ Error StoreDatabase::present_error(const std::string& where) {
   } catch (const SQLite::Exception& failure) {
     const int code = failure.getErrorCode();
     if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
-      return {ErrorCode::kCorruptFile,
-              std::string("The database is damaged (") + failure.what() + "). Restore a backup.", where};
+      return {ErrorCode::kCorruptFile, "The database is damaged (" + words_of(failure) + "). Restore a backup.", where};
     }
     if (code == SQLITE_FULL) return disk_full(where);
-    return {ErrorCode::kIo, std::string("The database does not work: ") + failure.what() + ".", where};
+    return {ErrorCode::kIo, "The database does not work: " + words_of(failure) + ".", where};
   } catch (const std::system_error& failure) {
     if (is_disk_full(failure.code())) return disk_full(where);
-    return {ErrorCode::kIo, std::string("The data folder does not work: ") + failure.what() + ".", where};
+    return {ErrorCode::kIo, "The data folder does not work: " + words_of(failure) + ".", where};
   } catch (const std::exception& failure) {
-    return {ErrorCode::kIo, std::string("The data folder does not work: ") + failure.what() + ".", where};
+    return {ErrorCode::kIo, "The data folder does not work: " + words_of(failure) + ".", where};
   }
 }
 

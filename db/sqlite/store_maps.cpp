@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "db/secrets.hpp"
 #include "db/sqlite/durable_file.hpp"
+#include "db/sqlite/failure_words.hpp"
 #include "db/sqlite/map_graph_part.hpp"
 #include "db/sqlite/sqlite_store.hpp"
 
@@ -154,8 +155,8 @@ Result<StoredMap> SqliteStore::load(const MapFile& file) const {
     put_graph_part(file.edits, stored->map);
     return stored;
   } catch (const std::exception& failure) {
-    return fail(ErrorCode::kCorruptFile,
-                "The edits of the map cannot be put over its file: " + std::string(failure.what()), where);
+    return fail(ErrorCode::kCorruptFile, "The edits of the map cannot be put over its file: " + words_of(failure),
+                where);
   }
 }
 

@@ -24,6 +24,12 @@ RequestParser::RequestParser(std::size_t max_header_bytes) {
 }
 
 std::size_t RequestParser::take(boost::asio::const_buffer bytes, boost::beast::error_code& error) {
+  // The least that may follow in chunks is their end, "0\r\n\r\n"; Beast asserts that it is given that much of it.
+  constexpr std::size_t kLeastOfChunks_bytes = 5;
+  if (head_is_read_ && chunked() && bytes.size() < kLeastOfChunks_bytes) {
+    error = http::error::need_more;
+    return 0;
+  }
   const bool in_head = !head_is_read_;
   const std::size_t taken = put(bytes, error);
   const std::string_view text(static_cast<const char*>(bytes.data()), taken);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/result.hpp"
+#include "wire/json_reader.hpp"
 
 namespace homeward::recording {
 
@@ -61,7 +62,7 @@ Result<T> read_fields(const std::string& text, const char* what, Visit&& visit) 
   for (const auto& [key, ignored] : value.items()) {
     if (fields.known.contains(key)) continue;
     return fail(ErrorCode::kUnsupportedFormat,
-                std::string("The recording's ") + what + " have '" + key +
+                std::string("The recording's ") + what + " have '" + wire::shown(key) +
                     "', which this program does not know: replay it with the program that recorded it.",
                 "meta");
   }

@@ -8,11 +8,8 @@ namespace homeward::wire {
 
 using nlohmann::json;
 
-namespace {
-
-/// Foreign text for a message: short, and only what can be printed anywhere.
-std::string shown(const std::string& text, std::size_t most = 64) {
-  std::string shown = text.substr(0, most);
+std::string shown(const std::string& text, std::size_t most_bytes) {
+  std::string shown = text.substr(0, most_bytes);
   for (char& c : shown) {
     if (c < 0x20 || c > 0x7E) c = '?';
   }
@@ -20,8 +17,6 @@ std::string shown(const std::string& text, std::size_t most = 64) {
 }
 
 std::string shown(const json& value) { return shown(value.dump(-1, ' ', true, json::error_handler_t::replace)); }
-
-}  // namespace
 
 bool is_utf8(std::string_view text) {
   std::size_t i = 0;

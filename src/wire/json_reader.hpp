@@ -26,6 +26,10 @@ bool is_utf8(std::string_view text);
 /// U+202A to U+202E, U+2066 to U+2069).
 bool is_plain_line(std::string_view text);
 
+/// Foreign text, or a foreign value as JSON, for a message: short, and only what can be printed anywhere.
+std::string shown(const std::string& text, std::size_t most_bytes = 64);
+std::string shown(const nlohmann::json& value);
+
 /// Reads one JSON object strictly: every key is asked for, nothing else may be there. The first problem is kept with
 /// its JSON path; reading goes on with neutral values, so that decoders stay straight lines.
 ///   ObjectReader reader(value, "camera");

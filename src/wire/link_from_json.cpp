@@ -273,14 +273,14 @@ Result<Message> read_message(const json& value, const Read& read) {
   const json& version = reader.value("v");
   if (version.is_number_integer() && (version < kOldestLinkVersion || version > kLinkVersion)) {
     return fail(ErrorCode::kUnsupportedFormat,
-                "Version " + version.dump() + " of the link is not spoken here, only up to " +
+                "Version " + shown(version) + " of the link is not spoken here, only up to " +
                     std::to_string(kLinkVersion) + ".",
                 "message/v");
   }
   reader.integer("v", kOldestLinkVersion, kLinkVersion);
   std::optional<Message> message = read(type, reader);
   if (!message) {
-    reader.problem("type", "'" + type + "' is no type of message on this link.");
+    reader.problem("type", "'" + shown(type) + "' is no type of message on this link.");
     message.emplace();
   }
   if (const Status status = reader.finish(); !status) return pass_on(status);

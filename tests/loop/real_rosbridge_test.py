@@ -3,7 +3,7 @@
 
 It needs ../shared/peers/rosbridge beside the checkout and the Debian packages that its start.sh names, and is skipped
 where they are absent. A joystick is enough for most of it; missions need the server too.
-usage: real_rosbridge_test.py BIN_FOLDER WEB_FOLDER [--profile disc|chair] [--to ROOM ...] [TEST ...]
+usage: real_rosbridge_test.py BIN_FOLDER WEB_FOLDER [TEST ...] [--profile disc|chair] [--to ROOM ...]
 """
 import argparse
 import json

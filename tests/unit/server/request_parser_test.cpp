@@ -22,7 +22,7 @@ error_code read(RequestParser& parser, const std::string& bytes, std::size_t pie
     unread += bytes.substr(at, piece);
     at += piece;
     while (!unread.empty() && !parser.is_done()) {
-      unread.erase(0, parser.put(boost::asio::buffer(unread), error));
+      unread.erase(0, parser.take(boost::asio::buffer(unread), error));
       if (error == http::error::need_more) break;
       if (error) return error;
     }
@@ -46,6 +46,15 @@ TEST(RequestParser, ReadsTheSameInAnyPieces) {
     EXPECT_EQ(head->header("cookie"), "a=1; b=2");
     EXPECT_EQ(head->remote, "10.0.0.1");
     EXPECT_EQ(parser.take_body(), "abcde");
+  }
+}
+
+TEST(RequestParser, ReadsABodyOfNoChunksInAnyPieces) {
+  const std::string whole = "PUT / HTTP/1.1\r\nHost: me\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n";
+  for (std::size_t piece = 1; piece <= whole.size(); ++piece) {
+    RequestParser parser(16UL * 1024);
+    ASSERT_FALSE(read(parser, whole, piece)) << piece;
+    EXPECT_EQ(parser.take_body(), "");
   }
 }
 
