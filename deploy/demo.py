@@ -16,7 +16,7 @@ import subprocess
 import sys
 import time
 
-from rest_client import Failed, Server
+from rest_client import Failed, Server, setup_token
 
 ROOMS = "hall,living_room,kitchen,dining_room,bedroom,bathroom,study,hall"
 WORLD = "house:1"
@@ -39,7 +39,7 @@ def set_up_account(server, data):
     """Signs in, making the first account with the one-time set-up token when there is none yet."""
     login_file = data / "login.json"
     if server.call("GET", "/api/v1/setup")["needed"]:
-        token = (data / "setup-link").read_text().strip().split("token=")[-1]
+        token = setup_token(data / "setup-link")
         login = {"name": "demo", "password": "".join(secrets.choice(EASY_TO_TYPE) for _ in range(14))}
         login_file.touch(mode=0o600)
         login_file.write_text(json.dumps(login))

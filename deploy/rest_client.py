@@ -10,6 +10,17 @@ class Failed(Exception):
     """The demo cannot go on; the message says why."""
 
 
+def setup_token(file, limit_s=10.0):
+    """The one-time token that a server writes with its set-up link, once it has its port; raises Failed when it does not."""
+    end = time.monotonic() + limit_s
+    while time.monotonic() < end:
+        text = file.read_text() if file.exists() else ""
+        if text.endswith("\n"):
+            return text.strip().split("token=")[-1]
+        time.sleep(0.02)
+    raise Failed(f"there is no set-up link in {file}")
+
+
 class Server:
     """The REST calls of the demo, signed in with a bearer token or a session cookie."""
 

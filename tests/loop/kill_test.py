@@ -18,7 +18,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "deploy"))
-from rest_client import Server  # noqa: E402
+from rest_client import Server, setup_token  # noqa: E402
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
 WEB = pathlib.Path(sys.argv[2]).resolve()
@@ -47,7 +47,7 @@ class Kill(unittest.TestCase):
         cls.process = None
         cls.agent = None
         cls.start_server()
-        token = (cls.data / "setup-link").read_text().strip().split("token=")[-1]
+        token = setup_token(cls.data / "setup-link")
         cls.login = {"name": "anna", "password": "correct horse battery"}
         cls.server.call("POST", "/api/v1/setup", {"token": token, **cls.login})
         cls.server.call("POST", "/api/v1/login", cls.login)

@@ -14,7 +14,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "deploy"))
-from rest_client import Server  # noqa: E402
+from rest_client import Server, setup_token  # noqa: E402
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
 WEB = pathlib.Path(sys.argv[2]).resolve()
@@ -35,7 +35,7 @@ class Upload(unittest.TestCase):
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         self.server.wait_until_up(process)
-        token = (self.data / "setup-link").read_text().strip().split("token=")[-1]
+        token = setup_token(self.data / "setup-link")
         login = {"name": "anna", "password": "correct horse battery"}
         self.server.call("POST", "/api/v1/setup", {"token": token, **login})
         self.server.call("POST", "/api/v1/login", login)
