@@ -14,19 +14,6 @@ using testing::Bytes;
 using testing::Mutator;
 using testing::ScratchFolder;
 
-/// Reads all that there is.
-Status read_all(const std::filesystem::path& file) {
-  auto reader = db::RecordingReader::open(file);
-  if (!reader) return pass_on(reader);
-  const auto why = (*reader)->why_stopped();
-  if (!why) return pass_on(why);
-  while (true) {
-    const auto step = (*reader)->next();
-    if (!step) return pass_on(step);
-    if (!*step) return {};
-  }
-}
-
 TEST(FuzzRecording, IsReadToItsEndOrRefused) {
   const ScratchFolder folder;
   {
@@ -38,7 +25,7 @@ TEST(FuzzRecording, IsReadToItsEndOrRefused) {
     ASSERT_TRUE((*writer)->append(steps));
     ASSERT_TRUE((*writer)->finish({true, "The mission ended."}));
   }
-  ASSERT_TRUE(read_all(folder.path() / "good.hwrec"));
+  ASSERT_TRUE(testing::read_whole_recording(folder.path() / "good.hwrec"));
   const std::string text = folder.text("good.hwrec");
   const Bytes good(text.begin(), text.end());
   Mutator mutator(1);
@@ -48,7 +35,7 @@ TEST(FuzzRecording, IsReadToItsEndOrRefused) {
     const Bytes bytes = mutator.damaged(good);
     const std::string damaged(bytes.begin(), bytes.end());
     const auto file = folder.put("damaged.hwrec", damaged);
-    const Status read = read_all(file);
+    const Status read = testing::read_whole_recording(file);
     EXPECT_EQ(folder.text("damaged.hwrec"), damaged);  // reading changes nothing
     if (read) continue;
     ++refused;

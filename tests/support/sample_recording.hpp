@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <memory>
 
@@ -37,6 +38,19 @@ inline db::RecordedStep sample_recorded_step(std::int64_t seq) {
   step.min_range_m = 1.5;
   step.sent = {wire::Stopped{"s1", 0}};
   return step;
+}
+
+/// Reads all that there is of a recording. Errors: the reader's own.
+inline Status read_whole_recording(const std::filesystem::path& file) {
+  auto reader = db::RecordingReader::open(file);
+  if (!reader) return pass_on(reader);
+  const auto why = (*reader)->why_stopped();
+  if (!why) return pass_on(why);
+  while (true) {
+    const auto step = (*reader)->next();
+    if (!step) return pass_on(step);
+    if (!*step) return {};
+  }
 }
 
 }  // namespace homeward::testing

@@ -36,18 +36,6 @@ std::string sound_recording() {
   return folder.text("sound.hwrec");
 }
 
-Status read_all(const std::filesystem::path& file) {
-  auto reader = db::RecordingReader::open(file);
-  if (!reader) return pass_on(reader);
-  const auto why = (*reader)->why_stopped();
-  if (!why) return pass_on(why);
-  while (true) {
-    const auto step = (*reader)->next();
-    if (!step) return pass_on(step);
-    if (!*step) return {};
-  }
-}
-
 void table_of(const std::string& text, const testing::ScratchFolder& folder) {
   const auto table = files::read_csv(folder.put("t.csv", text));
   require_value_or_sentence(table);
@@ -116,7 +104,7 @@ void recordings(Input input) {
   static const std::string sound = sound_recording();
   const testing::ScratchFolder folder;
   const std::string text = changed(sound, input);
-  const Status read = read_all(folder.put("r.hwrec", text));
+  const Status read = testing::read_whole_recording(folder.put("r.hwrec", text));
   require(folder.text("r.hwrec") == text, "reading leaves the file as it is");
   if (!read) require_sentence(read.error());
 }
