@@ -106,7 +106,7 @@ function Drawn({ map, graph }: { map: MapInfo; graph: Graph }) {
   const mission = robot?.mission && isActive(robot.mission.state) ? robot.mission : null;
   // Each event brings a new mission that mostly says the same.
   const ahead = mission?.path.slice(Math.max(0, mission.path_index - 1)).join('\n') ?? '';
-  const way = useMemo(() => ahead.split('\n'), [ahead]);
+  const way = useMemo(() => (ahead === '' ? [] : ahead.split('\n')), [ahead]);
   const place = indexOf(graph).places.get(wantedPlace.value ?? '') ?? null;
   const mayEdit = atLeast(me.value?.role, 'installer');
   const barrier = robot ? hindrance(robot, connected.value, atLeast(me.value?.role, 'rider')) : 'none';
