@@ -109,8 +109,9 @@ class Store {
   virtual Result<StoredMap> load_map_contents(const MapId& id) = 0;
   /// The bytes of the map file, for export. Errors: kNotFound.
   virtual Result<std::vector<std::uint8_t>> map_file_bytes(const MapId& id) = 0;
-  /// A map from the bytes of a map file, as it is. Errors: those of load_map.
-  virtual Result<MapRecord> import_map(MapRecord map, std::span<const std::uint8_t> file) = 0;
+  /// A map from the bytes of a map file, as it is; they are freed once they are on the disk, before the map is read
+  /// from there. Errors: those of load_map.
+  virtual Result<MapRecord> import_map(MapRecord map, std::string file) = 0;
   /// With its jobs; robots on it are left without a map. Errors: kNotFound.
   virtual Status remove_map(const MapId& id) = 0;
 

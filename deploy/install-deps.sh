@@ -14,6 +14,7 @@ packages=(
   git
   curl
   ca-certificates
+  openssl
   clang-format
   python3
   libboost-dev

@@ -76,7 +76,7 @@ class SqliteStore final : public Store {
                                   std::int64_t expected_revision) override;
   Result<StoredMap> load_map_contents(const MapId& id) override;
   Result<std::vector<std::uint8_t>> map_file_bytes(const MapId& id) override;
-  Result<MapRecord> import_map(MapRecord map, std::span<const std::uint8_t> file) override;
+  Result<MapRecord> import_map(MapRecord map, std::string bytes) override;
   Status remove_map(const MapId& id) override;
 
   // --- What drives saw ---

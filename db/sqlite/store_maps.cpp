@@ -250,12 +250,13 @@ Result<std::vector<std::uint8_t>> SqliteStore::map_file_bytes(const MapId& id) {
   }
 }
 
-Result<MapRecord> SqliteStore::import_map(MapRecord map, std::span<const std::uint8_t> bytes) {
+Result<MapRecord> SqliteStore::import_map(MapRecord map, std::string bytes) {
   if (map.id.empty()) map.id = MapId(random_id());
   const KeyedMutex::Hold alone(map_file_locks_, map.id.str());
   const std::filesystem::path arrived = folder_ / "maps" / (map.id.str() + ".arrived");
   try {
-    write_durably(arrived, bytes);
+    write_durably(arrived, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    std::string().swap(bytes);
     Result<StoredMap> stored = load_map(arrived);
     if (stored && stored->map.revision < 1) {
       stored = fail(ErrorCode::kCorruptFile, "The map file has no revision.");

@@ -183,14 +183,14 @@ Response export_map(db::Store& store, const Request& request) {
   return response;
 }
 
-Response import_map(MapService& maps, const Request& request) {
+Response import_map(MapService& maps, Request& request) {
   const auto name = request.query.find("name");
   const std::string text = name == request.query.end() || name->second.empty() ? "imported map" : name->second;
   if (text.size() > 200) return problem({ErrorCode::kInvalidInput, "A name has at most 200 bytes.", "query/name"});
   if (!wire::is_utf8(text) || !wire::is_plain_line(text)) {
     return problem({ErrorCode::kInvalidInput, "A name is one line of text without control characters.", "query/name"});
   }
-  const auto record = maps.import(text, request.bytes());
+  const auto record = maps.import(text, std::move(request.body));
   if (!record) return problem_of(record);
   return json_response(201, {{"map", wire::map_info_to_json(view_of(*record))}});
 }

@@ -8,28 +8,14 @@
 #include <nlohmann/json.hpp>
 
 #include "imageio/decode.hpp"
-#include "map/layout.hpp"
 #include "map/lookup.hpp"
 #include "mapping/edits.hpp"
 #include "pipeline/belief_tracker.hpp"
 #include "pipeline/thumbnail.hpp"
 #include "server/services/belief_view.hpp"
-#include "wire/graph_json.hpp"
 
 namespace homeward::server {
 namespace {
-
-// Of maps that robots drive on and people look at; one of 5,000 places takes a tenth of it. The newest one stays
-// however large it is.
-constexpr std::size_t kMapsInMemory = 8;
-constexpr std::int64_t kMapsInMemory_bytes = 1024LL << 20;
-
-// About as much as its file takes; descriptors are the bulk of both.
-std::int64_t bytes_in_memory(const db::StoredMap& stored) {
-  std::int64_t thumbnails = 0;
-  for (const auto& [image, jpeg] : stored.thumbnails) thumbnails += static_cast<std::int64_t>(jpeg.size());
-  return stored.bytes + thumbnails;
-}
 
 /// What an edit left alone that changes no more than db::Store::save_map_edit keeps.
 bool same_places(const map::TopologicalMap& a, const map::TopologicalMap& b) {
@@ -61,21 +47,13 @@ Result<LoadedMap> MapService::load(const MapId& id) {
   if (record->revision == 0) {
     return fail(ErrorCode::kConflict, "The map has not been built yet.", "maps/" + id.str());
   }
-  const auto from_cache = [&]() -> LoadedMap {
-    const std::scoped_lock lock(mutex_);
-    for (const Cached& entry : cache_) {
-      if (entry.id == id && entry.loaded->map.revision >= record->revision) return entry.loaded;
-    }
-    return nullptr;
-  };
-  if (LoadedMap loaded = from_cache()) return loaded;
+  if (LoadedMap kept = cache_.find(id, record->revision)) return kept;
   const std::scoped_lock loading(loading_);
-  if (LoadedMap loaded = from_cache()) return loaded;
+  if (LoadedMap kept = cache_.find(id, record->revision)) return kept;
   auto stored = store_.load_map_contents(id);
   if (!stored) return pass_on(stored);
   auto loaded = std::make_shared<const db::StoredMap>(std::move(*stored));
-  const std::scoped_lock lock(mutex_);
-  keep_in_memory({id, loaded});
+  cache_.keep(id, loaded);
   return LoadedMap(loaded);
 }
 
@@ -87,53 +65,6 @@ Result<LoadedMap> MapService::to_build_on(const MapId& id) {
   if (loaded || loaded.error().code != ErrorCode::kNotFound) return loaded;
   spdlog::warn("map {} is built without its older contents: {}", id.str(), loaded.error().message);
   return LoadedMap();
-}
-
-void MapService::keep_in_memory(Cached entry) {
-  std::erase_if(cache_, [&](const Cached& other) { return other.id == entry.id; });
-  cache_.push_back(std::move(entry));
-  const auto bytes = [&] {
-    std::int64_t sum = 0;
-    for (const Cached& kept : cache_) sum += bytes_in_memory(*kept.loaded);
-    return sum;
-  };
-  while (cache_.size() > 1 && (cache_.size() > kMapsInMemory || bytes() > kMapsInMemory_bytes)) cache_.pop_front();
-}
-
-MapService::Cached* MapService::cached(const LoadedMap& loaded) {
-  const auto entry = std::ranges::find(cache_, loaded, &Cached::loaded);
-  return entry == cache_.end() ? nullptr : &*entry;
-}
-
-std::shared_ptr<const map::MetricLayout> MapService::layout(const LoadedMap& loaded) {
-  {
-    const std::scoped_lock lock(mutex_);
-    if (const Cached* entry = cached(loaded); entry != nullptr && entry->layout) return entry->layout;
-  }
-  auto layout = std::make_shared<const map::MetricLayout>(map::metric_layout(loaded->map));
-  const std::scoped_lock lock(mutex_);
-  if (Cached* entry = cached(loaded)) entry->layout = layout;
-  return layout;
-}
-
-std::shared_ptr<const std::string> MapService::graph(const MapId& id, const LoadedMap& loaded) {
-  std::shared_ptr<const Drawing> drawing;
-  {
-    const std::scoped_lock lock(mutex_);
-    if (const Cached* entry = cached(loaded)) {
-      if (entry->graph) return entry->graph;
-      drawing = entry->drawing;
-    }
-  }
-  if (!drawing) drawing = std::make_shared<const Drawing>(map::layout(loaded->map));
-  auto graph = std::make_shared<const std::string>(
-      wire::graph_to_json(loaded->map, id, *drawing).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-  const std::scoped_lock lock(mutex_);
-  if (Cached* entry = cached(loaded)) {
-    entry->drawing = drawing;
-    entry->graph = graph;
-  }
-  return graph;
 }
 
 Result<std::int64_t> MapService::change(const MapId& id, std::int64_t revision,
@@ -148,12 +79,7 @@ Result<std::int64_t> MapService::change(const MapId& id, std::int64_t revision,
   const auto saved = same ? store_.save_map_edit(id, changed->map, revision)
                           : store_.save_map_contents(id, changed->map, changed->thumbnails, revision);
   if (!saved) return pass_on(saved);
-  {
-    const std::scoped_lock lock(mutex_);
-    const Cached* before = cached(*loaded);
-    const bool drawn_alike = before != nullptr && map::drawn_alike(before->loaded->map, changed->map);
-    keep_in_memory({id, changed, nullptr, drawn_alike ? before->drawing : nullptr});
-  }
+  cache_.keep_changed(id, changed, *loaded);
   tell(*saved);
   return saved->revision;
 }
@@ -257,12 +183,12 @@ Result<wire::BeliefView> MapService::localise(const MapId& id, std::span<const s
   return view;
 }
 
-Result<db::MapRecord> MapService::import(const std::string& name, std::span<const std::uint8_t> file) {
+Result<db::MapRecord> MapService::import(const std::string& name, std::string file) {
   db::MapRecord record;
   record.name = name;
   record.state = wire::MapState::kReady;
   record.created_us = clock_.wall_us();
-  auto imported = store_.import_map(record, file);
+  auto imported = store_.import_map(record, std::move(file));
   if (imported) tell(*imported);
   return imported;
 }

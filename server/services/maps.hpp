@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -9,7 +8,7 @@
 #include <vector>
 
 #include "db/store.hpp"
-#include "map/metric_layout.hpp"
+#include "server/services/map_cache.hpp"
 #include "server/time/clock.hpp"
 #include "server/ws/event_hub.hpp"
 #include "wire/belief_json.hpp"
@@ -17,7 +16,6 @@
 
 namespace homeward::server {
 
-using LoadedMap = std::shared_ptr<const db::StoredMap>;
 /// The map of a loaded one, sharing its life.
 inline std::shared_ptr<const map::TopologicalMap> contents_of(const LoadedMap& loaded) {
   return {loaded, &loaded->map};
@@ -35,11 +33,11 @@ class MapService {
   /// What a build goes on from: null where the map was not built yet, or its file is gone, with which its edits are.
   /// Errors: as load().
   Result<LoadedMap> to_build_on(const MapId& id);
-  /// Where the pictures of a map were taken (map::metric_layout); computed once for a map that is in memory.
-  std::shared_ptr<const map::MetricLayout> layout(const LoadedMap& loaded);
-  /// The graph of a map as the contract has it (wire::graph_to_json), as text. Kept for a map that is in memory; where
-  /// its places are drawn stays through edits that do not move them.
-  std::shared_ptr<const std::string> graph(const MapId& id, const LoadedMap& loaded);
+  /// As MapCache says; where places are drawn stays through edits that do not move them.
+  std::shared_ptr<const map::MetricLayout> layout(const LoadedMap& loaded) { return cache_.layout(loaded); }
+  std::shared_ptr<const std::string> graph(const MapId& id, const LoadedMap& loaded) {
+    return cache_.graph(id, loaded);
+  }
   /// Applies all edits as one change, or none. Errors: kStaleRevision, kInvalidInput (kinds that this version does not
   /// apply), those of mapping::apply_edit. Returns the new revision.
   Result<std::int64_t> edit(const MapId& id, std::int64_t revision, const std::vector<wire::EditRequest>& edits,
@@ -52,7 +50,7 @@ class MapService {
   Result<std::vector<std::uint8_t>> thumbnail(const MapId& id, const ImageId& image);
   /// Where a single picture was taken, from a uniform start.
   Result<wire::BeliefView> localise(const MapId& id, std::span<const std::uint8_t> picture);
-  Result<db::MapRecord> import(const std::string& name, std::span<const std::uint8_t> file);
+  Result<db::MapRecord> import(const std::string& name, std::string file);
 
   /// Keeps a new build, over edits that were made meanwhile. Errors: those of the store.
   Result<db::MapRecord> keep_build(const MapId& id, map::TopologicalMap contents, const db::Thumbnails& thumbnails);
@@ -67,26 +65,12 @@ class MapService {
   Result<std::int64_t> change(const MapId& id, std::int64_t revision,
                               const std::function<Status(map::TopologicalMap&)>& apply);
 
-  using Drawing = std::vector<Eigen::Vector2d>;  // map::layout
-  struct Cached {
-    MapId id;
-    LoadedMap loaded;
-    // Null until they are asked for:
-    std::shared_ptr<const map::MetricLayout> layout = nullptr;
-    std::shared_ptr<const Drawing> drawing = nullptr;
-    std::shared_ptr<const std::string> graph = nullptr;
-  };
-  // With mutex_ held:
-  Cached* cached(const LoadedMap& loaded);
-  void keep_in_memory(Cached entry);
-
   db::Store& store_;
   EventHub& events_;
   const Clock& clock_;
   std::mutex loading_;   // one load at a time
   std::mutex changing_;  // one edit or new build at a time
-  std::mutex mutex_;     // of cache_
-  std::deque<Cached> cache_;
+  MapCache cache_;
 };
 
 }  // namespace homeward::server

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Missions of the demo with a robot behind a rosbridge, and what happens when its connection is cut.
 
-The same agent as everywhere, but all it knows of the simulated robot comes over the WebSocket of the tests' rosbridge.
+The same agent as everywhere, but all it knows of the simulated robot comes over the WebSocket of the tests' rosbridge; for the
+wheelchair both that and the server are behind TLS.
 usage: rosbridge_test.py BIN_FOLDER WEB_FOLDER [ROOM ...]      both robots drive to these rooms, in turn
 """
 import json
+import os
 import pathlib
 import signal
 import subprocess
@@ -17,12 +19,15 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "deploy"))
 import demo  # noqa: E402
 import taught_house  # noqa: E402
+import tls_front  # noqa: E402
 from rest_client import Server  # noqa: E402
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
 WEB = pathlib.Path(sys.argv[2]).resolve()
 PORT = 18477
 BRIDGE_PORT = 18478
+SERVER_TLS_PORT = 18468
+BRIDGE_TLS_PORT = 18469
 UNDER_WAY_MPS = 0.15
 AT_REST = 0.01
 
@@ -33,6 +38,8 @@ class Rosbridge(unittest.TestCase):
     PROFILE = "disc"
     BODY = {"radius_m": 0.35}
     ROOMS = sys.argv[3:] or ("kitchen", "living_room")
+    SERVER = f"http://127.0.0.1:{PORT}"
+    BRIDGE = f"ws://127.0.0.1:{BRIDGE_PORT}"
 
     @classmethod
     def setUpClass(cls):
@@ -56,19 +63,24 @@ class Rosbridge(unittest.TestCase):
             time.sleep(0.2)
         example = ROOT / "proto" / "examples" / "rosbridge" / "valid" / "ros2_round.json"
         robot = json.loads(example.read_text())
-        robot["address"] = f"ws://127.0.0.1:{BRIDGE_PORT}"
+        robot["address"] = cls.BRIDGE
         robot["image"]["topic"] = "/image"
         robot["scan"]["robot_from_scan"]["x_m"] = 0.0
         robot["body"] = {**cls.BODY, "max_speed_mps": 0.8, "max_turn_radps": 1.2, "deceleration_mps2": 1.0,
                          "turn_deceleration_radps2": 5.0}
         (cls.data / "robot.json").write_text(json.dumps(robot))
-        cls.start("agent", BIN / "homeward-agent", "run", "--server", cls.server.address, "--robot", cls.robot,
-                  "--token-file", token_file, "--driver", "rosbridge", "--rosbridge", cls.data / "robot.json")
+        cls.agent_command = [BIN / "homeward-agent", "run", "--server", cls.SERVER, "--robot", cls.robot, "--token-file",
+                             token_file, "--driver", "rosbridge", "--rosbridge", cls.data / "robot.json"]
+        cls.start_agent()
 
     @classmethod
-    def start(cls, name, *command):
+    def start_agent(cls):
+        cls.start("agent", *cls.agent_command)
+
+    @classmethod
+    def start(cls, name, *command, **environment):
         cls.logs[name] = open(cls.data / f"{name}.log", "ab")
-        process = subprocess.Popen(command, stdout=cls.logs[name], stderr=subprocess.STDOUT)
+        process = subprocess.Popen(command, stdout=cls.logs[name], stderr=subprocess.STDOUT, env={**os.environ, **environment})
         cls.processes.append(process)
         return process
 
@@ -133,12 +145,41 @@ class Rosbridge(unittest.TestCase):
 
 
 class Wheelchair(Rosbridge):
-    """A chair of 1.10 m x 0.65 m that turns about its rear axle."""
+    """A chair of 1.10 m x 0.65 m that turns about its rear axle, its links encrypted."""
 
     PROFILE = "chair"
     BODY = {"rectangle": {"front_m": 0.85, "back_m": 0.25, "width_m": 0.65}}
     ROOMS = sys.argv[3:] or ("study", "living_room")
+    SERVER = f"https://localhost:{SERVER_TLS_PORT}"
+    BRIDGE = f"wss://localhost:{BRIDGE_TLS_PORT}"
     test_2_a_silent_robot_ends_the_mission_and_nothing_moves_when_it_speaks_again = None
+
+    @classmethod
+    def start_agent(cls):
+        """Of three certificates the agent refuses the one that nobody told it to trust and the one of another host."""
+        for name in ("localhost", "elsewhere.example"):
+            tls_front.make_certificate(name, cls.data / f"{name}.pem", cls.data / f"{name}.key")
+        cls.refused = {}
+        for about, host, trusted in (("untrusted", "localhost", None), ("of another host", "elsewhere.example", "elsewhere.example"),
+                                     ("trusted", "localhost", "localhost")):
+            fronts = [cls.start("front", sys.executable, ROOT / "tests/loop/tls_front.py", str(listen), str(target),
+                                cls.data / f"{host}.pem", cls.data / f"{host}.key")
+                      for listen, target in ((SERVER_TLS_PORT, PORT), (BRIDGE_TLS_PORT, BRIDGE_PORT))]
+            trust = {"SSL_CERT_FILE": str(cls.data / f"{trusted}.pem")} if trusted else {}
+            agent = cls.start("agent" if about == "trusted" else f"agent {about}", *cls.agent_command, **trust)
+            if about == "trusted":
+                return
+            time.sleep(3)
+            for process in (agent, *fronts):
+                process.terminate()
+                process.wait(timeout=20)
+            cls.refused[about] = (cls.data / f"agent {about}.log").read_text()
+
+    def test_0_no_link_to_whose_certificate_is_not_trusted_or_of_another_host(self):
+        for about, log in self.refused.items():
+            with self.subTest(certificate=about):
+                self.assertRegex(log, "(?i)certificate")
+                self.assertNotIn("connected to", log)
 
 
 if __name__ == "__main__":

@@ -10,11 +10,21 @@ function leaseOf(robot) {
   return robot.lease && robot.lease.until_ms > Date.now() ? robot.lease : null;
 }
 
+const ofLease = (robot) => `robots/${robot.id}/lease`;
+
+/** What is asked of a robot needs its lease. */
+function needLease(robot, lease_id) {
+  const lease = leaseOf(robot);
+  if (lease?.id === lease_id) return lease;
+  const words = lease ? `${lease.holder} is driving.` : 'Take the lease first; this one is over.';
+  throw new Refusal('lease_held', words, ofLease(robot));
+}
+
+/** The lease that is renewed or given back. */
 function ownLease(robot, lease_id) {
   const lease = leaseOf(robot);
-  if (!lease || lease.id !== lease_id)
-    throw new Refusal(409, 'lease_held', 'this lease is not valid any more');
-  return lease;
+  if (lease?.id === lease_id) return lease;
+  throw new Refusal('lease_held', 'This lease is over, or somebody else has taken it.', ofLease(robot));
 }
 
 function shownLease({ id, holder, epoch, until_ms }) {
@@ -22,10 +32,10 @@ function shownLease({ id, holder, epoch, until_ms }) {
 }
 
 function takeLease(house, { user, body, args }) {
-  const robot = house.find(house.robots, args[0]);
+  const robot = house.find('robots', args[0]);
   const now = leaseOf(robot);
   if (now && now.holder !== user.name && !body.take_over)
-    throw new Refusal(409, 'lease_held', `${now.holder} is driving this robot`);
+    throw new Refusal('lease_held', `${now.holder} is driving.`, ofLease(robot));
   robot.lease = {
     id: house.newId('l'),
     holder: user.name,
@@ -37,13 +47,13 @@ function takeLease(house, { user, body, args }) {
 }
 
 function keepLease(house, { body, args }) {
-  const lease = ownLease(house.find(house.robots, args[0]), body.lease_id);
+  const lease = ownLease(house.find('robots', args[0]), body.lease_id);
   lease.until_ms = Date.now() + kLeaseMs;
   return { body: { lease: shownLease(lease) } };
 }
 
 function releaseLease(house, { body, args }) {
-  const robot = house.find(house.robots, args[0]);
+  const robot = house.find('robots', args[0]);
   ownLease(robot, body.lease_id);
   robot.lease = null;
   house.tellRobot(robot);
@@ -51,16 +61,23 @@ function releaseLease(house, { body, args }) {
 }
 
 function startMission(house, { user, body, args }) {
-  const robot = house.find(house.robots, args[0]);
-  const lease = ownLease(robot, body.lease_id);
-  if (!robot.online) throw new Refusal(409, 'robot_offline', `${robot.name} is not connected`);
-  const from = robot.belief.place ?? robot.belief.top[0]?.place;
-  if (robot.belief.lost && !from) throw new Refusal(409, 'lost', `${robot.name} does not know where it is`);
+  const robot = house.find('robots', args[0]);
+  const lease = needLease(robot, body.lease_id);
+  const where = `robots/${robot.id}`;
+  if (!robot.online) throw new Refusal('robot_offline', 'The robot is not connected.', where);
+  const from = robot.belief?.place ?? robot.belief?.top[0]?.place;
+  if (!from) throw new Refusal('lost', 'The robot does not know where it is.', where);
   const destination = house.graph.destinations.find((one) => one.id === body.destination);
   const place = destination?.place ?? house.graph.places.find((one) => one.id === body.place)?.id;
-  if (!place) throw new Refusal(404, 'unknown_place', `there is no '${body.destination ?? body.place}'`);
+  if (!place && body.destination)
+    throw new Refusal(
+      'unknown_place',
+      `The map has no destination ${body.destination}.`,
+      `maps/${robot.map}`,
+    );
+  if (!place) throw new Refusal('unknown_place', `The map has no place ${body.place}.`, 'to');
   const path = wayBetween(house.graph, from, place);
-  if (!path) throw new Refusal(409, 'no_route', 'there is no way from here to there');
+  if (!path) throw new Refusal('no_route', `No way leads from ${from} to ${place}.`, place);
   const mission = {
     format: 'homeward-mission',
     version: 2,
@@ -86,24 +103,30 @@ function startMission(house, { user, body, args }) {
 }
 
 function answer(house, { user, body, args }) {
-  const robot = house.find(house.robots, args[0]);
-  ownLease(robot, body.lease_id);
-  if (robot.mission?.id !== args[1]) throw new Refusal(404, 'not_found', `there is no '${args[1]}'`);
+  const robot = house.find('robots', args[0]);
+  const where = `missions/${args[1]}`;
+  if (robot.mission?.id !== args[1])
+    throw new Refusal('not_found', 'There is no mission with this id.', where);
+  needLease(robot, body.lease_id);
   if (robot.question?.number !== body.question)
-    throw new Refusal(409, 'conflict', 'the robot asks nothing on this mission now');
+    throw new Refusal('conflict', 'The robot asks nothing on this mission now.', where);
   house.hear(robot, body.here, user.name);
   return { status: 202, body: robot.mission };
 }
 
 function stop(house, { user, args }) {
-  const robot = house.find(house.robots, args[0]);
+  const robot = house.find('robots', args[0]);
   setTimeout(() => house.halt(robot, { code: 'stopped_by', parameters: { by: user.name } }), 200);
   return { status: 202, body: { stop_id: house.newId('s') } };
 }
 
 function addTour(house, { body }) {
   if (body.camera?.format !== 'homeward-camera')
-    throw new Refusal(422, 'invalid_input', 'camera: this is not a camera file');
+    throw new Refusal(
+      'unsupported_format',
+      `The format is '${body.camera?.format}'; 'homeward-camera' is wanted.`,
+      'body/camera/format',
+    );
   const tour = {
     id: house.newId('t'),
     name: body.name,
@@ -118,22 +141,29 @@ function addTour(house, { body }) {
 }
 
 function putImage(house, { body, args }) {
-  const tour = house.find(house.tours, args[0]);
-  if (body.length === 0) throw new Refusal(422, 'truncated_image', 'this picture is empty');
+  const tour = house.find('tours', args[0]);
+  if (body.length === 0)
+    throw new Refusal('unsupported_image', 'The body is empty; it has to be a JPEG or PNG picture.', 'body');
   tour.images = Math.max(tour.images, Number(args[1]) + 1);
   return { status: 201, body: {} };
 }
 
 function putSweep(house, { body, args }) {
-  const tour = house.find(house.tours, args[0]);
-  if (Number(args[1]) >= tour.images) throw new Refusal(404, 'not_found', 'there is no such picture');
+  const tour = house.find('tours', args[0]);
+  if (Number(args[1]) >= tour.images)
+    throw new Refusal('not_found', 'There is no such image.', `tours/${tour.id}/images/${args[1]}`);
   house.sweeps.push({ tour: tour.id, n: Number(args[1]), ...body });
   return { status: 204 };
 }
 
 function complete(house, { args }) {
-  const tour = house.find(house.tours, args[0]);
-  if (tour.images < 3) throw new Refusal(409, 'too_few_images', 'a tour needs at least 3 pictures');
+  const tour = house.find('tours', args[0]);
+  if (tour.images < 3)
+    throw new Refusal(
+      'conflict',
+      `The tour has ${tour.images} picture${tour.images === 1 ? '' : 's'}; a map needs at least 3.`,
+      `tours/${tour.id}`,
+    );
   tour.state = 'complete';
   return { body: tour };
 }
@@ -146,27 +176,28 @@ function addMap(house, { body }) {
 }
 
 function addToMap(house, { body, args }) {
-  const map = house.find(house.maps, args[0]);
+  const map = house.find('maps', args[0]);
   const more = (body.tours ?? []).filter((one) => !map.tours.includes(one));
   return { status: 202, body: { job: house.build(map, body.kind ?? 'build', [...map.tours, ...more]) } };
 }
 
 function setRefine(house, { body, args }) {
-  const map = Object.assign(house.find(house.maps, args[0]), { refine: body.refine });
+  const map = Object.assign(house.find('maps', args[0]), { refine: body.refine });
   house.send('map', map);
   return { body: map };
 }
 
 function takeJob(house, { args }) {
-  const job = house.find(house.jobs, args[0]);
-  if (job.state !== 'offered') throw new Refusal(409, 'conflict', 'the job offers nothing');
+  const job = house.find('jobs', args[0]);
+  if (job.state !== 'offered')
+    throw new Refusal('conflict', `The job offers nothing: it is ${job.state}.`, `jobs/${job.id}`);
   Object.assign(job, { state: 'done', notes: [kitchenNote('place_gained')] });
   house.send('job', job);
   return { status: 202, body: job };
 }
 
 function cancelJob(house, { args }) {
-  const job = Object.assign(house.find(house.jobs, args[0]), { state: 'cancelled' });
+  const job = Object.assign(house.find('jobs', args[0]), { state: 'cancelled' });
   house.send('job', job);
   return { status: 202, body: job };
 }
@@ -179,32 +210,43 @@ function addRobot(house, { body }) {
 }
 
 function setMap(house, { body, args }) {
-  const robot = house.find(house.robots, args[0]);
+  const robot = house.find('robots', args[0]);
+  if (body.map !== null) house.find('maps', body.map);
   robot.map = body.map;
   house.tellRobot(robot);
   return { body: house.shown(robot) };
 }
 
 function setPlace(house, { user, body, args }) {
-  const robot = house.find(house.robots, args[0]);
-  if (robot.map === null) throw new Refusal(409, 'conflict', 'The robot has no map to be on.');
+  const robot = house.find('robots', args[0]);
+  const where = `robots/${robot.id}`;
+  if (robot.map === null) throw new Refusal('conflict', 'The robot has no map to be on.', where);
   if (['accepted', 'driving'].includes(robot.mission?.state))
-    throw new Refusal(409, 'conflict', 'The robot is on its way; stop it first.');
-  if (!robot.online) throw new Refusal(409, 'robot_offline', 'The robot is not connected.');
+    throw new Refusal('conflict', 'The robot is on its way; stop it first.', where);
+  if (!robot.online) throw new Refusal('robot_offline', 'The robot is not connected.', where);
   const { destinations, places } = house.graph;
   const place =
     body.label === undefined
       ? places.find((one) => one.id === body.place)?.id
       : (destinations.find((one) => one.label === body.label)?.place ??
         places.find((one) => one.label === body.label)?.id);
-  if (!place) throw new Refusal(404, 'unknown_place', `The map has no place '${body.label ?? body.place}'.`);
+  if (!place)
+    throw new Refusal(
+      'unknown_place',
+      body.label === undefined
+        ? `The map has no place ${body.place}.`
+        : `The map has no place called '${body.label}'.`,
+      `maps/${robot.map}`,
+    );
   house.put(robot, place, user.name);
   return { body: house.shown(robot) };
 }
 
 function addUser(house, { body }) {
   if (house.users.some((one) => one.name === body.name))
-    throw new Refusal(409, 'conflict', `there is a ${body.name} already`);
+    throw new Refusal('conflict', `There is already a person called '${body.name}'.`, 'name');
+  if (body.password.length < 8)
+    throw new Refusal('invalid_input', 'A password has at least 8 characters and at most 1000.', 'password');
   const user = house.newUser(body.name, body.role, body.password);
   house.users.push(user);
   return { status: 201, body: house.shownUser(user) };
@@ -223,9 +265,30 @@ function addToken(house, { body }) {
 }
 
 function graphOf(house, { args }) {
-  const map = house.find(house.maps, args[0]);
-  if (map.state !== 'ready') throw new Refusal(409, 'conflict', 'the map is not built yet');
+  const map = house.find('maps', args[0]);
+  if (map.state !== 'ready')
+    throw new Refusal('conflict', 'The map has not been built yet.', `maps/${map.id}`);
   return { body: { ...house.graph, map: map.id }, headers: { ETag: `"r${house.graph.revision}"` } };
+}
+
+function remove(house, kind, id) {
+  house.find(kind, id);
+  house[kind] = house[kind].filter((one) => one.id !== id);
+  return { status: 204 };
+}
+
+function frameOf(house, { args }) {
+  const robot = house.find('robots', args[0]);
+  if (!robot.belief)
+    throw new Refusal('not_found', 'The robot has sent no picture yet.', `robots/${robot.id}/frame`);
+  return { picture: robot.belief.place ?? 'p2' };
+}
+
+function thumbnailOf(house, { args }) {
+  const map = house.find('maps', args[0]);
+  if (!house.graph.places.some((one) => one.id === args[1]))
+    throw new Refusal('unknown_place', `The map has no place ${args[1]}.`, `maps/${map.id}`);
+  return { picture: args[1] };
 }
 
 export const kRoutes = [
@@ -239,11 +302,7 @@ export const kRoutes = [
   [/^POST users$/, 'admin', addUser],
   [/^GET tokens$/, 'installer', (house) => ({ body: { tokens: house.tokens } })],
   [/^POST tokens$/, 'installer', addToken],
-  [
-    /^DELETE tokens\/([^/]+)$/,
-    'installer',
-    (house, { args }) => ((house.tokens = house.tokens.filter((one) => one.id !== args[0])), { status: 204 }),
-  ],
+  [/^DELETE tokens\/([^/]+)$/, 'installer', (house, { args }) => remove(house, 'tokens', args[0])],
   [/^GET robots$/, 'viewer', (house) => ({ body: { robots: house.robots.map((one) => house.shown(one)) } })],
   [/^POST robots$/, 'installer', addRobot],
   [/^PUT robots\/([^/]+)\/map$/, 'installer', setMap],
@@ -254,23 +313,15 @@ export const kRoutes = [
   [/^POST robots\/([^/]+)\/missions$/, 'rider', startMission],
   [/^POST robots\/([^/]+)\/missions\/([^/]+)\/answer$/, 'rider', answer],
   [/^POST robots\/([^/]+)\/stop$/, 'viewer', stop],
-  [
-    /^GET robots\/([^/]+)\/frame$/,
-    'viewer',
-    (house, { args }) => ({ picture: house.find(house.robots, args[0]).belief?.place ?? 'p2' }),
-  ],
+  [/^GET robots\/([^/]+)\/frame$/, 'viewer', frameOf],
   [/^GET maps$/, 'viewer', (house) => ({ body: { maps: house.maps } })],
   [/^POST maps$/, 'installer', addMap],
-  [
-    /^DELETE maps\/([^/]+)$/,
-    'installer',
-    (house, { args }) => ((house.maps = house.maps.filter((one) => one.id !== args[0])), { status: 204 }),
-  ],
+  [/^DELETE maps\/([^/]+)$/, 'installer', (house, { args }) => remove(house, 'maps', args[0])],
   [/^POST maps\/([^/]+)\/builds$/, 'installer', addToMap],
   [/^PUT maps\/([^/]+)\/refine$/, 'installer', setRefine],
   [/^GET maps\/([^/]+)\/graph$/, 'viewer', graphOf],
   [/^GET maps\/[^/]+\/history$/, 'viewer', (house) => ({ body: { edits: house.edits } })],
-  [/^GET maps\/[^/]+\/places\/([^/]+)\/thumbnail$/, 'viewer', (_, { args }) => ({ picture: args[0] })],
+  [/^GET maps\/([^/]+)\/places\/([^/]+)\/thumbnail$/, 'viewer', thumbnailOf],
   [
     /^GET maps\/[^/]+\/images\/[^/]+\/(p\d+)b?\.jpg\/thumbnail$/,
     'viewer',
@@ -280,7 +331,7 @@ export const kRoutes = [
   [/^POST maps\/([^/]+)\/undo$/, 'installer', undo],
   [/^POST maps\/([^/]+)\/redo$/, 'installer', redo],
   [/^GET tours$/, 'viewer', (house) => ({ body: { tours: house.tours } })],
-  [/^GET tours\/([^/]+)$/, 'viewer', (house, { args }) => ({ body: house.find(house.tours, args[0]) })],
+  [/^GET tours\/([^/]+)$/, 'viewer', (house, { args }) => ({ body: house.find('tours', args[0]) })],
   [/^POST tours$/, 'installer', addTour],
   [/^PUT tours\/([^/]+)\/images\/(\d+)$/, 'installer', putImage],
   [/^PUT tours\/([^/]+)\/images\/(\d+)\/sweep$/, 'installer', putSweep],

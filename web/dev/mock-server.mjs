@@ -79,17 +79,10 @@ async function answer(house, root, request, response) {
       .writeHead(result.status ?? 200, headers)
       .end(result.body === undefined ? '' : JSON.stringify(result.body));
   } catch (thrown) {
-    const refusal = thrown instanceof Refusal ? thrown : new Refusal(500, 'internal', String(thrown));
-    const { status, code, message } = refusal;
-    const problem = {
-      type: `urn:homeward:problem:${code}`,
-      title: code,
-      status,
-      detail: message,
-      where: '',
-      code,
-    };
-    response.writeHead(status, { 'Content-Type': 'application/problem+json' }).end(JSON.stringify(problem));
+    const { document } = thrown instanceof Refusal ? thrown : new Refusal('internal', String(thrown));
+    response
+      .writeHead(document.status, { 'Content-Type': 'application/problem+json' })
+      .end(JSON.stringify(document));
   }
 }
 

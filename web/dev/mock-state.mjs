@@ -149,22 +149,31 @@ export class House {
     if (route === 'GET setup') return { body: { needed: this.users.length === 0 } };
     if (route === 'POST setup') {
       if (body.token !== 'first' || this.users.length > 0)
-        throw new Refusal(401, 'unauthenticated', 'this set-up link is not valid');
+        throw new Refusal('forbidden', 'This set-up link is not valid, or was used before.', 'token');
       this.users.push(this.newUser(body.name, 'admin', body.password));
       return this.signedIn(this.users[0], 201);
     }
     if (route === 'POST login') {
       const user = this.users.find((one) => one.name === body.name && one.password === body.password);
-      if (!user) throw new Refusal(401, 'unauthenticated', 'wrong name or password');
+      if (!user) throw new Refusal('unauthenticated', 'The name or the password is wrong.', 'login');
       return this.signedIn(user, 200);
     }
+    const { origin, host } = request.headers;
+    if (request.method !== 'GET' && origin && origin !== `http://${host}`)
+      throw new Refusal('forbidden', 'A change must come from a page of this server.', 'Origin');
     const user = this.userOf(request);
-    if (!user) throw new Refusal(401, 'unauthenticated', 'sign in first');
+    const known = kRoutes.some(([pattern]) => pattern.test(route));
+    if (known && !user)
+      throw new Refusal('unauthenticated', 'Sign in, or send a token in the Authorization header.');
     for (const [pattern, role, handle] of kRoutes) {
       const found = pattern.exec(route);
       if (!found) continue;
       if (kRanks.indexOf(user.role) < kRanks.indexOf(role))
-        throw new Refusal(403, 'forbidden', `this needs the role ${role}`);
+        throw new Refusal(
+          'forbidden',
+          `This needs the role ${role}; yours is ${user.role}.`,
+          `/api/v1${path}`,
+        );
       return handle(this, {
         user,
         body,
@@ -172,12 +181,15 @@ export class House {
         args: found.slice(1).map(decodeURIComponent),
       });
     }
-    throw new Refusal(404, 'not_found', `there is no ${route}`);
+    throw new Refusal('not_found', `There is no /api/v1${path} here.`, `/api/v1${path}`);
   }
 
-  find(list, id) {
-    const found = list.find((one) => one.id === id);
-    if (!found) throw new Refusal(404, 'not_found', `there is no '${id}'`);
+  /** One of the robots, maps, tours, jobs or tokens. */
+  find(kind, id) {
+    const found = this[kind].find((one) => one.id === id);
+    const what = kind.slice(0, -1);
+    const words = kind === 'robots' ? `There is no robot ${id}.` : `There is no ${what} with this id.`;
+    if (!found) throw new Refusal('not_found', words, `${kind}/${id}`);
     return found;
   }
 

@@ -2,6 +2,7 @@
 #include "server/work/work_pool.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <atomic>
 #include <future>
@@ -70,6 +71,20 @@ TEST(WorkPool, StopEndsTheRunningTaskInOrderAndDropsWhatWaits) {
   pool.stop();
   opener.join();
   EXPECT_EQ(ran, 0);
+}
+
+TEST(WorkPool, ItsWorkersStandBackAsFarAsTheyAreToldAndNobodyElseDoes) {
+  const int own = getpriority(PRIO_PROCESS, 0);  // on Linux of this thread
+  if (own >= 7) GTEST_SKIP() << "this whole run stands back as far";
+  WorkPool behind(1, 1, 7);
+  WorkPool beside(1, 1);
+  std::promise<int> niceness;
+  std::promise<int> none;
+  ASSERT_TRUE(behind.try_run([&] { niceness.set_value(getpriority(PRIO_PROCESS, 0)); }));
+  ASSERT_TRUE(beside.try_run([&] { none.set_value(getpriority(PRIO_PROCESS, 0)); }));
+  EXPECT_EQ(niceness.get_future().get(), 7);
+  EXPECT_EQ(none.get_future().get(), own);
+  EXPECT_EQ(getpriority(PRIO_PROCESS, 0), own);
 }
 
 TEST(WorkPool, AFaultEndsItsTaskAlone) {

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pretended server that the dashboard is developed against refuses in the words of the real one: each request here is
+// asked of both, and what they answer is the same but for the ids.
+// Usage: node tests/browser/same_answers_test.mjs --base URL --name N --password P
+import { parseArgs } from 'node:util';
+import { kCamera, startMock } from '../../web/dev/mock-server.mjs';
+
+const { values } = parseArgs({
+  options: { base: { type: 'string' }, name: { type: 'string' }, password: { type: 'string' } },
+});
+for (const key of ['base', 'name', 'password']) if (!values[key]) throw new Error(`--${key} is missing`);
+
+const kPassword = 'wheels-and-ways';
+const kOnlineMs = 30_000;
+
+/** What requests are about, in either house: {robot}, {map}... stand for its ids. */
+class House {
+  constructor(base) {
+    this.base = base;
+    this.cookies = { nobody: '' };
+    this.ids = {};
+  }
+  async ask(method, path, { as = 'admin', body, headers = {} } = {}) {
+    const answer = await fetch(`${this.base}/api/v1/${this.filled(path)}`, {
+      method,
+      headers: {
+        cookie: this.cookies[as],
+        origin: this.base,
+        ...(body === undefined || body instanceof Uint8Array ? {} : { 'Content-Type': 'application/json' }),
+        ...JSON.parse(this.filled(JSON.stringify(headers))),
+      },
+      ...(body === undefined
+        ? {}
+        : { body: body instanceof Uint8Array ? body : this.filled(JSON.stringify(body)) }),
+    });
+    const text = await answer.text();
+    const json = /json/.test(answer.headers.get('content-type') ?? '') && text ? JSON.parse(text) : text;
+    return { status: answer.status, body: json, cookie: answer.headers.get('set-cookie')?.split(';')[0] };
+  }
+  async well(method, path, options) {
+    const { status, body, cookie } = await this.ask(method, path, options);
+    if (status >= 300)
+      throw new Error(`${method} ${path} at ${this.base}: ${status} ${JSON.stringify(body)}`);
+    return { body, cookie };
+  }
+  async signIn(as, name, password) {
+    this.cookies[as] = '';
+    this.cookies[as] = (await this.well('POST', 'login', { as, body: { name, password } })).cookie;
+  }
+  filled(text) {
+    return text.replace(/\{(\w+)\}/g, (whole, key) => this.ids[key] ?? whole);
+  }
+  /** The words of an answer, with this house's ids taken out again. */
+  bare(value) {
+    const sorted =
+      value === null || typeof value !== 'object' ? value : Object.fromEntries(Object.entries(value).sort());
+    const longest = Object.entries(this.ids).sort((a, b) => String(b[1]).length - String(a[1]).length);
+    return longest.reduce(
+      (text, [key, id]) => text.replace(new RegExp(`(?<![\\w-])${escaped(id)}(?![\\w-])`, 'g'), `{${key}}`),
+      JSON.stringify(sorted),
+    );
+  }
+  async settle(name, password) {
+    await this.signIn('admin', name, password);
+    for (const [person, role] of [
+      ['rita', 'rider'],
+      ['vic', 'viewer'],
+    ]) {
+      await this.well('POST', 'users', { body: { name: person, password: kPassword, role } });
+      await this.signIn(person, person, kPassword);
+    }
+    const { robots } = (await this.well('GET', 'robots')).body;
+    const robot = robots[0];
+    const { body: graph } = await this.well('GET', `maps/${robot.map}/graph`);
+    const { body: spare } = await this.well('POST', 'robots', { body: { name: 'spare' } });
+    const { body: tour } = await this.well('POST', 'tours', { body: { name: 'short', camera: kCamera } });
+    const { place, id: destination } = graph.destinations[0];
+    const far = graph.places.find(
+      (one) => !graph.edges.some(({ from, to }) => from === place && to === one.id) && one.id !== place,
+    );
+    this.ids = {
+      robot: robot.id,
+      robot_name: robot.name,
+      map: robot.map,
+      spare: spare.id,
+      tour: tour.id,
+      revision: graph.revision,
+      destination,
+      place,
+      far: far.id,
+    };
+    for (const until = Date.now() + kOnlineMs; ;) {
+      const now = (await this.well('GET', 'robots')).body.robots.find((one) => one.id === robot.id);
+      if (now.online) break;
+      if (Date.now() > until) throw new Error(`the robot of ${this.base} does not come`);
+      await new Promise((done) => setTimeout(done, 200));
+    }
+  }
+}
+
+const escaped = (text) => String(text).replace(/[.*+?^${}()|[\]\\]/g, '\\$&');
+
+const kRevision = { 'If-Match': '"r{revision}"' };
+const edits = (...all) => ({ body: { edits: all }, headers: kRevision });
+
+// [what it is about, method, path, options]; in order, for some change what the next ones find.
+const kRequests = [
+  [
+    'another page asks',
+    'POST',
+    'robots',
+    { body: { name: 'x' }, headers: { origin: 'http://elsewhere.example' } },
+  ],
+  ['nobody asks', 'GET', 'robots', { as: 'nobody' }],
+  ['a wrong password', 'POST', 'login', { as: 'nobody', body: { name: 'rita', password: 'quite another' } }],
+  ['an unknown name', 'POST', 'login', { as: 'nobody', body: { name: 'nobody', password: kPassword } }],
+  [
+    'a set-up link that was used',
+    'POST',
+    'setup',
+    { as: 'nobody', body: { token: 'first', name: 'eve', password: kPassword } },
+  ],
+  ['an unknown route', 'GET', 'nonsense'],
+  ['a viewer drives', 'POST', 'robots/{robot}/lease', { as: 'vic', body: {} }],
+  [
+    'a rider adds a person',
+    'POST',
+    'users',
+    { as: 'rita', body: { name: 'x', password: kPassword, role: 'rider' } },
+  ],
+  ['a name twice', 'POST', 'users', { body: { name: 'rita', password: kPassword, role: 'rider' } }],
+  ['a short password', 'POST', 'users', { body: { name: 'tim', password: 'short', role: 'rider' } }],
+  ['no token', 'DELETE', 'tokens/none'],
+  ['no robot', 'POST', 'robots/none/stop', { body: {} }],
+  ['no robot to lease', 'POST', 'robots/none/lease', { body: {} }],
+  ['no picture yet', 'GET', 'robots/{spare}/frame'],
+  ['a lease over', 'PUT', 'robots/{robot}/lease', { as: 'rita', body: { lease_id: 'gone' } }],
+  [
+    'a mission without a lease',
+    'POST',
+    'robots/{robot}/missions',
+    { as: 'rita', body: { lease_id: 'gone', destination: '{destination}' } },
+  ],
+  ['a lease', 'POST', 'robots/{robot}/lease', { as: 'rita', body: {}, keep: 'lease' }],
+  ['another drives', 'POST', 'robots/{robot}/lease', { body: {} }],
+  ['the lease of another', 'PUT', 'robots/{robot}/lease', { body: { lease_id: 'gone' } }],
+  [
+    'a mission on the lease of another',
+    'POST',
+    'robots/{robot}/missions',
+    { body: { lease_id: 'gone', destination: '{destination}' } },
+  ],
+  [
+    'an unknown destination',
+    'POST',
+    'robots/{robot}/missions',
+    { as: 'rita', body: { lease_id: '{lease}', destination: 'cellar' } },
+  ],
+  [
+    'an unknown place',
+    'POST',
+    'robots/{robot}/missions',
+    { as: 'rita', body: { lease_id: '{lease}', place: 'p99999' } },
+  ],
+  [
+    'an answer to no mission',
+    'POST',
+    'robots/{robot}/missions/none/answer',
+    { as: 'rita', body: { lease_id: '{lease}', question: 1, here: true } },
+  ],
+  ['a lease given back', 'DELETE', 'robots/{robot}/lease', { as: 'rita', body: { lease_id: '{lease}' } }],
+  [
+    'a lease of the spare robot',
+    'POST',
+    'robots/{spare}/lease',
+    { as: 'rita', body: {}, keep: 'spare_lease' },
+  ],
+  [
+    'a mission of a robot that is away',
+    'POST',
+    'robots/{spare}/missions',
+    { as: 'rita', body: { lease_id: '{spare_lease}', destination: '{destination}' } },
+  ],
+  ['the place of a robot without a map', 'PUT', 'robots/{spare}/place', { body: { place: '{place}' } }],
+  ['no map to be on', 'PUT', 'robots/{spare}/map', { body: { map: 'none' } }],
+  ['a map for it', 'PUT', 'robots/{spare}/map', { body: { map: '{map}' } }],
+  ['the place of a robot that is away', 'PUT', 'robots/{spare}/place', { body: { place: '{place}' } }],
+  ['a label that is not there', 'PUT', 'robots/{robot}/place', { body: { label: 'cellar' } }],
+  ['a place that is not there', 'PUT', 'robots/{robot}/place', { body: { place: 'p99999' } }],
+  ['no camera', 'POST', 'tours', { body: { name: 'blind', camera: { format: 'something' } } }],
+  ['no tour', 'GET', 'tours/none'],
+  [
+    'no picture',
+    'PUT',
+    'tours/{tour}/images/0',
+    { body: new Uint8Array(0), headers: { 'Content-Type': 'image/jpeg' } },
+  ],
+  [
+    'no tour for a picture',
+    'PUT',
+    'tours/none/images/0',
+    { body: new Uint8Array(4), headers: { 'Content-Type': 'image/jpeg' } },
+  ],
+  ['too few pictures', 'POST', 'tours/{tour}/complete', { body: {} }],
+  ['no tour to complete', 'POST', 'tours/none/complete', { body: {} }],
+  ['no map', 'GET', 'maps/none/graph'],
+  ['no map to remove', 'DELETE', 'maps/none'],
+  ['no map to build', 'POST', 'maps/none/builds', { body: { kind: 'build' } }],
+  ['no map to refine', 'PUT', 'maps/none/refine', { body: { refine: 'auto' } }],
+  ['no thumbnail of an unknown place', 'GET', 'maps/{map}/places/p99999/thumbnail'],
+  ['no job to take', 'POST', 'jobs/none/take', { body: {} }],
+  ['no job to cancel', 'POST', 'jobs/none/cancel', { body: {} }],
+  [
+    'no revision',
+    'POST',
+    'maps/{map}/edits',
+    { body: { edits: [{ kind: 'rename', place: '{place}', label: 'x' }] } },
+  ],
+  [
+    'a revision of old',
+    'POST',
+    'maps/{map}/edits',
+    { body: { edits: [{ kind: 'rename', place: '{place}', label: 'x' }] }, headers: { 'If-Match': '"r0"' } },
+  ],
+  ['no place to rename', 'POST', 'maps/{map}/edits', edits({ kind: 'rename', place: 'p99999', label: 'x' })],
+  [
+    'no way to close',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'block_edge', from: '{place}', to: '{far}', blocked: true }),
+  ],
+  [
+    'no shortcut to decide',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'decide_shortcut', image_a: 'a/1.jpg', image_b: 'a/2.jpg', accept: true }),
+  ],
+  ['an edit that is not applied', 'POST', 'maps/{map}/edits', edits({ kind: 'delete', place: '{place}' })],
+  ['nothing to redo', 'POST', 'maps/{map}/redo', { headers: kRevision }],
+  ['no map to edit', 'POST', 'maps/none/edits', edits({ kind: 'rename', place: '{place}', label: 'x' })],
+];
+
+const mock = await startMock({ port: 0 });
+const real = new House(values.base);
+const pretended = new House(mock.url);
+await real.settle(values.name, values.password);
+await pretended.settle('anna', 'homeward');
+
+let different = 0;
+for (const [about, method, path, options = {}] of kRequests) {
+  const told = [];
+  for (const house of [real, pretended]) {
+    const { status, body } = await house.ask(method, path, options);
+    if (options.keep) house.ids[options.keep] = body.lease.id;
+    // Of an answer that is not a refusal the schemas say what it is.
+    told.push(`${status} ${status >= 400 ? house.bare(body) : ''}`);
+  }
+  if (told[0] === told[1]) continue;
+  different += 1;
+  process.stdout.write(`${about}: ${method} ${path}\n  real       ${told[0]}\n  pretended  ${told[1]}\n`);
+}
+mock.close();
+process.stdout.write(`${kRequests.length} requests, ${different} answered differently\n`);
+process.exit(different === 0 ? 0 : 1);
