@@ -102,7 +102,8 @@ class Store {
                                               const Thumbnails& thumbnails, std::int64_t expected_revision,
                                               const AlongWithContents& along = {}) = 0;
   /// Keeps the next revision of a map that people have edited. Images, places, appearances and thumbnails have to be
-  /// those of the present one; so no more is written than what edits change. Errors: kNotFound, kStaleRevision.
+  /// those of the present one, and so has the state without edits, or, where it has none, the present one is that
+  /// state; so no more is written than what edits change. Errors: kNotFound, kStaleRevision.
   virtual Result<MapRecord> save_map_edit(const MapId& id, const map::TopologicalMap& edited,
                                           std::int64_t expected_revision) = 0;
   /// Errors: kNotFound (also before the first build), those of load_map.

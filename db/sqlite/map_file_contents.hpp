@@ -3,20 +3,12 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include <stdexcept>
 #include <string>
-#include <utility>
 
-#include "core/result.hpp"
 #include "db/map_file.hpp"
+#include "db/sqlite/map_file_failure.hpp"
 
 namespace homeward::db {
-
-/// Carries an Error through the reading functions to load_map.
-struct LoadFailure : std::runtime_error {
-  explicit LoadFailure(Error failure) : std::runtime_error(failure.message), error(std::move(failure)) {}
-  Error error;
-};
 
 /// A map file's rows (`bytes` counts the thumbnails only) and the checksum of all that was read for them. Throws
 /// LoadFailure, and what SQLite and JSON throw.

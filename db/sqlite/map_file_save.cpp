@@ -16,9 +16,10 @@
 #include "db/sqlite/durable_file.hpp"
 #include "db/sqlite/failure_words.hpp"
 #include "db/sqlite/map_file_contents.hpp"
+#include "db/sqlite/map_file_edits.hpp"
 #include "db/sqlite/map_file_schema.hpp"
+#include "db/sqlite/map_file_state.hpp"
 #include "db/sqlite/map_graph_part.hpp"
-#include "wire/appearance_blob.hpp"
 #include "wire/camera_json.hpp"
 
 namespace homeward::db {
@@ -55,6 +56,8 @@ void put_meta(SQLite::Database& database, const map::TopologicalMap& map) {
   put("next_place_number", map.next_place_number);
   put("next_destination_number", map.next_destination_number);
   put("build_seconds", map.build_seconds);
+  put("settled_edits", map.settled_edits);
+  put("has_unedited", map.unedited != nullptr);
 }
 
 void bind_optional(SQLite::Statement& statement, int index, const std::optional<double>& value) {
@@ -88,142 +91,6 @@ void bind_blob(SQLite::Statement& statement, int index, const std::vector<std::u
   statement.bind(index, bytes.data(), static_cast<int>(bytes.size()));
 }
 
-void put_places(SQLite::Database& database, const map::TopologicalMap& map) {
-  SQLite::Statement place_insert(database, "INSERT INTO places VALUES (?, ?, ?, ?)");
-  std::int64_t position = 0;
-  for (const map::Place& place : map.places) {
-    place_insert.bind(1, position++);
-    place_insert.bind(2, place.id.str());
-    place_insert.bind(3, place.label);
-    place_insert.bind(4, place.prototype.str());
-    place_insert.exec();
-    place_insert.reset();
-  }
-}
-
-void put_what_places_hold(SQLite::Database& database, const map::TopologicalMap& map) {
-  SQLite::Statement member_insert(database, "INSERT INTO place_members VALUES (?, ?, ?)");
-  SQLite::Statement appearance_insert(database, "INSERT INTO place_appearances VALUES (?, ?, ?)");
-  for (const map::Place& place : map.places) {
-    std::int64_t member_position = 0;
-    for (const ImageId& member : place.members) {
-      member_insert.bind(1, place.id.str());
-      member_insert.bind(2, member_position++);
-      member_insert.bind(3, member.str());
-      member_insert.exec();
-      member_insert.reset();
-    }
-    std::int64_t appearance_position = 0;
-    for (const features::Appearance& appearance : place.appearances) {
-      appearance_insert.bind(1, place.id.str());
-      appearance_insert.bind(2, appearance_position++);
-      bind_blob(appearance_insert, 3, wire::encode_appearance(appearance));
-      appearance_insert.exec();
-      appearance_insert.reset();
-    }
-  }
-}
-
-void put_edges(SQLite::Database& database, const map::TopologicalMap& map) {
-  SQLite::Statement insert(database, "INSERT INTO edges VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  std::int64_t position = 0;
-  for (const map::Edge& edge : map.edges) {
-    insert.bind(1, position++);
-    insert.bind(2, edge.from.str());
-    insert.bind(3, edge.to.str());
-    bind_optional(insert, 4, edge.bearing_rad);
-    bind_optional(insert, 5, edge.turn_rad);
-    insert.bind(6, edge.length_m);
-    insert.bind(7, edge.confidence);
-    insert.bind(8, edge.weak ? 1 : 0);
-    insert.bind(9, edge.blocked ? 1 : 0);
-    insert.bind(10, std::string(map::kDeciderNames.name(edge.by)));
-    insert.bind(11, static_cast<int>(edge.length_from));
-    insert.bind(12, edge.inliers);
-    insert.bind(13, edge.shortcut ? 1 : 0);
-    insert.exec();
-    insert.reset();
-  }
-}
-
-void put_shortcuts(SQLite::Database& database, const map::TopologicalMap& map) {
-  SQLite::Statement insert(database, "INSERT INTO shortcuts VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  std::int64_t position = 0;
-  for (const map::Shortcut& shortcut : map.shortcuts) {
-    insert.bind(1, position++);
-    insert.bind(2, shortcut.image_a.str());
-    insert.bind(3, shortcut.image_b.str());
-    int index = 4;
-    for (const double value : {shortcut.bearing_rad, shortcut.turn_rad, shortcut.back_bearing_rad, shortcut.length_m,
-                               shortcut.way_m, shortcut.clear_m, shortcut.confidence}) {
-      insert.bind(index++, value);
-    }
-    insert.bind(11, shortcut.inliers);
-    insert.bind(12, static_cast<int>(shortcut.state));
-    insert.bind(13, shortcut.by);
-    insert.exec();
-    insert.reset();
-  }
-}
-
-void put_hypotheses(SQLite::Database& database, const map::TopologicalMap& map) {
-  SQLite::Statement insert(database, "INSERT INTO hypotheses VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  std::int64_t position = 0;
-  for (const map::Hypothesis& hypothesis : map.hypotheses) {
-    insert.bind(1, position++);
-    insert.bind(2, hypothesis.prototype_a.str());
-    insert.bind(3, hypothesis.prototype_b.str());
-    int index = 4;
-    for (const double value :
-         {hypothesis.similarity, hypothesis.masses_before.is_true, hypothesis.masses_before.is_false,
-          hypothesis.masses_before.unknown, hypothesis.masses_after.is_true, hypothesis.masses_after.is_false,
-          hypothesis.masses_after.unknown, hypothesis.support, hypothesis.plausibility}) {
-      insert.bind(index++, value);
-    }
-    insert.bind(13, static_cast<int>(hypothesis.decision));
-    insert.bind(14, std::string(map::kDeciderNames.name(hypothesis.by)));
-    insert.exec();
-    insert.reset();
-  }
-}
-
-void put_destinations(SQLite::Database& database, const map::TopologicalMap& map) {
-  SQLite::Statement insert(database, "INSERT INTO destinations VALUES (?, ?, ?, ?, ?, ?)");
-  std::int64_t position = 0;
-  for (const map::Destination& destination : map.destinations) {
-    insert.bind(1, position++);
-    insert.bind(2, destination.id.str());
-    insert.bind(3, destination.place.str());
-    insert.bind(4, destination.image.str());
-    insert.bind(5, destination.label);
-    bind_blob(insert, 6, wire::encode_appearance(destination.appearance));
-    insert.exec();
-    insert.reset();
-  }
-}
-
-void put_edits(SQLite::Database& database, const map::TopologicalMap& map) {
-  SQLite::Statement insert(database, "INSERT INTO edits VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  std::int64_t position = 0;
-  for (const map::Edit& edit : map.edits) {
-    json images = json::array();
-    for (const ImageId& image : edit.images) images.push_back(image.str());
-    insert.bind(1, position++);
-    insert.bind(2, static_cast<int>(edit.kind));
-    insert.bind(3, edit.image_a.str());
-    insert.bind(4, edit.image_b.str());
-    insert.bind(5, edit.text);
-    insert.bind(6, images.dump());
-    insert.bind(7, edit.by);
-    insert.bind(8, edit.t_us);
-    insert.bind(9, edit.undone ? 1 : 0);
-    insert.bind(10, edit.change);
-    insert.bind(11, edit.redoable ? 1 : 0);
-    insert.exec();
-    insert.reset();
-  }
-}
-
 void put_thumbnails(SQLite::Database& database, const Thumbnails& thumbnails) {
   SQLite::Statement insert(database, "INSERT INTO thumbnails VALUES (?, ?)");
   for (const auto& [image, jpeg] : thumbnails) {
@@ -235,14 +102,10 @@ void put_thumbnails(SQLite::Database& database, const Thumbnails& thumbnails) {
 }
 
 /// What edits change, and the places that it is about.
-void put_graph(SQLite::Database& database, const map::TopologicalMap& map) {
+void put_graph(SQLite::Database& database, const map::TopologicalMap& map, AppearanceWriter& appearances) {
   put_meta(database, map);
-  put_places(database, map);
-  put_edges(database, map);
-  put_hypotheses(database, map);
-  put_shortcuts(database, map);
-  put_destinations(database, map);
-  put_edits(database, map);
+  put_state(database, MapState::kPresent, map);
+  put_edits(database, map, appearances);
 }
 
 /// All of it in memory: a build that is killed leaves no journal behind.
@@ -251,12 +114,17 @@ void fill_database(SQLite::Database& database, const map::TopologicalMap& map, c
       "PRAGMA page_size = 1024");  // an appearance's last page is half empty: of 4096 bytes that is 2 kB a place
   database.exec("PRAGMA foreign_keys = ON");
   SQLite::Transaction transaction(database);
-  database.exec(kMapFileSchema);
+  database.exec(map_file_schema());
   database.exec("PRAGMA application_id = " + std::to_string(kMapApplicationId));
   database.exec("PRAGMA user_version = " + std::to_string(kMapFileVersion));
+  AppearanceWriter appearances(database);
   put_images(database, map);
-  put_graph(database, map);
-  put_what_places_hold(database, map);
+  put_graph(database, map, appearances);
+  put_what_places_hold(database, MapState::kPresent, map, appearances);
+  if (map.unedited) {
+    put_state(database, MapState::kUnedited, *map.unedited);
+    put_what_places_hold(database, MapState::kUnedited, *map.unedited, appearances);
+  }
   put_thumbnails(database, thumbnails);
   SQLite::Statement checksum(database, kInsertChecksum);
   checksum.bind(1, read_contents(database).checksum);
@@ -358,9 +226,10 @@ bool folder_flushed(const std::filesystem::path& folder) {
 std::vector<std::uint8_t> graph_part_of(const map::TopologicalMap& map) {
   SQLite::Database database(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
   SQLite::Transaction transaction(database);
-  database.exec(kMapFileSchema);
+  database.exec(map_file_schema());
   database.exec("PRAGMA user_version = " + std::to_string(kMapFileVersion));
-  put_graph(database, map);
+  AppearanceWriter appearances(database);
+  put_graph(database, map, appearances);
   transaction.commit();
   const Serialized all = serialized(database);
   return {all.all().begin(), all.all().end()};

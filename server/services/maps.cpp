@@ -8,11 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "imageio/decode.hpp"
-#include "map/lookup.hpp"
-#include "mapping/edits.hpp"
+#include "mapping/edit_log.hpp"
 #include "pipeline/belief_tracker.hpp"
-#include "pipeline/thumbnail.hpp"
 #include "server/services/belief_view.hpp"
+#include "server/services/map_pictures.hpp"
 
 namespace homeward::server {
 namespace {
@@ -20,10 +19,11 @@ namespace {
 /// What an edit left alone that changes no more than db::Store::save_map_edit keeps.
 bool same_places(const map::TopologicalMap& a, const map::TopologicalMap& b) {
   const auto same = [](const map::Place& x, const map::Place& y) {
-    return x.id == y.id && x.prototype == y.prototype && x.members == y.members &&
-           x.appearances.size() == y.appearances.size();
+    return x.id == y.id && x.prototype == y.prototype && x.members == y.members && x.appearances == y.appearances;
   };
-  return a.images.size() == b.images.size() && std::ranges::equal(a.places, b.places, same);
+  // Where nothing had been edited, the state without edits is the map as it was.
+  return (a.unedited == b.unedited || !a.unedited) && a.images.size() == b.images.size() &&
+         std::ranges::equal(a.places, b.places, same);
 }
 
 Error stale(const MapId& id, std::int64_t present, std::int64_t asked) {
@@ -87,21 +87,15 @@ Result<std::int64_t> MapService::change(const MapId& id, std::int64_t revision,
 Result<std::int64_t> MapService::edit(const MapId& id, std::int64_t revision,
                                       const std::vector<wire::EditRequest>& edits, const std::string& by) {
   return change(id, revision, [&](map::TopologicalMap& map) -> Status {
+    MapPictures pictures(store_, map);
+    const auto look = [&](const ImageId& image) { return pictures.look_at(image); };
     const std::int64_t one_change = mapping::next_change(map);
     for (std::size_t i = 0; i < edits.size(); ++i) {
       const std::string where = "body/edits/" + std::to_string(i);
-      const map::EditKind kind = edits[i].kind;
-      if (kind != map::EditKind::kRename && kind != map::EditKind::kBlockEdge &&
-          kind != map::EditKind::kDecideShortcut) {
-        return fail(ErrorCode::kInvalidInput,
-                    "This version applies rename, block_edge and decide_shortcut, not " +
-                        std::string(wire::edit_kind_name(kind)) + ".",
-                    where);
-      }
       auto lasting = wire::edit_for_map(edits[i], map, by, clock_.wall_us());
       if (!lasting) return fail(lasting.error().code, lasting.error().message, where);
       lasting->change = one_change;
-      if (const Status status = mapping::apply_edit(map, *lasting); !status) {
+      if (const Status status = mapping::apply_edit(map, *lasting, look); !status) {
         return fail(status.error().code, status.error().message, where);
       }
     }
@@ -125,7 +119,11 @@ Result<db::MapRecord> MapService::keep_build(const MapId& id, map::TopologicalMa
   const auto present = to_build_on(id);
   if (!present) return pass_on(present);
   // Edits that people made, undid or redid while this was built.
-  if (*present && (*present)->map.edits != contents.edits) mapping::replay_edits(contents, (*present)->map.edits);
+  if (*present && (*present)->map.edits != contents.edits) {
+    MapPictures pictures(store_, contents);
+    mapping::replay_edits(contents, (*present)->map.edits, true,
+                          [&](const ImageId& image) { return pictures.look_at(image); });
+  }
   contents.revision = record->revision + 1;
   auto saved = store_.save_map_contents(id, contents, thumbnails, record->revision);
   if (saved) tell(*saved);
@@ -146,26 +144,9 @@ Result<std::vector<std::uint8_t>> MapService::thumbnail(const MapId& id, const I
   if (!loaded) return pass_on(loaded);
   const auto found = (*loaded)->thumbnails.find(image);
   if (found != (*loaded)->thumbnails.end()) return found->second;
-  const std::string where = "maps/" + id.str() + "/images/" + image.str();
-  const std::size_t slash = image.str().find('/');
-  const auto known = map::image_indices((*loaded)->map);
-  if (!known.contains(image) || slash == std::string::npos) {
-    return fail(ErrorCode::kNotFound, "The map has no picture " + image.str() + ".", where);
-  }
-  const TourId tour(image.str().substr(0, slash));
-  const auto images = store_.tour_images(tour);
-  if (!images) return pass_on(images);
-  for (const db::TourImage& kept : *images) {
-    if (kept.file != image.str().substr(slash + 1)) continue;
-    const auto bytes = store_.image_bytes(tour, kept.number);
-    if (!bytes) return pass_on(bytes);
-    const auto picture = imageio::decode(*bytes, image.str());
-    if (!picture) return pass_on(picture);
-    const auto eye = pipeline::Eye::create((*loaded)->map.camera, (*loaded)->map.feature_config);
-    if (!eye) return pass_on(eye);
-    return pipeline::make_thumbnail(*eye, *picture);
-  }
-  return fail(ErrorCode::kNotFound, "The picture " + image.str() + " was not kept.", where);
+  auto made = MapPictures(store_, (*loaded)->map).thumbnail(image);
+  if (made) return made;
+  return fail(made.error().code, made.error().message, "maps/" + id.str() + "/images/" + image.str());
 }
 
 Result<wire::BeliefView> MapService::localise(const MapId& id, std::span<const std::uint8_t> picture) {

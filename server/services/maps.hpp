@@ -38,8 +38,8 @@ class MapService {
   std::shared_ptr<const std::string> graph(const MapId& id, const LoadedMap& loaded) {
     return cache_.graph(id, loaded);
   }
-  /// Applies all edits as one change, or none. Errors: kStaleRevision, kInvalidInput (kinds that this version does not
-  /// apply), those of mapping::apply_edit. Returns the new revision.
+  /// Applies all edits as one change, or none. Errors: kStaleRevision, those of wire::edit_for_map and
+  /// mapping::apply_edit. Returns the new revision.
   Result<std::int64_t> edit(const MapId& id, std::int64_t revision, const std::vector<wire::EditRequest>& edits,
                             const std::string& by);
   /// Takes the latest change back, all that one edit() did. Errors: kStaleRevision, those of mapping::undo_change.

@@ -254,9 +254,21 @@ Result<wire::JobState> BuildJobs::build(wire::JobView& job, const std::stop_toke
   const auto kept = maps_.keep_build(job.map, std::move(built->map), thumbnails);
   if (!kept) return pass_on(kept);
   job.notes = std::move(notes);  // they are about a map that is there
+  // With the edits that people made while it was built.
+  if (const auto now = maps_.load(job.map)) {
+    tell_lost_edits(job, *previous ? (*previous)->map.edits : std::vector<map::Edit>(), (*now)->map.edits);
+  }
   spdlog::info("job {}: map {} has {} places from {} pictures", job.id.str(), job.map.str(), kept->places,
                kept->images);
   return wire::JobState::kDone;
+}
+
+void BuildJobs::tell_lost_edits(wire::JobView& job, const std::vector<map::Edit>& before,
+                                const std::vector<map::Edit>& after) {
+  for (wire::Reason& note : notes_of_lost_edits(before, after)) {
+    spdlog::warn("job {}: {}", job.id.str(), wire::english(note));
+    job.notes.push_back(std::move(note));
+  }
 }
 
 pipeline::ProgressSink BuildJobs::progress_of(wire::JobView& job) {

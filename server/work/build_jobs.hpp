@@ -68,6 +68,9 @@ class BuildJobs {
   bool forget_drives_of(const wire::JobView& job);
   Result<wire::JobState> keep_learnt(wire::JobView& job, const map::TopologicalMap& map,
                                      const db::Thumbnails& thumbnails, std::int64_t revision);
+  /// Adds to a job's notes which edits the map could not keep.
+  static void tell_lost_edits(wire::JobView& job, const std::vector<map::Edit>& before,
+                              const std::vector<map::Edit>& after);
   pipeline::ProgressSink progress_of(wire::JobView& job);
   Result<wire::JobView> queue(wire::JobView job);
   Result<wire::JobView> queue_locked(wire::JobView job);

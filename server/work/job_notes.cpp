@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/work/job_notes.hpp"
 
+#include <algorithm>
 #include <map>
+#include <string>
+#include <utility>
 
 #include "map/lookup.hpp"
+#include "wire/edit_json.hpp"
 #include "wire/map_reasons.hpp"
 
 namespace homeward::server {
@@ -82,6 +86,19 @@ std::vector<Reason> notes_of(const mapping::GrowthCounts& added) {
             {"joined_places", std::int64_t{added.joined_places}},
             {"places", std::int64_t{added.places}},
             {"destinations", std::int64_t{added.destinations}}}}};
+}
+
+std::vector<Reason> notes_of_lost_edits(const std::vector<map::Edit>& before, const std::vector<map::Edit>& after) {
+  std::vector<Reason> notes;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const map::Edit& edit = after[i];
+    const bool known = i < before.size() && before[i].lost == edit.lost;
+    if (edit.undone || edit.lost.empty() || known) continue;
+    std::string words(wire::edit_kind_name(edit.kind));
+    std::ranges::replace(words, '_', ' ');
+    notes.push_back({ReasonCode::kEditLost, {{"edit", std::move(words)}, {"by", edit.by}, {"why", edit.lost}}});
+  }
+  return notes;
 }
 
 std::vector<Reason> notes_of_skipped(const std::vector<Error>& skipped) {

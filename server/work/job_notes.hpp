@@ -21,6 +21,10 @@ std::vector<wire::Reason> notes_of(const map::TopologicalMap& map, const mapping
 /// What tours brought to a map.
 std::vector<wire::Reason> notes_of(const mapping::GrowthCounts& added);
 
+/// The edits that a map could not keep when it was made anew, where that is news after `before`.
+std::vector<wire::Reason> notes_of_lost_edits(const std::vector<map::Edit>& before,
+                                              const std::vector<map::Edit>& after);
+
 /// One note on pictures that cannot be read, with the first of them; nothing when there are none.
 std::vector<wire::Reason> notes_of_skipped(const std::vector<Error>& skipped);
 

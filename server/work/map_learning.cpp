@@ -187,6 +187,7 @@ Result<wire::JobState> BuildJobs::refine_by_drives(wire::JobView& job, const std
 
 Result<wire::JobState> BuildJobs::keep_learnt(wire::JobView& job, const map::TopologicalMap& map,
                                               const db::Thumbnails& thumbnails, std::int64_t revision) {
+  if (const auto before = maps_.load(job.map)) tell_lost_edits(job, (*before)->map.edits, map.edits);
   wire::JobView after = job;
   after.state = wire::JobState::kDone;
   after.share = 1.0;

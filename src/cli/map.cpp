@@ -6,11 +6,14 @@
 namespace homeward::cli {
 
 void register_map(CLI::App& program) {
-  CLI::App* map =
-      program.add_subcommand("map", "Build, extend, refine, inspect and export maps, decide on their shortcuts");
+  CLI::App* map = program.add_subcommand(
+      "map", "Build, extend, refine, edit, compare, inspect and export maps, decide on their shortcuts");
   map->require_subcommand(1);
   register_map_build(*map);
   register_map_inspect(*map);
+  register_map_edit(*map);
+  register_map_diff(*map);
+  register_map_check(*map);
   register_map_export(*map);
   register_map_refine(*map);
   register_map_shortcuts(*map);

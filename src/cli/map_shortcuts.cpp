@@ -11,7 +11,7 @@
 #include "cli/map.hpp"
 #include "cli/map_output.hpp"
 #include "map/lookup.hpp"
-#include "mapping/edits.hpp"
+#include "mapping/edit_log.hpp"
 #include "planning/no_route.hpp"
 #include "wire/inspect_json.hpp"
 

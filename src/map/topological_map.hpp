@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/pose2.hpp"
 #include "core/time.hpp"
 #include "features/appearance.hpp"
+#include "map/appearance_list.hpp"
 
 namespace homeward::map {
 
@@ -27,8 +29,8 @@ struct Place {
   PlaceId id;
   std::string label;  // empty unless a person named it or a tour mark did
   ImageId prototype;
-  std::vector<ImageId> members;                   // tour order, the prototype among them
-  std::vector<features::Appearance> appearances;  // the prototype's first; later: by night, ...
+  std::vector<ImageId> members;  // tour order, the prototype among them
+  AppearanceList appearances;    // the prototype's first; later: by night, ...
 };
 
 /// What an edge's length was taken from.
@@ -108,6 +110,7 @@ struct Destination {
   ImageId image;
   std::string label;
   features::Appearance appearance;
+  std::string pictogram = {};  // by which its card is known, one of kPictograms; empty: as its label suggests
 };
 
 /// Spreads measured on the map, used by localisation (Goedemé 2007 §5).
@@ -124,6 +127,7 @@ struct BeliefCalibration {
   double slope = 1.0;
 };
 
+/// Their numbers are kept in files: new ones come last.
 enum class EditKind {
   kRename,
   kMerge,
@@ -134,22 +138,52 @@ enum class EditKind {
   kRemoveEdge,
   kBlockEdge,
   kDecide,
-  kDecideShortcut
+  kDecideShortcut,
+  kAddDestination,
+  kRemoveDestination,
+  kNameDestination,
+  kSetPictogram,
+  kSetDestinationPicture
+};
+inline constexpr std::size_t kEditKinds = 15;
+
+/// What two pictures told of the way between the places whose prototypes they are; each found it for itself.
+struct SeenWay {
+  ImageId from;
+  ImageId to;
+  std::optional<double> bearing_rad;  // nothing: no motion explains what both see
+  double turn_rad = 0.0;
+  double confidence = 0.0;
+  int inliers = 0;
+  bool operator==(const SeenWay&) const = default;
+};
+
+/// What came of an edit when it was first applied. Applied again to the same map it gives the same, without pictures.
+struct EditFindings {
+  std::string made;                 // id of the place or destination that it made
+  std::vector<ImageId> prototypes;  // that it chose for what is left of a place and for what became one
+  AppearanceList appearances;       // of the pictures that it looked at, which became prototypes or destinations
+  AppearanceList learnt;            // since then, by the place that it made
+  std::vector<SeenWay> ways;
+  bool operator==(const EditFindings&) const = default;
 };
 
 /// One edit by a person, keyed to images so that it outlives a rebuild.
 struct Edit {
   EditKind kind = EditKind::kRename;
-  ImageId image_a;   // any image of the first place concerned (or the first prototype of a hypothesis)
-  ImageId image_b;   // of the second one, where there is one
-  std::string text;  // the new label for kRename, "accept"/"reject" for kDecide and kDecideShortcut, "true"/"false" for
-                     // kBlockEdge
+  ImageId image_a;   // any image of the first place concerned (or the first prototype of a hypothesis, or the image of
+                     // the destination)
+  ImageId image_b;   // of the second one, where there is one; the new image of a destination
+  std::string text;  // the new label for kRename, kAddDestination and kNameDestination, the new pictogram, "accept" or
+                     // "reject" for kDecide and kDecideShortcut, "true" or "false" for kBlockEdge
   std::vector<ImageId> images;  // for kSplit and kMove: the images that go
   std::string by;               // user name
   TimeUs t_us = 0;
   bool undone = false;
   std::int64_t change = 0;  // edits of one request have the same, from 1: they are undone and redone together
   bool redoable = false;    // undone, and nothing was edited since
+  std::string lost = {};    // why the map could not keep it when it was last rebuilt; empty: it has it
+  EditFindings found = {};
 
   bool operator==(const Edit&) const = default;
 };
@@ -174,6 +208,11 @@ struct TopologicalMap {
   std::int64_t next_place_number = 1;  // ids are never reused
   std::int64_t next_destination_number = 1;
   double build_seconds = 0.0;
+  /// Places, edges, hypotheses, shortcuts and destinations as they were without the edits of the log, from
+  /// `settled_edits` on: what the map is comes of applying those that stand to this (mapping/edit_log.hpp). Null where
+  /// nothing was edited. Of its other members none counts.
+  std::shared_ptr<const TopologicalMap> unedited = nullptr;
+  std::size_t settled_edits = 0;  // how many of the log, the oldest, cannot be told from what was built any more
 };
 
 }  // namespace homeward::map

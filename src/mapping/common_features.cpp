@@ -15,6 +15,7 @@
 #include "core/index.hpp"
 #include "features/aggregate.hpp"
 #include "map/lookup.hpp"
+#include "mapping/edit_log.hpp"
 #include "mapping/parallel.hpp"
 #include "matching/distinctiveness.hpp"
 #include "matching/retrieval_index.hpp"
@@ -171,7 +172,8 @@ std::vector<std::uint8_t> CommonFeatures::frequency(const features::FeatureSet& 
 
 bool count_common_features(map::TopologicalMap& map, const CommonFeaturesConfig& config, int threads,
                            const std::stop_token& stop) {
-  const CommonFeatures common(map, config);
+  const map::TopologicalMap before = map;
+  const CommonFeatures common(before, config);
   const auto places = map.places.size();
   std::vector<std::vector<std::vector<std::uint8_t>>> of_places(places);
   std::vector<std::vector<std::uint8_t>> of_destinations(map.destinations.size());
@@ -191,12 +193,15 @@ bool count_common_features(map::TopologicalMap& map, const CommonFeaturesConfig&
   if (!parallel_for(places + map.destinations.size(), threads, count, {}, stop)) return false;
   for (std::size_t p = 0; p < places; ++p) {
     for (std::size_t i = 0; i < of_places[p].size(); ++i) {
-      map.places[p].appearances[i].sift.document_frequency = std::move(of_places[p][i]);
+      features::Appearance counted = map.places[p].appearances[i];
+      counted.sift.document_frequency = std::move(of_places[p][i]);
+      map.places[p].appearances.replace(i, std::move(counted), map.places[p].appearances.entries()[i].image);
     }
   }
   for (std::size_t d = 0; d < map.destinations.size(); ++d) {
     map.destinations[d].appearance.sift.document_frequency = std::move(of_destinations[d]);
   }
+  carry_over(before, map);
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include "core/index.hpp"
 #include "map/lookup.hpp"
 #include "mapping/edges.hpp"
+#include "mapping/edit_log.hpp"
 #include "mapping/extra_places.hpp"
 #include "mapping/growth_statistics.hpp"
 #include "mapping/hypotheses.hpp"
@@ -218,7 +219,9 @@ class Growth {
 
 GrownMap grow_map(const map::TopologicalMap& old, const GrowthInput& input, const PairTable& pairs,
                   const MappingConfig& config) {
-  return Growth(old, input, pairs, config).run();
+  GrownMap grown = Growth(old, input, pairs, config).run();
+  carry_over(old, grown.map);
+  return grown;
 }
 
 }  // namespace homeward::mapping

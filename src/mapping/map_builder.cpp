@@ -9,7 +9,7 @@
 #include "map/graph.hpp"
 #include "map/lookup.hpp"
 #include "mapping/edges.hpp"
-#include "mapping/edits.hpp"
+#include "mapping/edit_log.hpp"
 #include "mapping/extra_places.hpp"
 #include "mapping/hypotheses.hpp"
 #include "mapping/identity.hpp"
@@ -131,15 +131,20 @@ NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, 
                                              input.images[at(parts[at(hypothesis.b)].prototype)].id));
   }
   map.motion = measure_statistics(input, map, place_of_image, usual);
-  // Edits first: the places that a person made keep their ids like all others.
+  keep_identity(map, previous);
   if (previous != nullptr) {
     map.revision = previous->revision + 1;
     map.shortcuts = previous->shortcuts;
     std::erase_if(map.shortcuts, [](const map::Shortcut& one) { return one.state == map::ShortcutState::kProposed; });
     settle_shortcuts(map);
-    replay_edits(map, previous->edits);
+    const auto index = map::image_indices(map);
+    const LookAt look = [&](const ImageId& image) -> Result<features::Appearance> {
+      const auto found = index.find(image);
+      if (found == index.end()) return fail(ErrorCode::kNotFound, "The tours do not have it.", image.str());
+      return input.appearances[at(found->second)];
+    };
+    replay_edits(map, previous->edits, true, look);
   }
-  keep_identity(map, previous);
   return {std::move(map), std::move(notes)};
 }
 

@@ -23,7 +23,7 @@ map::Place new_place(const MappingInput& input, int image, std::size_t number) {
   map::Place place;
   place.id = PlaceId("new" + std::to_string(number));
   place.prototype = input.images[at(image)].id;
-  place.appearances.push_back(input.appearances[at(image)]);
+  place.appearances.push_back(input.appearances[at(image)], place.prototype);
   return place;
 }
 

@@ -13,9 +13,9 @@
 namespace homeward::mapping {
 namespace {
 
-constexpr double kToursApartImages = 1e6;  // so far apart along the way are images of different tours
-constexpr int kReach = 60;                 // new images; claims further apart say nothing about each other
-constexpr double kBorneOut = 3.0;          // as many others make a claim sure, or exclude it
+constexpr double kBetweenTours_images = 1e6;  // so far apart along the way are images of different tours
+constexpr int kReach = 60;                    // new images; claims further apart say nothing about each other
+constexpr double kBorneOut = 3.0;             // as many others make a claim sure, or exclude it
 
 /// How far looks were right in the old map where the way could tell, as weigh_way() has it: its hypotheses keep that in
 /// their masses before neighbours spoke.
@@ -109,7 +109,7 @@ OldPlaces::OldPlaces(const map::TopologicalMap& old, const GrowthInput& input, c
         tour = tour_of_old[at(position)];
       }
     }
-    positions_.push_back(position + kToursApartImages * tour);
+    positions_.push_back(position + kBetweenTours_images * tour);
   }
   const auto place_of = map::place_indices(old);
   for (const map::Edge& edge : old.edges) {

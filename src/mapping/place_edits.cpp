@@ -2,14 +2,19 @@
 #include "mapping/place_edits.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "map/lookup.hpp"
+#include "mapping/tour_steps.hpp"
 
 namespace homeward::mapping {
 namespace {
 
+using map::AppearanceList;
+using map::Edge;
 using map::Place;
 using map::TopologicalMap;
 
@@ -26,47 +31,109 @@ void sort_members(const TopologicalMap& map, Place& place) {
 void tidy_edges(TopologicalMap& map) {
   const auto index = map::place_indices(map);
   std::set<std::pair<PlaceId, PlaceId>> seen;
-  std::ranges::stable_partition(map.edges, [](const map::Edge& edge) { return !edge.shortcut; });
-  std::erase_if(map.edges, [&](const map::Edge& edge) {
+  std::ranges::stable_partition(map.edges, [](const Edge& edge) { return !edge.shortcut; });
+  std::erase_if(map.edges, [&](const Edge& edge) {
     if (edge.from == edge.to || !index.contains(edge.from) || !index.contains(edge.to)) return true;
     return !seen.emplace(edge.from, edge.to).second;
   });
 }
 
-void redirect(TopologicalMap& map, const PlaceId& gone, const PlaceId& kept) {
-  for (map::Edge& edge : map.edges) {
-    // Bearings belong to the prototype of the place that goes.
-    if (edge.from != gone && edge.to != gone) continue;
-    edge.bearing_rad.reset();
-    edge.turn_rad.reset();
-    edge.confidence = 0.0;
-    edge.inliers = 0;
-    edge.weak = true;
-    if (edge.from == gone) edge.from = kept;
-    if (edge.to == gone) edge.to = kept;
-  }
-  for (map::Destination& destination : map.destinations) {
-    if (destination.place == gone) destination.place = kept;
-  }
-  tidy_edges(map);
+bool ends_at(const Edge& edge, const PlaceId& place) { return edge.from == place || edge.to == place; }
+const PlaceId& other_end(const Edge& edge, const PlaceId& place) { return edge.from == place ? edge.to : edge.from; }
+
+bool holds(const Place& place, const ImageId& image) {
+  return std::ranges::find(place.members, image) != place.members.end();
 }
 
-/// Takes images out of a place. A place keeps at least its prototype.
-Status take_out(Place& place, const std::vector<ImageId>& images) {
-  for (const ImageId& image : images) {
-    if (image == place.prototype) {
-      return fail(
-          ErrorCode::kInvalidInput,
-          "The image " + image.str() + " is the prototype of place " + place.id.str() + " and has to stay there.",
-          image.str());
-    }
-    if (std::ranges::find(place.members, image) == place.members.end()) {
-      return fail(ErrorCode::kNotFound, "Place " + place.id.str() + " does not hold the image " + image.str() + ".",
-                  image.str());
-    }
+/// Whether a person took away the ways between two places, and that stands.
+bool removed_by_a_person(const TopologicalMap& map, const PlaceId& a, const PlaceId& b) {
+  bool removed = false;
+  for (const map::Edit& edit : map.edits) {
+    const bool of_ways = edit.kind == map::EditKind::kRemoveEdge || edit.kind == map::EditKind::kAddEdge;
+    if (edit.undone || !of_ways) continue;
+    const Place* from = map::find_place_of(map, edit.image_a);
+    const Place* to = map::find_place_of(map, edit.image_b);
+    if (from == nullptr || to == nullptr || std::minmax(from->id, to->id) != std::minmax(a, b)) continue;
+    removed = edit.kind == map::EditKind::kRemoveEdge;
   }
-  std::erase_if(place.members, [&](const ImageId& id) { return std::ranges::find(images, id) != images.end(); });
-  return {};
+  return removed;
+}
+
+/// The ways that tours drove from a place, where there are none yet.
+void join_what_was_driven(EditScene& scene, const PlaceId& id) {
+  TopologicalMap& map = scene.map();
+  for (const PlaceId& beside : driven_from(map, *map::find_place(map, id))) {
+    if (removed_by_a_person(map, id, beside)) continue;
+    const std::size_t before = map.edges.size();
+    join_both_ways(map, id, beside, map::Decider::kMethod);
+    for (std::size_t i = before; i < map.edges.size(); ++i) scene.see(map.edges[i]);
+  }
+}
+
+void see_all_from(EditScene& scene, const PlaceId& id) {
+  for (Edge& edge : scene.map().edges) {
+    if (ends_at(edge, id) && !edge.shortcut) scene.see(edge);
+  }
+}
+
+/// The prototype of a place of these images, and the appearances to know it by: its own, then those of the others.
+struct Known {
+  ImageId prototype;
+  AppearanceList appearances;
+};
+Result<Known> known_by(EditScene& scene, const std::vector<ImageId>& images, const AppearanceList& of_all) {
+  Known known;
+  known.prototype = scene.prototype_among(images);
+  const auto own = scene.look_at(known.prototype);
+  if (!own) return pass_on(own);
+  known.appearances.push_back(*own);
+  for (const auto& entry : of_all.entries()) {
+    const bool among = std::ranges::find(images, entry.image) != images.end();
+    if (among && entry.image != known.prototype) known.appearances.push_back(entry);
+  }
+  return known;
+}
+
+/// Appearances without those that are known to be of these images.
+AppearanceList without(const AppearanceList& all, const std::vector<ImageId>& images) {
+  AppearanceList left;
+  for (const auto& entry : all.entries()) {
+    if (std::ranges::find(images, entry.image) == images.end()) left.push_back(entry);
+  }
+  return left;
+}
+
+/// A place that images leave: what is left of it.
+struct Remainder {
+  std::vector<ImageId> members;
+  std::optional<Known> known;  // where the prototype is among those that leave
+};
+Result<Remainder> left_of(EditScene& scene, const Place& place, const std::set<ImageId>& leaving) {
+  Remainder left;
+  for (const ImageId& member : place.members) {
+    if (!leaving.contains(member)) left.members.push_back(member);
+  }
+  if (left.members.empty()) {
+    return fail(ErrorCode::kInvalidInput,
+                "Place " + place.id.str() + " would be left without pictures: merge it or delete it instead.",
+                place.id.str());
+  }
+  if (leaving.contains(place.prototype)) {
+    auto known = known_by(scene, left.members, place.appearances);
+    if (!known) return pass_on(known);
+    left.known = std::move(*known);
+  }
+  return left;
+}
+
+void put_remainder(Place& place, Remainder left, const std::vector<ImageId>& gone) {
+  place.members = std::move(left.members);
+  if (left.known) {
+    place.prototype = left.known->prototype;
+    place.appearances = std::move(left.known->appearances);
+  } else {
+    place.appearances = without(place.appearances, gone);
+  }
 }
 
 }  // namespace
@@ -75,95 +142,150 @@ tl::unexpected<Error> no_place_with(const ImageId& image) {
   return fail(ErrorCode::kNotFound, "No place of the map holds the image " + image.str() + ".", image.str());
 }
 
-void join_both_ways(TopologicalMap& map, const PlaceId& a, const PlaceId& b, map::Decider by) {
-  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
-    if (map::find_edge(map, from, to) != nullptr) continue;
-    map::Edge edge;
-    edge.from = from;
-    edge.to = to;
-    edge.weak = true;
-    edge.by = by;
-    map.edges.push_back(edge);
-  }
-}
-
-Status merge_places(TopologicalMap& map, const ImageId& image_a, const ImageId& image_b) {
+Status merge_places(EditScene& scene, const ImageId& image_a, const ImageId& image_b) {
+  TopologicalMap& map = scene.map();
   Place* kept = map::find_place_of(map, image_a);
   const Place* gone = map::find_place_of(map, image_b);
   if (kept == nullptr) return no_place_with(image_a);
   if (gone == nullptr) return no_place_with(image_b);
-  if (kept == gone) return fail(ErrorCode::kInvalidInput, "Both images are in place " + kept->id.str() + " already.");
+  if (kept == gone) {
+    return scene.already_so({ErrorCode::kInvalidInput, "Both images are in place " + kept->id.str() + " already.", {}});
+  }
   kept->members.insert(kept->members.end(), gone->members.begin(), gone->members.end());
-  kept->appearances.insert(kept->appearances.end(), gone->appearances.begin(), gone->appearances.end());
+  kept->appearances.append(gone->appearances);
   if (kept->label.empty()) kept->label = gone->label;
   sort_members(map, *kept);
   const PlaceId kept_id = kept->id;
   const PlaceId gone_id = gone->id;
   std::erase_if(map.places, [&](const Place& place) { return place.id == gone_id; });
-  redirect(map, gone_id, kept_id);
+  std::vector<std::pair<PlaceId, PlaceId>> moved;
+  for (Edge& edge : map.edges) {
+    if (!ends_at(edge, gone_id)) continue;
+    (edge.from == gone_id ? edge.from : edge.to) = kept_id;
+    moved.emplace_back(edge.from, edge.to);
+  }
+  // Where both places had a way to a third, that of the one which stays is known from its own prototype.
+  std::ranges::stable_partition(map.edges, [&](const Edge& edge) {
+    return std::ranges::find(moved, std::pair(edge.from, edge.to)) == moved.end();
+  });
+  for (map::Destination& destination : map.destinations) {
+    if (destination.place == gone_id) destination.place = kept_id;
+  }
+  tidy_edges(map);
+  for (Edge& edge : map.edges) {
+    if (std::ranges::find(moved, std::pair(edge.from, edge.to)) != moved.end() && !edge.shortcut) scene.see(edge);
+  }
   return {};
 }
 
-Status split_place(TopologicalMap& map, const ImageId& image_a, const std::vector<ImageId>& named) {
-  const std::set<ImageId> once(named.begin(), named.end());
-  const std::vector<ImageId> images(once.begin(), once.end());
+Status split_place(EditScene& scene, const ImageId& image_a, const std::vector<ImageId>& images) {
+  TopologicalMap& map = scene.map();
   Place* old_place = map::find_place_of(map, image_a);
   if (old_place == nullptr) return no_place_with(image_a);
   if (images.empty()) return fail(ErrorCode::kInvalidInput, "A split has to name the images that leave.", "images");
-  if (const Status taken = take_out(*old_place, images); !taken) return taken;
+  const std::set<ImageId> leaving(images.begin(), images.end());
+  for (const ImageId& image : leaving) {
+    if (holds(*old_place, image)) continue;
+    const bool elsewhere = std::ranges::none_of(leaving, [&](const ImageId& one) { return holds(*old_place, one); });
+    Error missing{ErrorCode::kNotFound,
+                  "Place " + old_place->id.str() + " does not hold the image " + image.str() + ".", image.str()};
+    if (elsewhere && map::find_place_of(map, image) != nullptr) return scene.already_so(std::move(missing));
+    return tl::unexpected<Error>(std::move(missing));
+  }
+  auto left = left_of(scene, *old_place, leaving);
+  if (!left) return pass_on(left);
   Place fresh;
-  fresh.id = PlaceId("p" + std::to_string(map.next_place_number++));
-  fresh.members = images;
+  fresh.members.assign(leaving.begin(), leaving.end());
   sort_members(map, fresh);
-  // Appearances of members are not kept, only those of prototypes: until the map is rebuilt the new place looks like
-  // the old one.
-  fresh.prototype = fresh.members[fresh.members.size() / 2];
-  fresh.appearances = {old_place->appearances.front()};
+  auto known = known_by(scene, fresh.members, old_place->appearances);
+  if (!known) return pass_on(known);
+  fresh.prototype = known->prototype;
+  fresh.appearances = std::move(known->appearances);
+  fresh.appearances.append(scene.edit().found.learnt);
+  fresh.id = scene.made_place();
+
+  const bool other_prototype = left->known.has_value();
+  put_remainder(*old_place, std::move(*left), fresh.members);
   const PlaceId old_id = old_place->id;
   const PlaceId fresh_id = fresh.id;
   map.places.push_back(std::move(fresh));
   for (map::Destination& destination : map.destinations) {
-    if (std::ranges::find(images, destination.image) != images.end()) destination.place = fresh_id;
+    if (leaving.contains(destination.image)) destination.place = fresh_id;
   }
-  // The tour leads on from the last image that left to the next one that stayed, or to another place.
-  const auto index = map::image_indices(map);
-  for (const ImageId& image : images) {
-    const int at = index.at(image);
-    for (const int next : {at - 1, at + 1}) {
-      if (next < 0 || next >= static_cast<int>(map.images.size())) continue;
-      const Place* neighbour = map::find_place_of(map, map.images[static_cast<std::size_t>(next)].id);
-      if (neighbour != nullptr && neighbour->id != fresh_id)
-        join_both_ways(map, fresh_id, neighbour->id, map::Decider::kPerson);
-    }
+  const std::set<PlaceId> from_old = driven_from(map, *map::find_place(map, old_id));
+  const std::set<PlaceId> from_fresh = driven_from(map, map.places.back());
+  for (Edge& edge : map.edges) {
+    if (!ends_at(edge, old_id) || edge.by == map::Decider::kPerson) continue;
+    const PlaceId& beside = other_end(edge, old_id);
+    if (from_old.contains(beside) || !from_fresh.contains(beside)) continue;
+    (edge.from == old_id ? edge.from : edge.to) = fresh_id;
+    scene.see(edge);
   }
-  if (map::find_edge(map, old_id, fresh_id) == nullptr) tidy_edges(map);
+  join_what_was_driven(scene, fresh_id);
+  if (other_prototype) see_all_from(scene, old_id);
+  tidy_edges(map);
   return {};
 }
 
-Status move_images(TopologicalMap& map, const ImageId& image_a, const std::vector<ImageId>& images) {
+Status move_images(EditScene& scene, const ImageId& image_a, const std::vector<ImageId>& images) {
+  TopologicalMap& map = scene.map();
   const Place* target = map::find_place_of(map, image_a);
   if (target == nullptr) return no_place_with(image_a);
   if (images.empty()) return fail(ErrorCode::kInvalidInput, "A move has to name the images that go.", "images");
   const PlaceId target_id = target->id;
-  TopologicalMap changed = map;
+  std::map<PlaceId, std::set<ImageId>> leaving;
   for (const ImageId& image : images) {
-    Place* from = map::find_place_of(changed, image);
+    const Place* from = map::find_place_of(map, image);
     if (from == nullptr) return no_place_with(image);
-    if (from->id == target_id) continue;
-    if (const Status taken = take_out(*from, {image}); !taken) return taken;
-    map::find_place(changed, target_id)->members.push_back(image);
-    for (map::Destination& destination : changed.destinations) {
-      if (destination.image == image) destination.place = target_id;
-    }
+    if (from->id != target_id) leaving[from->id].insert(image);
   }
-  sort_members(changed, *map::find_place(changed, target_id));
-  map = std::move(changed);
+  if (leaving.empty()) {
+    return scene.already_so(
+        {ErrorCode::kInvalidInput, "Place " + target_id.str() + " holds these images already.", target_id.str()});
+  }
+  std::map<PlaceId, Remainder> left_of_place;
+  for (const auto& [id, gone] : leaving) {
+    auto left = left_of(scene, *map::find_place(map, id), gone);
+    if (!left) return pass_on(left);
+    left_of_place.emplace(id, std::move(*left));
+  }
+  for (auto& [id, left] : left_of_place) {
+    Place& from = *map::find_place(map, id);
+    Place& to = *map::find_place(map, target_id);
+    const std::vector<ImageId> gone(leaving[id].begin(), leaving[id].end());
+    const std::set<PlaceId> driven = driven_from(map, from);
+    for (const auto& entry : from.appearances.entries()) {
+      if (leaving[id].contains(entry.image)) to.appearances.push_back(entry);
+    }
+    to.members.insert(to.members.end(), gone.begin(), gone.end());
+    sort_members(map, to);
+    const bool other_prototype = left.known.has_value();
+    put_remainder(from, std::move(left), gone);
+    const std::set<PlaceId> still = driven_from(map, from);
+    std::erase_if(map.edges, [&, from_id = id](const Edge& edge) {
+      if (!ends_at(edge, from_id) || edge.by == map::Decider::kPerson) return false;
+      const PlaceId& beside = other_end(edge, from_id);
+      return driven.contains(beside) && !still.contains(beside);
+    });
+    join_what_was_driven(scene, id);
+    if (other_prototype) see_all_from(scene, id);
+  }
+  for (map::Destination& destination : map.destinations) {
+    if (std::ranges::find(images, destination.image) != images.end()) destination.place = target_id;
+  }
+  join_what_was_driven(scene, target_id);
+  tidy_edges(map);
   return {};
 }
 
-Status delete_place(TopologicalMap& map, const ImageId& image) {
+Status delete_place(EditScene& scene, const ImageId& image) {
+  TopologicalMap& map = scene.map();
   const Place* place = map::find_place_of(map, image);
-  if (place == nullptr) return no_place_with(image);
+  if (place == nullptr) {
+    const bool known = std::ranges::find(map.images, image, &map::MapImage::id) != map.images.end();
+    const auto none = no_place_with(image);
+    return known ? scene.already_so(none.value()) : Status(none);
+  }
   const PlaceId id = place->id;
   std::erase_if(map.places, [&](const Place& p) { return p.id == id; });
   std::erase_if(map.destinations, [&](const map::Destination& d) { return d.place == id; });

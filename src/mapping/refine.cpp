@@ -8,6 +8,7 @@
 
 #include "core/index.hpp"
 #include "map/lookup.hpp"
+#include "mapping/edit_log.hpp"
 #include "mapping/parallel.hpp"
 #include "matching/visual_distance.hpp"
 
@@ -181,6 +182,7 @@ Result<Refinement> refine_places(map::TopologicalMap& map, std::span<const Sight
   for (const std::vector<Step>& own : steps_of) steps.insert(steps.end(), own.begin(), own.end());
   std::ranges::stable_sort(steps, [](const Step& a, const Step& b) { return a.rank > b.rank; });
 
+  const map::TopologicalMap before = map;
   Refinement refinement;
   std::set<int> stopped;  // places whose next step did not fit: what comes after builds on it
   for (const Step& step : steps) {
@@ -196,13 +198,16 @@ Result<Refinement> refine_places(map::TopologicalMap& map, std::span<const Sight
     }
     refinement.bytes += bytes;
     if (step.replaces >= 0) {
-      place.appearances[at(step.replaces)] = std::move(gained);
+      place.appearances.replace(at(step.replaces), std::move(gained), sighting.image);
     } else {
-      place.appearances.push_back(std::move(gained));
+      place.appearances.push_back(std::move(gained), sighting.image);
     }
     refinement.gained.push_back({place.id, sighting.picture, step.gain, step.replaces >= 0});
   }
-  if (!refinement.gained.empty()) ++map.revision;
+  if (!refinement.gained.empty()) {
+    carry_over(before, map);
+    ++map.revision;
+  }
   return refinement;
 }
 

@@ -27,6 +27,7 @@ struct Sighting {
   int place = 0;    // index
   int picture = 0;  // the caller's number
   const features::Appearance* seen = nullptr;
+  ImageId image = {};  // where it is kept, or empty
 };
 
 /// An appearance that a place gained.

@@ -103,19 +103,6 @@ Status decide_shortcut(TopologicalMap& map, const map::Edit& edit) {
   return {};
 }
 
-Status undo_shortcut_decision(TopologicalMap& map, const map::Edit& undone) {
-  Shortcut* shortcut = find_shortcut(map, undone.image_a, undone.image_b);
-  if (shortcut == nullptr) return no_shortcut(undone);
-  shortcut->state = ShortcutState::kProposed;
-  shortcut->by = "method";
-  for (const map::Edit& edit : map.edits) {
-    if (edit.kind != map::EditKind::kDecideShortcut || edit.undone) continue;
-    if (find_shortcut(map, edit.image_a, edit.image_b) == shortcut) decide(*shortcut, edit);
-  }
-  settle_shortcuts(map);
-  return {};
-}
-
 void forget_decisions(TopologicalMap& map, const std::vector<map::Edit>& log) {
   for (const map::Edit& edit : log) {
     if (edit.kind != map::EditKind::kDecideShortcut) continue;

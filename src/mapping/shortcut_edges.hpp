@@ -22,10 +22,6 @@ void settle_shortcuts(map::TopologicalMap& map);
 /// kNotFound; kConflict (it would go at once, see above).
 Status decide_shortcut(map::TopologicalMap& map, const map::Edit& edit);
 
-/// Back to what the decisions of the log say that stand, once `undone` is marked undone there; proposed where there is
-/// none. Errors: kNotFound.
-Status undo_shortcut_decision(map::TopologicalMap& map, const map::Edit& undone);
-
 /// Shortcuts that a log decided on are proposed again, also where the decision was taken back since: the log says anew.
 void forget_decisions(map::TopologicalMap& map, const std::vector<map::Edit>& log);
 

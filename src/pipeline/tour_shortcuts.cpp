@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "mapping/edit_log.hpp"
 #include "mapping/shortcuts.hpp"
 
 namespace homeward::pipeline {
@@ -17,8 +18,10 @@ void add_shortcuts(map::TopologicalMap& map, const std::vector<const TourSource*
   }
   if (sweeps.empty()) return;
   auto found = mapping::propose_shortcuts(map, sweeps);
+  const map::TopologicalMap before = map;
   map.shortcuts.insert(map.shortcuts.end(), std::make_move_iterator(found.begin()),
                        std::make_move_iterator(found.end()));
+  mapping::carry_over(before, map);
 }
 
 }  // namespace homeward::pipeline

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "map/lookup.hpp"
+#include "map/pictograms.hpp"
 #include "wire/json_reader.hpp"
 #include "wire/json_write.hpp"
 
@@ -13,8 +14,21 @@ namespace {
 using map::EditKind;
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 10> kKinds = {
-    "rename", "merge", "split", "delete", "move", "add_edge", "remove_edge", "block_edge", "decide", "decide_shortcut"};
+constexpr std::array<std::string_view, map::kEditKinds> kKinds = {"rename",
+                                                                  "merge",
+                                                                  "split",
+                                                                  "delete",
+                                                                  "move",
+                                                                  "add_edge",
+                                                                  "remove_edge",
+                                                                  "block_edge",
+                                                                  "decide",
+                                                                  "decide_shortcut",
+                                                                  "add_destination",
+                                                                  "remove_destination",
+                                                                  "name_destination",
+                                                                  "set_pictogram",
+                                                                  "set_destination_picture"};
 
 EditKind read_kind(ObjectReader& reader) {
   const std::string name = reader.choice("kind", {kKinds.begin(), kKinds.end()});
@@ -23,6 +37,20 @@ EditKind read_kind(ObjectReader& reader) {
 }
 
 PlaceId read_place(ObjectReader& reader, const std::string& key) { return PlaceId(reader.text(key, 100)); }
+
+DestinationId read_destination(ObjectReader& reader) { return DestinationId(reader.text("destination", 100)); }
+
+std::string read_pictogram(ObjectReader& reader) {
+  std::string name = reader.line("pictogram", 40);
+  if (!name.empty() && !map::is_pictogram(name)) reader.problem("pictogram", "There is no pictogram '" + name + "'.");
+  return name;
+}
+
+std::string read_name(ObjectReader& reader) {
+  std::string name = reader.line("label", 200);
+  if (name.empty()) reader.problem("label", "A destination needs a name.");
+  return name;
+}
 
 std::vector<ImageId> read_images(ObjectReader& reader) {
   std::vector<ImageId> images;
@@ -76,6 +104,25 @@ void read_fields(ObjectReader& reader, EditRequest& edit) {
       edit.prototype_b = ImageId(reader.text("image_b", 600));
       edit.yes = reader.boolean("accept");
       break;
+    case EditKind::kAddDestination:
+      edit.prototype_a = ImageId(reader.text("image", 600));
+      edit.label = read_name(reader);
+      break;
+    case EditKind::kRemoveDestination:
+      edit.destination = read_destination(reader);
+      break;
+    case EditKind::kNameDestination:
+      edit.destination = read_destination(reader);
+      edit.label = read_name(reader);
+      break;
+    case EditKind::kSetPictogram:
+      edit.destination = read_destination(reader);
+      edit.label = read_pictogram(reader);
+      break;
+    case EditKind::kSetDestinationPicture:
+      edit.destination = read_destination(reader);
+      edit.prototype_a = ImageId(reader.text("image", 600));
+      break;
   }
 }
 
@@ -118,6 +165,25 @@ json edit_to_json(const EditRequest& edit) {
       value["image_a"] = edit.prototype_a.str();
       value["image_b"] = edit.prototype_b.str();
       value["accept"] = edit.yes;
+      break;
+    case EditKind::kAddDestination:
+      value["image"] = edit.prototype_a.str();
+      value["label"] = edit.label;
+      break;
+    case EditKind::kRemoveDestination:
+      value["destination"] = edit.destination.str();
+      break;
+    case EditKind::kNameDestination:
+      value["destination"] = edit.destination.str();
+      value["label"] = edit.label;
+      break;
+    case EditKind::kSetPictogram:
+      value["destination"] = edit.destination.str();
+      value["pictogram"] = edit.label;
+      break;
+    case EditKind::kSetDestinationPicture:
+      value["destination"] = edit.destination.str();
+      value["image"] = edit.prototype_a.str();
       break;
   }
   return value;
@@ -164,6 +230,20 @@ Result<map::Edit> edit_for_map(const EditRequest& request, const map::Topologica
     edit.text = request.yes ? "accept" : "reject";
     return edit;
   }
+  if (request.kind == EditKind::kAddDestination) {
+    edit.image_a = request.prototype_a;
+    return edit;
+  }
+  if (!request.destination.empty()) {
+    const map::Destination* destination = map::find_destination(map, request.destination);
+    if (destination == nullptr) {
+      return fail(ErrorCode::kNotFound, "The map has no destination " + request.destination.str() + ".",
+                  request.destination.str());
+    }
+    edit.image_a = destination->image;
+    edit.image_b = request.prototype_a;
+    return edit;
+  }
   if (request.kind == EditKind::kBlockEdge) edit.text = request.yes ? "true" : "false";
   const auto image_of = [&](const PlaceId& id) -> Result<ImageId> {
     const map::Place* place = map::find_place(map, id);
@@ -194,7 +274,8 @@ json logged_edit_to_json(const map::Edit& edit) {
           {"t_us", edit.t_us},
           {"undone", edit.undone},
           {"change", edit.change},
-          {"redoable", edit.redoable}};
+          {"redoable", edit.redoable},
+          {"lost", edit.lost.empty() ? json(nullptr) : json(edit.lost)}};
 }
 
 }  // namespace homeward::wire

@@ -18,13 +18,17 @@ namespace homeward::wire {
 ///   rename {place, label}         merge {place, into}          split {place, images}      move {images, into}
 ///   delete {place}                add_edge / remove_edge {from, to}    block_edge {from, to, blocked}
 ///   decide {prototype_a, prototype_b, accept}                  decide_shortcut {image_a, image_b, accept}
+///   add_destination {image, label}                             remove_destination {destination}
+///   name_destination {destination, label}                      set_pictogram {destination, pictogram}
+///   set_destination_picture {destination, image}
 struct EditRequest {
   map::EditKind kind = map::EditKind::kRename;
-  PlaceId place;  // also: from
-  PlaceId other;  // into, to
-  std::string label;
+  PlaceId place;      // also: from
+  PlaceId other;      // into, to
+  std::string label;  // also: pictogram
+  DestinationId destination;
   std::vector<ImageId> images;
-  ImageId prototype_a;  // also: image_a, image_b
+  ImageId prototype_a;  // also: image_a, image_b, image
   ImageId prototype_b;
   bool yes = false;  // blocked, accept
 };
@@ -37,11 +41,11 @@ std::string_view edit_kind_name(map::EditKind kind);
 Result<std::vector<EditRequest>> edits_from_json(const nlohmann::json& value, const std::string& path = "body");
 nlohmann::json edits_to_json(const std::vector<EditRequest>& edits);
 
-/// The edit in the lasting form of a map's log, keyed to images. Errors: kUnknownPlace.
+/// The edit in the lasting form of a map's log, keyed to images. Errors: kUnknownPlace, kNotFound (destination).
 Result<map::Edit> edit_for_map(const EditRequest& request, const map::TopologicalMap& map, const std::string& by,
                                TimeUs t_us);
 
-/// An entry of a map's log: {kind, image_a, image_b, text, images, by, t_us, undone, change, redoable}.
+/// An entry of a map's log: {kind, image_a, image_b, text, images, by, t_us, undone, change, redoable, lost}.
 nlohmann::json logged_edit_to_json(const map::Edit& edit);
 
 }  // namespace homeward::wire

@@ -24,6 +24,7 @@ json place_to_json(const map::Place& place, const Eigen::Vector2d& position) {
 json edge_of_graph(const map::Edge& edge) {
   json value = edge_to_json(edge);
   value["blocked"] = edge.blocked;
+  value["by"] = map::kDeciderNames.name(edge.by);
   return value;
 }
 
@@ -46,7 +47,8 @@ json graph_to_json(const map::TopologicalMap& map, const MapId& id, const std::v
     value["destinations"].push_back({{"id", destination.id.str()},
                                      {"place", destination.place.str()},
                                      {"image", destination.image.str()},
-                                     {"label", destination.label}});
+                                     {"label", destination.label},
+                                     {"pictogram", destination.pictogram}});
   }
   value["shortcuts"] = shortcuts_to_json(map);
   for (const map::Hypothesis& h : map.hypotheses) value["hypotheses"].push_back(hypothesis_to_json(h));

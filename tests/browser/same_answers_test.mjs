@@ -235,7 +235,6 @@ const kRequests = [
     'maps/{map}/edits',
     edits({ kind: 'decide_shortcut', image_a: 'a/1.jpg', image_b: 'a/2.jpg', accept: true }),
   ],
-  ['an edit that is not applied', 'POST', 'maps/{map}/edits', edits({ kind: 'delete', place: '{place}' })],
   ['nothing to redo', 'POST', 'maps/{map}/redo', { headers: kRevision }],
   ['no map to edit', 'POST', 'maps/none/edits', edits({ kind: 'rename', place: '{place}', label: 'x' })],
 ];

@@ -8,6 +8,7 @@
 #include "contract/schema_library.hpp"
 #include "support/sample_map.hpp"
 #include "wire/build_json.hpp"
+#include "wire/difference_json.hpp"
 #include "wire/error_table.hpp"
 #include "wire/event_json.hpp"
 #include "wire/graph_export.hpp"
@@ -88,15 +89,30 @@ TEST(Encoders, WriteRoutesThatTheSchemasAccept) {
   EXPECT_TRUE(none["obstacles"][1]["from"].is_null());
 }
 
+TEST(Encoders, TellWhatIsOtherInALaterStateOfAMap) {
+  map::TopologicalMap after = sample_map();
+  after.places[0].label = "porch";
+  after.places.pop_back();
+  after.edges.clear();
+  after.destinations.clear();
+  after.hypotheses[0].decision = map::Decision::kUndecided;
+  const json value = difference_to_json(map::difference(sample_map(), after));
+  EXPECT_THAT(schemas().problems("difference", value), IsEmpty());
+  EXPECT_EQ(value["places"][0]["after"]["label"], "porch");
+  EXPECT_EQ(value["places"][1]["change"], "removed");
+  EXPECT_TRUE(value["places"][1]["after"].is_null());
+  EXPECT_THAT(schemas().problems("difference", difference_to_json(map::difference(after, sample_map()))), IsEmpty());
+}
+
 TEST(Encoders, TellEverythingOfAMap) {
   const json graph = graph_to_json(sample_map(), MapId("house"), kLayout);
   EXPECT_EQ(graph["revision"], 4);
   EXPECT_EQ(graph["places"][1], json::parse(R"({"id":"p2","label":"kitchen","prototype":"tour/00002.jpg",
     "members":["tour/00002.jpg"],"features":20,"x":1.0,"y":0.75})"));
   EXPECT_EQ(graph["edges"][1], json::parse(R"({"from":"p2","to":"p1","bearing_rad":null,"turn_rad":null,"length_m":1.5,
-    "length_from":"unknown","confidence":0.1,"inliers":0,"weak":true,"blocked":true,"shortcut":false})"));
+    "length_from":"unknown","confidence":0.1,"inliers":0,"weak":true,"blocked":true,"shortcut":false,"by":"person"})"));
   EXPECT_EQ(graph["destinations"][0],
-            json::parse(R"({"id":"d1","place":"p2","image":"tour/00002.jpg","label":"kitchen"})"));
+            json::parse(R"({"id":"d1","place":"p2","image":"tour/00002.jpg","label":"kitchen","pictogram":""})"));
   EXPECT_EQ(graph["hypotheses"][0]["masses_after"], json::parse(R"({"true":0.1,"false":0.8,"unknown":0.1})"));
   const json inspect = inspect_to_json(sample_map(), 4096);
   EXPECT_EQ(inspect["images"], 3);

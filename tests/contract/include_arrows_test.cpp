@@ -78,8 +78,8 @@ TEST(IncludeArrows, RefuseFoldersThatIncludeEachOtherThroughDifferentFiles) {
 }
 
 TEST(IncludeArrows, RefuseALowerModuleThatIncludesAHigherOne) {
-  EXPECT_THAT(include_problems("src/map/graph.cpp", "#include <vector>\n#include \"mapping/edits.hpp\"\n"),
-              ElementsAre(HasSubstr("src/map/graph.cpp:2: mapping/edits.hpp: map may not include mapping")));
+  EXPECT_THAT(include_problems("src/map/graph.cpp", "#include <vector>\n#include \"mapping/edit_log.hpp\"\n"),
+              ElementsAre(HasSubstr("src/map/graph.cpp:2: mapping/edit_log.hpp: map may not include mapping")));
   EXPECT_THAT(include_problems("src/core/ids.hpp", "#include \"camera/camera.hpp\"\n").size(), 1U);
 }
 

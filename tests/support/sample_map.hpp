@@ -105,6 +105,7 @@ inline map::TopologicalMap sample_map() {
   edit.t_us = 1'700'000'000'000'000;
   edit.change = 1;
   map.edits = {edit};
+  map.settled_edits = 1;
   map.next_place_number = 3;
   map.next_destination_number = 2;
   map.build_seconds = 1.25;

@@ -98,6 +98,7 @@ function logged(graph, one, by, change, i) {
     undone: false,
     change,
     redoable: false,
+    lost: null,
   };
 }
 

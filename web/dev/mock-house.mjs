@@ -124,11 +124,12 @@ export function newGraph(map) {
       weak: way === 'p12-p13',
       blocked: false,
       shortcut: false,
+      by: 'method',
     }));
   });
   const destinations = places
     .filter((one) => one.label)
-    .map((one) => ({ id: one.label, place: one.id, image: one.prototype, label: one.label }));
+    .map((one) => ({ id: one.label, place: one.id, image: one.prototype, label: one.label, pictogram: '' }));
   const masses = (yes, no) => ({ true: yes, false: no, unknown: Math.round(1e3 * (1 - yes - no)) / 1e3 });
   return {
     format: 'homeward-graph',

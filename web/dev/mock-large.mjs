@@ -32,6 +32,7 @@ export function largeGraph(map, places) {
     id: one.label.replace(' ', '_'),
     place: one.id,
     image: one.prototype,
+    pictogram: '',
     label: one.label,
   }));
   return { ...small, places: drawn, edges, destinations, hypotheses: [], shortcuts: [] };

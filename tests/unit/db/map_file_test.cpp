@@ -12,6 +12,8 @@
 #include <thread>
 
 #include "db/sqlite/map_file_contents.hpp"
+#include "map/state.hpp"
+#include "support/same_state.hpp"
 #include "support/sample_map.hpp"
 #include "wire/appearance_blob.hpp"
 
@@ -30,8 +32,31 @@ class MapFile : public ::testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
   [[nodiscard]] std::filesystem::path file() const { return folder_ / "house.hwmap"; }
   void change(const std::string& sql) const { SQLite::Database(file().string(), SQLite::OPEN_READWRITE).exec(sql); }
+  /// Turns the file into one of version 6: its edits keep nothing beside themselves, each place has its own
+  /// appearances.
+  void make_version_six() const {
+    change(R"sql(
+      ALTER TABLE place_appearances RENAME TO shared;
+      CREATE TABLE place_appearances (place TEXT NOT NULL, position INTEGER NOT NULL, appearance BLOB NOT NULL,
+                                      PRIMARY KEY (place, position)) STRICT;
+      INSERT INTO place_appearances SELECT place, position, appearances.appearance
+        FROM shared JOIN appearances ON number = shared.appearance;
+      DROP TABLE shared; DROP TABLE unedited_place_appearances; DROP TABLE edit_appearances; DROP TABLE appearances;
+      DROP TABLE unedited_place_members; DROP TABLE unedited_edges; DROP TABLE unedited_shortcuts;
+      DROP TABLE unedited_hypotheses; DROP TABLE unedited_destinations; DROP TABLE unedited_places;
+      ALTER TABLE destinations DROP COLUMN pictogram;
+      ALTER TABLE edits DROP COLUMN lost; ALTER TABLE edits DROP COLUMN found_json;
+      DELETE FROM meta WHERE key IN ('settled_edits', 'has_unedited');
+      PRAGMA user_version = 6)sql");
+  }
   /// Turns the file into one of the version before checksums, so that its rows may be changed.
-  void forget_checksum() const { change("PRAGMA user_version = 2; DELETE FROM meta WHERE key = 'checksum'"); }
+  void forget_checksum() const {
+    if (version() > 6) make_version_six();
+    change("PRAGMA user_version = 2; DELETE FROM meta WHERE key = 'checksum'");
+  }
+  [[nodiscard]] int version() const {
+    return SQLite::Database(file().string()).execAndGet("PRAGMA user_version").getInt();
+  }
   [[nodiscard]] std::string content() const {
     std::ifstream stream(file(), std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -41,6 +66,13 @@ class MapFile : public ::testing::Test {
  private:
   std::filesystem::path folder_;
 };
+
+/// Everything that a file says, as the bytes of a file that is made of it.
+std::string said_by(const StoredMap& stored, const std::filesystem::path& scratch) {
+  EXPECT_TRUE(save_map(scratch, stored.map, stored.thumbnails));
+  std::ifstream stream(scratch, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
 
 TEST_F(MapFile, GivesBackWhatWasSaved) {
   map::TopologicalMap before = sample_map();
@@ -102,10 +134,67 @@ TEST_F(MapFile, GivesBackWhatWasSaved) {
   ASSERT_EQ(after.destinations.size(), 1U);
   EXPECT_EQ(after.destinations[0].appearance.size(), 15);
   ASSERT_EQ(after.edits.size(), 1U);
-  EXPECT_EQ(after.edits, before.edits);
+  EXPECT_EQ(after.edits, before.edits) << "with nothing found out";
   EXPECT_EQ(after.next_place_number, 3);
   EXPECT_EQ(stored->thumbnails, thumbnails);
   EXPECT_GT(stored->bytes, 0);
+}
+
+TEST_F(MapFile, KeepsHowTheMapWasWithoutEditsAndWhatTheseFoundOut) {
+  map::TopologicalMap before = sample_map();
+  before.unedited = map::state_of(before);
+  before.settled_edits = 0;
+  before.places[0].label = "porch";
+  before.places[0].appearances.push_back(homeward::testing::random_appearance(7, 3), before.images[1].id);
+  before.destinations[0].pictogram = "kitchen";
+  map::EditFindings& found = before.edits[0].found;
+  found.made = "p7";
+  found.prototypes = {before.images[1].id};
+  found.appearances.push_back(before.places[0].appearances.entries()[1]);
+  found.learnt.push_back(homeward::testing::random_appearance(9, 4));
+  found.ways = {{before.images[0].id, before.images[2].id, 0.1, -0.3, 0.7, 12},
+                {before.images[2].id, before.images[0].id, std::nullopt, 0.0, 0.0, 0}};
+  before.edits[0].lost = "Place p9 is not there.";
+  ASSERT_TRUE(save_map(file(), before, {}));
+  before = load_map(file())->map;  // bearings are kept with a few digits less
+  EXPECT_EQ(before.places[0].appearances.at(1).size(), 7);
+  EXPECT_EQ(before.places[0].label, "porch");
+  EXPECT_EQ(before.unedited->places[0].label, "");
+  EXPECT_EQ(before.destinations[0].pictogram, "kitchen");
+  EXPECT_EQ(before.unedited->destinations[0].pictogram, "");
+  ASSERT_TRUE(save_map(file(), before, {}));
+  const auto stored = load_map(file());
+  ASSERT_TRUE(stored) << stored.error().message << stored.error().where;
+  const map::TopologicalMap& after = stored->map;
+  EXPECT_TRUE(homeward::testing::same_state(after, before));
+  ASSERT_TRUE(after.unedited);
+  EXPECT_TRUE(homeward::testing::same_state(*after.unedited, *before.unedited));
+  EXPECT_EQ(after.edits[0].lost, before.edits[0].lost);
+  EXPECT_EQ(after.edits[0].found.made, "p7");
+  EXPECT_EQ(after.edits[0].found.prototypes, found.prototypes);
+  EXPECT_EQ(after.edits[0].found.ways, found.ways);
+  ASSERT_EQ(after.edits[0].found.appearances.size(), 1U);
+  EXPECT_EQ(after.edits[0].found.appearances.entries()[0], after.places[0].appearances.entries()[1]) << "shared";
+  EXPECT_EQ(after.places[1].appearances, after.unedited->places[1].appearances) << "shared";
+  EXPECT_EQ(after.edits[0].found.learnt.at(0).size(), 9);
+  EXPECT_EQ(said_by(*stored, file()), content());
+}
+
+TEST_F(MapFile, OfFilesOfBeforeEditsAreSettled) {
+  ASSERT_TRUE(save_map(file(), sample_map(), {}));
+  forget_checksum();
+  change("ALTER TABLE edges DROP COLUMN inliers; ALTER TABLE edges DROP COLUMN length_from");
+  const auto old = load_map(file());
+  ASSERT_TRUE(old) << old.error().message;
+  EXPECT_EQ(old->map.settled_edits, 1U);
+  EXPECT_FALSE(old->map.unedited);
+  EXPECT_EQ(old->map.places[0].appearances.entries()[0].image, old->map.places[0].prototype);
+}
+
+TEST_F(MapFile, RefusesAppearancesThatAreNotThere) {
+  ASSERT_TRUE(save_map(file(), sample_map(), {}));
+  change("PRAGMA foreign_keys = OFF; UPDATE place_appearances SET appearance = 99");
+  EXPECT_THAT(load_map(file()).error().message, ::testing::HasSubstr("no appearance 99"));
 }
 
 TEST_F(MapFile, ReplacesAnOlderFileAndLeavesNoPartsBehind) {
@@ -168,6 +257,7 @@ TEST_F(MapFile, OpensFilesFromBeforeShortcuts) {
   EXPECT_TRUE(load_map(file())->map.shortcuts.empty());
   // Version 4 with its own checksum, as a program of before wrote it.
   ASSERT_TRUE(save_map(file(), sample_map(), {}));
+  make_version_six();
   change("DROP TABLE shortcuts; ALTER TABLE edges DROP COLUMN shortcut; PRAGMA user_version = 4");
   change("DELETE FROM meta WHERE key = 'checksum'");
   {
@@ -187,6 +277,7 @@ TEST_F(MapFile, InFilesFromBeforeChangesEachEditIsOne) {
   map.edits.push_back(map.edits[0]);  // of the same change
   map.edits[1].undone = map.edits[1].redoable = true;
   ASSERT_TRUE(save_map(file(), map, {}));
+  make_version_six();
   change("ALTER TABLE edits DROP COLUMN change; ALTER TABLE edits DROP COLUMN redoable; PRAGMA user_version = 5");
   change("DELETE FROM meta WHERE key = 'checksum'");
   {
@@ -221,7 +312,7 @@ TEST_F(MapFile, RefusesOtherDatabasesNewerVersionsAndDanglingReferences) {
   change("UPDATE edges SET length_from = 9");
   EXPECT_THAT(load_map(file()).error().message, ::testing::HasSubstr("unknown source"));
   forget_checksum();
-  for (const auto& [version, what] : {std::pair("1", "Rebuild the map"), std::pair("7", "A newer Homeward wrote it")}) {
+  for (const auto& [version, what] : {std::pair("1", "Rebuild the map"), std::pair("8", "A newer Homeward wrote it")}) {
     change(std::string("PRAGMA user_version = ") + version);
     const auto refused = load_map(file());
     ASSERT_FALSE(refused);
@@ -248,13 +339,6 @@ TEST_F(MapFile, ReadsFilesFromBeforeBeliefsWereCalibrated) {
   EXPECT_EQ(stored->map.calibration.slope, map::BeliefCalibration{}.slope);
 }
 
-/// Everything that a file says, as the bytes of a file that is made of it.
-std::string said_by(const StoredMap& stored, const std::filesystem::path& scratch) {
-  EXPECT_TRUE(save_map(scratch, stored.map, stored.thumbnails));
-  std::ifstream stream(scratch, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 TEST_F(MapFile, TheSameMapIsTheSameFileByteForByte) {
   ASSERT_TRUE(save_map(file(), sample_map(), {}));
   const std::string first = content();
@@ -267,7 +351,7 @@ TEST_F(MapFile, ReadsFilesFromBeforeChecksumsButNoneThatLostIt) {
   ASSERT_TRUE(save_map(file(), sample_map(), {}));
   change("DELETE FROM meta WHERE key = 'checksum'");
   EXPECT_THAT(load_map(file()).error().message, ::testing::HasSubstr("checksum"));
-  change("PRAGMA user_version = 2");
+  forget_checksum();
   EXPECT_TRUE(load_map(file()));
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 
+#include "map/state.hpp"
 #include "support/sample_map.hpp"
 #include "unit/db/store_fixture.hpp"
 
@@ -185,6 +186,7 @@ TEST_F(StoreContent, AnEditIsKeptWithoutWritingTheMapAnew) {
   };
   const std::filesystem::path file = folder() / "maps" / (id.str() + ".r4.homeward");
   const auto written = std::filesystem::last_write_time(file);
+  contents.unedited = map::state_of(contents);
   for (int i = 0; i < 3; ++i) {
     ++contents.revision;
     contents.places[0].label = "bedroom " + std::to_string(i);

@@ -178,9 +178,11 @@ TEST(Localiser, FindsThePlaceThatThePictureLooksLikeWithFewCandidates) {
 TEST(Localiser, PlacesWithoutSiftFeaturesAreFoundByTheirColours) {
   map::TopologicalMap map = corridor();
   for (int i = 0; i < kPlaces; ++i) {
-    features::Appearance& appearance = map.places[static_cast<std::size_t>(i)].appearances[0];
+    map::AppearanceList& known = map.places[static_cast<std::size_t>(i)].appearances;
+    features::Appearance appearance = known[0];
     appearance.columns = std::exchange(appearance.sift, {});
     appearance.colour_moments.fill(0.1F * static_cast<float>(i));
+    known = {appearance};
   }
   const CandidateFinder finder(map);
   features::Appearance seen = map.places[6].appearances[0];

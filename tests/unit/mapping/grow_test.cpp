@@ -10,7 +10,7 @@
 
 #include "map/lookup.hpp"
 #include "map/parts.hpp"
-#include "mapping/edits.hpp"
+#include "mapping/edit_log.hpp"
 #include "support/corridor_tour.hpp"
 #include "support/new_tour.hpp"
 

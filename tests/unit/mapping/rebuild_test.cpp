@@ -4,7 +4,7 @@
 #include <set>
 
 #include "map/lookup.hpp"
-#include "mapping/edits.hpp"
+#include "mapping/edit_log.hpp"
 #include "mapping/map_builder.hpp"
 #include "support/corridor_tour.hpp"
 
@@ -30,6 +30,12 @@ class Rebuild : public ::testing::Test {
     edit.by = "anna";
     const Status applied = apply_edit(map_, edit);
     ASSERT_TRUE(applied) << applied.error().message;
+  }
+  [[nodiscard]] LookAt look() const {
+    return [this](const ImageId& wanted) -> Result<features::Appearance> {
+      const auto found = std::ranges::find(tour_.images, wanted, &map::MapImage::id);
+      return tour_.appearances[static_cast<std::size_t>(found - tour_.images.begin())];
+    };
   }
   [[nodiscard]] ImageId image(int index) const { return tour_.images[static_cast<std::size_t>(index)].id; }
   static PlaceId id_of(map::TopologicalMap& map, const ImageId& image) { return map::find_place_of(map, image)->id; }
@@ -122,7 +128,7 @@ TEST_F(Rebuild, ASplitPlaceKeepsItsIdThroughManyRebuilds) {
   split.kind = map::EditKind::kSplit;
   split.image_a = stays;
   split.images = {leaves};
-  ASSERT_TRUE(apply_edit(map_, split));
+  ASSERT_TRUE(apply_edit(map_, split, look()));
   const PlaceId old_id = id_of(map_, stays);
   const PlaceId fresh_id = id_of(map_, leaves);
   ASSERT_NE(old_id, fresh_id);
@@ -168,7 +174,7 @@ TEST_F(Rebuild, DecisionsOnHypothesesHold) {
   reject.image_a = a;
   reject.image_b = b;
   reject.text = "reject";
-  ASSERT_TRUE(apply_edit(map_, reject));
+  ASSERT_TRUE(apply_edit(map_, reject, look()));
   EXPECT_NE(id_of(map_, a), id_of(map_, b));
   map::TopologicalMap again = make_map(tour_.input(), {}, &map_);
   EXPECT_NE(id_of(again, a), id_of(again, b));

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mapping/edits.hpp"
+#include "mapping/edit_log.hpp"
 #include "support/sample_map.hpp"
 #include "wire/appearance_blob.hpp"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "map/lookup.hpp"
-#include "mapping/edits.hpp"
+#include "mapping/edit_log.hpp"
 #include "support/horseshoe.hpp"
 
 namespace homeward::mapping::shortcut_edges_test {

@@ -80,6 +80,9 @@ TEST(EditJson, NamesTheFieldThatIsWrong) {
   EXPECT_EQ(where(R"({"edits":[{"kind":"delete","place":"p1"},{"kind":"paint"}]})"), "body/edits/1/kind");
   EXPECT_EQ(where(R"({"edits":[{"kind":"delete","place":"p1","label":"x"}]})"), "body/edits/0/label");
   EXPECT_EQ(where(R"({"edits":[{"kind":"split","place":"p1","images":[3]}]})"), "body/edits/0/images");
+  EXPECT_EQ(where(R"({"edits":[{"kind":"add_destination","image":"t/1","label":""}]})"), "body/edits/0/label");
+  EXPECT_EQ(where(R"({"edits":[{"kind":"set_pictogram","destination":"d1","pictogram":"x"}]})"),
+            "body/edits/0/pictogram");
   EXPECT_EQ(where(R"({"edits":[]})"), "body/edits");
   EXPECT_EQ(where("[]"), "body");
 }
@@ -88,7 +91,7 @@ TEST(EditJson, LogsEditsWithNullForNoSecondImage) {
   const json logged = logged_edit_to_json(sample_map().edits.front());
   EXPECT_EQ(logged, json::parse(R"({"kind":"rename","image_a":"tour/00002.jpg","image_b":null,"text":"kitchen",
     "images":["tour/00002.jpg"],"by":"anna","t_us":1700000000000000,"undone":false,
-    "change":1,"redoable":false})"));
+    "change":1,"redoable":false,"lost":null})"));
 }
 
 }  // namespace

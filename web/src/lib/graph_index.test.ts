@@ -25,6 +25,7 @@ const edge = (from: number, to: number): Edge => ({
   weak: false,
   blocked: false,
   shortcut: false,
+  by: 'method',
 });
 
 /** A corridor of so many places, with a name for the first and the last. */

@@ -24,10 +24,11 @@ function drawn(line: string): Graph {
       weak: false,
       blocked: false,
       shortcut: false,
+      by: 'method',
     })),
     destinations: names
       .filter((id) => id.length > 2)
-      .map((id) => ({ id: `d-${id}`, place: id, image: `t/${id}.jpg`, label: id })),
+      .map((id) => ({ id: `d-${id}`, place: id, image: `t/${id}.jpg`, label: id, pictogram: '' as const })),
     hypotheses: [],
     shortcuts: [],
   };

@@ -20,7 +20,7 @@ const graph: Graph = {
   revision: 1,
   places: [place('p1', 'kitchen'), place('p2', ''), place('p3', "anna's chair")],
   edges: [],
-  destinations: [{ id: 'd1', place: 'p1', image: 't/p1.jpg', label: 'kitchen' }],
+  destinations: [{ id: 'd1', place: 'p1', image: 't/p1.jpg', label: 'kitchen', pictogram: '' }],
   hypotheses: [],
   shortcuts: [],
 };
@@ -35,7 +35,10 @@ it('offers the destinations and every other place with a name, each once', () =>
 it('calls a destination by the name that its place was given since, where it is the only one there', () => {
   const renamed = { ...graph, places: [place('p1', 'Cooking corner')] };
   expect(goalsOf(renamed).map((one) => one.name)).toEqual(['Cooking corner']);
-  const two = [...graph.destinations, { id: 'd2', place: 'p1', image: 't/p1b.jpg', label: 'sink' }];
+  const two: Graph['destinations'] = [
+    ...graph.destinations,
+    { id: 'd2', place: 'p1', image: 't/p1b.jpg', label: 'sink', pictogram: '' },
+  ];
   expect(goalsOf({ ...renamed, destinations: two }).map((one) => one.name)).toEqual(['Kitchen', 'Sink']);
 });
 

@@ -28,7 +28,7 @@ const graph: Graph = {
     { id: 'p6', label: "Anna's room", prototype: 't/6.jpg', members: ['t/6.jpg'], features: 9, x: 1, y: 0 },
   ],
   edges: [],
-  destinations: [{ id: 'kitchen', place: 'p5', image: 't/5.jpg', label: 'south_hall' }],
+  destinations: [{ id: 'kitchen', place: 'p5', image: 't/5.jpg', label: 'south_hall', pictogram: '' }],
   hypotheses: [],
   shortcuts: [],
 };

@@ -20,8 +20,8 @@ const graph: Graph = {
   places: [place('p1', 'living_room'), place('p2', ''), place('p3', 'hall'), place('p4', 'hall')],
   edges: [],
   destinations: [
-    { id: 'd1', place: 'p1', image: 't/sofa.jpg', label: 'living_room' },
-    { id: 'd2', place: 'p2', image: 't/x.jpg', label: ' ' },
+    { id: 'd1', place: 'p1', image: 't/sofa.jpg', label: 'living_room', pictogram: '' },
+    { id: 'd2', place: 'p2', image: 't/x.jpg', label: ' ', pictogram: '' },
   ],
   hypotheses: [],
   shortcuts: [],

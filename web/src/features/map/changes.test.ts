@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
 import type { Graph, LoggedEdit } from '../../api/types';
-import { changesOf, changeWords, redoable, undoable } from './changes';
+import { changesOf, changeWords, lostBecause, redoable, undoable } from './changes';
 
 const edit = (change: number, part: Partial<LoggedEdit> = {}): LoggedEdit => ({
   kind: 'rename',
@@ -14,6 +14,7 @@ const edit = (change: number, part: Partial<LoggedEdit> = {}): LoggedEdit => ({
   undone: false,
   change,
   redoable: false,
+  lost: null,
   ...part,
 });
 const close = (change: number, image_a: string, image_b: string, part: Partial<LoggedEdit> = {}) =>
@@ -77,5 +78,18 @@ describe('changeWords', () => {
     expect(words(close(1, 't/p8.jpg', 't/p9.jpg'), close(1, 't/p7.jpg', 't/p8.jpg'))).toEqual([
       'closed a way (2 times)',
     ]);
+  });
+});
+
+describe('lostBecause', () => {
+  it('says once why what stands could not be kept', () => {
+    const why = 'Place p3 is not there.';
+    const [one, other, none] = changesOf([
+      edit(1, { lost: why }),
+      edit(1, { lost: why }),
+      edit(2, { lost: why, undone: true }),
+      edit(3),
+    ]).map(lostBecause);
+    expect([one, other, none]).toEqual([[why], [], []]);
   });
 });

@@ -45,11 +45,22 @@ const kVerbs: Readonly<Record<LoggedEdit['kind'], (text: string) => string>> = {
   block_edge: (text) => (text === 'true' ? 'closed a way' : 'opened a way'),
   decide: () => 'decided whether two places are one',
   decide_shortcut: (text) => (text === 'accept' ? 'accepted a shortcut' : 'rejected a shortcut'),
+  add_destination: (text) => `added the destination “${text}”`,
+  remove_destination: () => 'removed a destination',
+  name_destination: (text) => `named a destination “${text}”`,
+  set_pictogram: (text) =>
+    text === '' ? 'took the pictogram of a destination away' : `gave a destination the pictogram “${text}”`,
+  set_destination_picture: () => 'moved a destination to another picture',
 };
 
 function titleOf(graph: Graph, image: string | null): string | null {
   const place = image === null ? undefined : indexOf(graph).place_of_image.get(image);
   return place ? placeTitle(graph, place.id) : null;
+}
+
+/** Why the map could not keep some of a change when it was last built, each reason once. */
+export function lostBecause(change: Change): string[] {
+  return [...new Set(change.edits.flatMap(({ lost, undone }) => (lost !== null && !undone ? [lost] : [])))];
 }
 
 /** What was done, and to which places: completes "anna …". Both directions of a way are one way. */

@@ -44,6 +44,7 @@ const graph = (...hypotheses: Hypothesis[]): Graph => {
       weak: false,
       blocked: false,
       shortcut: false,
+      by: 'method',
     })),
     destinations: [],
     hypotheses,

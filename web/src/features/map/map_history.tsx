@@ -6,7 +6,7 @@ import type { Graph, LoggedEdit } from '../../api/types';
 import { Icon } from '../../components/icons';
 import { Notice } from '../../components/notice';
 import { dateText } from '../../lib/words';
-import { changesOf, changeWords, redoable, undoable, type Change } from './changes';
+import { changesOf, changeWords, lostBecause, redoable, undoable, type Change } from './changes';
 import { Outcome, type OutcomeOf } from './outcome';
 
 const kShown = 8;
@@ -83,6 +83,11 @@ export function MapHistory({ graph, busy, outcome, onUndo, onRedo }: Props) {
               <span>
                 <strong>{one.by}</strong> {changeWords(one, graph)}
                 {one.undone && <span class="soft"> (taken back)</span>}
+                {lostBecause(one).map((why) => (
+                  <Notice key={why} tone="warn">
+                    The map could not keep this when it was last built. {why}
+                  </Notice>
+                ))}
               </span>
               <span class="soft small">{dateText(one.t_us)}</span>
             </li>

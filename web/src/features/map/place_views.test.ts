@@ -24,6 +24,7 @@ const edge = (from: string, to: string, part: Partial<Edge> = {}): Edge => ({
   weak: false,
   blocked: false,
   shortcut: false,
+  by: 'method',
   ...part,
 });
 const graph: Graph = {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mapping/edits.hpp"
+#include "mapping/edit_log.hpp"
 
 #include <gtest/gtest.h>
 
 #include "map/lookup.hpp"
 #include "support/corridor_tour.hpp"
 
-namespace homeward::mapping::edits_test {
+namespace homeward::mapping::edit_log_test {
 namespace {
 
 using map::EditKind;
@@ -27,6 +27,7 @@ map::TopologicalMap three_places() {
   place("p2", {3, 4}, 3);
   place("p3", {5}, 5);
   map.next_place_number = 4;
+  map.next_destination_number = 2;
   for (const auto& [from, to] : {std::pair("p1", "p2"), {"p2", "p1"}, {"p2", "p3"}, {"p3", "p2"}}) {
     map::Edge edge;
     edge.from = PlaceId(from);
@@ -46,6 +47,11 @@ map::Edit make(EditKind kind, int a, int b = -1, const std::string& text = {}, c
   edit.text = text;
   for (const int image : images) edit.images.push_back(ImageId("t/" + std::to_string(image)));
   return edit;
+}
+
+/// Any picture looks like seven features.
+Result<features::Appearance> look(const ImageId& image) {
+  return testing::random_appearance(7, static_cast<unsigned>(image.str().back()));
 }
 
 std::string members(map::TopologicalMap& map, int image) {
@@ -90,22 +96,77 @@ TEST(Edits, MergeTakesEverythingAlong) {
   EXPECT_EQ(map.edges.size(), 2U);
   EXPECT_FALSE(map.edges[0].bearing_rad);  // it belonged to another prototype
   EXPECT_EQ(map.destinations[0].place.str(), "p3");
-  EXPECT_EQ(undo_change(map).error().code, ErrorCode::kConflict);
-  EXPECT_FALSE(map.edits.back().undone);
+  ASSERT_TRUE(undo_change(map));
+  EXPECT_EQ(members(map, 3), "34");
+  EXPECT_EQ(map.edges.size(), 4U);
+  EXPECT_EQ(map.edges[0].bearing_rad, 0.1);
+  EXPECT_EQ(map.destinations[0].place.str(), "p2");
+  ASSERT_TRUE(redo_change(map));
+  EXPECT_EQ(members(map, 5), "345");
 }
 
 TEST(Edits, SplitMakesANewPlaceWithItsEdges) {
   auto map = three_places();
-  ASSERT_TRUE(apply_edit(map, make(EditKind::kSplit, 1, -1, {}, {2})));
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kSplit, 1, -1, {}, {2}), look));
   EXPECT_EQ(members(map, 2), "2");
   EXPECT_EQ(members(map, 0), "01");
   EXPECT_EQ(map.places.back().id.str(), "p4");
   EXPECT_EQ(map.next_place_number, 5);
   EXPECT_TRUE(joined(map, "p1", "p4"));
   EXPECT_TRUE(joined(map, "p4", "p2"));
-  ASSERT_TRUE(apply_edit(map, make(EditKind::kSplit, 3, -1, {}, {4, 4})));  // named twice, gone once
+  EXPECT_FALSE(joined(map, "p1", "p2")) << "the tour went from image 2 to image 3";
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kSplit, 3, -1, {}, {4, 4}), look));  // named twice, gone once
   EXPECT_EQ(members(map, 4), "4");
   EXPECT_EQ(map.destinations[0].place.str(), "p5");
+}
+
+TEST(Edits, WhicheverPartLosesThePrototypeGetsAnotherWithItsAppearances) {
+  auto map = three_places();
+  map.places[0].appearances = {};
+  map.places[0].appearances.push_back(testing::random_appearance(4, 1), ImageId("t/1"));
+  map.places[0].appearances.push_back(testing::random_appearance(5, 2), ImageId("t/0"));
+  map.places[0].appearances.push_back(testing::random_appearance(6, 3));
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kSplit, 0, -1, {}, {1, 2}), look));
+  const map::Place* stays = map::find_place_of(map, ImageId("t/0"));
+  const map::Place* fresh = map::find_place_of(map, ImageId("t/2"));
+  EXPECT_EQ(stays->id.str(), "p1");
+  EXPECT_EQ(stays->prototype.str(), "t/0");
+  EXPECT_EQ(stays->appearances.at(0).size(), 5) << "it was known already";
+  EXPECT_EQ(stays->appearances.size(), 1U);
+  EXPECT_EQ(fresh->prototype.str(), "t/2");
+  EXPECT_EQ(fresh->appearances.at(0).size(), 7) << "it was looked at";
+  EXPECT_EQ(fresh->appearances.at(1).size(), 4) << "that of image 1 came along";
+}
+
+TEST(Edits, NothingBecomesAPlaceByAPictureThatIsNotKept) {
+  auto map = three_places();
+  const Status status = apply_edit(map, make(EditKind::kSplit, 1, -1, {}, {2}));
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().code, ErrorCode::kConflict);
+  EXPECT_EQ(status.error().where, "t/2");
+  EXPECT_EQ(members(map, 0), "012");
+}
+
+TEST(Edits, DestinationsComeAreNamedDockElsewhereAndGo) {
+  auto map = three_places();
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kAddDestination, 0, -1, "door"), look));
+  ASSERT_EQ(map.destinations.size(), 2U);
+  EXPECT_EQ(map.destinations[1].id.str(), "d2");
+  EXPECT_EQ(map.destinations[1].place.str(), "p1");
+  EXPECT_EQ(map.destinations[1].appearance.size(), 7);
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kNameDestination, 0, -1, "front door")));
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kSetPictogram, 0, -1, "door")));
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kSetDestinationPicture, 0, 5)));
+  EXPECT_EQ(map.destinations[1].label, "front door");
+  EXPECT_EQ(map.destinations[1].pictogram, "door");
+  EXPECT_EQ(map.destinations[1].image.str(), "t/5");
+  EXPECT_EQ(map.destinations[1].place.str(), "p3");
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kRemoveDestination, 4)));
+  ASSERT_EQ(map.destinations.size(), 1U);
+  while (undo_change(map)) {
+  }
+  ASSERT_EQ(map.destinations.size(), 1U);
+  EXPECT_EQ(map.destinations[0].label, "table");
 }
 
 TEST(Edits, MoveAndDelete) {
@@ -114,9 +175,11 @@ TEST(Edits, MoveAndDelete) {
   EXPECT_EQ(members(map, 0), "0124");
   EXPECT_EQ(members(map, 3), "3");
   EXPECT_EQ(map.destinations[0].place.str(), "p1");
+  EXPECT_TRUE(joined(map, "p1", "p3")) << "the tour went from image 4 to image 5";
+  EXPECT_FALSE(joined(map, "p2", "p3"));
   ASSERT_TRUE(apply_edit(map, make(EditKind::kDelete, 0)));
   EXPECT_EQ(members(map, 0), "none");
-  EXPECT_EQ(map.edges.size(), 2U);
+  EXPECT_TRUE(map.edges.empty());
   EXPECT_TRUE(map.destinations.empty());
 }
 
@@ -184,17 +247,16 @@ TEST(Edits, ChangesAreRedoneInTheirOrderUntilSomethingElseIsChanged) {
   EXPECT_EQ(map.places[0].label, "porch");
 }
 
-TEST(Edits, AChangeThatCannotBeUndoneWhollyStandsWholly) {
+TEST(Edits, AChangeOfBeforeTheMapKeptItsUneditedStateStands) {
   auto map = three_places();
-  map::Edit rename = make(EditKind::kRename, 5, -1, "attic");
-  map::Edit merge = make(EditKind::kMerge, 0, 3);
-  rename.change = merge.change = next_change(map);
-  ASSERT_TRUE(apply_edit(map, merge));
-  ASSERT_TRUE(apply_edit(map, rename));
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kMerge, 0, 3)));
+  map.unedited = nullptr;  // as a file of before says nothing of it
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kRename, 5, -1, "attic")));
+  ASSERT_TRUE(undo_change(map));
   EXPECT_EQ(undo_change(map).error().code, ErrorCode::kConflict);
-  EXPECT_EQ(map::find_place_of(map, ImageId("t/5"))->label, "attic");
-  EXPECT_FALSE(map.edits[0].undone || map.edits[1].undone);
-  EXPECT_EQ(map.revision, 3);
+  EXPECT_EQ(members(map, 0), "01234");
+  EXPECT_FALSE(map.edits[0].undone);
+  EXPECT_EQ(map.revision, 4);
 }
 
 TEST(Edits, WhatWasUndoneWhileAMapWasBuiltIsNotBroughtBackByIt) {
@@ -230,9 +292,18 @@ TEST(Edits, WhatCannotBeIsRefusedAndChangesNothing) {
   refused(make(EditKind::kMerge, 0, 1), ErrorCode::kInvalidInput);
   refused(make(EditKind::kMerge, 0, 77), ErrorCode::kNotFound);
   refused(make(EditKind::kSplit, 0, -1, {}, {}), ErrorCode::kInvalidInput);
-  refused(make(EditKind::kSplit, 0, -1, {}, {1}), ErrorCode::kInvalidInput);    // the prototype stays
-  refused(make(EditKind::kSplit, 0, -1, {}, {0, 4}), ErrorCode::kNotFound);     // 4 is elsewhere
-  refused(make(EditKind::kMove, 0, -1, {}, {4, 5}), ErrorCode::kInvalidInput);  // 5 is a prototype; 4 stays too
+  refused(make(EditKind::kSplit, 0, -1, {}, {0, 1, 2}), ErrorCode::kInvalidInput);  // nothing would be left
+  refused(make(EditKind::kSplit, 0, -1, {}, {0, 4}), ErrorCode::kNotFound);         // 4 is elsewhere
+  refused(make(EditKind::kSplit, 0, -1, {}, {4}), ErrorCode::kNotFound);
+  refused(make(EditKind::kMove, 0, -1, {}, {4, 5}), ErrorCode::kInvalidInput);  // p3 would be empty; 4 stays too
+  refused(make(EditKind::kMove, 0, -1, {}, {2}), ErrorCode::kInvalidInput);     // it is there
+  refused(make(EditKind::kAddEdge, 0, 3), ErrorCode::kInvalidInput);            // there is one
+  refused(make(EditKind::kAddDestination, 4, -1, "shelf"), ErrorCode::kConflict);
+  refused(make(EditKind::kAddDestination, 0, -1, ""), ErrorCode::kInvalidInput);
+  refused(make(EditKind::kRemoveDestination, 0), ErrorCode::kNotFound);
+  refused(make(EditKind::kNameDestination, 0, -1, "x"), ErrorCode::kNotFound);
+  refused(make(EditKind::kSetPictogram, 4, -1, "dragon"), ErrorCode::kInvalidInput);
+  refused(make(EditKind::kSetDestinationPicture, 4, 77), ErrorCode::kNotFound);
   refused(make(EditKind::kMove, 0, -1, {}, {}), ErrorCode::kInvalidInput);
   refused(make(EditKind::kDelete, 77), ErrorCode::kNotFound);
   refused(make(EditKind::kAddEdge, 0, 1), ErrorCode::kInvalidInput);
@@ -244,4 +315,4 @@ TEST(Edits, WhatCannotBeIsRefusedAndChangesNothing) {
 }
 
 }  // namespace
-}  // namespace homeward::mapping::edits_test
+}  // namespace homeward::mapping::edit_log_test

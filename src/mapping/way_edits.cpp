@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping/way_edits.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "map/lookup.hpp"
+#include "mapping/place_edits.hpp"
+#include "mapping/shortcut_edges.hpp"
+#include "mapping/tour_steps.hpp"
+
+namespace homeward::mapping {
+namespace {
+
+using map::Edit;
+using map::Place;
+using map::TopologicalMap;
+
+struct Ends {
+  PlaceId from;
+  PlaceId to;
+};
+
+Result<Ends> ends_of(const TopologicalMap& map, const Edit& edit) {
+  const Place* from = map::find_place_of(map, edit.image_a);
+  const Place* to = map::find_place_of(map, edit.image_b);
+  if (from == nullptr) return no_place_with(edit.image_a);
+  if (to == nullptr) return no_place_with(edit.image_b);
+  if (from == to) return fail(ErrorCode::kInvalidInput, "Both images are in place " + from->id.str() + ".");
+  return Ends{from->id, to->id};
+}
+
+Error no_edge(const Ends& ends) {
+  return {ErrorCode::kNotFound, "The map has no edge from " + ends.from.str() + " to " + ends.to.str() + ".",
+          ends.from.str()};
+}
+
+/// The images of the place of `image` that the tour drove through together with it.
+std::vector<ImageId> run_around(const TopologicalMap& map, const Place& place, const ImageId& image) {
+  const auto index = map::image_indices(map);
+  const auto in_place = [&](int at) {
+    return at >= 0 && at < static_cast<int>(map.images.size()) &&
+           std::ranges::find(place.members, map.images[static_cast<std::size_t>(at)].id) != place.members.end();
+  };
+  int first = index.at(image);
+  int last = first;
+  while (in_place(first - 1)) --first;
+  while (in_place(last + 1)) ++last;
+  std::vector<ImageId> run;
+  for (int at = first; at <= last; ++at) run.push_back(map.images[static_cast<std::size_t>(at)].id);
+  return run;
+}
+
+Status part(EditScene& scene, const Place& place) {
+  const Edit& edit = scene.edit();
+  std::vector<ImageId> leaving = run_around(scene.map(), place, edit.image_b);
+  const bool holds_prototype = std::ranges::find(leaving, place.prototype) != leaving.end();
+  if (holds_prototype) leaving = run_around(scene.map(), place, edit.image_a);
+  const ImageId staying = holds_prototype ? edit.image_b : edit.image_a;
+  // What tours brought to the place that this made.
+  for (const ImageId& image : edit.images) {
+    if (std::ranges::find(place.members, image) != place.members.end()) leaving.push_back(image);
+  }
+  if (std::ranges::find(leaving, staying) != leaving.end()) {
+    return fail(ErrorCode::kConflict,
+                "The tour took " + edit.image_a.str() + " and " + edit.image_b.str() +
+                    " one right after the other in place " + place.id.str() + ": split it where the places part.",
+                place.id.str());
+  }
+  return split_place(scene, staying, leaving);
+}
+
+}  // namespace
+
+Status add_edge(EditScene& scene) {
+  TopologicalMap& map = scene.map();
+  const auto ends = ends_of(map, scene.edit());
+  if (!ends) return pass_on(ends);
+  const std::size_t before = map.edges.size();
+  join_both_ways(map, ends->from, ends->to, map::Decider::kPerson);
+  if (map.edges.size() == before) {
+    return scene.already_so({ErrorCode::kInvalidInput,
+                             "The map has the way between " + ends->from.str() + " and " + ends->to.str() + " already.",
+                             ends->from.str()});
+  }
+  for (std::size_t i = before; i < map.edges.size(); ++i) scene.see(map.edges[i]);
+  return {};
+}
+
+Status remove_edge(EditScene& scene) {
+  TopologicalMap& map = scene.map();
+  const auto ends = ends_of(map, scene.edit());
+  if (!ends) return pass_on(ends);
+  const auto removed = std::erase_if(map.edges, [&](const map::Edge& edge) {
+    return (edge.from == ends->from && edge.to == ends->to) || (edge.from == ends->to && edge.to == ends->from);
+  });
+  if (removed == 0) return scene.already_so(no_edge(*ends));
+  reject_shortcuts(map, ends->from, ends->to, scene.edit().by);
+  return {};
+}
+
+Status block_edge(EditScene& scene) {
+  const Edit& edit = scene.edit();
+  if (edit.text != "true" && edit.text != "false") {
+    return fail(ErrorCode::kInvalidInput, "An edge is blocked with \"true\" or opened with \"false\".", "blocked");
+  }
+  const auto ends = ends_of(scene.map(), edit);
+  if (!ends) return pass_on(ends);
+  map::Edge* edge = map::find_edge(scene.map(), ends->from, ends->to);
+  if (edge == nullptr) return tl::unexpected<Error>(no_edge(*ends));
+  edge->blocked = edit.text == "true";
+  return {};
+}
+
+Status decide_hypothesis(EditScene& scene) {
+  TopologicalMap& map = scene.map();
+  const Edit& edit = scene.edit();
+  if (edit.text != "accept" && edit.text != "reject") {
+    return fail(ErrorCode::kInvalidInput, "A hypothesis can be decided with \"accept\" or \"reject\".", "decision");
+  }
+  const auto find = [&] {
+    return std::ranges::find_if(map.hypotheses, [&](const map::Hypothesis& h) {
+      return (h.prototype_a == edit.image_a && h.prototype_b == edit.image_b) ||
+             (h.prototype_a == edit.image_b && h.prototype_b == edit.image_a);
+    });
+  };
+  if (find() == map.hypotheses.end()) {
+    const Status unknown =
+        scene.already_so({ErrorCode::kNotFound,
+                          "The map has no hypothesis on " + edit.image_a.str() + " and " + edit.image_b.str() + ".",
+                          edit.image_a.str()});
+    if (!unknown) return unknown;
+  }
+  const Place* a = map::find_place_of(map, edit.image_a);
+  const Place* b = map::find_place_of(map, edit.image_b);
+  if (a == nullptr) return no_place_with(edit.image_a);
+  if (b == nullptr) return no_place_with(edit.image_b);
+  const bool accept = edit.text == "accept";
+  if (accept && a != b) {
+    if (const Status merged = merge_places(scene, edit.image_a, edit.image_b); !merged) return merged;
+  }
+  if (!accept && a == b) {
+    if (const Status parted = part(scene, *b); !parted) return parted;
+  }
+  if (const auto found = find(); found != map.hypotheses.end()) {
+    found->decision = accept ? map::Decision::kAccepted : map::Decision::kRejected;
+    found->by = map::Decider::kPerson;
+  }
+  return {};
+}
+
+}  // namespace homeward::mapping

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/replay_check.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "localisation/localiser.hpp"
+#include "map/difference.hpp"
+#include "map/lookup.hpp"
+#include "map/metric_layout.hpp"
+#include "mapping/compare_all.hpp"
+#include "mapping/parallel.hpp"
+#include "pipeline/grow_map.hpp"
+#include "pipeline/look_at_tours.hpp"
+
+namespace homeward::pipeline {
+namespace {
+
+using map::Place;
+using map::TopologicalMap;
+
+constexpr std::uint64_t kSeed = 1;
+constexpr double kReplayedShare = 0.7;  // of the time, for the progress bar
+constexpr double kLookedAtShare = 0.6;
+// Pictures of one spot share 14 % of their features and more, 4 m apart 8 % (docs/experiments/hand_held_tours.md).
+constexpr float kLeastMatchShare = 0.06F;
+constexpr double kOnePlace_m = 5.0;  // pictures of one place are nearer, with what odometry drifts between two passes
+constexpr double kSeenWay_m = 3.0;   // prototypes so near may see little of each other and be joined all the same
+constexpr double kLongestWay_m = 8.0;
+constexpr double kWorseShare = 0.25;  // of a place's pictures that must fare worse to be told
+constexpr int kWorseLeast = 2;
+
+/// What one map makes of the pictures.
+struct Replayed {
+  std::vector<PlaceId> believed;  // empty: lost
+  std::vector<char> right;
+};
+
+class Places {
+ public:
+  explicit Places(const TopologicalMap& map) {
+    for (const Place& place : map.places) {
+      for (const ImageId& image : place.members) of_image_.emplace(image, place.id);
+    }
+    for (const map::Edge& edge : map.edges) beside_.emplace(edge.from, edge.to);
+  }
+  /// Empty: no place holds it.
+  [[nodiscard]] PlaceId of(const ImageId& image) const {
+    const auto found = of_image_.find(image);
+    return found == of_image_.end() ? PlaceId() : found->second;
+  }
+  [[nodiscard]] bool at_or_beside(const PlaceId& believed, const PlaceId& truth) const {
+    return believed == truth || beside_.contains({believed, truth}) || beside_.contains({truth, believed});
+  }
+
+ private:
+  std::unordered_map<ImageId, PlaceId> of_image_;
+  std::set<std::pair<PlaceId, PlaceId>> beside_;
+};
+
+/// A picture that no place holds any more counts for the next one of its tour that one does.
+std::vector<PlaceId> truths(const Places& places, const std::vector<KeptPicture>& pictures) {
+  std::vector<PlaceId> truth;
+  for (const KeptPicture& picture : pictures) truth.push_back(places.of(picture.image));
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    if (!truth[i].empty()) continue;
+    for (std::size_t away = 1; away < pictures.size() && truth[i].empty(); ++away) {
+      for (const std::size_t near : {i - away, i + away}) {
+        const bool same_tour = near < pictures.size() && pictures[near].tour == pictures[i].tour;
+        if (same_tour && truth[i].empty()) truth[i] = places.of(pictures[near].image);
+      }
+    }
+  }
+  return truth;
+}
+
+std::optional<Replayed> replay(const TopologicalMap& map, const Places& places,
+                               const std::vector<KeptPicture>& pictures, const std::function<void()>& done,
+                               const std::stop_token& stop) {
+  // The map outlives the localiser.
+  localisation::Localiser localiser(std::shared_ptr<const TopologicalMap>(std::shared_ptr<void>(), &map), {});
+  const std::vector<PlaceId> truth = truths(places, pictures);
+  Replayed replayed;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    if (stop.stop_requested()) return std::nullopt;
+    if (i > 0 && pictures[i].tour != pictures[i - 1].tour) localiser.restart();
+    const localisation::Belief belief = localiser.update(pictures[i].seen);
+    const bool sure = !belief.lost && !belief.top.empty();
+    replayed.believed.push_back(sure ? belief.top.front().place : PlaceId());
+    replayed.right.push_back(sure && places.at_or_beside(replayed.believed.back(), truth[i]) ? 1 : 0);
+    done();
+  }
+  return replayed;
+}
+
+/// The places of which some pictures were recognised and are no more, by the place that holds them before.
+void compare_beliefs(const Places& before, const std::vector<KeptPicture>& pictures, const Replayed& old,
+                     const Replayed& now, ReplayCheck& check) {
+  std::map<PlaceId, WorseSpot> spots;
+  std::map<PlaceId, std::map<PlaceId, int>> taken_for;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const PlaceId place = before.of(pictures[i].image);
+    WorseSpot& spot = spots[place];
+    spot.place = place;
+    ++spot.of;
+    if (!old.right[i] || now.right[i]) continue;
+    spot.images.push_back(pictures[i].image);
+    if (!now.believed[i].empty()) ++taken_for[place][now.believed[i]];
+  }
+  for (auto& [place, spot] : spots) {
+    const auto worse = static_cast<int>(spot.images.size());
+    if (worse < kWorseLeast || worse < kWorseShare * spot.of) continue;
+    int most = 0;
+    for (const auto& [other, times] : taken_for[place]) {
+      if (times <= most) continue;
+      most = times;
+      spot.other = other;
+    }
+    check.worse.push_back(std::move(spot));
+  }
+}
+
+/// Where pictures were taken, before anybody's edits: these are what is in doubt.
+class Whereabouts {
+ public:
+  explicit Whereabouts(const TopologicalMap& before) : layout_(map::metric_layout(before)) {}
+  /// Nothing where the map cannot tell.
+  [[nodiscard]] std::optional<double> apart_m(const ImageId& a, const ImageId& b) const {
+    const auto first = layout_.find(a);
+    const auto second = layout_.find(b);
+    if (first == layout_.end() || second == layout_.end()) return std::nullopt;
+    if (first->second.component != second->second.component) return std::nullopt;
+    if (!first->second.metric || !second->second.metric) return std::nullopt;
+    const Pose2& p = first->second.map_from_robot;
+    const Pose2& q = second->second.map_from_robot;
+    return std::hypot(p.x_m - q.x_m, p.y_m - q.y_m);
+  }
+
+ private:
+  map::MetricLayout layout_;
+};
+
+double median(std::vector<double> values) {
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  return values[values.size() / 2];
+}
+
+/// Whether what came to a place from others belongs there.
+void check_places(const TopologicalMap& before, const map::MapDifference& difference,
+                  const std::vector<KeptPicture>& pictures, const Whereabouts& whereabouts, ReplayCheck& check) {
+  std::unordered_map<ImageId, const features::Appearance*> seen;
+  for (const KeptPicture& picture : pictures) seen.emplace(picture.image, &picture.seen);
+  for (const map::PlaceDifference& one : difference.places) {
+    if (!one.before || !one.after || one.gained.empty()) continue;
+    const Place& place = *map::find_place(before, one.id);
+    WorseSpot unlike{Worsening::kPictures, one.id, {}, {}, 0, 0.0};
+    WorseSpot far{Worsening::kPlaces, one.id, {}, one.gained, static_cast<int>(one.gained.size()), 0.0};
+    std::vector<double> apart_m;
+    for (const ImageId& image : one.gained) {
+      if (const auto distance_m = whereabouts.apart_m(image, place.prototype)) apart_m.push_back(*distance_m);
+      const auto looked = seen.find(image);
+      if (looked == seen.end()) continue;
+      ++unlike.of;
+      // Against all that the place was known by, and its own pictures of the tour.
+      const auto shows = [&](const features::Appearance& known) {
+        return mapping::relate(known, *looked->second, {}, kSeed).match_share >= kLeastMatchShare ||
+               mapping::relate(*looked->second, known, {}, kSeed + 1).match_share >= kLeastMatchShare;
+      };
+      bool found = std::ranges::any_of(place.appearances, shows);
+      for (std::size_t m = 0; m < place.members.size() && !found; ++m) {
+        const auto member = seen.find(place.members[m]);
+        found = member != seen.end() && shows(*member->second);
+      }
+      if (!found) unlike.images.push_back(image);
+    }
+    if (2 * unlike.images.size() > static_cast<std::size_t>(unlike.of)) check.worse.push_back(unlike);
+    if (apart_m.empty()) continue;
+    far.distance_m = median(std::move(apart_m));
+    if (far.distance_m > kOnePlace_m) check.worse.push_back(std::move(far));
+  }
+}
+
+/// Whether new ways can be there. Between places that merged or parted the pictures were there before.
+void check_ways(const TopologicalMap& after, const map::MapDifference& difference, const Whereabouts& whereabouts,
+                ReplayCheck& check) {
+  std::set<std::pair<PlaceId, PlaceId>> told;
+  for (const map::EdgeDifference& one : difference.edges) {
+    if (one.before || one.after->by != map::Decider::kPerson || one.after->shortcut) continue;
+    if (!told.insert(std::minmax(one.from, one.to)).second) continue;
+    const ImageId& from = map::find_place(after, one.from)->prototype;
+    const ImageId& to = map::find_place(after, one.to)->prototype;
+    const auto apart_m = whereabouts.apart_m(from, to);
+    const double distance_m = apart_m.value_or(0.0);
+    if (one.after->weak && distance_m > kSeenWay_m) {
+      check.worse.push_back({Worsening::kWay, one.from, one.to, {from, to}, 2, distance_m});
+    } else if (one.after->weak && !apart_m) {
+      check.worse.push_back({Worsening::kWay, one.from, one.to, {from, to}, 2, 0.0});
+    } else if (distance_m > kLongestWay_m) {
+      check.worse.push_back({Worsening::kFarWay, one.from, one.to, {from, to}, 2, distance_m});
+    }
+  }
+}
+
+/// Everywhere that open ways lead to from a place, itself included.
+std::set<PlaceId> reached_from(const std::unordered_map<PlaceId, std::vector<PlaceId>>& ways, const PlaceId& place) {
+  std::set<PlaceId> reached{place};
+  std::vector<PlaceId> next{place};
+  while (!next.empty()) {
+    const PlaceId here = next.back();
+    next.pop_back();
+    const auto out = ways.find(here);
+    if (out == ways.end()) continue;
+    for (const PlaceId& there : out->second) {
+      if (reached.insert(there).second) next.push_back(there);
+    }
+  }
+  return reached;
+}
+
+/// Ordered pairs of destinations, by their pictures, with an open way.
+std::set<std::pair<ImageId, ImageId>> routes(const TopologicalMap& map) {
+  std::unordered_map<PlaceId, std::vector<PlaceId>> ways;
+  for (const map::Edge& edge : map.edges) {
+    if (!edge.blocked) ways[edge.from].push_back(edge.to);
+  }
+  std::set<std::pair<ImageId, ImageId>> found;
+  for (const map::Destination& from : map.destinations) {
+    const std::set<PlaceId> reached = reached_from(ways, from.place);
+    for (const map::Destination& to : map.destinations) {
+      if (from.image != to.image && reached.contains(to.place)) found.emplace(from.image, to.image);
+    }
+  }
+  return found;
+}
+
+/// Destinations that both maps have and that lead to each other no more; for each pair once.
+void check_routes(const TopologicalMap& before, const TopologicalMap& after, ReplayCheck& check) {
+  const auto old = routes(before);
+  const auto now = routes(after);
+  check.routes_before = static_cast<int>(old.size());
+  check.routes_after = static_cast<int>(now.size());
+  const auto place_of = [&](const ImageId& image) {
+    const auto found = std::ranges::find(after.destinations, image, &map::Destination::image);
+    return found == after.destinations.end() ? PlaceId() : found->place;
+  };
+  std::set<std::pair<ImageId, ImageId>> told;
+  for (const auto& [from, to] : old) {
+    if (now.contains({from, to}) || place_of(from).empty() || place_of(to).empty()) continue;
+    if (!told.insert(std::minmax(from, to)).second) continue;
+    check.worse.push_back({Worsening::kRoute, place_of(from), place_of(to), {from, to}, 2, 0.0});
+  }
+}
+
+}  // namespace
+
+Result<ReplayCheck> check_by_replay(const TopologicalMap& before, const TopologicalMap& after,
+                                    const std::vector<KeptPicture>& pictures, int threads,
+                                    const std::function<void(double)>& progress, const std::stop_token& stop) {
+  const Places old_places(before);
+  const Places new_places(after);
+  std::optional<Replayed> old;
+  std::optional<Replayed> now;
+  std::atomic<int> looked = 0;
+  const auto done = [&] { ++looked; };
+  const auto tell = [&](double) {
+    if (progress)
+      progress(kReplayedShare * looked / (2.0 * static_cast<double>(std::max<std::size_t>(1, pictures.size()))));
+  };
+  // Each replay goes picture by picture; the two go side by side.
+  const auto one = [&](std::size_t which) {
+    which == 0 ? old = replay(before, old_places, pictures, done, stop)
+               : now = replay(after, new_places, pictures, done, stop);
+  };
+  if (!mapping::parallel_for(2, threads, one, tell, stop) || !old || !now) {
+    return fail(ErrorCode::kCancelled, "The check was cancelled.");
+  }
+  ReplayCheck check;
+  check.pictures = static_cast<int>(pictures.size());
+  check.right_before = static_cast<int>(std::ranges::count(old->right, 1));
+  check.right_after = static_cast<int>(std::ranges::count(now->right, 1));
+  check.lost_before = static_cast<int>(std::ranges::count(old->believed, PlaceId()));
+  check.lost_after = static_cast<int>(std::ranges::count(now->believed, PlaceId()));
+  compare_beliefs(old_places, pictures, *old, *now, check);
+  const map::MapDifference difference = map::difference(before, after);
+  const Whereabouts whereabouts(before);
+  check_places(before, difference, pictures, whereabouts, check);
+  check_ways(after, difference, whereabouts, check);
+  check_routes(before, after, check);
+  std::ranges::stable_sort(check.worse, {}, &WorseSpot::kind);
+  if (progress) progress(1.0);
+  return check;
+}
+
+Result<ReplayCheck> check_by_replay(const TopologicalMap& before, const TopologicalMap& after,
+                                    const std::vector<const TourSource*>& tours, int threads,
+                                    const ProgressSink& progress, const std::stop_token& stop) {
+  const auto eye = eye_for(before, std::nullopt);
+  if (!eye) return pass_on(eye);
+  const auto stage = [&](const char* name, double begin, double share) {
+    return [&progress, name, begin, share](double done) {
+      if (progress) progress({name, begin + share * done});
+    };
+  };
+  auto seen = look_at_tours(tours, *eye, threads, stage("features", 0.0, kLookedAtShare), stop);
+  if (!seen) return pass_on(seen);
+  std::vector<KeptPicture> pictures;
+  for (std::size_t i = 0; i < seen->tours.images.size(); ++i) {
+    pictures.push_back({seen->tours.images[i].id, seen->tours.tour_of[i], std::move(seen->tours.appearances[i])});
+  }
+  return check_by_replay(before, after, pictures, threads, stage("localise", kLookedAtShare, 1.0 - kLookedAtShare),
+                         stop);
+}
+
+}  // namespace homeward::pipeline

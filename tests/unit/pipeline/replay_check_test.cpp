@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/replay_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include "map/lookup.hpp"
+#include "mapping/edit_log.hpp"
+#include "support/painted_tour.hpp"
+
+namespace homeward::pipeline::replay_check_test {
+namespace {
+
+using homeward::testing::camera_config;
+using homeward::testing::MemoryTour;
+using homeward::testing::painted_corridor;
+using homeward::testing::painted_picture;
+using homeward::testing::the_camera;
+using map::EditKind;
+
+const MemoryTour& the_tour() {
+  static const MemoryTour tour = [] {
+    MemoryTour made("tour");
+    for (int i = 0; i < 14; ++i) {
+      made.add(painted_picture(painted_corridor(), {-3.0 + 0.5 * i, 0.05, 0.0}, the_camera()));
+    }
+    return made;
+  }();
+  return tour;
+}
+
+/// The corridor with a destination at either end.
+const map::TopologicalMap& taught() {
+  static const map::TopologicalMap map = [] {
+    map::TopologicalMap made = build_map({&the_tour()}, camera_config(), {"house", 2, 1}).value();
+    for (const auto& [image, label] : {std::pair(0U, "door"), std::pair(13U, "window")}) {
+      map::Destination destination;
+      destination.id = DestinationId("d" + std::to_string(made.next_destination_number++));
+      destination.image = made.images.at(image).id;
+      destination.place = map::find_place_of(made, destination.image)->id;
+      destination.label = label;
+      made.destinations.push_back(destination);
+    }
+    return made;
+  }();
+  return map;
+}
+
+map::TopologicalMap edited(EditKind kind, const ImageId& a, const ImageId& b = {}, const std::string& text = {}) {
+  map::TopologicalMap map = taught();
+  map::Edit edit;
+  edit.kind = kind;
+  edit.image_a = a;
+  edit.image_b = b;
+  edit.text = text;
+  const Status applied = mapping::apply_edit(map, edit);
+  EXPECT_TRUE(applied) << applied.error().message;
+  return map;
+}
+
+ReplayCheck checked(const map::TopologicalMap& after, int threads = 2) {
+  return check_by_replay(taught(), after, {&the_tour()}, threads).value();
+}
+
+const ImageId& image(std::size_t index) { return taught().images.at(index).id; }
+
+TEST(ReplayCheck, FindsNothingAgainstTheMapItselfAndNames) {
+  const ReplayCheck same = checked(taught());
+  EXPECT_TRUE(same.harmless());
+  EXPECT_EQ(same.pictures, 14);
+  EXPECT_GE(same.right_before, 12);
+  EXPECT_EQ(same.right_after, same.right_before);
+  EXPECT_EQ(same.routes_before, 2);
+  EXPECT_EQ(same.routes_after, 2);
+  EXPECT_TRUE(checked(edited(EditKind::kRename, image(3), {}, "hall")).harmless());
+}
+
+TEST(ReplayCheck, TellsAMergeOfPlacesThatDoNotLookAlikeWithItsPictures) {
+  const ReplayCheck check = checked(edited(EditKind::kMerge, image(0), image(13)));
+  const auto unlike = std::ranges::find(check.worse, Worsening::kPictures, &WorseSpot::kind);
+  ASSERT_NE(unlike, check.worse.end());
+  EXPECT_EQ(unlike->place, map::find_place_of(taught(), image(0))->id);
+  EXPECT_NE(std::ranges::find(unlike->images, image(13)), unlike->images.end());
+}
+
+TEST(ReplayCheck, TellsDestinationsThatABridgeJoinedAndThePicturesThatNothingShowsAnyMore) {
+  const map::Place& middle = *map::find_place_of(taught(), image(7));
+  ASSERT_NE(middle.id, map::find_place_of(taught(), image(0))->id);
+  ASSERT_NE(middle.id, map::find_place_of(taught(), image(13))->id);
+  const ReplayCheck check = checked(edited(EditKind::kDelete, image(7)));
+  EXPECT_EQ(check.routes_after, 0);
+  const auto route = std::ranges::find(check.worse, Worsening::kRoute, &WorseSpot::kind);
+  ASSERT_NE(route, check.worse.end());
+  EXPECT_EQ(std::ranges::count(check.worse, Worsening::kRoute, &WorseSpot::kind), 1) << "each pair once";
+}
+
+TEST(ReplayCheck, TellsAWayByAPersonThatNoPictureSees) {
+  map::TopologicalMap after = taught();
+  map::Edge way;
+  way.from = map::find_place_of(after, image(0))->id;
+  way.to = map::find_place_of(after, image(13))->id;
+  way.by = map::Decider::kPerson;
+  way.weak = true;
+  after.edges.push_back(way);
+  std::swap(way.from, way.to);
+  after.edges.push_back(way);
+  const ReplayCheck check = checked(after);
+  ASSERT_EQ(check.worse.size(), 1U);
+  EXPECT_EQ(check.worse[0].kind, Worsening::kWay);
+  EXPECT_EQ(check.worse[0].images.size(), 2U);
+}
+
+TEST(ReplayCheck, GivesTheSameWithAnyNumberOfThreadsAndCanBeCancelled) {
+  const map::TopologicalMap after = edited(EditKind::kDelete, image(7));
+  const ReplayCheck one = checked(after, 1);
+  const ReplayCheck three = checked(after, 3);
+  EXPECT_EQ(one.right_after, three.right_after);
+  ASSERT_EQ(one.worse.size(), three.worse.size());
+  for (std::size_t i = 0; i < one.worse.size(); ++i) EXPECT_EQ(one.worse[i].images, three.worse[i].images);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_EQ(check_by_replay(taught(), after, {&the_tour()}, 1, {}, stop.get_token()).error().code,
+            ErrorCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace homeward::pipeline::replay_check_test
