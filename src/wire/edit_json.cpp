@@ -126,6 +126,16 @@ void read_fields(ObjectReader& reader, EditRequest& edit) {
   }
 }
 
+/// The fields of edits of destinations.
+void put_destination(const EditRequest& edit, json& value) {
+  if (edit.kind != EditKind::kAddDestination) value["destination"] = edit.destination.str();
+  if (edit.kind == EditKind::kAddDestination || edit.kind == EditKind::kSetDestinationPicture) {
+    value["image"] = edit.prototype_a.str();
+  }
+  if (edit.kind == EditKind::kAddDestination || edit.kind == EditKind::kNameDestination) value["label"] = edit.label;
+  if (edit.kind == EditKind::kSetPictogram) value["pictogram"] = edit.label;
+}
+
 json edit_to_json(const EditRequest& edit) {
   json value = {{"kind", edit_kind_name(edit.kind)}};
   switch (edit.kind) {
@@ -166,25 +176,8 @@ json edit_to_json(const EditRequest& edit) {
       value["image_b"] = edit.prototype_b.str();
       value["accept"] = edit.yes;
       break;
-    case EditKind::kAddDestination:
-      value["image"] = edit.prototype_a.str();
-      value["label"] = edit.label;
-      break;
-    case EditKind::kRemoveDestination:
-      value["destination"] = edit.destination.str();
-      break;
-    case EditKind::kNameDestination:
-      value["destination"] = edit.destination.str();
-      value["label"] = edit.label;
-      break;
-    case EditKind::kSetPictogram:
-      value["destination"] = edit.destination.str();
-      value["pictogram"] = edit.label;
-      break;
-    case EditKind::kSetDestinationPicture:
-      value["destination"] = edit.destination.str();
-      value["image"] = edit.prototype_a.str();
-      break;
+    default:
+      put_destination(edit, value);
   }
   return value;
 }
