@@ -158,6 +158,11 @@ void read_graph_part(SQLite::Database& database, map::TopologicalMap& map) {
   get_graph(database, ignored, part);
   // A part has no state without edits: that is the file's, or, where nothing had been edited, the file's as it is.
   part.unedited = map.unedited || part.edits.size() == part.settled_edits ? map.unedited : map::state_of(map);
+  // Edits that the file has share its appearances; what they found out changes with a file alone.
+  for (std::size_t i = 0; i < std::min(part.edits.size(), map.edits.size()); ++i) {
+    part.edits[i].found.appearances = map.edits[i].found.appearances;
+    part.edits[i].found.learnt = map.edits[i].found.learnt;
+  }
   const auto same = [](const map::Place& a, const map::Place& b) { return a.id == b.id && a.prototype == b.prototype; };
   if (!std::ranges::equal(part.places, map.places, same)) refuse_file("The edits are of a map with other places.");
   for (std::size_t i = 0; i < map.places.size(); ++i) map.places[i].label = part.places[i].label;

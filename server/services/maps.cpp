@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "imageio/decode.hpp"
+#include "mapping/common_features.hpp"
 #include "mapping/edit_log.hpp"
 #include "pipeline/belief_tracker.hpp"
 #include "server/services/belief_view.hpp"
@@ -22,8 +23,18 @@ bool same_places(const map::TopologicalMap& a, const map::TopologicalMap& b) {
     return x.id == y.id && x.prototype == y.prototype && x.members == y.members && x.appearances == y.appearances;
   };
   // Where nothing had been edited, the state without edits is the map as it was.
-  return (a.unedited == b.unedited || !a.unedited) && a.images.size() == b.images.size() &&
+  return (a.unedited == b.unedited || (!a.unedited && a.edits.empty())) && a.images.size() == b.images.size() &&
          std::ranges::equal(a.places, b.places, same);
+}
+
+/// Whether two logs ask for the same, whatever came of it.
+bool same_log(const std::vector<map::Edit>& a, const std::vector<map::Edit>& b) {
+  const auto asked = [](map::Edit edit) {
+    edit.found = {};
+    edit.lost.clear();
+    return edit;
+  };
+  return std::ranges::equal(a, b, [&](const map::Edit& x, const map::Edit& y) { return asked(x) == asked(y); });
 }
 
 Error stale(const MapId& id, std::int64_t present, std::int64_t asked) {
@@ -108,7 +119,10 @@ Result<std::int64_t> MapService::undo(const MapId& id, std::int64_t revision) {
 }
 
 Result<std::int64_t> MapService::redo(const MapId& id, std::int64_t revision) {
-  return change(id, revision, [](map::TopologicalMap& map) { return mapping::redo_change(map); });
+  return change(id, revision, [&](map::TopologicalMap& map) {
+    MapPictures pictures(store_, map);
+    return mapping::redo_change(map, [&](const ImageId& image) { return pictures.look_at(image); });
+  });
 }
 
 Result<db::MapRecord> MapService::keep_build(const MapId& id, map::TopologicalMap contents,
@@ -119,10 +133,14 @@ Result<db::MapRecord> MapService::keep_build(const MapId& id, map::TopologicalMa
   const auto present = to_build_on(id);
   if (!present) return pass_on(present);
   // Edits that people made, undid or redid while this was built.
-  if (*present && (*present)->map.edits != contents.edits) {
+  if (*present && !same_log((*present)->map.edits, contents.edits)) {
     MapPictures pictures(store_, contents);
     mapping::replay_edits(contents, (*present)->map.edits, true,
                           [&](const ImageId& image) { return pictures.look_at(image); });
+    contents.next_place_number = std::max(contents.next_place_number, (*present)->map.next_place_number);
+    contents.next_destination_number =
+        std::max(contents.next_destination_number, (*present)->map.next_destination_number);
+    mapping::count_common_features(contents, {}, 1, {});
   }
   contents.revision = record->revision + 1;
   auto saved = store_.save_map_contents(id, contents, thumbnails, record->revision);

@@ -71,7 +71,7 @@ Result<std::vector<wire::EditRequest>> read_edits(const std::string& file) {
 
 Status apply(const MapEditOptions& options, map::TopologicalMap& map, Pictures& pictures) {
   if (options.undo) return mapping::undo_change(map);
-  if (options.redo) return mapping::redo_change(map);
+  if (options.redo) return mapping::redo_change(map, [&](const ImageId& image) { return pictures.look_at(image); });
   const auto edits = read_edits(options.edits);
   if (!edits) return pass_on(edits);
   const auto now = std::chrono::system_clock::now().time_since_epoch();

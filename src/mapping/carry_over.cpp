@@ -50,9 +50,10 @@ class Gains {
  private:
   /// The standing edit that made a place; null where tours did.
   Edit* maker_of(const PlaceId& place) {
+    if (map::find_place(base_, place) != nullptr) return nullptr;
     const auto found = std::ranges::find_if(after_.edits, [&](const Edit& edit) {
       const bool parts = edit.kind == map::EditKind::kSplit || edit.kind == map::EditKind::kDecide;
-      return parts && !edit.undone && edit.found.made == place.str();
+      return parts && !edit.undone && edit.lost.empty() && edit.found.made == place.str();
     });
     return found == after_.edits.end() ? nullptr : &*found;
   }
@@ -71,13 +72,20 @@ class Gains {
       Place* base = map::find_place(base_, base_place(place.id));
       if (base == nullptr) continue;
       base->members.push_back(image);
-      if (Edit* maker = maker_of(place.id)) maker->images.push_back(image);
+      // It goes where the prototype goes.
+      for (Edit& edit : after_.edits) {
+        const bool carries = edit.kind == map::EditKind::kSplit || edit.kind == map::EditKind::kMove ||
+                             edit.kind == map::EditKind::kDecide;
+        if (!carries || edit.undone || !edit.lost.empty()) continue;
+        if (std::ranges::find(edit.images, place.prototype) != edit.images.end()) edit.images.push_back(image);
+      }
     }
   }
 
   void put_label(const Place& old, const Place& place) {
     Place* base = map::find_place(base_, base_place(place.id));
-    if (base != nullptr && place.label != old.label && base->label == old.label) base->label = place.label;
+    const bool same_place = base != nullptr && base->id == place.id;
+    if (same_place && place.label != old.label && base->label == old.label) base->label = place.label;
   }
 
   void put_appearances(const Place& old, const Place& place) {
@@ -127,6 +135,13 @@ class Gains {
     }
   }
 
+  /// Whether a place of the map and the unedited one that it was made of are known by the same picture.
+  bool same_prototype(const PlaceId& id, const PlaceId& base) const {
+    const Place* place = map::find_place(after_, id);
+    const Place* made_of = map::find_place(base_, base);
+    return place != nullptr && made_of != nullptr && place->prototype == made_of->prototype;
+  }
+
   void put_edges() {
     for (const map::Edge& edge : after_.edges) {
       if (edge.shortcut || map::find_edge(before_, edge.from, edge.to) != nullptr) continue;
@@ -135,6 +150,14 @@ class Gains {
       gained.to = base_place(edge.to);
       const bool known = map::find_edge(base_, gained.from, gained.to) != nullptr;
       if (known || gained.from == gained.to || gained.from.empty() || gained.to.empty()) continue;
+      if (!same_prototype(edge.from, gained.from) || !same_prototype(edge.to, gained.to)) {
+        // It was seen from a prototype that the place has by an edit alone.
+        gained.bearing_rad.reset();
+        gained.turn_rad.reset();
+        gained.confidence = 0.0;
+        gained.inliers = 0;
+        gained.weak = true;
+      }
       base_.edges.push_back(std::move(gained));
     }
   }

@@ -56,10 +56,15 @@ Status apply_to(EditScene& scene) {
   return fail(ErrorCode::kInvalidInput, "This kind of edit is not known.", "kind");
 }
 
+/// Whether an edit may change which ways there are, or between which pictures.
+bool changes_ways(EditKind kind) {
+  return kind != EditKind::kRename && kind != EditKind::kBlockEdge && kind < EditKind::kAddDestination;
+}
+
 Status apply_to(TopologicalMap& map, Edit& edit, const LookAt& look, bool again) {
   EditScene scene(map, edit, look, again);
   const Status applied = apply_to(scene);
-  if (applied) settle_shortcuts(map);
+  if (applied && changes_ways(edit.kind)) settle_shortcuts(map);
   return applied;
 }
 
@@ -122,7 +127,7 @@ Status undo_change(TopologicalMap& map) {
   return {};
 }
 
-Status redo_change(TopologicalMap& map) {
+Status redo_change(TopologicalMap& map, const LookAt& look) {
   const auto first = map.edits.begin() + static_cast<std::ptrdiff_t>(std::min(map.settled_edits, map.edits.size()));
   const auto earliest = std::ranges::find(first, map.edits.end(), true, &Edit::redoable);
   if (!map.unedited || earliest == map.edits.end()) {
@@ -133,7 +138,10 @@ Status redo_change(TopologicalMap& map) {
   for (Edit& edit : changed.edits) {
     if (edit.change != change || !edit.redoable) continue;
     Edit again = edit;  // the map's own log is part of what is changed
-    if (const Status status = apply_to(changed, again, {}, true); !status) return status;
+    const Status status = apply_to(changed, again, look, true);
+    // What could not be kept before need not be kept now.
+    if (!status && again.lost.empty()) return status;
+    again.lost = status ? std::string() : status.error().message;
     again.undone = false;
     again.redoable = false;
     edit = std::move(again);

@@ -42,9 +42,10 @@ std::int64_t next_change(const map::TopologicalMap& map);
 Status undo_change(map::TopologicalMap& map);
 
 /// Applies the change again that was undone last, all its edits; the revision rises by one. The map is exactly as it
-/// was with them. Errors: kNotFound (no change was undone since the latest edit), those of apply_edit where a rebuild
-/// has changed the map meanwhile; the map is then unchanged.
-Status redo_change(map::TopologicalMap& map);
+/// was with them. `look` as in apply_edit, for what a rebuild has forgotten. Errors: kNotFound (no change was undone
+/// since the latest edit), those of apply_edit where a rebuild has changed the map meanwhile, but of edits that were
+/// lost before; the map is then unchanged.
+Status redo_change(map::TopologicalMap& map, const LookAt& look = {});
 
 /// Makes `log` the log of a map and the map what its edits that stand make of it, oldest first, from its unedited state
 /// or, where it has none, from what it is. What the map is already counts as kept. Edits that cannot be applied stay in

@@ -2,7 +2,9 @@
 #include "mapping/edit_scene.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
+#include <system_error>
 
 #include "map/lookup.hpp"
 #include "mapping/compare_all.hpp"
@@ -70,17 +72,32 @@ ImageId EditScene::prototype_among(const std::vector<ImageId>& images) {
 }
 
 PlaceId EditScene::made_place() {
-  const PlaceId known(edit_.found.made);
-  if (!known.empty() && map::find_place(map_, known) == nullptr) return known;
-  edit_.found.made = "p" + std::to_string(map_.next_place_number++);
+  edit_.found.made = made('p', map_.next_place_number,
+                          [&](const std::string& id) { return map::find_place(map_, PlaceId(id)) == nullptr; });
   return PlaceId(edit_.found.made);
 }
 
 DestinationId EditScene::made_destination() {
-  const DestinationId known(edit_.found.made);
-  if (!known.empty() && map::find_destination(map_, known) == nullptr) return known;
-  edit_.found.made = "d" + std::to_string(map_.next_destination_number++);
+  edit_.found.made = made('d', map_.next_destination_number, [&](const std::string& id) {
+    return map::find_destination(map_, DestinationId(id)) == nullptr;
+  });
   return DestinationId(edit_.found.made);
+}
+
+std::string EditScene::made(char letter, std::int64_t& next_number,
+                            const std::function<bool(const std::string&)>& is_free) const {
+  const std::string& known = edit_.found.made;
+  std::int64_t number = 0;
+  const bool numbered = known.size() > 1 && known.front() == letter &&
+                        std::from_chars(known.data() + 1, known.data() + known.size(), number).ec == std::errc{};
+  if (numbered && is_free(known)) {
+    next_number = std::max(next_number, number + 1);  // the map may be one that was built before the edit
+    return known;
+  }
+  std::string id;
+  do id = letter + std::to_string(next_number++);
+  while (!is_free(id));
+  return id;
 }
 
 void EditScene::see(map::Edge& edge) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/result.hpp"
 #include "map/topological_map.hpp"
@@ -23,6 +26,8 @@ class EditScene {
 
   [[nodiscard]] map::TopologicalMap& map() { return map_; }
   [[nodiscard]] const map::Edit& edit() const { return edit_; }
+  /// Keeps with the edit which images it took away, for when it is applied again.
+  void keep_images(std::vector<ImageId> images) { edit_.images = std::move(images); }
   /// Where the map is as the edit wants it: fine for an edit that is applied again, else the given error.
   [[nodiscard]] Status already_so(Error otherwise) const {
     return again_ ? Status() : Status(tl::unexpected<Error>(std::move(otherwise)));
@@ -43,6 +48,9 @@ class EditScene {
   void see(map::Edge& edge);
 
  private:
+  [[nodiscard]] std::string made(char letter, std::int64_t& next_number,
+                                 const std::function<bool(const std::string&)>& is_free) const;
+
   map::TopologicalMap& map_;
   map::Edit& edit_;
   const LookAt& look_;

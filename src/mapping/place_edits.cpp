@@ -48,25 +48,49 @@ bool holds(const Place& place, const ImageId& image) {
 /// Whether a person took away the ways between two places, and that stands.
 bool removed_by_a_person(const TopologicalMap& map, const PlaceId& a, const PlaceId& b) {
   bool removed = false;
+  const Place& one = *map::find_place(map, a);
+  const Place& other = *map::find_place(map, b);
   for (const map::Edit& edit : map.edits) {
     const bool of_ways = edit.kind == map::EditKind::kRemoveEdge || edit.kind == map::EditKind::kAddEdge;
     if (edit.undone || !of_ways) continue;
-    const Place* from = map::find_place_of(map, edit.image_a);
-    const Place* to = map::find_place_of(map, edit.image_b);
-    if (from == nullptr || to == nullptr || std::minmax(from->id, to->id) != std::minmax(a, b)) continue;
+    const bool theirs = (holds(one, edit.image_a) && holds(other, edit.image_b)) ||
+                        (holds(one, edit.image_b) && holds(other, edit.image_a));
+    if (!theirs) continue;
     removed = edit.kind == map::EditKind::kRemoveEdge;
   }
   return removed;
 }
 
-/// The ways that tours drove from a place, where there are none yet.
-void join_what_was_driven(EditScene& scene, const PlaceId& id) {
+/// Which ways of a place are closed, by the place at their other end.
+struct ClosedWays {
+  std::set<PlaceId> out;
+  std::set<PlaceId> in;
+  void merge(ClosedWays other) {
+    out.merge(other.out);
+    in.merge(other.in);
+  }
+};
+ClosedWays closed_ways(const TopologicalMap& map, const PlaceId& id) {
+  ClosedWays closed;
+  for (const Edge& edge : map.edges) {
+    if (edge.blocked && edge.from == id) closed.out.insert(edge.to);
+    if (edge.blocked && edge.to == id) closed.in.insert(edge.from);
+  }
+  return closed;
+}
+
+/// The ways that tours drove from a place, where there are none yet; closed where those were from which its images
+/// came.
+void join_what_was_driven(EditScene& scene, const PlaceId& id, const ClosedWays& before = {}) {
   TopologicalMap& map = scene.map();
   for (const PlaceId& beside : driven_from(map, *map::find_place(map, id))) {
     if (removed_by_a_person(map, id, beside)) continue;
-    const std::size_t before = map.edges.size();
+    const std::size_t first = map.edges.size();
     join_both_ways(map, id, beside, map::Decider::kMethod);
-    for (std::size_t i = before; i < map.edges.size(); ++i) scene.see(map.edges[i]);
+    for (std::size_t i = first; i < map.edges.size(); ++i) {
+      map.edges[i].blocked = map.edges[i].from == id ? before.out.contains(beside) : before.in.contains(beside);
+      scene.see(map.edges[i]);
+    }
   }
 }
 
@@ -158,22 +182,27 @@ Status merge_places(EditScene& scene, const ImageId& image_a, const ImageId& ima
   const PlaceId kept_id = kept->id;
   const PlaceId gone_id = gone->id;
   std::erase_if(map.places, [&](const Place& place) { return place.id == gone_id; });
-  std::vector<std::pair<PlaceId, PlaceId>> moved;
+  // Where both places had a way to a third, that of the one which stays is known from its own prototype. It is closed
+  // where either was.
+  std::ranges::stable_partition(map.edges, [&](const Edge& edge) { return !ends_at(edge, gone_id); });
+  std::set<std::pair<PlaceId, PlaceId>> kept_ways;
+  std::set<std::pair<PlaceId, PlaceId>> closed;
   for (Edge& edge : map.edges) {
-    if (!ends_at(edge, gone_id)) continue;
-    (edge.from == gone_id ? edge.from : edge.to) = kept_id;
-    moved.emplace_back(edge.from, edge.to);
+    if (!ends_at(edge, gone_id)) {
+      kept_ways.emplace(edge.from, edge.to);
+    } else {
+      (edge.from == gone_id ? edge.from : edge.to) = kept_id;
+    }
+    if (edge.blocked) closed.emplace(edge.from, edge.to);
   }
-  // Where both places had a way to a third, that of the one which stays is known from its own prototype.
-  std::ranges::stable_partition(map.edges, [&](const Edge& edge) {
-    return std::ranges::find(moved, std::pair(edge.from, edge.to)) == moved.end();
-  });
   for (map::Destination& destination : map.destinations) {
     if (destination.place == gone_id) destination.place = kept_id;
   }
   tidy_edges(map);
   for (Edge& edge : map.edges) {
-    if (std::ranges::find(moved, std::pair(edge.from, edge.to)) != moved.end() && !edge.shortcut) scene.see(edge);
+    if (!ends_at(edge, kept_id)) continue;
+    edge.blocked = closed.contains({edge.from, edge.to});
+    if (!edge.shortcut && !kept_ways.contains({edge.from, edge.to})) scene.see(edge);
   }
   return {};
 }
@@ -207,6 +236,7 @@ Status split_place(EditScene& scene, const ImageId& image_a, const std::vector<I
   const bool other_prototype = left->known.has_value();
   put_remainder(*old_place, std::move(*left), fresh.members);
   const PlaceId old_id = old_place->id;
+  const ClosedWays closed = closed_ways(map, old_id);
   const PlaceId fresh_id = fresh.id;
   map.places.push_back(std::move(fresh));
   for (map::Destination& destination : map.destinations) {
@@ -221,7 +251,7 @@ Status split_place(EditScene& scene, const ImageId& image_a, const std::vector<I
     (edge.from == old_id ? edge.from : edge.to) = fresh_id;
     scene.see(edge);
   }
-  join_what_was_driven(scene, fresh_id);
+  join_what_was_driven(scene, fresh_id, closed);
   if (other_prototype) see_all_from(scene, old_id);
   tidy_edges(map);
   return {};
@@ -249,7 +279,9 @@ Status move_images(EditScene& scene, const ImageId& image_a, const std::vector<I
     if (!left) return pass_on(left);
     left_of_place.emplace(id, std::move(*left));
   }
+  ClosedWays closed;
   for (auto& [id, left] : left_of_place) {
+    closed.merge(closed_ways(map, id));
     Place& from = *map::find_place(map, id);
     Place& to = *map::find_place(map, target_id);
     const std::vector<ImageId> gone(leaving[id].begin(), leaving[id].end());
@@ -273,7 +305,7 @@ Status move_images(EditScene& scene, const ImageId& image_a, const std::vector<I
   for (map::Destination& destination : map.destinations) {
     if (std::ranges::find(images, destination.image) != images.end()) destination.place = target_id;
   }
-  join_what_was_driven(scene, target_id);
+  join_what_was_driven(scene, target_id, closed);
   tidy_edges(map);
   return {};
 }

@@ -63,6 +63,7 @@ Shortcut* find_shortcut(TopologicalMap& map, const ImageId& image_a, const Image
 }
 
 void settle_shortcuts(TopologicalMap& map) {
+  if (map.shortcuts.empty() && std::ranges::none_of(map.edges, &map::Edge::shortcut)) return;
   std::set<std::pair<PlaceId, PlaceId>> blocked;
   for (const map::Edge& edge : map.edges) {
     if (edge.shortcut && edge.blocked) blocked.emplace(edge.from, edge.to);

@@ -39,8 +39,10 @@ Error no_edge(const Ends& ends) {
 std::vector<ImageId> run_around(const TopologicalMap& map, const Place& place, const ImageId& image) {
   const auto index = map::image_indices(map);
   const auto in_place = [&](int at) {
-    return at >= 0 && at < static_cast<int>(map.images.size()) &&
-           std::ranges::find(place.members, map.images[static_cast<std::size_t>(at)].id) != place.members.end();
+    if (at < 0 || at >= static_cast<int>(map.images.size())) return false;
+    const ImageId& other = map.images[static_cast<std::size_t>(at)].id;
+    return map::tour_name(other) == map::tour_name(image) &&
+           std::ranges::find(place.members, other) != place.members.end();
   };
   int first = index.at(image);
   int last = first;
@@ -51,23 +53,32 @@ std::vector<ImageId> run_around(const TopologicalMap& map, const Place& place, c
   return run;
 }
 
-Status part(EditScene& scene, const Place& place) {
-  const Edit& edit = scene.edit();
-  std::vector<ImageId> leaving = run_around(scene.map(), place, edit.image_b);
-  const bool holds_prototype = std::ranges::find(leaving, place.prototype) != leaving.end();
-  if (holds_prototype) leaving = run_around(scene.map(), place, edit.image_a);
-  const ImageId staying = holds_prototype ? edit.image_b : edit.image_a;
-  // What tours brought to the place that this made.
+/// The images that leave a place of which the two pictures of a hypothesis show two: the run around one of them. Those
+/// that left when this was first applied, with what tours brought to their place since, leave again.
+std::vector<ImageId> leaving_images(const TopologicalMap& map, const Edit& edit, const Place& place) {
+  std::vector<ImageId> leaving;
   for (const ImageId& image : edit.images) {
     if (std::ranges::find(place.members, image) != place.members.end()) leaving.push_back(image);
   }
-  if (std::ranges::find(leaving, staying) != leaving.end()) {
+  if (!leaving.empty()) return leaving;
+  leaving = run_around(map, place, edit.image_b);
+  const bool holds_prototype = std::ranges::find(leaving, place.prototype) != leaving.end();
+  return holds_prototype ? run_around(map, place, edit.image_a) : leaving;
+}
+
+Status part(EditScene& scene, const Place& place) {
+  const Edit& edit = scene.edit();
+  const std::vector<ImageId> leaving = leaving_images(scene.map(), edit, place);
+  const auto leaves = [&](const ImageId& image) { return std::ranges::find(leaving, image) != leaving.end(); };
+  if (leaves(edit.image_a) && leaves(edit.image_b)) {
     return fail(ErrorCode::kConflict,
                 "The tour took " + edit.image_a.str() + " and " + edit.image_b.str() +
                     " one right after the other in place " + place.id.str() + ": split it where the places part.",
                 place.id.str());
   }
-  return split_place(scene, staying, leaving);
+  if (const Status parted = split_place(scene, edit.image_a, leaving); !parted) return parted;
+  scene.keep_images(leaving);
+  return {};
 }
 
 }  // namespace

@@ -111,6 +111,25 @@ TEST_F(CarryOver, NewToursStayWhereEditsAreTakenBackAndTheEditsHoldUntilThen) {
   EXPECT_TRUE(same_state(after, with_edits));
 }
 
+TEST_F(CarryOver, NewImagesGoAlongThroughOneSplitAfterTheOther) {
+  const map::Place place = large_place();
+  std::vector<ImageId> leaving = place.members;
+  std::erase(leaving, place.prototype);
+  ASSERT_GE(leaving.size(), 2U);
+  edit(EditKind::kSplit, place.prototype, {}, {}, leaving);
+  edit(EditKind::kSplit, leaving.front(), {}, {}, {leaving.back()});
+  const map::TopologicalMap after = grown(map_);
+  for (const map::Edit& edit : after.edits) EXPECT_EQ(edit.lost, "");
+  std::size_t held = 0;
+  for (const map::Place& one : after.places) held += one.members.size();
+  EXPECT_EQ(held, after.images.size());
+  for (const map::Place& before : map_.places) {
+    const map::Place* now = map::find_place(after, before.id);
+    ASSERT_NE(now, nullptr) << before.id.str();
+    EXPECT_EQ(now->prototype, before.prototype);
+  }
+}
+
 TEST_F(CarryOver, AMapThatNobodyEditedKeepsNoSecondState) { EXPECT_EQ(grown(map_).unedited, nullptr); }
 
 TEST_F(CarryOver, WhatDrivesTaughtAPlaceThatAnEditMadeIsThereWithIt) {

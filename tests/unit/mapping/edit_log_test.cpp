@@ -199,6 +199,41 @@ TEST(Edits, EdgesComeGoAndAreBlocked) {
   EXPECT_EQ(map.edges.size(), 2U);
 }
 
+TEST(Edits, AClosedWayStaysClosedWhereItsPlacesMergeOrPart) {
+  auto merged = three_places();
+  ASSERT_TRUE(apply_edit(merged, make(EditKind::kBlockEdge, 3, 5, "true")));
+  ASSERT_TRUE(apply_edit(merged, make(EditKind::kMerge, 5, 0)));  // p1, whose way to p2 is open, joins p3
+  EXPECT_TRUE(map::find_edge(merged, PlaceId("p2"), PlaceId("p3"))->blocked);
+  EXPECT_FALSE(map::find_edge(merged, PlaceId("p3"), PlaceId("p2"))->blocked);
+  auto moved = three_places();
+  ASSERT_TRUE(apply_edit(moved, make(EditKind::kBlockEdge, 3, 5, "true")));
+  ASSERT_TRUE(apply_edit(moved, make(EditKind::kMove, 0, -1, {}, {4})));  // the way to p3 begins at image 4
+  EXPECT_TRUE(map::find_edge(moved, PlaceId("p1"), PlaceId("p3"))->blocked);
+  EXPECT_FALSE(map::find_edge(moved, PlaceId("p3"), PlaceId("p1"))->blocked);
+}
+
+TEST(Edits, AnIdThatAnEditGaveIsNotGivenAgainInAMapThatWasBuiltBeforeIt) {
+  auto present = three_places();
+  ASSERT_TRUE(apply_edit(present, make(EditKind::kSplit, 1, -1, {}, {2}), look));
+  auto built = three_places();
+  replay_edits(built, present.edits, true, look);
+  EXPECT_EQ(built.places.back().id.str(), "p4");
+  EXPECT_EQ(built.next_place_number, 5);
+  ASSERT_TRUE(apply_edit(built, make(EditKind::kSplit, 3, -1, {}, {4}), look));
+  EXPECT_EQ(built.places.back().id.str(), "p5");
+}
+
+TEST(Edits, WhatARebuildForgotIsLookedAtAgainForARedo) {
+  auto present = three_places();
+  ASSERT_TRUE(apply_edit(present, make(EditKind::kSplit, 1, -1, {}, {2}), look));
+  ASSERT_TRUE(undo_change(present));
+  auto built = three_places();
+  replay_edits(built, present.edits, true, look);
+  EXPECT_EQ(redo_change(built).error().code, ErrorCode::kConflict) << "nothing knows the picture";
+  ASSERT_TRUE(redo_change(built, look));
+  EXPECT_EQ(members(built, 2), "2");
+}
+
 /// Closes the way between p1 and p2 in both directions, as one request does.
 void close_both_ways(map::TopologicalMap& map) {
   const std::int64_t change = next_change(map);
