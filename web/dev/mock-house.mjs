@@ -97,6 +97,27 @@ export function wayBetween(graph, from, to) {
   return way;
 }
 
+const named = ({ id, label }) => (label === '' ? id : `${id} (${label})`);
+
+/** Why no way leads from one place to another, as the real server says it. */
+export function noWayText(graph, from, to) {
+  const name = (id) => named(graph.places.find((one) => one.id === id));
+  const ways = `from ${name(from)} to ${name(to)}`;
+  const open = { ...graph, edges: graph.edges.map((one) => ({ ...one, blocked: false })) };
+  const freest = wayBetween(open, from, to);
+  if (!freest)
+    return `No way ${ways} was seen on a tour: the two are in parts of the map that are not connected.`;
+  const blocked = (a, b) => graph.edges.some((one) => one.from === a && one.to === b && one.blocked);
+  const items = freest.slice(1).flatMap((place, i) => {
+    const before = freest[i];
+    if (!blocked(before, place)) return [];
+    const words = blocked(place, before) ? 'blocked' : 'blocked in this direction';
+    return [`the way from ${name(before)} to ${name(place)}, which is ${words}`];
+  });
+  const listed = items.length > 1 ? `${items.slice(0, -1).join(', ')} and ${items.at(-1)}` : items[0];
+  return `There is no way ${ways}: the freest leads over ${listed}.`;
+}
+
 export function newGraph(map) {
   const places = kPlaces.map(([id, x, y, label]) => ({
     id,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The routes of the mock server: [method and path, least role, handler(house, {user, body, headers, args})].
 import { edit, redo, undo } from './mock-edits.mjs';
-import { kitchenNote, wayBetween } from './mock-house.mjs';
+import { kitchenNote, noWayText, wayBetween } from './mock-house.mjs';
 import { Refusal } from './mock-refusal.mjs';
 
 const kLeaseMs = 10_000;
@@ -77,7 +77,7 @@ function startMission(house, { user, body, args }) {
     );
   if (!place) throw new Refusal('unknown_place', `The map has no place ${body.place}.`, 'to');
   const path = wayBetween(house.graph, from, place);
-  if (!path) throw new Refusal('no_route', `No way leads from ${from} to ${place}.`, place);
+  if (!path) throw new Refusal('no_route', noWayText(house.graph, from, place), place);
   const mission = {
     format: 'homeward-mission',
     version: 2,

@@ -67,7 +67,7 @@ export function SetUp() {
           {differs && <Notice tone="warn">The two passwords differ.</Notice>}
           {problem && (
             <Notice tone="bad">
-              {problem.status === 401
+              {problem.status === 403
                 ? 'This set-up link is not valid (any more). Use the newest one that the server printed.'
                 : problem.message}
             </Notice>
