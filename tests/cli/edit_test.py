@@ -49,6 +49,19 @@ class Edit(CliTest):
         self.assert_refused(3, ["no change to redo"], "map", "edit", "--map", "forth.map", "--redo", "--out", "x.map")
         self.assertFalse((self.folder / "x.map").exists())
 
+    def test_an_edited_map_is_tried_on_its_tour(self):
+        self.good_map()
+        same = json.loads(self.result_of("map", "check", "--map", "good.map", "--tour", self.shared / "tour", "--json"))
+        self.assertTrue(same["harmless"])
+        self.assertEqual(same["right_before"], same["right_after"])
+        self.assertGreater(same["right_before"], same["pictures"] / 2)
+        places = self.graph("good.map")["places"]
+        self.edit({"kind": "merge", "place": places[-1]["id"], "into": places[0]["id"]})
+        done = self.run_program("map", "check", "--map", "edited.map", "--before", "good.map", "--tour", self.shared / "tour")
+        self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
+        self.assertIn("worse", done.stderr)
+        self.assertIn(places[-1]["prototype"], done.stdout)
+
     def test_what_is_refused_names_the_edit_and_writes_nothing(self):
         self.good_map()
         places = self.graph("good.map")["places"]
