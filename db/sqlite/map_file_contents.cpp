@@ -84,20 +84,20 @@ void get_images(SQLite::Database& database, ContentDigest& digest, map::Topologi
 /// Places and all that joins, names and edits them, and how it was without edits.
 void get_graph(SQLite::Database& database, ContentDigest& digest, map::TopologicalMap& map) {
   if (file_version_of(database) < kFirstVersionWithStates) {
-    get_old_state(database, digest, map);
+    get_state(database, MapState::kPresent, digest, nullptr, map);
     get_edits(database, digest, nullptr, map);
     map.settled_edits = map.edits.size();
     return;
   }
   const AppearanceReader appearances(database, digest);
-  get_state(database, MapState::kPresent, digest, appearances, map);
+  get_state(database, MapState::kPresent, digest, &appearances, map);
   get_edits(database, digest, &appearances, map);
   DigestedRows entries(database, "SELECT value FROM meta WHERE key = ?", digest);
   map.settled_edits = meta(entries, "settled_edits").get<std::size_t>();
   if (map.settled_edits > map.edits.size()) refuse_file("The map says more of its log than there is.", "meta");
   if (!meta(entries, "has_unedited").get<bool>()) return;
   map::TopologicalMap unedited;
-  get_state(database, MapState::kUnedited, digest, appearances, unedited);
+  get_state(database, MapState::kUnedited, digest, &appearances, unedited);
   map.unedited = std::make_shared<const map::TopologicalMap>(std::move(unedited));
 }
 

@@ -122,10 +122,17 @@ std::optional<double> optional_number(const SQLite::Column& column) {
   return column.isNull() ? std::nullopt : std::optional(column.getDouble());
 }
 
-void get_old_places(SQLite::Database& database, ContentDigest& digest, map::TopologicalMap& map) {
-  DigestedRows places(database, "SELECT id, label, prototype FROM places ORDER BY position", digest);
-  DigestedRows members(database, "SELECT image FROM place_members WHERE place = ? ORDER BY position", digest);
-  DigestedRows appearances(database, "SELECT appearance FROM place_appearances WHERE place = ? ORDER BY position",
+void get_places(SQLite::Database& database, MapState state, ContentDigest& digest, const AppearanceReader* pool,
+                map::TopologicalMap& map) {
+  const std::string tables(prefix(state));
+  DigestedRows places(database, ("SELECT id, label, prototype FROM " + tables + "places ORDER BY position").c_str(),
+                      digest);
+  DigestedRows members(
+      database, ("SELECT image FROM " + tables + "place_members WHERE place = ? ORDER BY position").c_str(), digest);
+  DigestedRows appearances(database,
+                           ((pool != nullptr ? "SELECT appearance, image FROM " : "SELECT appearance FROM ") + tables +
+                            "place_appearances WHERE place = ? ORDER BY position")
+                               .c_str(),
                            digest);
   while (places.step()) {
     map::Place place;
@@ -137,37 +144,14 @@ void get_old_places(SQLite::Database& database, ContentDigest& digest, map::Topo
     while (members.step()) place.members.emplace_back(members.column(0).getString());
     appearances.restart(id);
     while (appearances.step()) {
+      if (pool != nullptr) {
+        place.appearances.push_back(
+            {pool->at(appearances.column(0).getInt64()), ImageId(appearances.column(1).getString())});
+        continue;
+      }
       // Of those beside the prototype's it is not known what they were taken from.
       const ImageId image = place.appearances.empty() ? place.prototype : ImageId();
       place.appearances.push_back(appearance_in(appearances.column(0), "places/" + id), image);
-    }
-    map.places.push_back(std::move(place));
-  }
-}
-
-void get_places(SQLite::Database& database, MapState state, ContentDigest& digest, const AppearanceReader& pool,
-                map::TopologicalMap& map) {
-  const std::string tables(prefix(state));
-  DigestedRows places(database, ("SELECT id, label, prototype FROM " + tables + "places ORDER BY position").c_str(),
-                      digest);
-  DigestedRows members(
-      database, ("SELECT image FROM " + tables + "place_members WHERE place = ? ORDER BY position").c_str(), digest);
-  DigestedRows appearances(
-      database,
-      ("SELECT appearance, image FROM " + tables + "place_appearances WHERE place = ? ORDER BY position").c_str(),
-      digest);
-  while (places.step()) {
-    map::Place place;
-    const std::string id = places.column(0).getString();
-    place.id = PlaceId(id);
-    place.label = places.column(1).getString();
-    place.prototype = ImageId(places.column(2).getString());
-    members.restart(id);
-    while (members.step()) place.members.emplace_back(members.column(0).getString());
-    appearances.restart(id);
-    while (appearances.step()) {
-      place.appearances.push_back(
-          {pool.at(appearances.column(0).getInt64()), ImageId(appearances.column(1).getString())});
     }
     map.places.push_back(std::move(place));
   }
@@ -331,21 +315,13 @@ void put_state(SQLite::Database& database, MapState state, const map::Topologica
   put_destinations(database, state, map);
 }
 
-void get_state(SQLite::Database& database, MapState state, ContentDigest& digest, const AppearanceReader& appearances,
+void get_state(SQLite::Database& database, MapState state, ContentDigest& digest, const AppearanceReader* appearances,
                map::TopologicalMap& map) {
   get_places(database, state, digest, appearances, map);
   get_edges(database, state, digest, map);
   get_hypotheses(database, state, digest, map);
   get_shortcuts(database, state, digest, map);
   get_destinations(database, state, digest, map);
-}
-
-void get_old_state(SQLite::Database& database, ContentDigest& digest, map::TopologicalMap& map) {
-  get_old_places(database, digest, map);
-  get_edges(database, MapState::kPresent, digest, map);
-  get_hypotheses(database, MapState::kPresent, digest, map);
-  get_shortcuts(database, MapState::kPresent, digest, map);
-  get_destinations(database, MapState::kPresent, digest, map);
 }
 
 }  // namespace homeward::db

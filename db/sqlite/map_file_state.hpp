@@ -21,10 +21,9 @@ void put_state(SQLite::Database& database, MapState state, const map::Topologica
 void put_what_places_hold(SQLite::Database& database, MapState state, const map::TopologicalMap& map,
                           AppearanceWriter& appearances);
 
-/// Reads both. Throws LoadFailure.
-void get_state(SQLite::Database& database, MapState state, ContentDigest& digest, const AppearanceReader& appearances,
+/// Reads both; `appearances` is null for files of before version 7, which have the present state alone. Throws
+/// LoadFailure.
+void get_state(SQLite::Database& database, MapState state, ContentDigest& digest, const AppearanceReader* appearances,
                map::TopologicalMap& map);
-/// The same of a file of before version 7.
-void get_old_state(SQLite::Database& database, ContentDigest& digest, map::TopologicalMap& map);
 
 }  // namespace homeward::db

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-#include <mutex>
+#include <cstdint>
 #include <optional>
 #include <vector>
 

@@ -28,7 +28,7 @@ class AppearanceList {
 
   class Iterator {
    public:
-    using iterator_category = std::random_access_iterator_tag;
+    using iterator_category = std::forward_iterator_tag;
     using value_type = features::Appearance;
     using difference_type = std::ptrdiff_t;
     using pointer = const features::Appearance*;
@@ -41,8 +41,6 @@ class AppearanceList {
     Iterator& operator++() { return ++at_, *this; }
     Iterator operator++(int) { return Iterator(at_++); }
     friend bool operator==(Iterator a, Iterator b) { return a.at_ == b.at_; }
-    friend difference_type operator-(Iterator a, Iterator b) { return a.at_ - b.at_; }
-    friend Iterator operator+(Iterator a, difference_type n) { return Iterator(a.at_ + n); }
 
    private:
     const Entry* at_ = nullptr;
@@ -73,7 +71,6 @@ class AppearanceList {
     entries_.at(i) = {std::make_shared<const features::Appearance>(std::move(appearance)), std::move(image)};
   }
   void replace(std::size_t i, Entry entry) { entries_.at(i) = std::move(entry); }
-  void erase(std::size_t i) { entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(i)); }
   /// The first `count`; empty ones (no features) where there are fewer.
   void resize(std::size_t count) {
     while (entries_.size() < count) push_back(features::Appearance{});

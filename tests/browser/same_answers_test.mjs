@@ -74,11 +74,13 @@ class House {
     const { body: graph } = await this.well('GET', `maps/${robot.map}/graph`);
     const { body: spare } = await this.well('POST', 'robots', { body: { name: 'spare' } });
     const { body: tour } = await this.well('POST', 'tours', { body: { name: 'short', camera: kCamera } });
-    const { place, id: destination } = graph.destinations[0];
+    const { place, id: destination, image: dock, label } = graph.destinations[0];
+    const way = graph.edges.find(({ from }) => from === place);
     const far = graph.places.find(
       (one) => !graph.edges.some(({ from, to }) => from === place && to === one.id) && one.id !== place,
     );
     this.ids = {
+      dock_label: label,
       robot: robot.id,
       robot_name: robot.name,
       map: robot.map,
@@ -88,6 +90,10 @@ class House {
       destination,
       place,
       far: far.id,
+      far_image: far.members[0],
+      far_all: far.members.join('", "'),
+      beside: way.to,
+      dock,
     };
     for (const until = Date.now() + kOnlineMs; ;) {
       const now = (await this.well('GET', 'robots')).body.robots.find((one) => one.id === robot.id);
@@ -234,6 +240,79 @@ const kRequests = [
     'POST',
     'maps/{map}/edits',
     edits({ kind: 'decide_shortcut', image_a: 'a/1.jpg', image_b: 'a/2.jpg', accept: true }),
+  ],
+  [
+    'a place with itself',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'merge', place: '{place}', into: '{place}' }),
+  ],
+  [
+    'a picture of another place',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'split', place: '{place}', images: ['{far_image}'] }),
+  ],
+  [
+    'all pictures of a place',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'split', place: '{far}', images: ['{far_all}'] }),
+  ],
+  [
+    'a picture that is there',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'move', images: ['{far_image}'], into: '{far}' }),
+  ],
+  [
+    'a picture of no place',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'move', images: ['a/1.jpg'], into: '{far}' }),
+  ],
+  ['no place to remove', 'POST', 'maps/{map}/edits', edits({ kind: 'delete', place: 'p99999' })],
+  [
+    'a way that is there',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'add_edge', from: '{place}', to: '{beside}' }),
+  ],
+  [
+    'no way to remove',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'remove_edge', from: '{place}', to: '{far}' }),
+  ],
+  [
+    'no hypothesis to decide',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'decide', prototype_a: 'a/1.jpg', prototype_b: 'a/2.jpg', accept: true }),
+  ],
+  [
+    'a destination twice',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'add_destination', image: '{dock}', label: 'again' }),
+  ],
+  [
+    'a destination at no picture',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'add_destination', image: 'a/1.jpg', label: 'again' }),
+  ],
+  [
+    'no destination to name',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'name_destination', destination: 'none', label: 'again' }),
+  ],
+  [
+    'no picture to dock at',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'set_destination_picture', destination: '{destination}', image: 'a/1.jpg' }),
   ],
   ['nothing to redo', 'POST', 'maps/{map}/redo', { headers: kRevision }],
   ['no map to edit', 'POST', 'maps/none/edits', edits({ kind: 'rename', place: '{place}', label: 'x' })],

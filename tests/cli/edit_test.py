@@ -60,6 +60,8 @@ class Edit(CliTest):
         done = self.run_program("map", "check", "--map", "edited.map", "--before", "good.map", "--tour", self.shared / "tour")
         self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
         self.assertIn("worse", done.stderr)
+        unedited = self.run_program("map", "check", "--map", "edited.map", "--tour", self.shared / "tour")
+        self.assertEqual([unedited.returncode, unedited.stdout], [4, done.stdout], "without its edits it is what it was")
         self.assertIn(places[-1]["prototype"], done.stdout)
 
     def test_what_is_refused_names_the_edit_and_writes_nothing(self):

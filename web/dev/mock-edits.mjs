@@ -61,7 +61,7 @@ function step(house, map, change, state) {
   return changed(house, map, log, house.graph.revision + 1);
 }
 
-/** An edit as it is asked for, in the words of the log. */
+/** An edit as it is asked for, in the words of the log: keyed to pictures. */
 function logged(graph, one, by, change, i) {
   const where = `body/edits/${i}`;
   const prototype = (id) => {
@@ -69,53 +69,162 @@ function logged(graph, one, by, change, i) {
     if (!found) throw new Refusal('unknown_place', `There is no place ${id}.`, where);
     return found.prototype;
   };
+  const dock = (id) => {
+    const found = graph.destinations.find((destination) => destination.id === id);
+    if (!found) throw new Refusal('not_found', `The map has no destination ${id}.`, where);
+    return found.image;
+  };
+  const decision = (accept) => (accept ? 'accept' : 'reject');
+  const way = () => ({ image_a: prototype(one.from), image_b: prototype(one.to) });
   const parts = {
-    rename: () => ({ image_a: prototype(one.place), image_b: null, text: one.label }),
-    block_edge: () => ({
-      image_a: prototype(one.from),
-      image_b: prototype(one.to),
-      text: String(one.blocked),
-    }),
-    decide_shortcut: () => ({
-      image_a: one.image_a,
-      image_b: one.image_b,
-      text: one.accept ? 'accept' : 'reject',
-    }),
+    rename: () => ({ image_a: prototype(one.place), text: one.label }),
+    merge: () => ({ image_a: prototype(one.into), image_b: prototype(one.place) }),
+    split: () => ({ image_a: prototype(one.place), images: one.images }),
+    delete: () => ({ image_a: prototype(one.place) }),
+    move: () => ({ image_a: prototype(one.into), images: one.images }),
+    add_edge: way,
+    remove_edge: way,
+    block_edge: () => ({ ...way(), text: String(one.blocked) }),
+    decide: () => ({ image_a: one.prototype_a, image_b: one.prototype_b, text: decision(one.accept) }),
+    decide_shortcut: () => ({ image_a: one.image_a, image_b: one.image_b, text: decision(one.accept) }),
+    add_destination: () => ({ image_a: one.image, text: one.label }),
+    remove_destination: () => ({ image_a: dock(one.destination) }),
+    name_destination: () => ({ image_a: dock(one.destination), text: one.label }),
+    set_pictogram: () => ({ image_a: dock(one.destination), text: one.pictogram }),
+    set_destination_picture: () => ({ image_a: dock(one.destination), image_b: one.image }),
   };
-  if (!parts[one.kind])
-    throw new Refusal(
-      'invalid_input',
-      `This version applies rename, block_edge and decide_shortcut, not ${one.kind}.`,
-      where,
-    );
   const t_us = Date.now() * 1000;
-  return {
-    kind: one.kind,
-    ...parts[one.kind](),
-    images: [],
-    by,
-    t_us,
-    undone: false,
-    change,
-    redoable: false,
-    lost: null,
-  };
+  const empty = { image_b: null, text: '', images: [] };
+  const standing = { undone: false, change, redoable: false, lost: null };
+  return { kind: one.kind, ...empty, ...parts[one.kind](), by, t_us, ...standing };
 }
 
-function apply(graph, { kind, image_a, image_b, text, by }, where) {
-  const place_of = (image) => graph.places.find((one) => one.members.includes(image));
-  if (kind === 'rename') {
-    const place = place_of(image_a);
-    place.label = text;
-  } else if (kind === 'block_edge') {
+function apply(graph, { kind, image_a, image_b, text, images, by }, where) {
+  const refuse = (code, words) => {
+    throw new Refusal(code, words, where);
+  };
+  const holder = (image) => graph.places.find((one) => one.members.includes(image));
+  const place_of = (image) =>
+    holder(image) ?? refuse('not_found', `No place of the map holds the image ${image}.`);
+  const leave = (place, gone) => {
+    const left = place.members.filter((one) => !gone.includes(one));
+    if (left.length === 0)
+      refuse(
+        'invalid_input',
+        `Place ${place.id} would be left without pictures: merge it or delete it instead.`,
+      );
+    place.members = left;
+    if (gone.includes(place.prototype)) place.prototype = left[Math.floor(left.length / 2)];
+  };
+  const join = (from, to) => {
+    const known = (a, b) => graph.edges.some((one) => one.from === a && one.to === b);
+    const like = { ...graph.edges[0], blocked: false, weak: true, by: 'person' };
+    for (const [a, b] of [
+      [from, to],
+      [to, from],
+    ])
+      if (!known(a, b)) graph.edges.push({ ...like, from: a, to: b });
+  };
+  const between = () => {
     const [from, to] = [place_of(image_a).id, place_of(image_b).id];
-    const edge = graph.edges.find((one) => one.from === from && one.to === to);
-    if (!edge) throw new Refusal('not_found', `The map has no edge from ${from} to ${to}.`, where);
-    edge.blocked = text === 'true';
-  } else {
-    const found = graph.shortcuts.find((one) => one.image_a === image_a && one.image_b === image_b);
-    if (!found)
-      throw new Refusal('not_found', `The map has no shortcut between ${image_a} and ${image_b}.`, where);
-    Object.assign(found, { state: text === 'accept' ? 'accepted' : 'rejected', by });
-  }
+    if (from === to) refuse('invalid_input', `Both images are in place ${from}.`);
+    return [from, to];
+  };
+  const destination = (image) => graph.destinations.find((one) => one.image === image);
+  const free = (image) => {
+    const known = destination(image);
+    if (known) refuse('conflict', `The picture ${image} is the destination '${known.label}' already.`);
+  };
+  const merge = (into, gone) => {
+    into.members.push(...gone.members);
+    graph.places = graph.places.filter((one) => one !== gone);
+    const id = (one) => (one === gone.id ? into.id : one);
+    const moved = graph.edges.map((one) => ({ ...one, from: id(one.from), to: id(one.to) }));
+    const same = (a, b) => a.from === b.from && a.to === b.to;
+    graph.edges = moved.filter(
+      (one, i) => one.from !== one.to && moved.findIndex((other) => same(one, other)) === i,
+    );
+    for (const one of graph.destinations) one.place = id(one.place);
+  };
+  const steps = {
+    rename: () => (place_of(image_a).label = text),
+    merge: () => {
+      const [into, gone] = [place_of(image_a), place_of(image_b)];
+      if (into === gone) refuse('invalid_input', `Both images are in place ${into.id} already.`);
+      merge(into, gone);
+    },
+    split: () => {
+      const place = place_of(image_a);
+      const absent = images.find((one) => !place.members.includes(one));
+      if (absent) refuse('not_found', `Place ${place.id} does not hold the image ${absent}.`);
+      leave(place, images);
+      const id = `p${1 + Math.max(...graph.places.map((one) => Number(one.id.slice(1))))}`;
+      graph.places.push({ ...place, id, label: '', members: images, prototype: images[0] });
+      for (const one of graph.destinations) if (images.includes(one.image)) one.place = id;
+      join(place.id, id);
+    },
+    move: () => {
+      const into = place_of(image_a);
+      const going = images.filter((one) => place_of(one) !== into);
+      if (going.length === 0) refuse('invalid_input', `Place ${into.id} holds these images already.`);
+      for (const one of going) leave(place_of(one), [one]);
+      into.members.push(...going);
+      for (const one of graph.destinations) if (going.includes(one.image)) one.place = into.id;
+    },
+    delete: () => {
+      const { id } = place_of(image_a);
+      graph.places = graph.places.filter((one) => one.id !== id);
+      graph.edges = graph.edges.filter((one) => one.from !== id && one.to !== id);
+      graph.destinations = graph.destinations.filter((one) => one.place !== id);
+    },
+    add_edge: () => {
+      const [from, to] = between();
+      const before = graph.edges.length;
+      join(from, to);
+      if (graph.edges.length === before)
+        refuse('invalid_input', `The map has the way between ${from} and ${to} already.`);
+    },
+    remove_edge: () => {
+      const ends = between();
+      const left = graph.edges.filter((one) => !(ends.includes(one.from) && ends.includes(one.to)));
+      if (left.length === graph.edges.length)
+        refuse('not_found', `The map has no edge from ${ends[0]} to ${ends[1]}.`);
+      graph.edges = left;
+    },
+    block_edge: () => {
+      const [from, to] = between();
+      const edge = graph.edges.find((one) => one.from === from && one.to === to);
+      if (!edge) refuse('not_found', `The map has no edge from ${from} to ${to}.`);
+      edge.blocked = text === 'true';
+    },
+    decide: () => {
+      const found = graph.hypotheses.find(
+        (one) => one.prototype_a === image_a && one.prototype_b === image_b,
+      );
+      if (!found) refuse('not_found', `The map has no hypothesis on ${image_a} and ${image_b}.`);
+      if (text === 'accept' && place_of(image_a) !== place_of(image_b))
+        merge(place_of(image_a), place_of(image_b));
+      Object.assign(found, { decision: text === 'accept' ? 'accepted' : 'rejected', by: 'person' });
+    },
+    decide_shortcut: () => {
+      const found = graph.shortcuts.find((one) => one.image_a === image_a && one.image_b === image_b);
+      if (!found) refuse('not_found', `The map has no shortcut between ${image_a} and ${image_b}.`);
+      Object.assign(found, { state: text === 'accept' ? 'accepted' : 'rejected', by });
+    },
+    add_destination: () => {
+      const place = place_of(image_a).id;
+      free(image_a);
+      graph.destinations.push({ id: `d-${image_a}`, place, image: image_a, label: text, pictogram: '' });
+    },
+    remove_destination: () =>
+      (graph.destinations = graph.destinations.filter((one) => one.image !== image_a)),
+    name_destination: () => (destination(image_a).label = text),
+    set_pictogram: () => (destination(image_a).pictogram = text),
+    set_destination_picture: () => {
+      const place = place_of(image_b).id;
+      free(image_b);
+      Object.assign(destination(image_a), { image: image_b, place });
+    },
+  };
+  steps[kind]();
 }

@@ -83,13 +83,13 @@ export function MapHistory({ graph, busy, outcome, onUndo, onRedo }: Props) {
               <span>
                 <strong>{one.by}</strong> {changeWords(one, graph)}
                 {one.undone && <span class="soft"> (taken back)</span>}
-                {lostBecause(one).map((why) => (
-                  <Notice key={why} tone="warn">
-                    The map could not keep this when it was last built. {why}
-                  </Notice>
-                ))}
               </span>
               <span class="soft small">{dateText(one.t_us)}</span>
+              {lostBecause(one).map((why) => (
+                <Notice key={why} tone="warn" still>
+                  The map could not keep this when it was last built. {why}
+                </Notice>
+              ))}
             </li>
           ))}
       </ul>
