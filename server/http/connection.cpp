@@ -25,6 +25,7 @@ using asio::ip::tcp;
 using beast::error_code;
 
 constexpr std::chrono::seconds kSettle{2};
+constexpr std::chrono::seconds kSettleOfKnown{10};  // between two pieces; a shaky network may pause for seconds
 constexpr std::size_t kReadBuffer_bytes = 32UL * 1024;  // has room for the largest head
 
 /// Lets a coroutine wait for an answer that another thread will post.
@@ -224,7 +225,7 @@ asio::awaitable<void> Connection::refuse(Response response, Form form) {
   stream_.expires_after(kSettle);
   std::size_t total = 0;
   while (!error && total < most) {
-    if (known) stream_.expires_after(kSettle);
+    if (known) stream_.expires_after(kSettleOfKnown);
     buffer_.clear();
     total += co_await stream_.async_read_some(buffer_.prepare(buffer_.max_size()),
                                               asio::redirect_error(asio::use_awaitable, error));
