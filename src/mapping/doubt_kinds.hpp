@@ -16,13 +16,10 @@ namespace homeward::mapping {
 /// What there is to know of two places that may be one.
 struct SamePlaceSigns {
   double distance = std::numeric_limits<double>::infinity();  // D of the two prototypes, in the map's usual distances
-  double match_share = 0.0;                                   // of their features that they have in common
   double confidence = 0.0;                                    // that what they have in common is no chance
-  std::optional<double> support;                              // of the hypothesis, where there is one
-  std::optional<double> plausibility;
-  std::optional<double> apart_m;   // by the layout
-  double common_neighbours = 0.0;  // share of the ways of the one with fewer that lead to the same places
-  bool joined = false;             // a way leads from one to the other
+  double belief = 0.0;                                        // support + plausibility - 1 of the hypothesis, if any
+  std::optional<double> apart_m;                              // by the layout of the map
+  double way_m = 0.0;                                         // from one to the other, by its ways
 };
 
 /// That they are one place.
