@@ -25,15 +25,15 @@ struct SamePlaceSigns {
 /// That they are one place.
 double probability_of_one_place(const SamePlaceSigns& signs);
 
-/// What there is to know of the visits to a place that another visit's pictures stand for.
+/// What there is to know of a visit to a place whose prototype is of another one.
 struct MixedPlaceSigns {
-  double seen = 0.0;              // surest sight from the prototype to where the tour came from or went on to
-  std::optional<double> apart_m;  // from the prototype, by the layout
-  double unlike = 0.0;            // share of its appearances that look like none of the prototype's
-  int pictures = 0;
+  // How surely the prototype sees where the tour came from and where it went on to.
+  double surer_sight = 0.0;
+  double other_sight = 0.0;
+  std::optional<double> apart_m;  // the visit from the prototype, by the layout
 };
 
-/// That these pictures show another place than the prototype does.
+/// That its pictures show another place than the prototype does.
 double probability_of_two_places(const MixedPlaceSigns& signs);
 
 struct WaySigns {

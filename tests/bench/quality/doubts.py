@@ -3,11 +3,13 @@
 """Maps broken on purpose, and how soon a person is asked about what is wrong with them.
 
 usage: doubts.py --work DIR --eval DIR [--bin DIR] [--worlds house,wards] [--first N] [--seeds N] [--alike] [--ask N]
-                 [--no-answers]
+                 [--without-odometry] [--no-answers]
 
---eval: the folder of map.py. For each world and seed N, N+1, ...: a tour of all rooms is rendered and its map built (both
+--eval: the folder of map.py. For each world and seed N, N+1, ...: a tour of all rooms (of wards: four) is
+rendered and its map built (both
 kept in DIR); 5 places of it are wrongly merged, 5 loops missed, 3 ways made that do not exist (homeward_bench_faults;
---alike: places that look most alike are merged). `homeward map doubts` then names what to look at, and the faults among the
+--alike: places that look most alike are merged;
+--without-odometry: of tours that had none). `homeward map doubts` then names what to look at, and the faults among the
 first 20 (--ask) are counted. What it asks is then answered as the true poses say, by `homeward map edit`, twenty questions
 at a time, until map.py finds nothing wrong, or nothing more is asked.
 Prints a line for each map and their sum; ends with 1 when fewer than 0.9 of all faults are among the first 20, or a map is
@@ -19,6 +21,7 @@ import csv
 import json
 import math
 import pathlib
+import random
 import subprocess
 import sys
 
@@ -27,7 +30,7 @@ SAME_M = 1.0  # pictures that show one place, as map.py counts revisits
 MIXED_M = 2.0  # pictures of one place that are not worth splitting
 WAY_M = 6.0  # ends of a way, as map.py counts edges
 WANTED = 0.9
-MOST_ROUNDS = 12
+MOST_ANSWERS = 60
 
 
 def run(*command):
@@ -42,6 +45,23 @@ def read_poses(tour):
         return {row["filename"]: (float(row["x_m"]), float(row["y_m"])) for row in csv.DictReader(file)}
 
 
+def rooms(world, seed):
+    """All rooms of a house; of wards, which are large, four by chance, from the first hall and back to it."""
+    if world != "wards":
+        return "all"
+    return ",".join(["hall_1", *(f"ward_{number}" for number in random.Random(seed).sample(range(1, 11), 4)), "hall_1"])
+
+
+def without_odometry(tour):
+    """The same pictures as a tour of its own."""
+    bare = tour.with_name(f"{tour.name}-bare")
+    bare.mkdir(exist_ok=True)
+    for file in tour.iterdir():
+        if file.name not in ("odometry.csv", "scans.csv", "scans.json") and not (bare / file.name).exists():
+            (bare / file.name).symlink_to(file.resolve())
+    return bare
+
+
 class Case:
     """A broken map and what is wrong with it."""
 
@@ -50,14 +70,17 @@ class Case:
         self.program = options.bin / "homeward"
         self.name = f"{world}:{seed}"
         self.tour = options.work / f"{world}-{seed}"
-        self.sound = options.work / f"{world}-{seed}.map"
         if not (self.tour / "poses.csv").is_file():
-            run(self.program, "simulate", "tour", "--world", self.name, "--rooms", "all", "--seed", seed, "--out", self.tour)
+            run(self.program, "simulate", "tour", "--world", self.name, "--rooms", rooms(world, seed), "--seed", seed, "--out",
+                self.tour)
+        if options.without_odometry:
+            self.tour = without_odometry(self.tour)
+        self.sound = options.work / f"{self.tour.name}.map"
         if not self.sound.is_file():
             run(self.program, "map", "build", "--tour", self.tour, "--camera", self.tour / "camera.json", "--out", self.sound)
         self.poses = read_poses(self.tour)
         kind = "alike" if options.alike else "any"
-        self.broken = options.work / f"{world}-{seed}-{kind}.map"
+        self.broken = options.work / f"{self.tour.name}-{kind}.map"
         told = self.broken.with_suffix(".faults.json")
         run(options.bin / "homeward_bench_faults", "--map", self.sound, "--tour", self.tour, "--out", self.broken, "--faults",
             told, "--seed", seed, *(["--alike"] if options.alike else []))
@@ -90,28 +113,23 @@ class Case:
         return doubt["if_yes"] if self.distance(doubt["image_a"], doubt["image_b"]) <= near else doubt["if_no"]
 
     def answered(self):
-        """Answers question by question; how many, and how the map is then."""
+        """Answers one question after the other, the first that was not answered yet; how many, and how the map is then."""
         map_file = self.options.work / f"{self.broken.stem}-answered.map"
         map_file.write_bytes(self.broken.read_bytes())
         batch = self.options.work / f"{self.broken.stem}-answer.json"
-        known, answers, figures = set(), 0, self.judged(map_file)
-        for _ in range(MOST_ROUNDS):
-            asked = [doubt for doubt in self.doubts(map_file, 1000) if self.identity(doubt) not in known][:self.options.ask]
-            if not asked or whole(figures):
+        known, figures = set(), self.judged(map_file)
+        while len(known) < MOST_ANSWERS and not whole(figures):
+            doubt = next((one for one in self.doubts(map_file, 1000) if self.identity(one) not in known), None)
+            if doubt is None:
                 break
-            for doubt in asked:
-                known.add(self.identity(doubt))
-                answers += 1
-                edits = self.answer(doubt)
-                if not edits:
-                    continue
-                batch.write_text(json.dumps({"edits": edits}))
-                try:
-                    run(self.program, "map", "edit", "--map", map_file, "--edits", batch, "--out", map_file, "--tour", self.tour)
-                except RuntimeError as error:  # an answer before it changed the place: it is asked again if need be
-                    print(f"  {self.name}: {doubt['kind']} {str(error).splitlines()[-1][-160:]}", file=sys.stderr)
+            known.add(self.identity(doubt))
+            edits = self.answer(doubt)
+            if not edits:
+                continue
+            batch.write_text(json.dumps({"edits": edits}))
+            run(self.program, "map", "edit", "--map", map_file, "--edits", batch, "--out", map_file, "--tour", self.tour)
             figures = self.judged(map_file)
-        return answers, figures
+        return len(known), figures
 
     @staticmethod
     def identity(doubt):
@@ -131,6 +149,7 @@ def main():
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--seeds", type=int, default=10)
     parser.add_argument("--alike", action="store_true")
+    parser.add_argument("--without-odometry", action="store_true")
     parser.add_argument("--ask", type=int, default=20)
     parser.add_argument("--no-answers", action="store_true")
     options = parser.parse_args()
