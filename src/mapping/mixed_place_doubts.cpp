@@ -60,12 +60,10 @@ std::vector<int> places_around(const std::vector<Judged>& visits, bool strays, i
 std::vector<std::size_t> hypotheses_between(const DoubtScene& scene, int place, const std::vector<ImageId>& leaving) {
   const auto leaves = [&](const ImageId& image) { return std::ranges::find(leaving, image) != leaving.end(); };
   std::vector<std::size_t> between;
-  for (std::size_t h = 0; h < scene.map().hypotheses.size(); ++h) {
+  for (const std::size_t h : scene.hypotheses_within(place)) {
     const map::Hypothesis& one = scene.map().hypotheses[h];
-    const bool within = scene.place_of(one.prototype_a) == place && scene.place_of(one.prototype_b) == place;
-    if (within && one.decision == map::Decision::kAccepted && leaves(one.prototype_a) != leaves(one.prototype_b)) {
-      between.push_back(h);
-    }
+    const bool joins = leaves(one.prototype_a) != leaves(one.prototype_b);
+    if (joins && one.decision == map::Decision::kAccepted) between.push_back(h);
   }
   return between;
 }
@@ -76,6 +74,7 @@ void say_what_to_do(const DoubtScene& scene, int place, const std::vector<ImageI
   map::Edit split = edit_of(kSplit, scene.place(place).prototype, {});
   split.images = leaving;
   doubt.if_no.push_back(std::move(split));
+  if (scene.joined_by_a_person(leaving)) doubt.by = map::Decider::kPerson;
   for (const std::size_t h : hypotheses_between(scene, place, leaving)) {
     const map::Hypothesis& one = scene.map().hypotheses[h];
     if (!doubt.hypothesis) doubt.hypothesis = h;

@@ -147,6 +147,7 @@ Doubt doubt_of(const DoubtScene& scene, const DoubtConfig& config, const Pair& p
     const bool kept_apart = hypothesis.decision == Decision::kRejected;
     doubt.state = kept_apart ? Decision::kRejected : Decision::kUndecided;
   }
+  if (scene.parted_by_a_person(a, b)) doubt.by = map::Decider::kPerson;
   doubt.place_a = scene.place(scene.place_of(doubt.image_a)).id;
   doubt.place_b = scene.place(scene.place_of(doubt.image_b)).id;
   const double way_m = scene.way_m(std::array{a}, std::array{b}, -1, std::nullopt, 20.0 * config.usual_detour_m);
@@ -163,7 +164,8 @@ double odds_of_layout(const SamePlaceSigns& signs) {
   constexpr double kWrong = 1e-3;
   const double sigma_m = 0.3 + 0.05 * signs.way_m;
   const double z = *signs.apart_m / sigma_m;
-  const double peak = kFloor_m2 / (2.0 * kPi * sigma_m * sigma_m);
+  // A layout that is vague does not speak against them.
+  const double peak = std::max(1.0, kFloor_m2 / (2.0 * kPi * sigma_m * sigma_m));
   return std::log((1.0 - kWrong) * peak * std::exp(-z * z / 2.0) + kWrong);
 }
 
