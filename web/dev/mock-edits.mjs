@@ -159,7 +159,8 @@ function apply(graph, { kind, image_a, image_b, text, images, by }, where) {
       if (absent) refuse('not_found', `Place ${place.id} does not hold the image ${absent}.`);
       leave(place, images);
       const id = `p${1 + Math.max(...graph.places.map((one) => Number(one.id.slice(1))))}`;
-      graph.places.push({ ...place, id, label: '', members: images, prototype: images[0] });
+      const beside = { x: Math.min(1, place.x + 0.06), y: Math.min(1, place.y + 0.08) };
+      graph.places.push({ ...place, ...beside, id, label: '', members: images, prototype: images[0] });
       for (const one of graph.destinations) if (images.includes(one.image)) one.place = id;
       join(place.id, id);
     },

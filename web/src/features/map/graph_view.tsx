@@ -3,8 +3,10 @@ import type { Core, ElementDefinition } from 'cytoscape';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import type { Belief, Graph } from '../../api/types';
+import { indexOf } from '../../lib/graph_index';
 import { graphStyle } from './graph_style';
 import { showDetailInView } from './detail_in_view';
+import { picking } from './picking';
 import { PlaceMarks } from './place_marks';
 import { drawnEdges, pictureShare, placeViews, probabilities } from './place_views';
 import { proposedLines } from './shortcut_words';
@@ -102,6 +104,7 @@ export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
   return (
     <div class="graph">
       <div class="graph-canvas" ref={box} aria-hidden="true" data-testid="graph" />
+      {picking.value && <p class="graph-pick">{picking.value.what}: press it in the drawing.</p>}
       <PlaceMarks drawing={drawing} diameter={diameter} shares={shares} chosen={chosen} />
       <div class="graph-tools" role="group" aria-label="Size of the drawing">
         <button type="button" aria-label="Larger" onClick={() => zoom(1.4)}>
@@ -177,11 +180,12 @@ function leaveStylesToUs(): void {
 }
 
 function elementsOf(graph: Graph): ElementDefinition[] {
+  const { places } = indexOf(graph);
   const nodes = placeViews(graph).map((view) => ({
     data: {
       id: view.id,
       ...(view.named ? { name: view.title } : {}),
-      picture: calls.placeThumbnailUrl(graph.map, view.id, graph.revision),
+      picture: calls.imageThumbnailUrl(graph.map, places.get(view.id)?.prototype ?? ''),
     },
     position: { x: kSize * (view.x ?? 0), y: kSize * (view.y ?? 0) },
   }));

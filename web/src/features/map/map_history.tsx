@@ -2,25 +2,20 @@
 import { useEffect, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import { asProblem } from '../../api/problem';
-import type { Graph, LoggedEdit } from '../../api/types';
+import type { LoggedEdit } from '../../api/types';
 import { Icon } from '../../components/icons';
 import { Notice } from '../../components/notice';
 import { dateText } from '../../lib/words';
 import { changesOf, changeWords, lostBecause, redoable, undoable, type Change } from './changes';
-import { Outcome, type OutcomeOf } from './outcome';
+import { kHistoryPart, type Editor } from './editor';
+import { Outcome } from './outcome';
 
 const kShown = 8;
 
-interface Props {
-  graph: Graph;
-  busy: boolean;
-  outcome: OutcomeOf | null; // of the latest step
-  onUndo: (() => void) | null;
-  onRedo: (() => void) | null;
-}
-
 /** What people changed, newest first, taking the newest back, and making again what was taken back. */
-export function MapHistory({ graph, busy, outcome, onUndo, onRedo }: Props) {
+export function MapHistory({ editor }: { editor: Editor }) {
+  const { graph, busy, mayEdit } = editor;
+  const outcome = editor.outcomeIn(kHistoryPart);
   const [edits, setEdits] = useState<readonly LoggedEdit[] | null>(null);
   const [problem, setProblem] = useState<string | null>(null);
   useEffect(() => {
@@ -48,14 +43,14 @@ export function MapHistory({ graph, busy, outcome, onUndo, onRedo }: Props) {
     <section class="card stack" aria-label="Changes by people">
       <div class="row apart">
         <h2>Changes by people</h2>
-        {onUndo && onRedo && (
+        {mayEdit && (
           <div class="row">
             <button
               type="button"
               class="button"
               disabled={busy || !back}
               aria-label={name('Take the newest back', back)}
-              onClick={onUndo}
+              onClick={editor.undo}
             >
               <Icon name="undo" /> Take the newest back
             </button>
@@ -64,7 +59,7 @@ export function MapHistory({ graph, busy, outcome, onUndo, onRedo }: Props) {
               class="button"
               disabled={busy || !forth}
               aria-label={name('Make it again', forth)}
-              onClick={onRedo}
+              onClick={editor.redo}
             >
               <Icon name="redo" /> Make it again
             </button>
