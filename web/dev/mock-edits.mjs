@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Changes of the mock server's map: all edits of a request are one change, undone and redone as a whole.
+import { tellDrafts } from './mock-drafts.mjs';
 import { Refusal } from './mock-refusal.mjs';
 
 /** The map that a request changes, when it names the revision that is there. */
@@ -23,12 +24,13 @@ function asked(house, { headers, args }) {
 }
 
 /** The map as it was taught, with the edits of `log` that stand. */
-function changed(house, map, log, revision) {
+export function changed(house, map, log, revision) {
   house.graph = { ...structuredClone(house.taught), revision };
   for (const one of log.filter(({ undone }) => !undone)) apply(house.graph, one);
   house.edits = log;
   map.revision = revision;
   house.send('map', map);
+  tellDrafts(house, map);
   return { body: { revision }, headers: { ETag: `"r${revision}"` } };
 }
 
@@ -62,7 +64,7 @@ function step(house, map, change, state) {
 }
 
 /** An edit as it is asked for, in the words of the log: keyed to pictures. */
-function logged(graph, one, by, change, i) {
+export function logged(graph, one, by, change, i) {
   const where = `body/edits/${i}`;
   const prototype = (id) => {
     const found = graph.places.find((place) => place.id === id);
@@ -99,7 +101,7 @@ function logged(graph, one, by, change, i) {
   return { kind: one.kind, ...empty, ...parts[one.kind](), by, t_us, ...standing };
 }
 
-function apply(graph, { kind, image_a, image_b, text, images, by }, where) {
+export function apply(graph, { kind, image_a, image_b, text, images, by }, where) {
   const refuse = (code, words) => {
     throw new Refusal(code, words, where);
   };

@@ -188,8 +188,13 @@ export const draftGraph = (one: Draft) => call<Graph>(`${draftPath(one)}/graph`)
 export const draftDifference = (one: Draft) => call<Difference>(`${draftPath(one)}/difference`);
 export const checkDraft = (one: Draft) => call<{ job: Job }>(`${draftPath(one)}/check`, { method: 'POST' });
 export const draftCheck = (one: Draft) => call<ReplayCheck>(`${draftPath(one)}/check`);
-export const publishDraft = (one: Draft) =>
-  call<{ revision: number }>(`${draftPath(one)}/publish`, { method: 'POST', headers: ofVersion(one) });
+/** `leave_out_lost`: without the edits that the map as it is does not take; else these are a reason to refuse. */
+export const publishDraft = (one: Draft, leave_out_lost: boolean) =>
+  call<{ revision: number }>(`${draftPath(one)}/publish`, {
+    method: 'POST',
+    body: { leave_out_lost },
+    headers: ofVersion(one),
+  });
 
 // Doubts: what a person should look at
 export const doubts = (

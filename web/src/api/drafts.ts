@@ -33,12 +33,16 @@ export function withHeard(drafts: readonly Draft[], ...told: HeardDrafts[]): rea
     .sort((a, b) => a.created_us - b.created_us || a.id.localeCompare(b.id));
 }
 
+const kNone: HeardDrafts = {};
+const told = computed<HeardDrafts>(() => connection.value.server?.drafts ?? kNone);
+
+// Made anew only when a draft is told of, not with every other event.
 const everyones = computed(() => {
-  const heard = connection.value.server?.drafts ?? {};
+  const heard = told.value;
   return new Map(
     Object.entries(loaded.value).map(([map, { drafts, problem }]) => {
-      const own = (told: HeardDrafts) =>
-        Object.fromEntries(Object.entries(told).filter(([, one]) => one === null || one.map === map));
+      const own = (all: HeardDrafts) =>
+        Object.fromEntries(Object.entries(all).filter(([, one]) => one === null || one.map === map));
       return [map, { problem, drafts: drafts && withHeard(drafts, own(answered.value), own(heard)) }];
     }),
   );

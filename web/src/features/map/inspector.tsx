@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect, useRef } from 'preact/hooks';
-import type { Place } from '../../api/types';
+import type { Draft, Place } from '../../api/types';
+import { Notice } from '../../components/notice';
 import { placeTitle } from '../../lib/whereabouts';
 import { AddWay } from './add_way';
 import { AddDestination, DestinationsHere } from './destinations_here';
+import { draftTitle } from './draft_words';
 import { kPlacePart, type Editor } from './editor';
 import { JoinPlace } from './join_place';
 import { Outcome } from './outcome';
@@ -17,12 +19,13 @@ import { Ways } from './ways';
 interface Props {
   editor: Editor;
   place: Place;
+  others: readonly Draft[]; // drafts of which this place is a part, without the one that is open
   onChoose: (place: string) => void;
   onGo: (() => void) | null;
 }
 
 /** One place: its name, its pictures, the ways out of it, and all that can be changed about it. */
-export function Inspector({ editor, place, onChoose, onGo }: Props) {
+export function Inspector({ editor, place, others, onChoose, onGo }: Props) {
   const { graph, mayEdit } = editor;
   const title = placeTitle(graph, place.id);
   const outcome = editor.outcomeIn(kPlacePart);
@@ -41,6 +44,11 @@ export function Inspector({ editor, place, onChoose, onGo }: Props) {
           </button>
         )}
       </div>
+      {others.map((one) => (
+        <Notice key={one.id} tone="warn" still>
+          {one.by} tries changes here, in the draft “{draftTitle(one)}”.
+        </Notice>
+      ))}
       <PlacePictures key={`pictures ${place.id}`} graph={graph} place={place} title={title} />
       {mayEdit && <RenamePlace key={`name ${place.id}`} editor={editor} place={place} />}
       {outcome && <Outcome of={outcome} />}

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect } from 'preact/hooks';
+import * as calls from '../../api/calls';
+import { draftsOf, wantDrafts } from '../../api/drafts';
 import { connection, graphs, me, wantGraph } from '../../api/server';
-import type { MapInfo } from '../../api/types';
+import type { Draft, Graph, MapInfo } from '../../api/types';
+import { Loading } from '../../components/loading';
 import { Notice, Waiting } from '../../components/notice';
 import { chosenMap, maps } from '../../lib/chosen';
+import { useLoaded } from '../../lib/loaded';
 import { atLeast } from '../../lib/roles';
 import { mapAddress, show } from './map_address';
 import { MapDrawing } from './map_drawing';
+
+const kVersions = 1e6; // of a draft at most, on one revision of its map
 
 export function MapPage() {
   const wanted = mapAddress.value.map;
@@ -47,6 +53,51 @@ function MapPicker({ chosen: present }: { chosen: MapInfo | null }) {
   );
 }
 
+interface OfMap {
+  map: MapInfo;
+  graph: Graph;
+  mayEdit: boolean;
+}
+
+/** The map itself, or the draft of it that the address names. */
+function MapOrDraft({ map, graph, mayEdit }: OfMap) {
+  const since = connection.value.server?.since;
+  useEffect(() => wantDrafts(map.id), [map.id, since]);
+  const { draft: wanted } = mapAddress.value;
+  const { drafts, problem } = draftsOf(map.id);
+  const draft = drafts?.find((one) => one.id === wanted) ?? null;
+  if (draft) return <WithDraft key={draft.id} map={map} graph={graph} mayEdit={mayEdit} draft={draft} />;
+  if (wanted !== null && !drafts && !problem) return <Waiting what="Loading the draft …" />;
+  return (
+    <>
+      {wanted !== null && (
+        <Notice tone="warn">
+          <div class="row apart">
+            <span>This draft is gone: it was published or discarded. This is the map itself.</span>
+            <button type="button" class="button" onClick={() => show(map.id, { draft: null })}>
+              Understood
+            </button>
+          </div>
+        </Notice>
+      )}
+      <MapDrawing map={map} graph={graph} open={null} mayEdit={mayEdit} />
+    </>
+  );
+}
+
+function WithDraft({ map, graph, mayEdit, draft }: OfMap & { draft: Draft }) {
+  const state = kVersions * draft.revision + draft.version;
+  const made = useLoaded(() => calls.draftGraph(draft), state);
+  const difference = useLoaded(() => calls.draftDifference(draft), state).value;
+  return (
+    <Loading of={made} what="The draft">
+      {(after) => (
+        <MapDrawing map={map} graph={after} open={{ draft, before: graph, difference }} mayEdit={mayEdit} />
+      )}
+    </Loading>
+  );
+}
+
 function ShownMap({ map }: { map: MapInfo }) {
   const entry = graphs.value[map.id];
   const mayEdit = atLeast(me.value?.role, 'installer');
@@ -56,7 +107,7 @@ function ShownMap({ map }: { map: MapInfo }) {
         {entry.error && (
           <Notice tone="warn">This may be an older state of the map. {entry.error.message}</Notice>
         )}
-        <MapDrawing key={map.id} map={map} graph={entry.graph} mayEdit={mayEdit} />
+        <MapOrDraft key={map.id} map={map} graph={entry.graph} mayEdit={mayEdit} />
       </>
     );
   if (entry?.error)
