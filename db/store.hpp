@@ -116,6 +116,24 @@ class Store {
   /// With its jobs; robots on it are left without a map. Errors: kNotFound.
   virtual Status remove_map(const MapId& id) = 0;
 
+  // --- Drafts ------------------------------------------------------------------------------------------------------
+  /// Errors: kNotFound (the map).
+  virtual Result<DraftRecord> add_draft(DraftRecord draft) = 0;
+  virtual Result<std::vector<DraftRecord>> drafts(const MapId& map) = 0;  // oldest first
+  /// Errors: kNotFound (also of another map).
+  virtual Result<DraftRecord> draft(const MapId& map, const wire::DraftId& id) = 0;
+  /// Its edits, as the next version. Errors: kNotFound, kStaleRevision (`expected_version` is not the present one).
+  virtual Result<DraftRecord> save_draft_edits(const wire::DraftId& id, const std::vector<map::Edit>& edits,
+                                               std::int64_t expected_version) = 0;
+  /// The check that was asked for last; what an earlier one found is forgotten. Errors: kNotFound.
+  virtual Status set_draft_check(const wire::DraftId& id, const wire::DraftCheck& check) = 0;
+  /// What a check found, as JSON, unless another was asked for meanwhile. Success also when the draft is gone.
+  virtual Status keep_draft_findings(const wire::DraftId& id, const JobId& job, const std::string& findings) = 0;
+  /// Nothing before a check has ended. Errors: kNotFound (the draft).
+  virtual Result<std::optional<std::string>> draft_findings(const wire::DraftId& id) = 0;
+  /// Errors: kNotFound.
+  virtual Status remove_draft(const wire::DraftId& id) = 0;
+
   // --- What drives saw ---------------------------------------------------------------------------------------------
   /// The eight newest of each map are kept. Errors: kNotFound (the map).
   virtual Status add_drive(const Drive& drive) = 0;

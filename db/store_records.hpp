@@ -12,6 +12,7 @@
 #include "core/range_sweep.hpp"
 #include "core/result.hpp"
 #include "core/time.hpp"
+#include "wire/draft_json.hpp"
 #include "wire/job_json.hpp"
 #include "wire/map_info_json.hpp"
 #include "wire/mission_json.hpp"
@@ -106,11 +107,25 @@ struct Drive {
   std::vector<DriveSight> sights;
 };
 
+/// Edits of a map that are tried before they count.
+struct DraftRecord {
+  wire::DraftId id;
+  MapId map;
+  std::string name;    // empty: nobody named it
+  std::string author;  // who began it
+  TimeUs created_us = 0;
+  std::int64_t version = 1;
+  std::vector<map::Edit> edits;           // changes numbered from 1; without what came of them
+  std::optional<wire::DraftCheck> check;  // the latest
+  bool checked = false;                   // it has ended, and its findings are kept
+};
+
 /// What changes in one step with a map's contents.
 struct AlongWithContents {
-  std::vector<TourId> new_tours;       // that the map is made from as well from now on
-  std::vector<MissionId> used_drives;  // that are not needed any more
-  std::optional<wire::JobView> job;    // as it is afterwards
+  std::vector<TourId> new_tours;            // that the map is made from as well from now on
+  std::vector<MissionId> used_drives;       // that are not needed any more
+  std::optional<wire::JobView> job = {};    // as it is afterwards
+  std::optional<wire::DraftId> draft = {};  // that was published and is none any more
 };
 
 /// Whether the store can keep what it is given, and has what it was given.

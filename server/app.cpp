@@ -12,6 +12,7 @@
 #include "server/front/app_front.hpp"
 #include "server/http/http_server.hpp"
 #include "server/routes/account_routes.hpp"
+#include "server/routes/draft_routes.hpp"
 #include "server/routes/job_routes.hpp"
 #include "server/routes/map_routes.hpp"
 #include "server/routes/operation_routes.hpp"
@@ -91,13 +92,15 @@ struct App::Parts {
         tours(*store, clock),
         maps(*store, events, clock),
         driving(*store, maps, events, heavy, journal, clock, config.longest_mission_s),
-        jobs(*store, maps, events, clock, threads_of(config)),
+        drafts(*store, maps, events, clock),
+        jobs(*store, maps, drafts, events, clock, threads_of(config)),
         front({router, access, files, authenticator, idempotency, metrics, workers, heavy, bulk, passwords, clock}) {
     driving.when_arrived([this](const db::Drive& drive) { jobs.add_drive(drive); });
     add_account_routes(router, authenticator, *store);
     add_user_routes(router, authenticator, *store, clock);
     add_tour_routes(router, tours, *store);
     add_map_routes(router, maps, jobs, *store);
+    add_draft_routes(router, drafts, jobs, *store);
     add_job_routes(router, jobs);
     add_robot_routes(router, driving, authenticator, *store);
     add_socket_routes(router, driving, events, [this] { return snapshot(); });
@@ -127,8 +130,11 @@ struct App::Parts {
       // Finished ones from long ago are history, and drives that taught nothing are no news.
       std::vector<wire::JobView> shown;
       for (const wire::JobView& job : *all) {
-        const bool no_news =
+        // ... nor are checks of drafts, which say themselves what was found.
+        const bool learnt_nothing =
             job.kind == wire::JobKind::kRefine && job.state == wire::JobState::kDone && job.notes.empty();
+        const bool under_way = job.state == wire::JobState::kQueued || job.state == wire::JobState::kRunning;
+        const bool no_news = learnt_nothing || (job.kind == wire::JobKind::kCheck && !under_way);
         if (!no_news) shown.push_back(job);
       }
       const std::size_t first = shown.size() > 50 ? shown.size() - 50 : 0;
@@ -205,6 +211,7 @@ struct App::Parts {
   TourService tours;
   MapService maps;
   Driving driving;
+  DraftService drafts;
   BuildJobs jobs;
   Router router;
   AppFront front;

@@ -79,6 +79,17 @@ class SqliteStore final : public Store {
   Result<MapRecord> import_map(MapRecord map, std::string bytes) override;
   Status remove_map(const MapId& id) override;
 
+  // --- Drafts ---
+  Result<DraftRecord> add_draft(DraftRecord draft) override;
+  Result<std::vector<DraftRecord>> drafts(const MapId& map) override;
+  Result<DraftRecord> draft(const MapId& map, const wire::DraftId& id) override;
+  Result<DraftRecord> save_draft_edits(const wire::DraftId& id, const std::vector<map::Edit>& edits,
+                                       std::int64_t expected_version) override;
+  Status set_draft_check(const wire::DraftId& id, const wire::DraftCheck& check) override;
+  Status keep_draft_findings(const wire::DraftId& id, const JobId& job, const std::string& findings) override;
+  Result<std::optional<std::string>> draft_findings(const wire::DraftId& id) override;
+  Status remove_draft(const wire::DraftId& id) override;
+
   // --- What drives saw ---
   Status add_drive(const Drive& drive) override;
   Result<std::vector<MissionId>> drives(const MapId& map) override;

@@ -55,6 +55,7 @@ wire::JobView job_of(SQLite::Statement& row) {
   job.taken = integer(row, 13) != 0;
   job.tours = ids_of<TourId>(text(row, 14));
   job.drives = ids_of<MissionId>(text(row, 15));
+  job.draft = wire::DraftId(text(row, 16));
   return job;
 }
 
@@ -86,10 +87,10 @@ Result<wire::JobView> SqliteStore::add_job(wire::JobView job) {
     }
     if (job.id.empty()) job.id = JobId(random_id());
     const ErrorColumns error = error_columns(job);
-    execute(database, "INSERT INTO jobs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", job.id,
+    execute(database, "INSERT INTO jobs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", job.id,
             std::string(wire::kJobKindNames.name(job.kind)), job.map, std::string(wire::job_state_name(job.state)),
             job.stage, job.share, error.code, error.message, error.where, job.created_us, job.skipped, notes_text(job),
-            job.gained, job.taken, ids_text(job.tours), ids_text(job.drives));
+            job.gained, job.taken, ids_text(job.tours), ids_text(job.drives), job.draft);
     return job;
   });
 }

@@ -178,6 +178,7 @@ Result<MapRecord> SqliteStore::save_map_contents(const MapId& id, const map::Top
     insert_tours(database, id, along.new_tours, before->record.tours.size());
     forget_drives(database, along.used_drives);
     if (along.job) write_job(database, *along.job);
+    if (along.draft) execute(database, "DELETE FROM drafts WHERE id = ?", *along.draft);
   });
   if (!switched) {
     forget_file_after(switched.error(), file);

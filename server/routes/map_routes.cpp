@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/routes/map_routes.hpp"
 
+#include <array>
 #include <set>
 
 #include "map/lookup.hpp"
@@ -9,6 +10,7 @@
 #include "server/routes/route_answer.hpp"
 #include "wire/graph_json.hpp"
 #include "wire/json_write.hpp"
+#include "wire/pair_json.hpp"
 
 namespace homeward::server {
 namespace {
@@ -183,6 +185,24 @@ Response export_map(db::Store& store, const Request& request) {
   return response;
 }
 
+Response pair(MapService& maps, const Request& request) {
+  std::array<ImageId, 2> images;
+  std::size_t at = 0;
+  for (const char* name : {"image_a", "image_b"}) {
+    const auto given = request.query.find(name);
+    if (given == request.query.end() || given->second.empty()) {
+      return problem(
+          {ErrorCode::kInvalidInput, std::string("Name a picture as ") + name + ".", "query/" + std::string(name)});
+    }
+    images.at(at++) = ImageId(given->second);
+  }
+  const auto found = maps.pair(map_in(request), images[0], images[1]);
+  if (!found) return problem_of(found);
+  Response response = json_response(200, wire::pair_to_json(*found));
+  response.headers["cache-control"] = "private, max-age=3600";
+  return response;
+}
+
 Response import_map(MapService& maps, Request& request) {
   const auto name = request.query.find("name");
   const std::string text = name == request.query.end() || name->second.empty() ? "imported map" : name->second;
@@ -221,6 +241,7 @@ void add_map_routes(Router& router, MapService& maps, BuildJobs& jobs, db::Store
   router.add({operation("undo_edit"), [m](Request& request) { return go(*m, &MapService::undo, request); }});
   router.add({operation("redo_edit"), [m](Request& request) { return go(*m, &MapService::redo, request); }});
   router.add({operation("export_map"), [db](Request& request) { return export_map(*db, request); }});
+  router.add({operation("get_pair"), [m](Request& request) { return pair(*m, request); }});
   router.add({operation("import_map"), [m](Request& request) { return import_map(*m, request); }});
   router.add({operation("get_route"), [m](Request& request) { return answer_route(*m, map_in(request), request); }});
   router.add({operation("localise"), [m](Request& request) {

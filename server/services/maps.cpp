@@ -11,6 +11,7 @@
 #include "mapping/common_features.hpp"
 #include "mapping/edit_log.hpp"
 #include "pipeline/belief_tracker.hpp"
+#include "pipeline/picture_pair.hpp"
 #include "server/services/belief_view.hpp"
 #include "server/services/map_pictures.hpp"
 
@@ -155,6 +156,49 @@ Result<db::MapRecord> MapService::keep_learnt(const MapId& id, const map::Topolo
   auto saved = store_.save_map_contents(id, contents, thumbnails, revision, along);
   if (saved) tell(*saved);
   return saved;
+}
+
+Result<std::int64_t> MapService::publish(const MapId& id, const wire::DraftId& draft,
+                                         const std::vector<map::Edit>& edits) {
+  const std::scoped_lock changing(changing_);
+  const auto loaded = load(id);
+  if (!loaded) return pass_on(loaded);
+  auto changed = std::make_shared<db::StoredMap>(**loaded);
+  MapPictures pictures(store_, (*loaded)->map);
+  const std::int64_t one_change = mapping::next_change(changed->map);
+  for (map::Edit edit : edits) {
+    if (edit.undone || !edit.lost.empty()) continue;
+    edit.change = one_change;
+    const auto look = [&](const ImageId& image) { return pictures.look_at(image); };
+    if (const Status status = mapping::apply_edit(changed->map, edit, look); !status) return pass_on(status);
+  }
+  db::AlongWithContents along;
+  along.draft = draft;
+  changed->map.revision = (*loaded)->map.revision + 1;
+  const auto saved = store_.save_map_contents(id, changed->map, changed->thumbnails, (*loaded)->map.revision, along);
+  if (!saved) return pass_on(saved);
+  cache_.keep_changed(id, changed, *loaded);
+  tell(*saved);
+  return saved->revision;
+}
+
+Result<map::PicturePair> MapService::pair(const MapId& id, const ImageId& a, const ImageId& b) {
+  const auto loaded = load(id);
+  if (!loaded) return pass_on(loaded);
+  const map::TopologicalMap& map = (*loaded)->map;
+  MapPictures pictures(store_, map);
+  const auto seen = [&](const ImageId& image) -> Result<features::Appearance> {
+    auto looked = pictures.look_at(image);
+    if (looked || looked.error().code != ErrorCode::kNotFound) return looked;
+    const auto place = std::ranges::find(map.places, image, &map::Place::prototype);
+    if (place == map.places.end() || place->appearances.empty()) return looked;
+    return place->appearances.front();
+  };
+  const auto seen_a = seen(a);
+  if (!seen_a) return pass_on(seen_a);
+  const auto seen_b = seen(b);
+  if (!seen_b) return pass_on(seen_b);
+  return pipeline::picture_pair(map, {a, *seen_a}, {b, *seen_b});
 }
 
 Result<std::vector<std::uint8_t>> MapService::thumbnail(const MapId& id, const ImageId& image) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "db/store.hpp"
+#include "map/picture_pair.hpp"
 #include "server/services/map_cache.hpp"
 #include "server/time/clock.hpp"
 #include "server/ws/event_hub.hpp"
@@ -46,8 +47,14 @@ class MapService {
   Result<std::int64_t> undo(const MapId& id, std::int64_t revision);
   /// Applies again what undo() took back last. Errors: kStaleRevision, those of mapping::redo_change.
   Result<std::int64_t> redo(const MapId& id, std::int64_t revision);
+  /// Makes a draft the next revision: applies its edits that stand and were not lost as one change, and the draft is
+  /// gone, in one step. Errors: those of mapping::apply_edit.
+  Result<std::int64_t> publish(const MapId& id, const wire::DraftId& draft, const std::vector<map::Edit>& edits);
   /// A small picture of an image of the map. Errors: kNotFound.
   Result<std::vector<std::uint8_t>> thumbnail(const MapId& id, const ImageId& image);
+  /// What two pictures of the map have in common. Errors: kNotFound (not of the map, or not kept and no prototype),
+  /// those of imageio::decode.
+  Result<map::PicturePair> pair(const MapId& id, const ImageId& a, const ImageId& b);
   /// Where a single picture was taken, from a uniform start.
   Result<wire::BeliefView> localise(const MapId& id, std::span<const std::uint8_t> picture);
   Result<db::MapRecord> import(const std::string& name, std::string file);

@@ -22,8 +22,9 @@ constexpr std::chrono::milliseconds kTellEvery{250};
 
 }  // namespace
 
-BuildJobs::BuildJobs(db::Store& store, MapService& maps, EventHub& events, const Clock& clock, int threads)
-    : store_(store), maps_(maps), events_(events), clock_(clock), threads_(threads) {
+BuildJobs::BuildJobs(db::Store& store, MapService& maps, DraftService& drafts, EventHub& events, const Clock& clock,
+                     int threads)
+    : store_(store), maps_(maps), drafts_(drafts), events_(events), clock_(clock), threads_(threads) {
   if (const auto unfinished = store_.unfinished_jobs()) {
     queue_.assign(unfinished->begin(), unfinished->end());
   } else {
@@ -135,8 +136,8 @@ Result<wire::JobView> BuildJobs::queue_locked(wire::JobView job) {
 
 bool BuildJobs::building(const MapId& map) {
   const std::scoped_lock lock(mutex_);
-  if (running_ && running_->map == map) return true;
-  return std::any_of(queue_.begin(), queue_.end(), [&](const wire::JobView& job) { return job.map == map; });
+  const auto changes = [&](const wire::JobView& job) { return job.map == map && job.kind != wire::JobKind::kCheck; };
+  return (running_ && changes(*running_)) || std::any_of(queue_.begin(), queue_.end(), changes);
 }
 
 Result<wire::JobView> BuildJobs::get(const JobId& id) {
@@ -215,7 +216,18 @@ void BuildJobs::run(wire::JobView job, const std::stop_token& stop) {
   tell(job);
   Result<wire::JobState> result = fail(ErrorCode::kInternal, "The job did not run.", "jobs/" + job.id.str());
   try {
-    result = job.kind == wire::JobKind::kBuild ? build(job, stop) : learn(job, stop);
+    switch (job.kind) {
+      case wire::JobKind::kBuild:
+        result = build(job, stop);
+        break;
+      case wire::JobKind::kCheck:
+        result = check(job, stop);
+        break;
+      case wire::JobKind::kAdd:
+      case wire::JobKind::kRefine:
+        result = learn(job, stop);
+        break;
+    }
   } catch (const std::exception& exception) {
     result = fail(ErrorCode::kInternal, std::string("The job failed: ") + exception.what(), "jobs/" + job.id.str());
   }

@@ -10,19 +10,21 @@
 
 #include "db/store.hpp"
 #include "pipeline/build_map.hpp"
+#include "server/services/drafts.hpp"
 #include "server/services/maps.hpp"
 #include "server/time/clock.hpp"
 #include "server/ws/event_hub.hpp"
 
 namespace homeward::server {
 
-/// Builds maps and lets them learn, one job at a time, on a thread of its own (which uses several for the pictures).
-/// What was queued or running when the server ended is begun again at its next start. A job `refine` without tours
-/// learns from what drives saw: it works out what the map would gain and offers that, or keeps it at once where the map
-/// is set so. There is one of them for each map; a new drive sets it to work again.
+/// Builds maps, lets them learn and tries drafts of them, one job at a time, on a thread of its own (which uses several
+/// for the pictures). What was queued or running when the server ended is begun again at its next start. A job `refine`
+/// without tours learns from what drives saw: it works out what the map would gain and offers that, or keeps it at once
+/// where the map is set so. There is one of them for each map; a new drive sets it to work again.
 class BuildJobs {
  public:
-  BuildJobs(db::Store& store, MapService& maps, EventHub& events, const Clock& clock, int threads);
+  BuildJobs(db::Store& store, MapService& maps, DraftService& drafts, EventHub& events, const Clock& clock,
+            int threads);
   /// Ends the running build; its job stays unfinished and is taken up at the next start.
   ~BuildJobs();
   BuildJobs(const BuildJobs&) = delete;
@@ -39,6 +41,9 @@ class BuildJobs {
   /// `kind`: kAdd or kRefine, by tours. Errors: kNotFound (map or tour), kConflict (not built yet, a job of the map
   /// is under way, a tour is not complete or in the map already, or the cameras differ), kOverloaded.
   Result<wire::JobView> learn_from(const MapId& map, wire::JobKind kind, const std::vector<TourId>& tours);
+  /// Tries a draft on the tours of its map. Errors: kNotFound, kConflict (the same is under way, or no tour of the map
+  /// is kept), kOverloaded.
+  Result<wire::JobView> check_draft(const MapId& map, const wire::DraftId& draft);
   /// Keeps what a mission saw, unless the map is set not to learn by itself, and sets its job to work.
   void add_drive(const db::Drive& drive);
   /// The map is to have what the job offers. Errors: kNotFound, kConflict (it offers nothing), kOverloaded.
@@ -48,6 +53,7 @@ class BuildJobs {
   /// An offer is discarded. Errors: kNotFound, kConflict (it has ended).
   Result<wire::JobView> cancel(const JobId& id);
   Result<wire::JobView> get(const JobId& id);
+  /// Whether a job that changes the map waits or runs.
   [[nodiscard]] bool building(const MapId& map);
   /// Returns once no job waits or runs.
   void work_off();
@@ -57,6 +63,7 @@ class BuildJobs {
   void run(wire::JobView job, const std::stop_token& stop);
   Result<wire::JobState> build(wire::JobView& job, const std::stop_token& stop);
   Result<wire::JobState> learn(wire::JobView& job, const std::stop_token& stop);
+  Result<wire::JobState> check(wire::JobView& job, const std::stop_token& stop);
   // One attempt each; the map may have changed meanwhile (kStaleRevision).
   Result<wire::JobState> add_tours(wire::JobView& job, const std::stop_token& stop);
   Result<wire::JobState> refine_by_tours(wire::JobView& job, const std::stop_token& stop);
@@ -80,6 +87,7 @@ class BuildJobs {
 
   db::Store& store_;
   MapService& maps_;
+  DraftService& drafts_;
   EventHub& events_;
   const Clock& clock_;
   int threads_;

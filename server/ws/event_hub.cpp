@@ -15,6 +15,9 @@ std::string key_of(const wire::Event& event) {
     std::string operator()(const wire::JobView& job) const { return "job/" + job.id.str(); }
     std::string operator()(const wire::MapInfoView& map) const { return "map/" + map.id.str(); }
     std::string operator()(const wire::MissionView& mission) const { return "mission/" + mission.id.str(); }
+    // One key, so that a draft that goes is told last.
+    std::string operator()(const wire::DraftView& draft) const { return "draft/" + draft.id.str(); }
+    std::string operator()(const wire::DraftGone& gone) const { return "draft/" + gone.draft.str(); }
     std::string operator()(const wire::Heartbeat&) const { return "heartbeat"; }
   };
   return std::visit(Key{}, event);

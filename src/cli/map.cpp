@@ -14,6 +14,7 @@ void register_map(CLI::App& program) {
   register_map_edit(*map);
   register_map_diff(*map);
   register_map_check(*map);
+  register_map_doubts(*map);
   register_map_export(*map);
   register_map_refine(*map);
   register_map_shortcuts(*map);

@@ -2,6 +2,7 @@
 #include "wire/edit_json.hpp"
 
 #include <array>
+#include <limits>
 
 #include "map/lookup.hpp"
 #include "map/pictograms.hpp"
@@ -269,6 +270,30 @@ json logged_edit_to_json(const map::Edit& edit) {
           {"change", edit.change},
           {"redoable", edit.redoable},
           {"lost", edit.lost.empty() ? json(nullptr) : json(edit.lost)}};
+}
+
+Result<map::Edit> logged_edit_from_json(const json& value, const std::string& path) {
+  ObjectReader reader(value, path);
+  map::Edit edit;
+  edit.kind = read_kind(reader);
+  edit.image_a = ImageId(reader.text("image_a", 600));
+  edit.image_b = ImageId(reader.optional_text("image_b").value_or(""));
+  edit.text = reader.text("text");
+  for (const json& image : reader.array("images")) {
+    if (!image.is_string()) {
+      reader.problem("images", "'images' must list ids of images.");
+      break;
+    }
+    edit.images.emplace_back(image.get<std::string>());
+  }
+  edit.by = reader.text("by");
+  edit.t_us = reader.integer("t_us", 0, std::numeric_limits<std::int64_t>::max());
+  edit.undone = reader.boolean("undone");
+  edit.change = reader.integer("change", 1, std::numeric_limits<std::int64_t>::max());
+  edit.redoable = reader.boolean("redoable");
+  edit.lost = reader.optional_text("lost").value_or("");
+  if (const Status status = reader.finish(); !status) return pass_on(status);
+  return edit;
 }
 
 }  // namespace homeward::wire

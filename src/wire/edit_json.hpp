@@ -45,7 +45,11 @@ nlohmann::json edits_to_json(const std::vector<EditRequest>& edits);
 Result<map::Edit> edit_for_map(const EditRequest& request, const map::TopologicalMap& map, const std::string& by,
                                TimeUs t_us);
 
-/// An entry of a map's log: {kind, image_a, image_b, text, images, by, t_us, undone, change, redoable, lost}.
+/// An entry of the log of a map or of a draft: {kind, image_a, image_b, text, images, by, t_us, undone, change,
+/// redoable, lost}.
 nlohmann::json logged_edit_to_json(const map::Edit& edit);
+
+/// Reads what logged_edit_to_json wrote (proto/schemas/logged_edit.schema.json). Errors: kInvalidInput.
+Result<map::Edit> logged_edit_from_json(const nlohmann::json& value, const std::string& path);
 
 }  // namespace homeward::wire

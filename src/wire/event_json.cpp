@@ -24,6 +24,10 @@ json body(const RobotView& robot) { return {{"type", "robot"}, {"robot", robot_t
 json body(const JobView& job) { return {{"type", "job"}, {"job", job_to_json(job)}}; }
 json body(const MapInfoView& map) { return {{"type", "map"}, {"map", map_info_to_json(map)}}; }
 json body(const MissionView& mission) { return {{"type", "mission"}, {"mission", mission_to_json(mission)}}; }
+json body(const DraftView& draft) { return {{"type", "draft"}, {"draft", draft_to_json(draft)}}; }
+json body(const DraftGone& gone) {
+  return {{"type", "draft_gone"}, {"map", gone.map.str()}, {"draft", gone.draft.str()}};
+}
 json body(const Heartbeat&) { return {{"type", "heartbeat"}}; }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "wire/draft_json.hpp"
 #include "wire/job_json.hpp"
 #include "wire/map_info_json.hpp"
 #include "wire/mission_json.hpp"
@@ -16,7 +17,7 @@ namespace homeward::wire {
 
 inline constexpr int kEventVersion = 1;
 
-/// The first message to every dashboard: everything there is.
+/// The first message to every dashboard: everything there is, but for drafts, which those ask for who look at a map.
 struct Snapshot {
   std::string build;  // of the server, so that a page made for another one can reload itself
   std::vector<RobotView> robots;
@@ -27,7 +28,7 @@ struct Snapshot {
 /// Says that the server lives, where nothing else is to be said.
 struct Heartbeat {};
 
-using Event = std::variant<Snapshot, RobotView, JobView, MapInfoView, MissionView, Heartbeat>;
+using Event = std::variant<Snapshot, RobotView, JobView, MapInfoView, MissionView, DraftView, DraftGone, Heartbeat>;
 
 /// One message to dashboards (proto/schemas/event.schema.json): {type, v, seq, ...}. `seq` rises by one with each
 /// message of a running server.

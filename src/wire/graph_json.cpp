@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/graph_json.hpp"
 
-#include <charconv>
-
+#include "map/place_names.hpp"
+#include "wire/entity_tag.hpp"
 #include "wire/inspect_json.hpp"
 #include "wire/json_write.hpp"
 
@@ -11,9 +11,10 @@ namespace {
 
 using nlohmann::json;
 
-json place_to_json(const map::Place& place, const Eigen::Vector2d& position) {
+json place_to_json(const map::Place& place, const std::string& name, const Eigen::Vector2d& position) {
   return {{"id", place.id.str()},
           {"label", place.label},
+          {"name", name},
           {"prototype", place.prototype.str()},
           {"members", ids_to_json(place.members)},
           {"features", place.appearances.empty() ? 0 : place.appearances.front().size()},
@@ -39,8 +40,9 @@ json graph_to_json(const map::TopologicalMap& map, const MapId& id, const std::v
                 {"edges", json::array()},
                 {"destinations", json::array()},
                 {"hypotheses", json::array()}};
+  const std::vector<std::string> names = map::place_names(map);
   for (std::size_t i = 0; i < map.places.size(); ++i) {
-    value["places"].push_back(place_to_json(map.places[i], layout.at(i)));
+    value["places"].push_back(place_to_json(map.places[i], names[i], layout.at(i)));
   }
   for (const map::Edge& edge : map.edges) value["edges"].push_back(edge_of_graph(edge));
   for (const map::Destination& destination : map.destinations) {
@@ -55,18 +57,10 @@ json graph_to_json(const map::TopologicalMap& map, const MapId& id, const std::v
   return value;
 }
 
-std::string revision_tag(std::int64_t revision) { return "\"r" + std::to_string(revision) + "\""; }
+std::string revision_tag(std::int64_t revision) { return entity_tag('r', revision); }
 
 Result<std::int64_t> revision_from_tag(const std::string& tag) {
-  std::string_view text = tag;
-  if (text.starts_with("W/")) text.remove_prefix(2);  // of an answer that was compressed; the number alone decides
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-  std::int64_t revision = 0;
-  const bool starts = text.size() > 1 && text.front() == 'r';
-  if (starts) {
-    const auto [end, problem] = std::from_chars(text.data() + 1, text.data() + text.size(), revision);
-    if (problem == std::errc{} && end == text.data() + text.size() && revision >= 0) return revision;
-  }
+  if (const auto revision = number_in_tag('r', tag)) return *revision;
   return fail(ErrorCode::kInvalidInput, "If-Match must name a revision of the map, such as \"r12\".", "If-Match");
 }
 

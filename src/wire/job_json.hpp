@@ -12,6 +12,7 @@
 #include "core/ids.hpp"
 #include "core/result.hpp"
 #include "core/time.hpp"
+#include "wire/draft_json.hpp"
 #include "wire/reason.hpp"
 
 namespace homeward::wire {
@@ -23,10 +24,11 @@ enum class JobState { kQueued, kRunning, kOffered, kDone, kFailed, kCancelled };
 std::string_view job_state_name(JobState state);
 std::optional<JobState> job_state(std::string_view name);
 
-/// What a job does with a map: build it from its tours, add tours to it, or give its places new appearances.
-enum class JobKind { kBuild, kAdd, kRefine };
+/// What a job does with a map: build it from its tours, add tours to it, give its places new appearances, or try a
+/// draft of it on its tours.
+enum class JobKind { kBuild, kAdd, kRefine, kCheck };
 
-inline constexpr EnumNames<JobKind, 3> kJobKindNames({"build", "add", "refine"});
+inline constexpr EnumNames<JobKind, 4> kJobKindNames({"build", "add", "refine", "check"});
 
 /// Work that the server does in the background (proto/schemas/job.schema.json).
 struct JobView {
@@ -45,6 +47,7 @@ struct JobView {
   bool taken = false;                  // what it offers is wanted
   std::vector<TourId> tours = {};      // that it adds or refines by
   std::vector<MissionId> drives = {};  // that its offer comes from
+  DraftId draft = {};                  // that it tries
 };
 
 nlohmann::json job_to_json(const JobView& job);

@@ -9,12 +9,15 @@
 #include "support/sample_map.hpp"
 #include "wire/build_json.hpp"
 #include "wire/difference_json.hpp"
+#include "wire/edit_json.hpp"
 #include "wire/error_table.hpp"
 #include "wire/event_json.hpp"
 #include "wire/graph_export.hpp"
 #include "wire/graph_json.hpp"
 #include "wire/inspect_json.hpp"
+#include "wire/pair_json.hpp"
 #include "wire/problem_json.hpp"
+#include "wire/replay_check_json.hpp"
 #include "wire/route_json.hpp"
 #include "wire/tour_json.hpp"
 
@@ -104,10 +107,63 @@ TEST(Encoders, TellWhatIsOtherInALaterStateOfAMap) {
   EXPECT_THAT(schemas().problems("difference", difference_to_json(map::difference(after, sample_map()))), IsEmpty());
 }
 
+TEST(Encoders, TellOfDrafts) {
+  DraftView draft;
+  draft.id = DraftId("d1");
+  draft.map = MapId("house");
+  draft.by = "anna";
+  draft.version = 3;
+  draft.revision = 4;
+  EXPECT_THAT(schemas().problems("draft", draft_to_json(draft)), IsEmpty());
+  map::Edit edit;
+  edit.image_a = ImageId("tour/00001.jpg");
+  edit.change = 1;
+  edit.lost = "There is no such picture.";
+  draft.edits = {edit};
+  draft.touches = {PlaceId("p1")};
+  draft.overlaps = {{DraftId("d2"), "ben", "stairs", {PlaceId("p1")}}};
+  draft.check = DraftCheck{JobId("j1"), 2};
+  EXPECT_THAT(schemas().problems("draft", draft_to_json(draft)), IsEmpty());
+  EXPECT_THAT(schemas().problems("logged_edit", logged_edit_to_json(edit)), IsEmpty());
+  EXPECT_THAT(schemas().problems("event", event_to_json(draft, 5)), IsEmpty());
+  EXPECT_THAT(schemas().problems("event", event_to_json(DraftGone{MapId("house"), DraftId("d1")}, 6)), IsEmpty());
+}
+
+TEST(Encoders, TellWhatAReplayCheckFoundInWordsToo) {
+  const map::TopologicalMap map = sample_map();
+  map::ReplayCheck check;
+  check.pictures = 20;
+  for (std::size_t kind = 0; kind < map::kWorsenings; ++kind) {
+    const PlaceId other = kind < 3 ? PlaceId() : PlaceId("p2");
+    check.worse.push_back({static_cast<map::Worsening>(kind), PlaceId("p1"), other, {ImageId("t/1.jpg")}, 4, 2.5});
+  }
+  json value = replay_check_to_json(check, map, map);
+  EXPECT_EQ(value["worse"][0]["words"], "At p1 it would not know where it is on 1 of 4 pictures.");
+  EXPECT_FALSE(value["harmless"].get<bool>());
+  for (const auto& [key, what] : json::parse(R"({"format":"homeward-replay-check","version":1,"map":"house",
+    "draft":"d1","draft_version":1,"revision":4})")
+                                     .items()) {
+    value[key] = what;
+  }
+  EXPECT_THAT(schemas().problems("replay_check", value), IsEmpty());
+}
+
+TEST(Encoders, TellWhatTwoPicturesHaveInCommon) {
+  map::PicturePair pair;
+  pair.image_a = ImageId("t/1.jpg");
+  pair.image_b = ImageId("t/2.jpg");
+  EXPECT_THAT(schemas().problems("pair", pair_to_json(pair)), IsEmpty());
+  pair.distance = 0.5;
+  pair.turn_rad = -3.14;
+  pair.shift = -0.5;
+  pair.matches = {{{0.0, 1.0}, {1.0, 0.0}, 0.3, true}};
+  EXPECT_THAT(schemas().problems("pair", pair_to_json(pair)), IsEmpty());
+}
+
 TEST(Encoders, TellEverythingOfAMap) {
   const json graph = graph_to_json(sample_map(), MapId("house"), kLayout);
   EXPECT_EQ(graph["revision"], 4);
-  EXPECT_EQ(graph["places"][1], json::parse(R"({"id":"p2","label":"kitchen","prototype":"tour/00002.jpg",
+  EXPECT_EQ(graph["places"][1], json::parse(R"({"id":"p2","label":"kitchen","name":"kitchen","prototype":"tour/00002.jpg",
     "members":["tour/00002.jpg"],"features":20,"x":1.0,"y":0.75})"));
   EXPECT_EQ(graph["edges"][1], json::parse(R"({"from":"p2","to":"p1","bearing_rad":null,"turn_rad":null,"length_m":1.5,
     "length_from":"unknown","confidence":0.1,"inliers":0,"weak":true,"blocked":true,"shortcut":false,"by":"person"})"));

@@ -32,7 +32,8 @@ TEST(BuildJobs, StandBackBehindThoseWhoDrive) {
   const SystemClock clock;
   MapService maps(**store, events, clock);
   const int before = threads_of_niceness(10);
-  const BuildJobs jobs(**store, maps, events, clock, 1);
+  DraftService drafts(**store, maps, events, clock);
+  const BuildJobs jobs(**store, maps, drafts, events, clock, 1);
   const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (threads_of_niceness(10) == before && std::chrono::steady_clock::now() < until) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

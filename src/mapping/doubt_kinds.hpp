@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "core/result.hpp"
+#include "map/doubt.hpp"
+#include "mapping/doubt_scene.hpp"
+#include "mapping/doubts.hpp"
+
+namespace homeward::mapping {
+
+/// What there is to know of two places that may be one.
+struct SamePlaceSigns {
+  double distance = std::numeric_limits<double>::infinity();  // D of the two prototypes, in the map's usual distances
+  double match_share = 0.0;                                   // of their features that they have in common
+  double confidence = 0.0;                                    // that what they have in common is no chance
+  std::optional<double> support;                              // of the hypothesis, where there is one
+  std::optional<double> plausibility;
+  std::optional<double> apart_m;   // by the layout
+  double common_neighbours = 0.0;  // share of the ways of the one with fewer that lead to the same places
+  bool joined = false;             // a way leads from one to the other
+};
+
+/// That they are one place.
+double probability_of_one_place(const SamePlaceSigns& signs);
+
+/// What there is to know of the visits to a place that another visit's pictures stand for.
+struct MixedPlaceSigns {
+  double seen = 0.0;              // surest sight from the prototype to where the tour came from or went on to
+  std::optional<double> apart_m;  // from the prototype, by the layout
+  double unlike = 0.0;            // share of its appearances that look like none of the prototype's
+  int pictures = 0;
+};
+
+/// That these pictures show another place than the prototype does.
+double probability_of_two_places(const MixedPlaceSigns& signs);
+
+struct WaySigns {
+  bool driven = false;
+  double confidence = 0.0;
+  int inliers = 0;
+  double length_m = 0.0;
+  std::optional<double> apart_m;  // its ends, by the layout
+};
+
+/// That there is no such way.
+double probability_of_no_way(const WaySigns& signs);
+
+/// How far ways change, 0 to 1: by `change_m` metres.
+double effect_of(double change_m, const DoubtConfig& config);
+
+/// What a person decided about two pictures by editing hypotheses or ways.
+map::Edit edit_of(map::EditKind kind, const ImageId& image_a, const ImageId& image_b, std::string text = {});
+
+// Doubts of one kind, unordered.
+Result<std::vector<map::Doubt>> same_place_doubts(const DoubtScene& scene, const DoubtConfig& config, int threads,
+                                                  const std::stop_token& stop);
+std::vector<map::Doubt> mixed_place_doubts(const DoubtScene& scene, const DoubtConfig& config);
+/// `mixed`: for each place the probability that it is two; a way that only such a place makes wrong is not asked about.
+std::vector<map::Doubt> way_doubts(const DoubtScene& scene, const DoubtConfig& config,
+                                   const std::vector<double>& mixed);
+
+}  // namespace homeward::mapping
