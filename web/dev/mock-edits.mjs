@@ -149,7 +149,10 @@ export function apply(graph, { kind, image_a, image_b, text, images, by }, where
     for (const one of graph.destinations) one.place = id(one.place);
   };
   const steps = {
-    rename: () => (place_of(image_a).label = text),
+    rename: () => {
+      const place = place_of(image_a);
+      Object.assign(place, { label: text, name: text || place.id });
+    },
     merge: () => {
       const [into, gone] = [place_of(image_a), place_of(image_b)];
       if (into === gone) refuse('invalid_input', `Both images are in place ${into.id} already.`);
@@ -162,7 +165,15 @@ export function apply(graph, { kind, image_a, image_b, text, images, by }, where
       leave(place, images);
       const id = `p${1 + Math.max(...graph.places.map((one) => Number(one.id.slice(1))))}`;
       const beside = { x: Math.min(1, place.x + 0.06), y: Math.min(1, place.y + 0.08) };
-      graph.places.push({ ...place, ...beside, id, label: '', members: images, prototype: images[0] });
+      graph.places.push({
+        ...place,
+        ...beside,
+        id,
+        label: '',
+        name: id,
+        members: images,
+        prototype: images[0],
+      });
       for (const one of graph.destinations) if (images.includes(one.image)) one.place = id;
       join(place.id, id);
     },

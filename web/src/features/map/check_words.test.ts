@@ -34,6 +34,7 @@ const said = (spot: Partial<WorseSpot>) =>
       images: ['t/1', 't/2', 't/3'],
       of: 14,
       distance_m: 6.14,
+      words: '',
       ...spot,
     },
     graph,
