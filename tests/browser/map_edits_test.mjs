@@ -208,6 +208,22 @@ const checks = [
     }),
   ],
   [
+    'how well the house is seen: ways that are hard to drive, parts that are not joined, tours',
+    withHouse(async (page, house) => {
+      await at(page, 'p5', 'Kitchen');
+      const card = page.getByRole('region', { name: 'How well the house is seen' });
+      await card.getByText('Tours in this map: 1').click();
+      await card.getByText('26 pictures at 13 places').waitFor();
+      await card.getByText('Ways that are hard to drive: 1').click();
+      const edits = [{ kind: 'remove_edge', from: 'p4', to: 'p5' }];
+      house.steer({ do: 'change', edits, by: 'ben' });
+      await card.getByText('No open way leads to Kitchen.').waitFor();
+      await shoot(page, out, 'coverage');
+      await card.getByRole('button', { name: 'Near the bathroom – Bathroom' }).click();
+      await page.getByRole('heading', { level: 2, name: 'Near the bathroom', exact: true }).waitFor();
+    }),
+  ],
+  [
     'who may only look sees the ways and the pictures, and nothing to change',
     withHouse(
       async (page) => {
@@ -240,6 +256,10 @@ const checks = [
       await chosen(page).getByRole('button', { name: 'Choose in the drawing' }).first().click();
       await page.getByText('Join with another place').scrollIntoViewIfNeeded();
       await see('place-open-2');
+      for (const title of ['Ways that are hard to drive', 'Tours in this map'])
+        await page.locator('summary').filter({ hasText: title }).click();
+      await page.getByText('Tours in this map').scrollIntoViewIfNeeded();
+      await see('coverage');
       await tab(page, 'Go');
       await see('go-signs');
     }),

@@ -14,7 +14,7 @@ function allDoubts(house) {
     if (!place_a || !place_b) return [];
     const apart = place_a !== place_b;
     const decide = (accept) => [{ kind: 'decide', prototype_a: image_a, prototype_b: image_b, accept }];
-    const join = apart ? [{ kind: 'merge', place: place_b, into: place_a }] : [];
+    const effect = apart ? 0.6 - 0.3 * (one.support === 1) : 0.2;
     const probability = decision === 'undecided' ? 0.45 : by === 'person' ? 0.02 : 0.12;
     return {
       kind: 'same_place',
@@ -25,8 +25,8 @@ function allDoubts(house) {
       state: decision,
       by,
       probability,
-      effect: apart ? 0.6 : 0.2,
-      weight: probability * (apart ? 0.6 : 0.2),
+      effect,
+      weight: probability * effect,
       masses_before: one.masses_before,
       masses_after: one.masses_after,
       support: one.support,
@@ -36,7 +36,7 @@ function allDoubts(house) {
         { place_a: 'p1', place_b: 'p7', for: false, weight: 0.7 },
       ],
       reasons: [{ code: 'text', parameters: { text: 'The two pictures have much in common' } }],
-      if_yes: decision === 'accepted' ? [] : apart ? [...join, ...decide(true)].slice(0, 1) : decide(true),
+      if_yes: decision === 'accepted' ? [] : decide(true),
       if_no: decision === 'rejected' ? [] : decide(false),
     };
   });

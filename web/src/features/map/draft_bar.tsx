@@ -70,7 +70,6 @@ export function DraftBar({ map, before, after, draft, mayEdit, onChoose }: Props
           this draft.
         </Notice>
       )}
-      <DraftCheck draft={draft} before={before} after={after} mayEdit={mayEdit} onChoose={onChoose} />
       {problem && <Notice tone="bad">{problem.message}</Notice>}
       <div class="row">
         <button type="button" class="button" onClick={() => leave(null)}>
@@ -105,6 +104,7 @@ export function DraftBar({ map, before, after, draft, mayEdit, onChoose }: Props
           </>
         )}
       </div>
+      <DraftCheck draft={draft} before={before} after={after} mayEdit={mayEdit} onChoose={onChoose} />
     </section>
   );
 }

@@ -9,10 +9,11 @@ import { useCommand } from '../../lib/command';
 import { concernedPictures } from './concerned';
 import type { OutcomeOf } from './outcome';
 
-/** What is done once a change was made: the place to show then, where the old one may be gone. */
+/** What is done once a change was made. */
 export interface After {
-  choose: string | null;
-  told_in?: string; // the part in which it is said then; without it, beside the place
+  choose?: string | null; // the place to show then, where the old one may be gone
+  told_in?: string; // the part in which it is said then; without it, beside the place to show
+  then?: () => void;
 }
 
 /** What the parts of the map page need to change the map, or the draft that is open. */
@@ -65,8 +66,10 @@ export function useEditor(
         if (asProblem(thrown).code === 'stale_revision') await loadAgain(map, draft);
         throw thrown;
       }
-      setLatest({ part: after ? (after.told_in ?? kPlacePart) : part, done: said, edits });
-      if (after) onChoose(after.choose);
+      const told_in = after?.told_in ?? (after?.choose === undefined ? part : kPlacePart);
+      setLatest({ part: told_in, done: said, edits });
+      if (after?.choose !== undefined) onChoose(after.choose);
+      after?.then?.();
       if (!draft) wantGraph(map, true);
     });
   };

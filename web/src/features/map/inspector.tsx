@@ -2,12 +2,14 @@
 import { useEffect, useRef } from 'preact/hooks';
 import type { Draft, Place } from '../../api/types';
 import { Notice } from '../../components/notice';
+import { follow } from '../../lib/router';
 import { placeTitle } from '../../lib/whereabouts';
 import { AddWay } from './add_way';
 import { AddDestination, DestinationsHere } from './destinations_here';
 import { draftTitle } from './draft_words';
 import { kPlacePart, type Editor } from './editor';
 import { JoinPlace } from './join_place';
+import { mapAddress, pathOf } from './map_address';
 import { Outcome } from './outcome';
 import { PlacePictures } from './place_pictures';
 import { RemovePlace } from './remove_place';
@@ -67,6 +69,14 @@ export function Inspector({ editor, place, others, onChoose, onGo }: Props) {
         </div>
       )}
       <Shortcuts editor={editor} place={place.id} />
+      <p>
+        <a
+          href={pathOf({ ...mapAddress.value, map: graph.map, page: 'evidence', place: place.id })}
+          onClick={follow}
+        >
+          What may be wrong at this place
+        </a>
+      </p>
     </section>
   );
 }

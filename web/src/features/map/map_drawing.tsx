@@ -13,6 +13,7 @@ import { count } from '../../lib/words';
 import { send } from '../go/driving';
 import { hindrance, isActive } from '../go/journey';
 import { DriveNews } from '../tours/drive_news';
+import { CoverageCard } from './coverage_card';
 import { DifferenceList, ToneLegend } from './difference_list';
 import { marksOf } from './difference_marks';
 import { DraftBar } from './draft_bar';
@@ -124,6 +125,7 @@ export function MapDrawing({ map, graph, open, mayEdit }: Props) {
       )}
       {open ? <MapHistory editor={editor} /> : <DraftsCard map={map} graph={graph} mayEdit={mayEdit} />}
       <Shortcuts editor={editor} place={null} />
+      <CoverageCard graph={graph} onChoose={choose} />
       <LookAlikes graph={graph} />
       {!open && (
         <>

@@ -9,8 +9,10 @@ import { Notice, Waiting } from '../../components/notice';
 import { chosenMap, maps } from '../../lib/chosen';
 import { useLoaded } from '../../lib/loaded';
 import { atLeast } from '../../lib/roles';
-import { mapAddress, show } from './map_address';
-import { MapDrawing } from './map_drawing';
+import { follow } from '../../lib/router';
+import { EvidencePage } from './evidence_page';
+import { mapAddress, pathOf, show } from './map_address';
+import { MapDrawing, type OpenDraft } from './map_drawing';
 
 const kVersions = 1e6; // of a draft at most, on one revision of its map
 
@@ -80,7 +82,7 @@ function MapOrDraft({ map, graph, mayEdit }: OfMap) {
           </div>
         </Notice>
       )}
-      <MapDrawing map={map} graph={graph} open={null} mayEdit={mayEdit} />
+      <Shown map={map} graph={graph} open={null} mayEdit={mayEdit} />
     </>
   );
 }
@@ -92,9 +94,37 @@ function WithDraft({ map, graph, mayEdit, draft }: OfMap & { draft: Draft }) {
   return (
     <Loading of={made} what="The draft">
       {(after) => (
-        <MapDrawing map={map} graph={after} open={{ draft, before: graph, difference }} mayEdit={mayEdit} />
+        <Shown map={map} graph={after} open={{ draft, before: graph, difference }} mayEdit={mayEdit} />
       )}
     </Loading>
+  );
+}
+
+const kPages = [
+  ['drawing', 'Places'],
+  ['evidence', 'Evidence'],
+] as const;
+
+/** The page that the address names, with the way to the other ones. */
+function Shown(props: OfMap & { open: OpenDraft | null }) {
+  const address = mapAddress.value;
+  const Page = address.page === 'evidence' ? EvidencePage : MapDrawing;
+  return (
+    <>
+      <nav class="segments map-parts" aria-label="Of this map">
+        {kPages.map(([page, words]) => (
+          <a
+            key={page}
+            href={pathOf({ ...address, map: props.map.id, page, place: null })}
+            aria-current={page === address.page ? 'page' : undefined}
+            onClick={follow}
+          >
+            {words}
+          </a>
+        ))}
+      </nav>
+      <Page {...props} />
+    </>
   );
 }
 
