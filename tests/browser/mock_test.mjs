@@ -3,52 +3,18 @@
 // Usage: node tests/browser/mock_test.mjs [FOLDER FOR SCREENSHOTS [WORDS]]     after web/build.sh; WORDS: only checks that
 // have them in their name
 import assert from 'node:assert/strict';
-import { existsSync, mkdtempSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
 import { largeGraph } from '../../web/dev/mock-large.mjs';
-import { startMock, kCamera } from '../../web/dev/mock-server.mjs';
-import {
-  findings,
-  kPhone,
-  kWide,
-  launch,
-  openPage,
-  runChecks,
-  shoot,
-  signIn,
-  sticksOut,
-} from './browser.mjs';
+import { kCamera } from '../../web/dev/mock-server.mjs';
+import { findings, kPhone, kWide, openPage, runChecks, shoot, signIn, sticksOut } from './browser.mjs';
+import { inEveryLook, pretendedHouses, screenshotFolder, tab } from './house.mjs';
 
-const dist = fileURLToPath(new URL('../../web/dist', import.meta.url));
-if (!existsSync(join(dist, 'index.html')))
-  throw new Error(`there is no dashboard in ${dist}; build it with web/build.sh`);
-const out = process.argv[2] ?? mkdtempSync(join(tmpdir(), 'homeward-screens-'));
-
-const browser = await launch();
-const kPatienceMs = 30_000; // beside tests that take the processor from this one
-
-/** Runs `check` with a house and a page of its own; fails on exceptions in the page and on blocked content. */
-function withHouse(check, { name = 'anna', fresh = false, ...look } = {}) {
-  return async () => {
-    const mock = await startMock({ port: 0, dist, step_ms: 150, fresh });
-    const page = await openPage(browser, { base: mock.url, ...look });
-    page.setDefaultTimeout(kPatienceMs);
-    try {
-      if (name) await signIn(page, name, 'homeward');
-      await check(page, mock.house, mock);
-      assert.deepEqual(page.complaints, [], 'the page complained');
-    } finally {
-      await page.context().close();
-      mock.close();
-    }
-  };
-}
+const out = screenshotFolder();
+const { browser, withHouse } = await pretendedHouses();
 
 const journey = (page) => page.getByTestId('journey');
-const tab = (page, name) =>
-  page.getByRole('navigation', { name: 'Pages' }).getByRole('link', { name }).click();
 const destination = (page, name) => page.locator('.destination', { hasText: name });
 
 const question = (page) => page.getByTestId('question');
@@ -880,63 +846,42 @@ const checks = [
       assert.equal(house.users.at(-1).role, 'carer');
     }),
   ],
-  ['every page at every width and in light and dark is accessible and fits', accessible],
+  [
+    'every page at every width and in light and dark is accessible and fits',
+    inEveryLook(withHouse, out, async (page, house, see) => {
+      await see('go');
+      await destination(page, 'Bathroom').click();
+      await phaseIs(page, 'driving');
+      await see('driving');
+      house.steer({ do: 'ask' });
+      await question(page).waitFor();
+      await see('question');
+      await question(page).getByRole('button', { name: 'Yes, this is it' }).click();
+      await phaseIs(page, 'arrived');
+      await see('arrived');
+      for (const name of ['Tours', 'Robots', 'Settings']) {
+        await tab(page, name);
+        await see(name.toLowerCase());
+      }
+      await tab(page, 'Map');
+      await page.getByRole('button', { name: 'Kitchen', exact: true }).click();
+      await page.waitForTimeout(600);
+      await see('map');
+      house.steer({
+        do: 'robot',
+        set: { belief: { updates: 3, place: null, probability: null, top: [], lost: true } },
+      });
+      await tab(page, 'Go');
+      await destination(page, 'Kitchen').click();
+      await phaseIs(page, 'refused');
+      await see('refused');
+      await tab(page, 'Settings');
+      await page.getByRole('button', { name: 'Sign out' }).click();
+      await page.getByRole('heading', { name: 'Sign in' }).waitFor();
+      await see('sign-in');
+    }),
+  ],
 ];
-
-async function accessible() {
-  const all = [];
-  for (const [size_name, size] of [
-    ['1280x800', kWide],
-    ['390x844', kPhone],
-  ])
-    for (const scheme of ['light', 'dark']) {
-      const look = { size, scheme };
-      await withHouse(async (page, house) => {
-        const see = async (name) => {
-          await page.waitForTimeout(400);
-          await shoot(page, out, `${name}-${size_name}-${scheme}`);
-          all.push(...(await findings(page)).map((one) => `${name} ${size_name} ${scheme}: ${one}`));
-          if (await sticksOut(page)) all.push(`${name} ${size_name} ${scheme}: wider than the screen`);
-        };
-        await see('go');
-        await destination(page, 'Bathroom').click();
-        await phaseIs(page, 'driving');
-        await see('driving');
-        house.steer({ do: 'ask' });
-        await question(page).waitFor();
-        await see('question');
-        await question(page).getByRole('button', { name: 'Yes, this is it' }).click();
-        await phaseIs(page, 'arrived');
-        await see('arrived');
-        for (const name of ['Tours', 'Robots', 'Settings']) {
-          await tab(page, name);
-          await see(name.toLowerCase());
-        }
-        await tab(page, 'Map');
-        await page.getByRole('button', { name: 'Kitchen', exact: true }).click();
-        await page.waitForTimeout(600);
-        await see('map');
-        house.steer({
-          do: 'robot',
-          set: { belief: { updates: 3, place: null, probability: null, top: [], lost: true } },
-        });
-        await tab(page, 'Go');
-        await destination(page, 'Kitchen').click();
-        await phaseIs(page, 'refused');
-        await see('refused');
-      }, look)();
-      await withHouse(
-        async (page) => {
-          await page.goto('/');
-          await page.getByRole('heading', { name: 'Sign in' }).waitFor();
-          await shoot(page, out, `sign-in-${size_name}-${scheme}`);
-          all.push(...(await findings(page)));
-        },
-        { ...look, name: null },
-      )();
-    }
-  assert.deepEqual(all, []);
-}
 
 const wanted = process.argv[3] ?? '';
 await runChecks(checks.filter(([name]) => name.includes(wanted)));

@@ -111,6 +111,36 @@ describe('the mock server', () => {
     expect([nowhere.status, nowhere.body.code]).toEqual([404, 'not_found']);
   });
 
+  it('answers of drafts, doubts and pairs of pictures as the schemas say', async () => {
+    const root = 'maps/m1/drafts';
+    const { body: draft, headers } = await ask('POST', root, { name: 'night' });
+    expect([headers.get('etag'), problemsOf('draft', draft)]).toEqual(['"d1"', []]);
+    const edits = [{ kind: 'delete', place: 'p12' }];
+    const path = `${root}/${draft.id}`;
+    expect((await ask('POST', `${path}/edits`, { edits })).status).toBe(428);
+    const version = { 'If-Match': headers.get('etag') };
+    const { body: edited } = await ask('POST', `${path}/edits`, { edits }, version);
+    expect([edited.version, edited.touches.includes('p12'), problemsOf('draft', edited)]).toEqual([
+      2,
+      true,
+      [],
+    ]);
+    expect((await ask('POST', `${path}/edits`, { edits }, version)).body.code).toBe('stale_revision');
+    expect(problemsOf('graph', (await ask('GET', `${path}/graph`)).body)).toEqual([]);
+    expect(problemsOf('difference', (await ask('GET', `${path}/difference`)).body)).toEqual([]);
+    expect((await ask('GET', `${path}/check`)).status).toBe(404);
+    const { body: checking } = await ask('POST', `${path}/check`);
+    expect(problemsOf('job', checking.job)).toEqual([]);
+    await expect.poll(async () => (await ask('GET', `${path}/check`)).status, { timeout: 5000 }).toBe(200);
+    expect(problemsOf('replay_check', (await ask('GET', `${path}/check`)).body)).toEqual([]);
+    const { body: doubts } = await ask('GET', 'maps/m1/doubts?about=all');
+    expect([doubts.doubts.length > 2, problemsOf('doubts', doubts)]).toEqual([true, []]);
+    const [{ image_a, image_b }] = doubts.doubts;
+    const { body: pair } = await ask('GET', `maps/m1/pair?${new URLSearchParams({ image_a, image_b })}`);
+    expect(problemsOf('pair', pair)).toEqual([]);
+    expect((await ask('DELETE', path)).status).toBe(204);
+  });
+
   it('tells events as the schema says, the snapshot first, and that it lives', async () => {
     const socket = new WebSocket(`${mock.url.replace('http', 'ws')}/api/v1/events`, { headers: { cookie } });
     const events = await new Promise((done, fail) => {

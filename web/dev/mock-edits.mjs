@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Changes of the mock server's map: all edits of a request are one change, undone and redone as a whole.
+import { tellDrafts } from './mock-drafts.mjs';
 import { Refusal } from './mock-refusal.mjs';
 
 /** The map that a request changes, when it names the revision that is there. */
@@ -23,12 +24,13 @@ function asked(house, { headers, args }) {
 }
 
 /** The map as it was taught, with the edits of `log` that stand. */
-function changed(house, map, log, revision) {
+export function changed(house, map, log, revision) {
   house.graph = { ...structuredClone(house.taught), revision };
   for (const one of log.filter(({ undone }) => !undone)) apply(house.graph, one);
   house.edits = log;
   map.revision = revision;
   house.send('map', map);
+  tellDrafts(house, map);
   return { body: { revision }, headers: { ETag: `"r${revision}"` } };
 }
 
@@ -62,7 +64,7 @@ function step(house, map, change, state) {
 }
 
 /** An edit as it is asked for, in the words of the log: keyed to pictures. */
-function logged(graph, one, by, change, i) {
+export function logged(graph, one, by, change, i) {
   const where = `body/edits/${i}`;
   const prototype = (id) => {
     const found = graph.places.find((place) => place.id === id);
@@ -99,7 +101,7 @@ function logged(graph, one, by, change, i) {
   return { kind: one.kind, ...empty, ...parts[one.kind](), by, t_us, ...standing };
 }
 
-function apply(graph, { kind, image_a, image_b, text, images, by }, where) {
+export function apply(graph, { kind, image_a, image_b, text, images, by }, where) {
   const refuse = (code, words) => {
     throw new Refusal(code, words, where);
   };
@@ -147,7 +149,10 @@ function apply(graph, { kind, image_a, image_b, text, images, by }, where) {
     for (const one of graph.destinations) one.place = id(one.place);
   };
   const steps = {
-    rename: () => (place_of(image_a).label = text),
+    rename: () => {
+      const place = place_of(image_a);
+      Object.assign(place, { label: text, name: text || place.id });
+    },
     merge: () => {
       const [into, gone] = [place_of(image_a), place_of(image_b)];
       if (into === gone) refuse('invalid_input', `Both images are in place ${into.id} already.`);
@@ -159,7 +164,16 @@ function apply(graph, { kind, image_a, image_b, text, images, by }, where) {
       if (absent) refuse('not_found', `Place ${place.id} does not hold the image ${absent}.`);
       leave(place, images);
       const id = `p${1 + Math.max(...graph.places.map((one) => Number(one.id.slice(1))))}`;
-      graph.places.push({ ...place, id, label: '', members: images, prototype: images[0] });
+      const beside = { x: Math.min(1, place.x + 0.06), y: Math.min(1, place.y + 0.08) };
+      graph.places.push({
+        ...place,
+        ...beside,
+        id,
+        label: '',
+        name: id,
+        members: images,
+        prototype: images[0],
+      });
       for (const one of graph.destinations) if (images.includes(one.image)) one.place = id;
       join(place.id, id);
     },

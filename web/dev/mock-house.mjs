@@ -122,6 +122,7 @@ export function newGraph(map) {
   const places = kPlaces.map(([id, x, y, label]) => ({
     id,
     label,
+    name: label || id, // as where nothing tells it from others
     prototype: `t1/${id}.jpg`,
     members: [`t1/${id}.jpg`, `t1/${id}b.jpg`],
     features: 180 + 7 * Number(id.slice(1)),

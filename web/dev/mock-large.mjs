@@ -18,7 +18,15 @@ export function largeGraph(map, places) {
     const id = `p${n + 1}`;
     const wave = 0.03 * Math.sin(step / 9);
     const place = { x: step / inRow, y: 0.05 + (0.9 * row) / kRows + wave };
-    const one = { id, label, prototype: `t1/${id}.jpg`, members: [`t1/${id}.jpg`], features: 300, ...place };
+    const one = {
+      id,
+      label,
+      name: label || id,
+      prototype: `t1/${id}.jpg`,
+      members: [`t1/${id}.jpg`],
+      features: 300,
+      ...place,
+    };
     if (label) named.push(one);
     return one;
   });

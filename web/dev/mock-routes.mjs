@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The routes of the mock server: [method and path, least role, handler(house, {user, body, headers, args})].
+import { kDoubtRoutes } from './mock-doubts.mjs';
+import { kDraftRoutes } from './mock-drafts.mjs';
 import { edit, redo, undo } from './mock-edits.mjs';
 import { kitchenNote, noWayText, wayBetween } from './mock-house.mjs';
 import { Refusal } from './mock-refusal.mjs';
@@ -330,6 +332,8 @@ export const kRoutes = [
   [/^POST maps\/([^/]+)\/edits$/, 'installer', edit],
   [/^POST maps\/([^/]+)\/undo$/, 'installer', undo],
   [/^POST maps\/([^/]+)\/redo$/, 'installer', redo],
+  ...kDraftRoutes,
+  ...kDoubtRoutes,
   [/^GET tours$/, 'viewer', (house) => ({ body: { tours: house.tours } })],
   [/^GET tours\/([^/]+)$/, 'viewer', (house, { args }) => ({ body: house.find('tours', args[0]) })],
   [/^POST tours$/, 'installer', addTour],

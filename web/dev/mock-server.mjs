@@ -71,6 +71,7 @@ async function answer(house, root, request, response) {
       request,
       url.pathname.slice('/api/v1'.length),
       json ? JSON.parse(raw.toString()) : raw,
+      url.searchParams,
     );
     if (result.picture)
       return void response.writeHead(200, { 'Content-Type': 'image/svg+xml' }).end(pictureOf(result.picture));

@@ -12,6 +12,7 @@ import './styles/parts.css';
 import './styles/shell.css';
 import './styles/go.css';
 import './styles/map.css';
+import './styles/evidence.css';
 import './styles/pages.css';
 
 startServerConnection();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { problemFrom, unreachable, type ProblemError } from './problem';
 import type {
+  Difference,
+  Doubts,
+  Draft,
   Edit,
   Graph,
   Job,
@@ -8,7 +11,9 @@ import type {
   LoggedEdit,
   MapInfo,
   Mission,
+  Pair,
   RefineMode,
+  ReplayCheck,
   Robot,
   Role,
   Sweep,
@@ -163,6 +168,47 @@ export const history = (map: string) => call<{ edits: LoggedEdit[] }>(`/maps/${i
 export const removeMap = (map: string) => call<unknown>(`/maps/${id(map)}`, { method: 'DELETE' });
 export const takeJob = (job: string) => call<unknown>(`/jobs/${id(job)}/take`, { method: 'POST' });
 export const cancelJob = (job: string) => call<unknown>(`/jobs/${id(job)}/cancel`, { method: 'POST' });
+
+// Drafts: edits of a map that are tried before they count
+const draftPath = ({ map, id: draft_id }: Pick<Draft, 'map' | 'id'>) =>
+  `/maps/${id(map)}/drafts/${id(draft_id)}`;
+const ofVersion = ({ version }: Draft) => ({ 'If-Match': `"d${version}"` });
+export const drafts = (map: string) => call<{ drafts: Draft[] }>(`/maps/${id(map)}/drafts`);
+export const beginDraft = (map: string, name: string) =>
+  call<Draft>(`/maps/${id(map)}/drafts`, { method: 'POST', body: name === '' ? {} : { name } });
+export const draft = (one: Draft) => call<Draft>(draftPath(one));
+export const discardDraft = (one: Draft) => call<unknown>(draftPath(one), { method: 'DELETE' });
+export const editDraft = (one: Draft, edits: Edit[]) =>
+  call<Draft>(`${draftPath(one)}/edits`, { method: 'POST', body: { edits }, headers: ofVersion(one) });
+export const undoInDraft = (one: Draft) =>
+  call<Draft>(`${draftPath(one)}/undo`, { method: 'POST', headers: ofVersion(one) });
+export const redoInDraft = (one: Draft) =>
+  call<Draft>(`${draftPath(one)}/redo`, { method: 'POST', headers: ofVersion(one) });
+export const draftGraph = (one: Draft) => call<Graph>(`${draftPath(one)}/graph`);
+export const draftDifference = (one: Draft) => call<Difference>(`${draftPath(one)}/difference`);
+export const checkDraft = (one: Draft) => call<{ job: Job }>(`${draftPath(one)}/check`, { method: 'POST' });
+export const draftCheck = (one: Draft) => call<ReplayCheck>(`${draftPath(one)}/check`);
+/** `leave_out_lost`: without the edits that the map as it is does not take; else these are a reason to refuse. */
+export const publishDraft = (one: Draft, leave_out_lost: boolean) =>
+  call<{ revision: number }>(`${draftPath(one)}/publish`, {
+    method: 'POST',
+    body: { leave_out_lost },
+    headers: ofVersion(one),
+  });
+
+// Doubts: what a person should look at
+export const doubts = (
+  map: string,
+  asked: { about: string; kind: string; place: string; offset: number; limit: number },
+) => {
+  const { about, kind, place, offset, limit } = asked;
+  const query = new URLSearchParams({ about, offset: String(offset), limit: String(limit) });
+  if (kind !== '') query.set('kind', kind);
+  if (place !== '') query.set('place', place);
+  return call<Doubts>(`/maps/${id(map)}/doubts?${query.toString()}`);
+};
+export const pair = (map: string, image_a: string, image_b: string) =>
+  call<Pair>(`/maps/${id(map)}/pair?${new URLSearchParams({ image_a, image_b }).toString()}`);
 
 // Tours
 export const tours = () => call<{ tours: Tour[] }>('/tours');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { ServerEvent, Job, MapInfo, Robot } from './types';
+import type { Draft, ServerEvent, Job, MapInfo, Robot } from './types';
 
 /** Everything that the events tell, with when each robot was last heard of (this browser's clock). */
 export interface ServerState {
@@ -9,6 +9,8 @@ export interface ServerState {
   readonly jobs: readonly Job[];
   readonly maps: readonly MapInfo[];
   readonly heard_ms: Readonly<Record<string, number>>;
+  readonly since: number; // the number of the snapshot
+  readonly drafts: Readonly<Record<string, Draft | null>>; // those that changed since the snapshot; null: gone
 }
 
 /**
@@ -28,6 +30,8 @@ export function applyEvent(
       jobs: event.jobs,
       maps: event.maps,
       heard_ms: Object.fromEntries(event.robots.map((robot) => [robot.id, now_ms])),
+      since: event.seq,
+      drafts: {},
     };
   }
   if (state === null) return 'gap';
@@ -46,6 +50,10 @@ export function applyEvent(
       return { ...next, maps: withChanged(state.maps, event.map) };
     case 'mission':
       return { ...next, robots: state.robots.map((robot) => withMission(robot, event.mission)) };
+    case 'draft':
+      return { ...next, drafts: { ...state.drafts, [event.draft.id]: event.draft } };
+    case 'draft_gone':
+      return { ...next, drafts: { ...state.drafts, [event.draft]: null } };
     case 'heartbeat':
       return next;
     default:

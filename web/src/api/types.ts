@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Short names for the contract's types; they are generated from proto/openapi.yaml.
+import type * as coming from './coming_types';
 import type { components } from './generated/openapi';
 
 type Schemas = components['schemas'];
@@ -19,14 +20,22 @@ export type Reason = Schemas['Reason'];
 export type Problem = Schemas['Problem'];
 export type Job = Schemas['Job'];
 export type RefineMode = Schemas['RefineMode'];
-export type Graph = Schemas['Graph'];
-export type Place = Schemas['Place'];
+export type Graph = coming.Graph;
+export type Place = coming.Place;
 export type Edge = Schemas['Edge'];
 export type Destination = Schemas['Destination'];
 export type Hypothesis = Schemas['Hypothesis'];
+export type Masses = Schemas['Masses'];
 export type Shortcut = Schemas['Shortcut'];
 export type Tour = Schemas['Tour'];
 export type Sweep = Schemas['Sweep'];
 export type Edit = Schemas['Edit'];
 export type LoggedEdit = Schemas['LoggedEdit'];
-export type ServerEvent = Schemas['ServerEvent'];
+export type Draft = Schemas['Draft'];
+export type Difference = Schemas['Difference'];
+export type ReplayCheck = Schemas['ReplayCheck'];
+export type WorseSpot = ReplayCheck['worse'][number];
+export type Doubt = coming.Doubt;
+export type Doubts = coming.Doubts;
+export type Pair = Schemas['Pair'];
+export type ServerEvent = Schemas['ServerEvent'] | coming.DraftEvent;

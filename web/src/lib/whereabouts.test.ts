@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
 import type { Belief, Graph } from '../api/types';
-import { placeInWords, placeTitle, whereabouts } from './whereabouts';
+import { placeInWords, placeTitle, titlesApart, whereabouts } from './whereabouts';
 
 /** A graph as a drawing: "hall-a-b-living_room", names longer than two letters are destinations. */
 function drawn(line: string): Graph {
@@ -56,6 +56,18 @@ describe('placeInWords', () => {
     expect(placeInWords(graph, 'b')).toBe("in Anna's room");
     expect(placeTitle(graph, 'hall')).toBe('Hall');
     expect(placeTitle(drawn('a-b'), 'a')).toBe('a');
+  });
+
+  it('is told from others in the words of the server, where it has some', () => {
+    const told = (name: string) => ({
+      ...house,
+      places: house.places.map((p) => (p.id === 'b' ? { ...p, name } : p)),
+    });
+    expect(placeTitle(told('second from the hall'), 'b')).toBe('Second from the hall');
+    expect(placeTitle(told('b'), 'b')).toBe('Near the hall');
+    expect(placeInWords(told('second from the hall'), 'b')).toBe('near the hall');
+    expect(titlesApart(house, 'a', 'b')).toEqual(['Near the hall (a)', 'Near the hall (b)']);
+    expect(titlesApart(house, 'hall', 'b')).toEqual(['Hall', 'Near the hall']);
   });
 });
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Belief, Destination, Graph } from '../api/types';
 import { indexOf } from './graph_index';
+import { inSentence } from './words';
 
 export type Sureness = 'sure' | 'fairly sure' | 'unsure' | 'lost';
 
@@ -33,9 +34,9 @@ export function placeInWords(graph: Graph, place: string): string | null {
   return found === null ? null : `near ${withArticle(found)}`;
 }
 
-/** The name of a place for lists and headings: its own, else "Near the kitchen", else its id. */
+/** The name of a place for lists and headings: its own, else how it is told from others, else "Near the kitchen", else its id. */
 export function placeTitle(graph: Graph, place: string): string {
-  const own = nameOf(graph, place);
+  const own = nameOf(graph, place) ?? toldBy(graph, place);
   if (own !== null) return own.charAt(0).toUpperCase() + own.slice(1);
   const near = nearestNamed(graph, place);
   return near === null ? place : `Near ${withArticle(near)}`;
@@ -60,6 +61,18 @@ export function destinationLabel(graph: Graph, destination: Destination): string
 /** Names of people and things that carry a capital or a possessive go without an article. */
 export function withArticle(name: string): string {
   return /^[A-Z]|^(the|my|our) |^\d|'s\b/.test(name) ? name : `the ${name}`;
+}
+
+/** "third from the hall towards the study", where the server has such words for a place that nobody has named. */
+function toldBy(graph: Graph, place: string): string | null {
+  const name = inSentence(indexOf(graph).places.get(place)?.name ?? '');
+  return name === '' || name === place ? null : name;
+}
+
+/** Both titles, told apart by the ids where they are the same. */
+export function titlesApart(graph: Graph, place_a: string, place_b: string): [string, string] {
+  const [a, b] = [placeTitle(graph, place_a), placeTitle(graph, place_b)];
+  return a === b && place_a !== place_b ? [`${a} (${place_a})`, `${b} (${place_b})`] : [a, b];
 }
 
 function nearestNamed(graph: Graph, place: string): string | null {

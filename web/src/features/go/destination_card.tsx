@@ -3,6 +3,7 @@ import { useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import type { Graph } from '../../api/types';
 import { Icon } from '../../components/icons';
+import { Pictogram } from '../../components/pictogram';
 import type { Goal } from './goals';
 import type { Phase } from './journey';
 import { toneOf } from './journey_words';
@@ -53,7 +54,10 @@ export function DestinationCard({ goal, graph, phase, here, disabled, onGo }: Pr
           <img class="picture" src={src} alt="" onError={() => setAttempt(attempt + 1)} />
         )}
         <span class="destination-name">
-          {goal.name}
+          <span class="destination-title">
+            {goal.pictogram && <Pictogram name={goal.pictogram} size={36} />}
+            <span>{goal.name}</span>
+          </span>
           {mark && <span class={`pill ${phase ? toneOf(phase) : ''}`}>{mark}</span>}
         </span>
       </button>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Graph } from '../../api/types';
+import { pictogramOf, suggestedBy, type PictogramName } from '../../lib/pictograms';
 import { destinationLabel } from '../../lib/whereabouts';
 import { titled } from '../../lib/words';
 import { leadsThere, type Journey, type Target } from './journey';
@@ -11,16 +12,21 @@ export interface Goal {
   place: string;
   image: string;
   name: string;
+  pictogram: PictogramName | null; // by which its card is known without reading
 }
 
 export function goalsOf(graph: Graph): Goal[] {
-  const destinations = graph.destinations.map((one) => ({
-    key: `d ${one.id} ${one.image}`,
-    destination: one.id,
-    place: one.place,
-    image: one.image,
-    name: titled(destinationLabel(graph, one)) || one.place,
-  }));
+  const destinations = graph.destinations.map((one) => {
+    const name = titled(destinationLabel(graph, one)) || one.place;
+    return {
+      key: `d ${one.id} ${one.image}`,
+      destination: one.id,
+      place: one.place,
+      image: one.image,
+      name,
+      pictogram: pictogramOf(one.pictogram, name),
+    };
+  });
   const covered = new Set(destinations.map((one) => one.place));
   const named = graph.places
     .filter((one) => one.label.trim() !== '' && !covered.has(one.id))
@@ -30,6 +36,7 @@ export function goalsOf(graph: Graph): Goal[] {
       place: one.id,
       image: one.prototype,
       name: titled(one.label),
+      pictogram: suggestedBy(one.label),
     }));
   return [...destinations, ...named];
 }

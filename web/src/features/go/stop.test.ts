@@ -104,7 +104,16 @@ describe('stop', () => {
     expect(stopState.value).toMatchObject({ kind: 'sending', unheard: true });
     await vi.advanceTimersByTimeAsync(5000);
     const arrived: Robot = { ...chair, state: 'arrived' };
-    const server = { seq: 1, build: 'b', robots: [arrived], jobs: [], maps: [], heard_ms: { r: Date.now() } };
+    const server = {
+      seq: 1,
+      build: 'b',
+      robots: [arrived],
+      jobs: [],
+      maps: [],
+      heard_ms: { r: Date.now() },
+      since: 1,
+      drafts: {},
+    };
     connection.value = { state: 'live', server, last_message_ms: Date.now() };
     expect(stopState.value).toMatchObject({ kind: 'stands' });
     const before = asked.mock.calls.length;

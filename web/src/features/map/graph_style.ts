@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { StylesheetJson } from 'cytoscape';
+import { kToneSigns, type Tone } from './difference_words';
 
 /** A colour of tokens.css as it is now, in the light or in the dark. */
 function token(name: string): string {
@@ -47,6 +48,11 @@ export function graphStyle(diameter: number): StylesheetJson {
         'background-image-crossorigin': 'use-credentials',
       },
     },
+    ...toned('node', ({ colour }, tone) => ({
+      'border-color': colour,
+      'border-width': 2.5 * ring,
+      ...(tone === 'removed' ? { 'border-style': 'dashed', opacity: 0.7 } : {}),
+    })),
     {
       selector: 'edge',
       style: {
@@ -77,5 +83,38 @@ export function graphStyle(diameter: number): StylesheetJson {
         'font-size': 8 * line,
       },
     },
+    ...toned('edge', ({ colour, text, sign }, tone) => ({
+      'line-color': colour,
+      'line-style': tone === 'removed' ? 'dashed' : 'solid',
+      width: 1.8 * line,
+      label: sign,
+      color: text,
+      'font-size': 8 * line,
+      'font-weight': 'bold',
+      'text-outline-color': token('surface'),
+      'text-outline-width': 1.2 * line,
+    })),
   ];
+}
+
+interface ToneLook {
+  colour: string;
+  text: string;
+  sign: string;
+}
+
+/** A rule for each way in which something is other with a draft. */
+function toned(what: 'node' | 'edge', style: (look: ToneLook, tone: Tone) => object): StylesheetJson {
+  const looks: Readonly<Record<Tone, readonly [string, string]>> = {
+    added: ['brand', 'brand-text'],
+    removed: ['danger', 'danger-text'],
+    changed: ['amber', 'amber-text'],
+  };
+  return (Object.keys(looks) as Tone[]).map((tone) => ({
+    selector: `${what}.${tone}`,
+    style: style(
+      { colour: token(looks[tone][0]), text: token(looks[tone][1]), sign: kToneSigns[tone].sign },
+      tone,
+    ),
+  })) as StylesheetJson;
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Core, ElementDefinition } from 'cytoscape';
+import type { Core } from 'cytoscape';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
-import * as calls from '../../api/calls';
 import type { Belief, Graph } from '../../api/types';
+import type { DifferenceMarks } from './difference_marks';
+import { elementsOf, kSize } from './graph_elements';
 import { graphStyle } from './graph_style';
 import { showDetailInView } from './detail_in_view';
+import { picking } from './picking';
 import { PlaceMarks } from './place_marks';
-import { drawnEdges, pictureShare, placeViews, probabilities } from './place_views';
-import { proposedLines } from './shortcut_words';
+import { pictureShare, placeViews, probabilities } from './place_views';
 
-const kSize = 1000; // the unit square of the layout, in the drawing's own units
 const kMarginPx = { x: 56, y: 30 }; // names stand below their places and reach beyond them
 const kLargestPicturePx = 120;
 const kManyPlaces = 500; // from here on the drawing moves as a picture of itself
@@ -19,11 +19,12 @@ interface Props {
   belief: Belief | null;
   way: readonly string[]; // places still to be driven
   chosen: string | null;
+  marks?: DifferenceMarks | null; // what is other with the draft that is shown
   onChoose: (place: string) => void;
 }
 
 /** The map as a drawing. Everything it offers is also in the list beside it, so it is hidden from screen readers. */
-export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
+export function GraphView({ graph, belief, way, chosen, marks = null, onChoose }: Props) {
   const box = useRef<HTMLDivElement>(null);
   const [drawing, setDrawing] = useState<Core | null>(null);
   const choose = useRef(onChoose);
@@ -45,7 +46,7 @@ export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
       leaveStylesToUs();
       const made = cytoscape({
         container,
-        elements: elementsOf(graph),
+        elements: elementsOf(graph, marks),
         style: graphStyle(diameter),
         layout: { name: placed ? 'preset' : 'cose', fit: false, animate: false },
         minZoom: 0.1,
@@ -73,7 +74,7 @@ export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
       wanted = false;
       destroy?.();
     };
-  }, [graph, diameter]);
+  }, [graph, diameter, marks]);
 
   useEffect(() => {
     if (!drawing) return;
@@ -102,6 +103,7 @@ export function GraphView({ graph, belief, way, chosen, onChoose }: Props) {
   return (
     <div class="graph">
       <div class="graph-canvas" ref={box} aria-hidden="true" data-testid="graph" />
+      {picking.value && <p class="graph-pick">{picking.value.what}: press it in the drawing.</p>}
       <PlaceMarks drawing={drawing} diameter={diameter} shares={shares} chosen={chosen} />
       <div class="graph-tools" role="group" aria-label="Size of the drawing">
         <button type="button" aria-label="Larger" onClick={() => zoom(1.4)}>
@@ -174,24 +176,4 @@ function leaveStylesToUs(): void {
   const mark = document.createElement('template');
   mark.id = kName;
   document.head.append(mark);
-}
-
-function elementsOf(graph: Graph): ElementDefinition[] {
-  const nodes = placeViews(graph).map((view) => ({
-    data: {
-      id: view.id,
-      ...(view.named ? { name: view.title } : {}),
-      picture: calls.placeThumbnailUrl(graph.map, view.id, graph.revision),
-    },
-    position: { x: kSize * (view.x ?? 0), y: kSize * (view.y ?? 0) },
-  }));
-  const edges = drawnEdges(graph).map((edge) => ({
-    data: { id: edge.id, source: edge.from, target: edge.to },
-    classes: [edge.weak ? 'weak' : '', `closed-${edge.closed}`, edge.shortcut ? 'shortcut' : ''].join(' '),
-  }));
-  const proposed = proposedLines(graph).map((line) => ({
-    data: { id: line.id, source: line.from, target: line.to },
-    classes: 'proposed',
-  }));
-  return [...nodes, ...edges, ...proposed];
 }

@@ -1,35 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-import { signal } from '@preact/signals';
-import { useEffect, useMemo, useState } from 'preact/hooks';
+import { useEffect } from 'preact/hooks';
 import * as calls from '../../api/calls';
+import { draftsOf, wantDrafts } from '../../api/drafts';
 import { connection, graphs, me, wantGraph } from '../../api/server';
-import { asProblem } from '../../api/problem';
-import type { Edit, Graph, MapInfo } from '../../api/types';
+import type { Draft, Graph, MapInfo } from '../../api/types';
+import { Loading } from '../../components/loading';
 import { Notice, Waiting } from '../../components/notice';
-import { chosen, chosenMap, connected, maps } from '../../lib/chosen';
-import { useCommand } from '../../lib/command';
-import { indexOf } from '../../lib/graph_index';
+import { chosenMap, maps } from '../../lib/chosen';
+import { useLoaded } from '../../lib/loaded';
 import { atLeast } from '../../lib/roles';
-import { navigate } from '../../lib/router';
-import { placeTitle } from '../../lib/whereabouts';
-import { count } from '../../lib/words';
-import { send } from '../go/driving';
-import { hindrance, isActive } from '../go/journey';
-import { DriveNews } from '../tours/drive_news';
-import { GraphView } from './graph_view';
-import { Inspector } from './inspector';
-import { LookAlikes } from './look_alikes';
-import { MapHistory } from './map_history';
-import type { OutcomeOf } from './outcome';
-import { PlaceList } from './place_list';
-import { Shortcuts } from './shortcuts';
+import { follow } from '../../lib/router';
+import { EvidencePage } from './evidence_page';
+import { mapAddress, pathOf, show } from './map_address';
+import { MapDrawing, type OpenDraft } from './map_drawing';
 
-const wantedMap = signal<string | null>(null);
-const wantedPlace = signal<string | null>(null);
+const kVersions = 1e6; // of a draft at most, on one revision of its map
 
 export function MapPage() {
-  const map =
-    maps.value.find((one) => one.id === wantedMap.value) ?? chosenMap.value ?? maps.value[0] ?? null;
+  const wanted = mapAddress.value.map;
+  const map = maps.value.find((one) => one.id === wanted) ?? chosenMap.value ?? maps.value[0] ?? null;
   useEffect(() => {
     if (map && map.revision > 0) wantGraph(map);
   }, [map]);
@@ -57,7 +46,7 @@ function MapPicker({ chosen: present }: { chosen: MapInfo | null }) {
           key={one.id}
           type="button"
           aria-pressed={one.id === present?.id}
-          onClick={() => (wantedMap.value = one.id)}
+          onClick={() => show(one.id, {})}
         >
           {one.name}
         </button>
@@ -66,15 +55,89 @@ function MapPicker({ chosen: present }: { chosen: MapInfo | null }) {
   );
 }
 
+interface OfMap {
+  map: MapInfo;
+  graph: Graph;
+  mayEdit: boolean;
+}
+
+/** The map itself, or the draft of it that the address names. */
+function MapOrDraft({ map, graph, mayEdit }: OfMap) {
+  const since = connection.value.server?.since;
+  useEffect(() => wantDrafts(map.id), [map.id, since]);
+  const { draft: wanted } = mapAddress.value;
+  const { drafts, problem } = draftsOf(map.id);
+  const draft = drafts?.find((one) => one.id === wanted) ?? null;
+  if (draft) return <WithDraft key={draft.id} map={map} graph={graph} mayEdit={mayEdit} draft={draft} />;
+  if (wanted !== null && !drafts && !problem) return <Waiting what="Loading the draft …" />;
+  return (
+    <>
+      {wanted !== null && (
+        <Notice tone="warn">
+          <div class="row apart">
+            <span>This draft is gone: it was published or discarded. This is the map itself.</span>
+            <button type="button" class="button" onClick={() => show(map.id, { draft: null })}>
+              Understood
+            </button>
+          </div>
+        </Notice>
+      )}
+      <Shown map={map} graph={graph} open={null} mayEdit={mayEdit} />
+    </>
+  );
+}
+
+function WithDraft({ map, graph, mayEdit, draft }: OfMap & { draft: Draft }) {
+  const state = kVersions * draft.revision + draft.version;
+  const made = useLoaded(() => calls.draftGraph(draft), state);
+  const difference = useLoaded(() => calls.draftDifference(draft), state).value;
+  return (
+    <Loading of={made} what="The draft">
+      {(after) => (
+        <Shown map={map} graph={after} open={{ draft, before: graph, difference }} mayEdit={mayEdit} />
+      )}
+    </Loading>
+  );
+}
+
+const kPages = [
+  ['drawing', 'Places'],
+  ['evidence', 'Evidence'],
+] as const;
+
+/** The page that the address names, with the way to the other ones. */
+function Shown(props: OfMap & { open: OpenDraft | null }) {
+  const address = mapAddress.value;
+  const Page = address.page === 'evidence' ? EvidencePage : MapDrawing;
+  return (
+    <>
+      <nav class="segments map-parts" aria-label="Of this map">
+        {kPages.map(([page, words]) => (
+          <a
+            key={page}
+            href={pathOf({ ...address, map: props.map.id, page, place: null })}
+            aria-current={page === address.page ? 'page' : undefined}
+            onClick={follow}
+          >
+            {words}
+          </a>
+        ))}
+      </nav>
+      <Page {...props} />
+    </>
+  );
+}
+
 function ShownMap({ map }: { map: MapInfo }) {
   const entry = graphs.value[map.id];
+  const mayEdit = atLeast(me.value?.role, 'installer');
   if (entry?.graph)
     return (
       <>
         {entry.error && (
           <Notice tone="warn">This may be an older state of the map. {entry.error.message}</Notice>
         )}
-        <Drawn map={map} graph={entry.graph} />
+        <MapOrDraft key={map.id} map={map} graph={entry.graph} mayEdit={mayEdit} />
       </>
     );
   if (entry?.error)
@@ -93,114 +156,4 @@ function ShownMap({ map }: { map: MapInfo }) {
   if (map.state === 'failed')
     return <Notice tone="bad">This map could not be built. The reason is under Tours.</Notice>;
   return <Waiting what="Loading the map …" />;
-}
-
-/** The part of the page in which a change was asked for, and where what became of it is said. */
-type Part = 'place' | 'shortcuts' | 'history';
-
-function Drawn({ map, graph }: { map: MapInfo; graph: Graph }) {
-  const command = useCommand();
-  const [latest, setLatest] = useState<{ part: Part; done: string | null } | null>(null);
-  const robot = chosen.value?.map === map.id ? chosen.value : null;
-  const belief = robot?.online ? robot.belief : null;
-  const mission = robot?.mission && isActive(robot.mission.state) ? robot.mission : null;
-  // Each event brings a new mission that mostly says the same.
-  const ahead = mission?.path.slice(Math.max(0, mission.path_index - 1)).join('\n') ?? '';
-  const way = useMemo(() => (ahead === '' ? [] : ahead.split('\n')), [ahead]);
-  const place = indexOf(graph).places.get(wantedPlace.value ?? '') ?? null;
-  const mayEdit = atLeast(me.value?.role, 'installer');
-  const barrier = robot ? hindrance(robot, connected.value, atLeast(me.value?.role, 'rider')) : 'none';
-
-  const change = (part: Part, ask: () => Promise<unknown>, said: string) => {
-    setLatest({ part, done: null });
-    command.run(async () => {
-      try {
-        await ask();
-        setLatest({ part, done: said });
-      } catch (thrown) {
-        if (asProblem(thrown).code !== 'stale_revision') throw thrown;
-        wantGraph(map, true);
-        throw thrown;
-      }
-      wantGraph(map, true);
-    });
-  };
-  const editIn = (part: Part) => (edits: Edit[], said: string) =>
-    change(part, () => calls.edit(map.id, graph.revision, edits), said);
-  const outcomeIn = (part: Part): OutcomeOf | null =>
-    latest?.part === part && !command.busy ? { done: latest.done, problem: command.problem } : null;
-  const choose = (id: string) => {
-    wantedPlace.value = id;
-    setLatest(null);
-    command.forget();
-  };
-  return (
-    <>
-      <DriveNews map={map} mayTake={mayEdit} />
-      <p class="soft">
-        {count(graph.places.length, 'place')} from {count(map.images, 'picture')}. Choose one in the drawing
-        or in the list.
-        {robot && ' The yellow ring shows where the chair believes to be.'}
-      </p>
-      <div class="map-layout">
-        <GraphView graph={graph} belief={belief} way={way} chosen={place?.id ?? null} onChoose={choose} />
-        <div class="map-side">
-          {place && (
-            <Inspector
-              graph={graph}
-              place={place}
-              mayEdit={mayEdit}
-              busy={command.busy}
-              outcome={outcomeIn('place')}
-              onEdit={editIn('place')}
-              onChoose={choose}
-              onGo={
-                robot && barrier === null
-                  ? () => {
-                      void send(robot.id, { place: place.id, label: placeTitle(graph, place.id) });
-                      navigate('/go');
-                    }
-                  : null
-              }
-            />
-          )}
-          <PlaceList graph={graph} belief={belief} chosen={place?.id ?? null} onChoose={choose} />
-        </div>
-      </div>
-      <Shortcuts
-        graph={graph}
-        place={null}
-        mayEdit={mayEdit}
-        busy={command.busy}
-        outcome={outcomeIn('shortcuts')}
-        onEdit={editIn('shortcuts')}
-      />
-      <LookAlikes graph={graph} />
-      <MapHistory
-        graph={graph}
-        busy={command.busy}
-        outcome={outcomeIn('history')}
-        onUndo={
-          mayEdit
-            ? () =>
-                change(
-                  'history',
-                  () => calls.undo(map.id, graph.revision),
-                  'The newest change was taken back.',
-                )
-            : null
-        }
-        onRedo={
-          mayEdit
-            ? () => change('history', () => calls.redo(map.id, graph.revision), 'The change was made again.')
-            : null
-        }
-      />
-      <p>
-        <a class="button" href={calls.exportUrl(map.id)} download>
-          Save this map as a file
-        </a>
-      </p>
-    </>
-  );
 }

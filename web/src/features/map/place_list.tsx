@@ -4,6 +4,7 @@ import * as calls from '../../api/calls';
 import type { Belief, Graph } from '../../api/types';
 import { TextField } from '../../components/field';
 import { LongList } from '../../components/long_list';
+import { indexOf } from '../../lib/graph_index';
 import { count, percent } from '../../lib/words';
 import { matching, placeViews, probabilities } from './place_views';
 
@@ -22,6 +23,7 @@ export function PlaceList({ graph, belief, chosen, onChoose }: Props) {
   const [text, setText] = useState('');
   const found = useMemo(() => matching(placeViews(graph), text), [graph, text]);
   const shares = probabilities(belief);
+  const { places } = indexOf(graph);
   return (
     <section class="card stack" aria-label="Places">
       <div class="row apart">
@@ -45,7 +47,11 @@ export function PlaceList({ graph, belief, chosen, onChoose }: Props) {
               aria-pressed={view.id === chosen}
               onClick={() => onChoose(view.id)}
             >
-              <img src={calls.placeThumbnailUrl(graph.map, view.id, graph.revision)} alt="" loading="lazy" />
+              <img
+                src={calls.imageThumbnailUrl(graph.map, places.get(view.id)?.prototype ?? '')}
+                alt=""
+                loading="lazy"
+              />
               <span class={view.named ? 'place-title' : 'soft'}>{view.title}</span>
               {share > kToldShare && <span class="pill warn">Chair {percent(share)}</span>}
             </button>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useMemo, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
-import type { Edit, Graph, Shortcut } from '../../api/types';
+import type { Shortcut } from '../../api/types';
 import { placeTitle } from '../../lib/whereabouts';
 import { count } from '../../lib/words';
-import { Outcome, type OutcomeOf } from './outcome';
+import { kPlacePart, type Editor } from './editor';
+import { Outcome } from './outcome';
 import { evidenceOf, shortcutsAt, shortcutsToShow } from './shortcut_words';
 
 const kShown = 12; // at first, and with each press
@@ -16,16 +17,15 @@ const kSaid: Readonly<Record<Shortcut['state'], string>> = {
 };
 
 interface Props {
-  graph: Graph;
+  editor: Editor;
   place: string | null; // of this one alone; null: of the whole map
-  mayEdit: boolean;
-  busy: boolean;
-  outcome?: OutcomeOf | null;
-  onEdit: (edits: Edit[], done: string) => void;
 }
 
 /** Straight ways that no tour drove: two pictures, the evidence in words, and the decision. */
-export function Shortcuts({ graph, place, mayEdit, busy, outcome, onEdit }: Props) {
+export function Shortcuts({ editor, place }: Props) {
+  const { graph, mayEdit, busy } = editor;
+  const part = place === null ? 'shortcuts' : kPlacePart;
+  const outcome = place === null ? editor.outcomeIn(part) : null; // that of a place is said there
   const [most, setMost] = useState(kShown);
   const all = useMemo(
     () => (place === null ? shortcutsToShow(graph) : shortcutsAt(graph, place)),
@@ -35,7 +35,8 @@ export function Shortcuts({ graph, place, mayEdit, busy, outcome, onEdit }: Prop
   const shown = all.slice(0, most);
   const title = place === null ? 'Shortcuts' : 'Shortcuts from here';
   const decide = (one: Shortcut, accept: boolean) =>
-    onEdit(
+    editor.edit(
+      part,
       [{ kind: 'decide_shortcut', image_a: one.image_a, image_b: one.image_b, accept }],
       accept ? 'The chair may take this shortcut now, slowly.' : 'This shortcut is not offered any more.',
     );
