@@ -14,7 +14,7 @@ LONG_FILES: dict[str, tuple[int, str]] = {}
 
 # Functions that may be longer: (path, name): (lines at most, why they are not split).
 LONG_FUNCTIONS: dict[tuple[str, str], tuple[int, str]] = {
-    ("server/routes/operation_roles.hpp", "kOperations"): (100, "a table, one row for each operation of the API"),
+    ("server/routes/operation_roles.hpp", "kOperations"): (120, "a table, one row for each operation of the API"),
     ("server/driving/link_events.cpp", "Driving::received_status"): (
         85, "one switch over the robot's states, whose cases share what was decided before it"),
 }
