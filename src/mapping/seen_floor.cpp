@@ -133,4 +133,21 @@ std::optional<double> SeenFloor::agreement(const ImageId& first, const ImageId& 
   return static_cast<double>(same) / static_cast<double>(same + seen_past);
 }
 
+bool SeenFloor::hides(const ImageId& first, const ImageId& second, double aside_m, double before_m) const {
+  const Placed* one = find(first);
+  const Placed* other = find(second);
+  if (one == nullptr || other == nullptr || one->component != other->component) return false;
+  const Pose2 spot = inverse(one->map_from_scan) * other->map_from_scan;
+  const double distance_m = std::hypot(spot.x_m, spot.y_m);
+  const double towards_rad = std::atan2(spot.y_m, spot.x_m);
+  int towards = 0;
+  for (std::size_t i = 0; i < one->ranges_m.size(); ++i) {
+    const double off_rad = wrap_angle(one->angle_min_rad + static_cast<double>(i) * one->angle_step_rad - towards_rad);
+    if (std::cos(off_rad) <= 0.0 || std::abs(distance_m * std::sin(off_rad)) > aside_m) continue;
+    ++towards;
+    if (!(one->ranges_m[i] < distance_m - before_m)) return false;
+  }
+  return towards > 0;
+}
+
 }  // namespace homeward::mapping

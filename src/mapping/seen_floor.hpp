@@ -45,6 +45,10 @@ class SeenFloor {
   /// where it saw past it. Nothing where one of them has no sweep, or less than `least_hits` of the first's are seen.
   [[nodiscard]] std::optional<double> agreement(const ImageId& first, const ImageId& second, int least_hits) const;
 
+  /// Whether something stands before the spot of the second picture: every ray of the first one's sweep that passes
+  /// within `aside_m` of that spot ended `before_m` and more before it. False where nobody can tell.
+  [[nodiscard]] bool hides(const ImageId& first, const ImageId& second, double aside_m, double before_m) const;
+
  private:
   struct Placed {
     ImageId image;

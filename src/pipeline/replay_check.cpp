@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -14,11 +13,11 @@
 #include "localisation/localiser.hpp"
 #include "map/difference.hpp"
 #include "map/lookup.hpp"
-#include "map/metric_layout.hpp"
 #include "mapping/compare_all.hpp"
 #include "mapping/parallel.hpp"
 #include "pipeline/grow_map.hpp"
 #include "pipeline/look_at_tours.hpp"
+#include "pipeline/whereabouts.hpp"
 
 namespace homeward::pipeline {
 namespace {
@@ -81,20 +80,24 @@ std::vector<PlaceId> truths(const Places& places, const std::vector<KeptPicture>
   return truth;
 }
 
-std::optional<Replayed> replay(const TopologicalMap& map, const Places& places,
+/// A picture is right at or beside its place, or beside where it was before: that a way was taken away moves nothing.
+std::optional<Replayed> replay(const TopologicalMap& map, const Places& places, const Places& before,
                                const std::vector<KeptPicture>& pictures, const std::function<void()>& done,
                                const std::stop_token& stop) {
   // The map outlives the localiser.
   localisation::Localiser localiser(std::shared_ptr<const TopologicalMap>(std::shared_ptr<void>(), &map), {});
   const std::vector<PlaceId> truth = truths(places, pictures);
+  const std::vector<PlaceId> was = truths(before, pictures);
   Replayed replayed;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     if (stop.stop_requested()) return std::nullopt;
     if (i > 0 && pictures[i].tour != pictures[i - 1].tour) localiser.restart();
     const localisation::Belief belief = localiser.update(pictures[i].seen);
     const bool sure = !belief.lost && !belief.top.empty();
-    replayed.believed.push_back(sure ? belief.top.front().place : PlaceId());
-    replayed.right.push_back(sure && places.at_or_beside(replayed.believed.back(), truth[i]) ? 1 : 0);
+    const PlaceId believed = sure ? belief.top.front().place : PlaceId();
+    const bool right = sure && (places.at_or_beside(believed, truth[i]) || before.at_or_beside(believed, was[i]));
+    replayed.believed.push_back(believed);
+    replayed.right.push_back(right ? 1 : 0);
     done();
   }
   return replayed;
@@ -127,64 +130,104 @@ void compare_beliefs(const Places& before, const std::vector<KeptPicture>& pictu
   }
 }
 
-/// Where pictures were taken, before anybody's edits: these are what is in doubt.
-class Whereabouts {
- public:
-  explicit Whereabouts(const TopologicalMap& before) : layout_(map::metric_layout(before)) {}
-  /// Nothing where the map cannot tell.
-  [[nodiscard]] std::optional<double> apart_m(const ImageId& a, const ImageId& b) const {
-    const auto first = layout_.find(a);
-    const auto second = layout_.find(b);
-    if (first == layout_.end() || second == layout_.end()) return std::nullopt;
-    if (first->second.component != second->second.component) return std::nullopt;
-    if (!first->second.metric || !second->second.metric) return std::nullopt;
-    const Pose2& p = first->second.map_from_robot;
-    const Pose2& q = second->second.map_from_robot;
-    return std::hypot(p.x_m - q.x_m, p.y_m - q.y_m);
+std::vector<mapping::TourSweep> sweeps_of(const std::vector<KeptPicture>& pictures) {
+  std::vector<mapping::TourSweep> sweeps;
+  for (const KeptPicture& picture : pictures) {
+    if (picture.sweep) sweeps.push_back({picture.image, *picture.sweep});
   }
-
- private:
-  map::MetricLayout layout_;
-};
+  return sweeps;
+}
 
 double median(std::vector<double> values) {
   std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
   return values[values.size() / 2];
 }
 
-/// Whether what came to a place from others belongs there.
-void check_places(const TopologicalMap& before, const map::MapDifference& difference,
-                  const std::vector<KeptPicture>& pictures, const Whereabouts& whereabouts, ReplayCheck& check) {
-  std::unordered_map<ImageId, const features::Appearance*> seen;
-  for (const KeptPicture& picture : pictures) seen.emplace(picture.image, &picture.seen);
-  for (const map::PlaceDifference& one : difference.places) {
-    if (!one.before || !one.after || one.gained.empty()) continue;
-    const Place& place = *map::find_place(before, one.id);
+/// Whether what came to places from others belongs there.
+class GainedPictures {
+ public:
+  GainedPictures(const TopologicalMap& before, const std::vector<KeptPicture>& pictures, const Whereabouts& whereabouts)
+      : before_(before), whereabouts_(whereabouts) {
+    for (const KeptPicture& picture : pictures) seen_.emplace(picture.image, &picture.seen);
+  }
+
+  void check(const map::MapDifference& difference, ReplayCheck& check) const {
+    for (const map::PlaceDifference& one : difference.places) {
+      if (!one.before || !one.after || one.gained.empty()) continue;
+      check_looks(one, check);
+      check_spots(one, check);
+    }
+  }
+
+ private:
+  void check_looks(const map::PlaceDifference& one, ReplayCheck& check) const {
+    const Place& place = *map::find_place(before_, one.id);
     WorseSpot unlike{Worsening::kPictures, one.id, {}, {}, 0, 0.0};
-    WorseSpot far{Worsening::kPlaces, one.id, {}, one.gained, static_cast<int>(one.gained.size()), 0.0};
-    std::vector<double> apart_m;
     for (const ImageId& image : one.gained) {
-      if (const auto distance_m = whereabouts.apart_m(image, place.prototype)) apart_m.push_back(*distance_m);
-      const auto looked = seen.find(image);
-      if (looked == seen.end()) continue;
+      if (!seen_.contains(image)) continue;
       ++unlike.of;
-      // Against all that the place was known by, and its own pictures of the tour.
-      const auto shows = [&](const features::Appearance& known) {
-        return mapping::relate(known, *looked->second, {}, kSeed).match_share >= kLeastMatchShare ||
-               mapping::relate(*looked->second, known, {}, kSeed + 1).match_share >= kLeastMatchShare;
-      };
-      bool found = std::ranges::any_of(place.appearances, shows);
-      for (std::size_t m = 0; m < place.members.size() && !found; ++m) {
-        const auto member = seen.find(place.members[m]);
-        found = member != seen.end() && shows(*member->second);
-      }
-      if (!found) unlike.images.push_back(image);
+      if (!shows(place, image)) unlike.images.push_back(image);
     }
     if (2 * unlike.images.size() > static_cast<std::size_t>(unlike.of)) check.worse.push_back(unlike);
-    if (apart_m.empty()) continue;
-    far.distance_m = median(std::move(apart_m));
-    if (far.distance_m > kOnePlace_m) check.worse.push_back(std::move(far));
   }
+
+  void check_spots(const map::PlaceDifference& one, ReplayCheck& check) const {
+    const Place& place = *map::find_place(before_, one.id);
+    WorseSpot far{Worsening::kPlaces, one.id, {}, one.gained, static_cast<int>(one.gained.size()), 0.0};
+    std::vector<double> apart_m;
+    std::size_t parted = 0;
+    for (const ImageId& image : one.gained) {
+      if (const auto distance_m = whereabouts_.apart_m(image, place.prototype)) apart_m.push_back(*distance_m);
+      const auto from = [&](const ImageId& member) { return whereabouts_.parted(image, member); };
+      if (std::ranges::all_of(place.members, from)) ++parted;
+    }
+    if (apart_m.empty()) return;
+    far.distance_m = median(std::move(apart_m));
+    if (far.distance_m > kOnePlace_m || 2 * parted > one.gained.size()) check.worse.push_back(std::move(far));
+  }
+
+  /// Against all that the place was known by, and its own pictures of the tour.
+  [[nodiscard]] bool shows(const Place& place, const ImageId& image) const {
+    const auto known = [&](const map::AppearanceList::Entry& entry) {
+      return shows(entry.image, *entry.appearance, image);
+    };
+    if (std::ranges::any_of(place.appearances.entries(), known)) return true;
+    return std::ranges::any_of(place.members, [&](const ImageId& member) {
+      const auto found = seen_.find(member);
+      return found != seen_.end() && shows(member, *found->second, image);
+    });
+  }
+
+  [[nodiscard]] bool shows(const ImageId& known, const features::Appearance& looks, const ImageId& image) const {
+    const features::Appearance& looked = *seen_.at(image);
+    const auto ahead = mapping::relate(looks, looked, {}, kSeed);
+    if (ahead.match_share >= kLeastMatchShare) {
+      return whereabouts_.may_be(known, image, static_cast<double>(ahead.direction_rad),
+                                 static_cast<double>(ahead.turn_rad));
+    }
+    const auto back = mapping::relate(looked, looks, {}, kSeed + 1);
+    return back.match_share >= kLeastMatchShare &&
+           whereabouts_.may_be(image, known, static_cast<double>(back.direction_rad),
+                               static_cast<double>(back.turn_rad));
+  }
+
+  const TopologicalMap& before_;
+  const Whereabouts& whereabouts_;
+  std::unordered_map<ImageId, const features::Appearance*> seen_;
+};
+
+/// What is wrong with a new way, and how long it is; nothing where it can be there.
+std::optional<std::pair<Worsening, double>> fault_of(const map::Edge& way, const ImageId& from, const ImageId& to,
+                                                     const Whereabouts& whereabouts) {
+  const auto apart_m = whereabouts.apart_m(from, to);
+  const double distance_m = apart_m.value_or(0.0);
+  if (whereabouts.parted(from, to)) return std::pair(Worsening::kWay, distance_m);
+  const bool seen =
+      !way.weak && way.bearing_rad && way.turn_rad && whereabouts.may_be(from, to, *way.bearing_rad, *way.turn_rad);
+  const bool near = apart_m && distance_m <= kSeenWay_m && way.weak;
+  if (!seen && !near && !whereabouts.free_between(from, to)) return std::pair(Worsening::kWay, distance_m);
+  if (distance_m > kLongestWay_m) return std::pair(Worsening::kFarWay, distance_m);
+  return std::nullopt;
 }
 
 /// Whether new ways can be there. Between places that merged or parted the pictures were there before.
@@ -196,14 +239,8 @@ void check_ways(const TopologicalMap& after, const map::MapDifference& differenc
     if (!told.insert(std::minmax(one.from, one.to)).second) continue;
     const ImageId& from = map::find_place(after, one.from)->prototype;
     const ImageId& to = map::find_place(after, one.to)->prototype;
-    const auto apart_m = whereabouts.apart_m(from, to);
-    const double distance_m = apart_m.value_or(0.0);
-    if (one.after->weak && distance_m > kSeenWay_m) {
-      check.worse.push_back({Worsening::kWay, one.from, one.to, {from, to}, 2, distance_m});
-    } else if (one.after->weak && !apart_m) {
-      check.worse.push_back({Worsening::kWay, one.from, one.to, {from, to}, 2, 0.0});
-    } else if (distance_m > kLongestWay_m) {
-      check.worse.push_back({Worsening::kFarWay, one.from, one.to, {from, to}, 2, distance_m});
+    if (const auto fault = fault_of(*one.after, from, to, whereabouts)) {
+      check.worse.push_back({fault->first, one.from, one.to, {from, to}, 2, fault->second});
     }
   }
 }
@@ -275,8 +312,8 @@ Result<ReplayCheck> check_by_replay(const TopologicalMap& before, const Topologi
   };
   // Each replay goes picture by picture; the two go side by side.
   const auto one = [&](std::size_t which) {
-    which == 0 ? old = replay(before, old_places, pictures, done, stop)
-               : now = replay(after, new_places, pictures, done, stop);
+    which == 0 ? old = replay(before, old_places, old_places, pictures, done, stop)
+               : now = replay(after, new_places, old_places, pictures, done, stop);
   };
   if (!mapping::parallel_for(2, threads, one, tell, stop) || !old || !now) {
     return fail(ErrorCode::kCancelled, "The check was cancelled.");
@@ -289,8 +326,8 @@ Result<ReplayCheck> check_by_replay(const TopologicalMap& before, const Topologi
   check.lost_after = static_cast<int>(std::ranges::count(now->believed, PlaceId()));
   compare_beliefs(old_places, pictures, *old, *now, check);
   const map::MapDifference difference = map::difference(before, after);
-  const Whereabouts whereabouts(before);
-  check_places(before, difference, pictures, whereabouts, check);
+  const Whereabouts whereabouts(before, sweeps_of(pictures));
+  GainedPictures(before, pictures, whereabouts).check(difference, check);
   check_ways(after, difference, whereabouts, check);
   check_routes(before, after, check);
   std::ranges::stable_sort(check.worse, {}, &WorseSpot::kind);
@@ -310,9 +347,18 @@ Result<ReplayCheck> check_by_replay(const TopologicalMap& before, const Topologi
   };
   auto seen = look_at_tours(tours, *eye, threads, stage("features", 0.0, kLookedAtShare), stop);
   if (!seen) return pass_on(seen);
+  std::unordered_map<ImageId, RangeSweep> sweeps;
+  for (const TourSource* tour : tours) {
+    for (const TourImage& image : tour->images()) {
+      if (image.sweep) sweeps.emplace(image.id, *image.sweep);
+    }
+  }
   std::vector<KeptPicture> pictures;
   for (std::size_t i = 0; i < seen->tours.images.size(); ++i) {
-    pictures.push_back({seen->tours.images[i].id, seen->tours.tour_of[i], std::move(seen->tours.appearances[i])});
+    const ImageId& id = seen->tours.images[i].id;
+    const auto sweep = sweeps.find(id);
+    pictures.push_back({id, seen->tours.tour_of[i], std::move(seen->tours.appearances[i]),
+                        sweep == sweeps.end() ? std::nullopt : std::optional(sweep->second)});
   }
   return check_by_replay(before, after, pictures, threads, stage("localise", kLookedAtShare, 1.0 - kLookedAtShare),
                          stop);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
 #include "core/ids.hpp"
+#include "core/range_sweep.hpp"
 #include "core/result.hpp"
 #include "core/tour.hpp"
 #include "features/appearance.hpp"
@@ -20,6 +22,7 @@ struct KeptPicture {
   ImageId image;
   int tour = 0;
   features::Appearance seen;
+  std::optional<RangeSweep> sweep = std::nullopt;  // taken with it
 };
 
 using map::ReplayCheck;
@@ -28,8 +31,9 @@ using map::WorseSpot;
 
 /// Tries edits before they count: localises the pictures of the kept tours on the map before and after them, looks
 /// whether pictures that came to a place show it and were taken near it, whether new ways are seen, and whether all
-/// destinations still lead to each other. What was no better before is not told. `after` is `before`, edited. The
-/// result does not depend on `threads`. Errors: kCancelled. Ours.
+/// destinations still lead to each other. Where pictures come with sweeps, these say what stands between two spots, and
+/// what is free. What was no better before is not told. `after` is `before`, edited. The result does not depend on
+/// `threads`. Errors: kCancelled. Ours.
 Result<ReplayCheck> check_by_replay(const map::TopologicalMap& before, const map::TopologicalMap& after,
                                     const std::vector<KeptPicture>& pictures, int threads,
                                     const std::function<void(double)>& progress = {}, const std::stop_token& stop = {});

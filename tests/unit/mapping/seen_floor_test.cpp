@@ -54,6 +54,24 @@ TEST(SeenFloor, UnknownIsNotFree) {
   EXPECT_FALSE(floor.strip(0, {2.7, 0.5}, {4.2, 0.5}, kHalf_m, kWithin_m).free);
 }
 
+TEST(SeenFloor, AWallHidesASpotBehindItAndADoorDoesNot) {
+  std::vector<Wall> walls = kRoom;
+  walls.push_back({{2.0, -1.0}, {2.0, 2.0}});
+  const ImageId here("t/0");
+  const ImageId there("t/1");
+  const std::vector<Pose2> poses = {{1.0, 0.5, 0.4}, {3.0, 0.5, -2.0}};
+  EXPECT_TRUE(Seen(poses, walls).floor().hides(here, there, 0.3, 0.2));
+  EXPECT_TRUE(Seen(poses, walls).floor().hides(there, here, 0.3, 0.2));
+  EXPECT_FALSE(Seen(poses, kRoom).floor().hides(here, there, 0.3, 0.2));
+  walls.back() = {{2.0, -1.0}, {2.0, 0.5}};  // half of the wall
+  EXPECT_FALSE(Seen(poses, walls).floor().hides(here, there, 0.3, 0.2));
+}
+
+TEST(SeenFloor, NothingIsKnownToHideWhatHasNoSweep) {
+  EXPECT_FALSE(Seen({{0.0, 0.5, 0.0}}, kRoom).floor().hides(ImageId("t/0"), ImageId("t/1"), 0.3, 0.2));
+  EXPECT_FALSE(Seen({{0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}}, {}).floor().hides(ImageId("t/0"), ImageId("t/1"), 0.3, 0.2));
+}
+
 TEST(SeenFloor, RaysThatCameBackWithNothingSayNothing) {
   const SeenStrip strip =
       Seen({{0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}}, {}).floor().strip(0, {0.0, 0.0}, {4.0, 0.0}, kHalf_m, kWithin_m);

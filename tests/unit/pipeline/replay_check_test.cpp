@@ -7,6 +7,7 @@
 #include "mapping/edit_log.hpp"
 #include "pipeline/eye.hpp"
 #include "support/painted_tour.hpp"
+#include "support/walled_floor.hpp"
 
 namespace homeward::pipeline::replay_check_test {
 namespace {
@@ -121,6 +122,80 @@ TEST(ReplayCheck, TellsAWayByAPersonThatNoPictureSees) {
   ASSERT_EQ(check.worse.size(), 1U);
   EXPECT_EQ(check.worse[0].kind, Worsening::kWay);
   EXPECT_EQ(check.worse[0].images.size(), 2U);
+}
+
+constexpr double kFirst_m = -3.0;
+constexpr double kStep_m = 0.5;
+
+/// The corridor with the odometry of its tour.
+map::TopologicalMap measured() {
+  map::TopologicalMap map = taught();
+  for (std::size_t i = 0; i < map.images.size(); ++i) {
+    map.images[i].odometry = Pose2{kFirst_m + kStep_m * static_cast<double>(i), 0.05, 0.0};
+  }
+  return map;
+}
+
+/// Its pictures, with sweeps that saw these walls and those of the corridor.
+std::vector<KeptPicture> swept(std::vector<testing::Wall> walls) {
+  for (const testing::Wall& wall : testing::walls_around({-4.0, -0.8}, {4.0, 0.8})) walls.push_back(wall);
+  std::vector<KeptPicture> made = pictures();
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    made[i].sweep = testing::sweep_at({kFirst_m + kStep_m * static_cast<double>(i), 0.05, 0.0}, walls);
+  }
+  return made;
+}
+
+/// Across the corridor between pictures 5 and 6.
+const std::vector<testing::Wall> kWall = {{{-0.25, -0.8}, {-0.25, 0.8}}};
+
+bool tells(const ReplayCheck& check, Worsening kind) {
+  return std::ranges::find(check.worse, kind, &WorseSpot::kind) != check.worse.end();
+}
+
+TEST(ReplayCheck, TellsAWayThroughAWallThatSweepsSawAndNoneThatTheySawFree) {
+  const map::TopologicalMap before = measured();
+  map::TopologicalMap after = before;
+  map::Edge way;
+  way.from = map::find_place_of(after, image(1))->id;
+  way.to = map::find_place_of(after, image(12))->id;
+  way.by = map::Decider::kPerson;
+  way.weak = true;
+  ASSERT_EQ(map::find_edge(after, way.from, way.to), nullptr);
+  after.edges.push_back(way);
+  EXPECT_TRUE(tells(check_by_replay(before, after, pictures(), 2).value(), Worsening::kWay)) << "not seen";
+  EXPECT_TRUE(check_by_replay(before, after, swept({}), 2).value().harmless());
+  EXPECT_TRUE(tells(check_by_replay(before, after, swept(kWall), 2).value(), Worsening::kWay));
+}
+
+TEST(ReplayCheck, TellsPlacesAsOneThatAWallParts) {
+  const map::TopologicalMap before = measured();
+  map::TopologicalMap after = before;
+  map::Edit merge;
+  merge.kind = EditKind::kMerge;
+  merge.image_a = image(3);
+  merge.image_b = image(8);
+  ASSERT_TRUE(mapping::apply_edit(after, merge));
+  EXPECT_FALSE(tells(check_by_replay(before, after, swept({}), 2).value(), Worsening::kPlaces));
+  EXPECT_TRUE(tells(check_by_replay(before, after, swept(kWall), 2).value(), Worsening::kPlaces));
+}
+
+TEST(ReplayCheck, TellsPicturesThatLookAlikeAndTellAnotherMotionThanTheTour) {
+  const map::TopologicalMap before = measured();
+  map::TopologicalMap after = before;
+  map::Edit merge;
+  merge.kind = EditKind::kMerge;
+  merge.image_a = image(3);
+  merge.image_b = image(7);
+  ASSERT_TRUE(mapping::apply_edit(after, merge));
+  EXPECT_FALSE(tells(check_by_replay(before, after, pictures(), 2).value(), Worsening::kPictures));
+  map::TopologicalMap aside = before;  // the tour turned a corner between them
+  for (std::size_t i = 0; i < aside.images.size(); ++i) {
+    if (i > 5) aside.images[i].odometry = Pose2{-0.5, kStep_m * static_cast<double>(i - 5), kPi / 2.0};
+  }
+  map::TopologicalMap merged = aside;
+  ASSERT_TRUE(mapping::apply_edit(merged, merge));
+  EXPECT_TRUE(tells(check_by_replay(aside, merged, pictures(), 2).value(), Worsening::kPictures));
 }
 
 TEST(ReplayCheck, GivesTheSameWithAnyNumberOfThreadsAndCanBeCancelled) {
