@@ -143,6 +143,12 @@ class Store {
   /// Success also when there are none.
   virtual Status remove_drives(const std::vector<MissionId>& missions) = 0;
 
+  /// Counts one drive on each of these ways, which was `driven` to its end or failed there. Errors: kNotFound (the
+  /// map).
+  virtual Status count_way_drives(const MapId& map, const std::vector<DrivenWay>& ways, bool driven, TimeUs t_us) = 0;
+  /// Of ways that missions came to, by their places.
+  virtual Result<std::vector<WayDrives>> way_drives(const MapId& map) = 0;
+
   // --- Jobs -------------------------------------------------------------------------------------------------------
   /// Errors: kNotFound (the map).
   virtual Result<wire::JobView> add_job(wire::JobView job) = 0;

@@ -107,6 +107,21 @@ struct Drive {
   std::vector<DriveSight> sights;
 };
 
+/// How missions fared on a way of a map.
+struct WayDrives {
+  PlaceId from;
+  PlaceId to;
+  std::int64_t driven = 0;
+  std::int64_t failed = 0;
+  TimeUs last_us = 0;
+};
+
+/// From one place to the next.
+struct DrivenWay {
+  PlaceId from;
+  PlaceId to;
+};
+
 /// Edits of a map that are tried before they count.
 struct DraftRecord {
   wire::DraftId id;

@@ -13,6 +13,7 @@
 #include "server/http/http_server.hpp"
 #include "server/routes/account_routes.hpp"
 #include "server/routes/draft_routes.hpp"
+#include "server/routes/evidence_routes.hpp"
 #include "server/routes/job_routes.hpp"
 #include "server/routes/map_routes.hpp"
 #include "server/routes/operation_routes.hpp"
@@ -101,6 +102,7 @@ struct App::Parts {
     add_tour_routes(router, tours, *store);
     add_map_routes(router, maps, jobs, *store);
     add_draft_routes(router, drafts, jobs, *store);
+    add_evidence_routes(router, maps);
     add_job_routes(router, jobs);
     add_robot_routes(router, driving, authenticator, *store);
     add_socket_routes(router, driving, events, [this] { return snapshot(); });

@@ -95,6 +95,8 @@ class SqliteStore final : public Store {
   Result<std::vector<MissionId>> drives(const MapId& map) override;
   Result<Drive> drive(const MissionId& mission) override;
   Status remove_drives(const std::vector<MissionId>& missions) override;
+  Status count_way_drives(const MapId& map, const std::vector<DrivenWay>& ways, bool driven, TimeUs t_us) override;
+  Result<std::vector<WayDrives>> way_drives(const MapId& map) override;
 
   // --- Jobs ---
   Result<wire::JobView> add_job(wire::JobView job) override;

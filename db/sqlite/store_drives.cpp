@@ -69,6 +69,36 @@ Status SqliteStore::remove_drives(const std::vector<MissionId>& missions) {
   return database_.work([&](SQLite::Database& database) { forget_drives(database, missions); });
 }
 
+Status SqliteStore::count_way_drives(const MapId& map, const std::vector<DrivenWay>& ways, bool driven, TimeUs t_us) {
+  return database_.work([&](SQLite::Database& database) {
+    if (!prepared(database, "SELECT id FROM maps WHERE id = ?", map).executeStep()) {
+      refuse(ErrorCode::kNotFound, "There is no map with this id.", "maps/" + map.str());
+    }
+    for (const DrivenWay& way : ways) {
+      execute(database,
+              "INSERT INTO way_drives (map, from_place, to_place, driven, failed, last_us) VALUES (?, ?, ?, ?, ?, ?) "
+              "ON CONFLICT (map, from_place, to_place) DO UPDATE SET driven = driven + excluded.driven, "
+              "failed = failed + excluded.failed, last_us = excluded.last_us",
+              map, way.from, way.to, driven ? 1 : 0, driven ? 0 : 1, t_us);
+    }
+  });
+}
+
+Result<std::vector<WayDrives>> SqliteStore::way_drives(const MapId& map) {
+  return database_.read([&](SQLite::Database& database) {
+    SQLite::Statement row = prepared(database,
+                                     "SELECT from_place, to_place, driven, failed, last_us FROM way_drives "
+                                     "WHERE map = ? ORDER BY from_place, to_place",
+                                     map);
+    std::vector<WayDrives> found;
+    while (row.executeStep()) {
+      found.push_back(
+          {PlaceId(text(row, 0)), PlaceId(text(row, 1)), integer(row, 2), integer(row, 3), integer(row, 4)});
+    }
+    return found;
+  });
+}
+
 void SqliteStore::forget_drives(SQLite::Database& database, const std::vector<MissionId>& missions) {
   for (const MissionId& mission : missions) execute(database, "DELETE FROM drives WHERE mission = ?", mission);
 }

@@ -143,6 +143,11 @@ class Driving : public LinkListener {
   // Tells the robot how probable its start is. Errors: kLost where it is unsure and could not find out.
   static Status set_start(const Start& start, wire::MissionOrder& order);
   void keep(const wire::MissionView& mission);
+  // Counts the ways between places `first` - 1 and `last` of a mission's path (way_counts.cpp).
+  void count_ways(const wire::MissionView& mission, std::int64_t first, std::int64_t last, bool driven);
+  // Ways of an order that people drew and missions have driven are driven as others.
+  void confirm_ways(const map::TopologicalMap& map, const std::vector<PlaceId>& path, wire::MissionOrder& order,
+                    const MapId& id);
   void close_silent_links(SteadyTime now);
   void hand_over_sights(RobotUnit& unit);  // with the unit locked
 

@@ -86,6 +86,7 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
   if (!route) return pass_on(route);
   plan.order = destination != nullptr ? wire::order_for_route(map, route->places, *destination)
                                       : wire::order_for_route(map, route->places);
+  confirm_ways(map, route->places, plan.order, map_id);
   const auto layout = maps_.layout(*loaded);
   wire::add_surroundings(map, *layout, planning::surroundings(map, route->places, likely, *layout), plan.order);
   if (const Status begins = set_start(start, plan.order); !begins) return pass_on(begins);

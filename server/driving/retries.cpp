@@ -111,6 +111,7 @@ Result<Driving::Plan> Driving::plan_detour(const Unit& unit, const MissionId& mi
       plan.mission.destination ? map::find_destination(map, *plan.mission.destination) : nullptr;
   plan.order =
       destination != nullptr ? wire::order_for_route(map, places, *destination) : wire::order_for_route(map, places);
+  confirm_ways(map, places, plan.order, plan.mission.map);
   const auto layout = maps_.layout(*loaded);
   wire::add_surroundings(map, *layout, planning::surroundings(map, places, likely, *layout), plan.order);
   for (const planning::Way& way : asked.closed) wire::leave_out_way(way.from, way.to, plan.order);

@@ -62,10 +62,10 @@ Response edit_draft(DraftService& drafts, const Request& request) {
                                          *edits, request.caller.name));
 }
 
-using Step = Result<wire::DraftView> (DraftService::*)(const MapId&, const wire::DraftId&, std::int64_t);
+using DraftStep = Result<wire::DraftView> (DraftService::*)(const MapId&, const wire::DraftId&, std::int64_t);
 
 // A step through the changes of a draft, back or forth.
-Response go_in_draft(DraftService& drafts, Step step, const Request& request) {
+Response go_in_draft(DraftService& drafts, DraftStep step, const Request& request) {
   auto version = asked_version(request);
   if (auto* refusal = std::get_if<Response>(&version)) return *refusal;
   return draft_response(200, (drafts.*step)(drafted_map(request), draft_in(request), std::get<std::int64_t>(version)));

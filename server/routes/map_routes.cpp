@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/routes/map_routes.hpp"
 
-#include <array>
 #include <set>
 
 #include "map/lookup.hpp"
@@ -10,7 +9,6 @@
 #include "server/routes/route_answer.hpp"
 #include "wire/graph_json.hpp"
 #include "wire/json_write.hpp"
-#include "wire/pair_json.hpp"
 
 namespace homeward::server {
 namespace {
@@ -163,6 +161,22 @@ Response history(MapService& maps, const Request& request) {
   return json_response(200, {{"edits", list}});
 }
 
+Response way_drives(db::Store& store, const Request& request) {
+  const auto record = store.map(map_in(request));
+  if (!record) return problem_of(record);
+  const auto ways = store.way_drives(record->id);
+  if (!ways) return problem_of(ways);
+  json list = json::array();
+  for (const db::WayDrives& way : *ways) {
+    list.push_back({{"from", way.from.str()},
+                    {"to", way.to.str()},
+                    {"driven", way.driven},
+                    {"failed", way.failed},
+                    {"last_us", way.last_us}});
+  }
+  return json_response(200, {{"ways", list}});
+}
+
 Response remove_map(BuildJobs& jobs, db::Store& store, const Request& request) {
   if (jobs.building(map_in(request))) {
     return problem(
@@ -182,24 +196,6 @@ Response export_map(db::Store& store, const Request& request) {
   if (!bytes) return problem_of(bytes);
   Response response = bytes_response(*bytes, "application/vnd.sqlite3");
   response.headers["content-disposition"] = "attachment; filename=\"" + map_in(request).str() + ".hwmap\"";
-  return response;
-}
-
-Response pair(MapService& maps, const Request& request) {
-  std::array<ImageId, 2> images;
-  std::size_t at = 0;
-  for (const char* name : {"image_a", "image_b"}) {
-    const auto given = request.query.find(name);
-    if (given == request.query.end() || given->second.empty()) {
-      return problem(
-          {ErrorCode::kInvalidInput, std::string("Name a picture as ") + name + ".", "query/" + std::string(name)});
-    }
-    images.at(at++) = ImageId(given->second);
-  }
-  const auto found = maps.pair(map_in(request), images[0], images[1]);
-  if (!found) return problem_of(found);
-  Response response = json_response(200, wire::pair_to_json(*found));
-  response.headers["cache-control"] = "private, max-age=3600";
   return response;
 }
 
@@ -240,8 +236,8 @@ void add_map_routes(Router& router, MapService& maps, BuildJobs& jobs, db::Store
   router.add({operation("get_history"), [m](Request& request) { return history(*m, request); }});
   router.add({operation("undo_edit"), [m](Request& request) { return go(*m, &MapService::undo, request); }});
   router.add({operation("redo_edit"), [m](Request& request) { return go(*m, &MapService::redo, request); }});
+  router.add({operation("list_way_drives"), [db](Request& request) { return way_drives(*db, request); }});
   router.add({operation("export_map"), [db](Request& request) { return export_map(*db, request); }});
-  router.add({operation("get_pair"), [m](Request& request) { return pair(*m, request); }});
   router.add({operation("import_map"), [m](Request& request) { return import_map(*m, request); }});
   router.add({operation("get_route"), [m](Request& request) { return answer_route(*m, map_in(request), request); }});
   router.add({operation("localise"), [m](Request& request) {

@@ -79,6 +79,8 @@ inline constexpr std::array kOperations = [] {
                 kMaxJsonBody},
       Operation{"publish_draft", "POST", "/api/v1/maps/{map}/drafts/{draft}/publish", kInstaller, Lane::kWork,
                 kMaxJsonBody},
+      Operation{"list_way_drives", "GET", "/api/v1/maps/{map}/ways", kViewer, Lane::kWork, kMaxJsonBody},
+      Operation{"list_doubts", "GET", "/api/v1/maps/{map}/doubts", kViewer, Lane::kHeavy, kMaxJsonBody},
       Operation{"get_pair", "GET", "/api/v1/maps/{map}/pair", kViewer, Lane::kHeavy, kMaxJsonBody},
       Operation{"export_map", "GET", "/api/v1/maps/{map}/export", kViewer, Lane::kWork, kMaxJsonBody},
       Operation{"import_map", "POST", "/api/v1/maps/import", kInstaller, Lane::kBulk, kMaxMapBody},

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "map/layout.hpp"
+#include "mapping/doubts.hpp"
 #include "wire/graph_json.hpp"
 
 namespace homeward::server {
@@ -85,6 +86,19 @@ std::shared_ptr<const std::string> MapCache::graph(const MapId& id, const Loaded
     entry->graph = graph;
   }
   return graph;
+}
+
+std::shared_ptr<const std::vector<map::Doubt>> MapCache::doubts(const LoadedMap& loaded) {
+  const std::scoped_lock finding(finding_doubts_);
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const Entry* entry = entry_of(loaded); entry != nullptr && entry->doubts) return entry->doubts;
+  }
+  // Nothing stops it.
+  auto doubts = std::make_shared<const std::vector<map::Doubt>>(mapping::doubts_of(loaded->map, {}, 0).value());
+  const std::scoped_lock lock(mutex_);
+  if (Entry* entry = entry_of(loaded)) entry->doubts = doubts;
+  return doubts;
 }
 
 }  // namespace homeward::server

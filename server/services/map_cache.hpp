@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "db/store.hpp"
+#include "map/doubt.hpp"
 #include "map/metric_layout.hpp"
 
 namespace homeward::server {
@@ -41,6 +42,8 @@ class MapCache {
   std::shared_ptr<const map::MetricLayout> layout(const LoadedMap& loaded);
   /// The graph of a map as the contract has it (wire::graph_to_json), as text; computed once for a map that is kept.
   std::shared_ptr<const std::string> graph(const MapId& id, const LoadedMap& loaded);
+  /// What a person should look at in a map (mapping::doubts_of); found once for a map that is kept.
+  std::shared_ptr<const std::vector<map::Doubt>> doubts(const LoadedMap& loaded);
 
  private:
   using Drawing = std::vector<Eigen::Vector2d>;  // map::layout
@@ -51,13 +54,15 @@ class MapCache {
     std::shared_ptr<const map::MetricLayout> layout = nullptr;
     std::shared_ptr<const Drawing> drawing = nullptr;
     std::shared_ptr<const std::string> graph = nullptr;
+    std::shared_ptr<const std::vector<map::Doubt>> doubts = nullptr;
   };
   // With mutex_ held:
   Entry* entry_of(const LoadedMap& loaded);
   void put(Entry entry);
 
   const MapCacheLimits limits_;
-  mutable std::mutex mutex_;  // of entries_
+  std::mutex finding_doubts_;  // one search at a time; taken before the other
+  mutable std::mutex mutex_;   // of entries_
   std::deque<Entry> entries_;
 };
 

@@ -39,6 +39,8 @@ class MapService {
   std::shared_ptr<const std::string> graph(const MapId& id, const LoadedMap& loaded) {
     return cache_.graph(id, loaded);
   }
+  /// As MapCache says.
+  std::shared_ptr<const std::vector<map::Doubt>> doubts(const LoadedMap& loaded) { return cache_.doubts(loaded); }
   /// Applies all edits as one change, or none. Errors: kStaleRevision, those of wire::edit_for_map and
   /// mapping::apply_edit. Returns the new revision.
   Result<std::int64_t> edit(const MapId& id, std::int64_t revision, const std::vector<wire::EditRequest>& edits,

@@ -6,8 +6,9 @@
 namespace homeward::cli {
 
 void register_map(CLI::App& program) {
-  CLI::App* map = program.add_subcommand(
-      "map", "Build, extend, refine, edit, compare, inspect and export maps, decide on their shortcuts");
+  CLI::App* map = program.add_subcommand("map",
+                                         "Build, extend, refine, edit, compare, inspect and export maps, find what is "
+                                         "doubtful, decide on their shortcuts");
   map->require_subcommand(1);
   register_map_build(*map);
   register_map_inspect(*map);

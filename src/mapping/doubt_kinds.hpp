@@ -16,27 +16,24 @@ namespace homeward::mapping {
 /// What there is to know of two places that may be one.
 struct SamePlaceSigns {
   double distance = std::numeric_limits<double>::infinity();  // D of the two prototypes, in the map's usual distances
-  double match_share = 0.0;                                   // of their features that they have in common
   double confidence = 0.0;                                    // that what they have in common is no chance
-  std::optional<double> support;                              // of the hypothesis, where there is one
-  std::optional<double> plausibility;
-  std::optional<double> apart_m;   // by the layout
-  double common_neighbours = 0.0;  // share of the ways of the one with fewer that lead to the same places
-  bool joined = false;             // a way leads from one to the other
+  double belief = 0.0;                                        // support + plausibility - 1 of the hypothesis, if any
+  std::optional<double> apart_m;                              // by the layout of the map
+  double way_m = 0.0;                                         // from one to the other, by its ways
 };
 
 /// That they are one place.
 double probability_of_one_place(const SamePlaceSigns& signs);
 
-/// What there is to know of the visits to a place that another visit's pictures stand for.
+/// What there is to know of a visit to a place whose prototype is of another one.
 struct MixedPlaceSigns {
-  double seen = 0.0;              // surest sight from the prototype to where the tour came from or went on to
-  std::optional<double> apart_m;  // from the prototype, by the layout
-  double unlike = 0.0;            // share of its appearances that look like none of the prototype's
-  int pictures = 0;
+  // How surely the prototype sees where the tour came from and where it went on to.
+  double surer_sight = 0.0;
+  double other_sight = 0.0;
+  std::optional<double> apart_m;  // the visit from the prototype, by the layout
 };
 
-/// That these pictures show another place than the prototype does.
+/// That its pictures show another place than the prototype does.
 double probability_of_two_places(const MixedPlaceSigns& signs);
 
 struct WaySigns {

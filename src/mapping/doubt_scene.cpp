@@ -25,7 +25,8 @@ DoubtScene::DoubtScene(const map::TopologicalMap& map)
       number_(map::image_indices(map)),
       place_of_(map.images.size(), -1),
       visits_(map.places.size()),
-      beside_(map.places.size()) {
+      beside_(map.places.size()),
+      within_(map.places.size()) {
   for (std::size_t p = 0; p < map.places.size(); ++p) {
     for (const ImageId& member : map.places[p].members) {
       const int image = number_of(member);
@@ -34,6 +35,8 @@ DoubtScene::DoubtScene(const map::TopologicalMap& map)
   }
   find_visits();
   find_ways();
+  find_hypotheses();
+  read_edits();
   layout_ = map::metric_layout(map);
 }
 
@@ -88,6 +91,38 @@ void DoubtScene::find_ways() {
       if (visit.after >= 0 && found != ways_.end()) found->second.driven = true;
     }
   }
+}
+
+void DoubtScene::find_hypotheses() {
+  for (std::size_t h = 0; h < map_.hypotheses.size(); ++h) {
+    const int a = place_of(map_.hypotheses[h].prototype_a);
+    if (a >= 0 && a == place_of(map_.hypotheses[h].prototype_b)) within_[at(a)].push_back(h);
+  }
+}
+
+void DoubtScene::read_edits() {
+  for (const map::Edit& edit : map_.edits) {
+    if (edit.undone || !edit.lost.empty()) continue;
+    const int a = place_of(edit.image_a);
+    const int b = place_of(edit.image_b);
+    if (edit.kind == map::EditKind::kMerge) joined_.emplace_back(edit.image_a, edit.image_b);
+    if (edit.kind == map::EditKind::kSplit) {
+      for (const ImageId& image : edit.images) {
+        const int left = place_of(image);
+        if (a >= 0 && left >= 0 && left != a) parted_.insert(std::minmax(a, left));
+      }
+    }
+    const bool of_way = edit.kind == map::EditKind::kBlockEdge || edit.kind == map::EditKind::kAddEdge;
+    if (of_way && a >= 0 && b >= 0) said_ways_.insert(std::minmax(a, b));
+  }
+}
+
+bool DoubtScene::joined_by_a_person(const std::vector<ImageId>& pictures) const {
+  const auto among = [&](const ImageId& image) { return std::ranges::find(pictures, image) != pictures.end(); };
+  return std::ranges::any_of(joined_, [&](const auto& pair) {
+    const bool one_place = place_of(pair.first) == place_of(pair.second);
+    return one_place && among(pair.first) != among(pair.second);
+  });
 }
 
 std::optional<double> DoubtScene::apart_m(const ImageId& a, const ImageId& b) const {

@@ -55,6 +55,16 @@ class DoubtScene {
   [[nodiscard]] const WayFacts* way(int a, int b) const;
   [[nodiscard]] const std::vector<int>& beside(int place) const { return beside_[at_(place)]; }
 
+  /// Hypotheses whose two pictures are in this place, by index into the map's.
+  [[nodiscard]] const std::vector<std::size_t>& hypotheses_within(int place) const { return within_[at_(place)]; }
+
+  // What people said by edits that stand.
+  [[nodiscard]] bool parted_by_a_person(int a, int b) const { return parted_.contains(std::minmax(a, b)); }
+  /// Whether one of them joined pictures of these with others of their place.
+  [[nodiscard]] bool joined_by_a_person(const std::vector<ImageId>& pictures) const;
+  /// Whether one of them drew, closed or opened the way between two places.
+  [[nodiscard]] bool way_said_by_a_person(int a, int b) const { return said_ways_.contains(std::minmax(a, b)); }
+
   /// Metres between two pictures by the layout of the map; nothing where odometry does not join them.
   [[nodiscard]] std::optional<double> apart_m(const ImageId& a, const ImageId& b) const;
 
@@ -67,6 +77,8 @@ class DoubtScene {
   static std::size_t at_(int index) { return static_cast<std::size_t>(index); }
   void find_visits();
   void find_ways();
+  void find_hypotheses();
+  void read_edits();
 
   const map::TopologicalMap& map_;
   std::unordered_map<ImageId, int> number_;
@@ -74,6 +86,10 @@ class DoubtScene {
   std::vector<std::vector<PlaceVisit>> visits_;
   std::map<PlaceIndices, WayFacts> ways_;
   std::vector<std::vector<int>> beside_;
+  std::vector<std::vector<std::size_t>> within_;
+  std::set<PlaceIndices> parted_;
+  std::vector<std::pair<ImageId, ImageId>> joined_;
+  std::set<PlaceIndices> said_ways_;
   map::MetricLayout layout_;
 };
 

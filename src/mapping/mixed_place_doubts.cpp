@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <tuple>
 
 #include "core/index.hpp"
 #include "mapping/doubt_kinds.hpp"
@@ -14,7 +14,6 @@ using map::Doubt;
 /// A visit to a place and what is known of it.
 struct Judged {
   PlaceVisit visit;
-  MixedPlaceSigns signs;
   double stray = 0.0;  // probability that it shows another place than the prototype
 };
 
@@ -24,19 +23,23 @@ double sight(const DoubtScene& scene, int place, int other) {
   return way == nullptr ? 0.0 : way->confidence;
 }
 
+MixedPlaceSigns signs_of(const DoubtScene& scene, int place, const PlaceVisit& visit) {
+  MixedPlaceSigns signs;
+  // At an end of a tour there is but one way.
+  const int before = visit.before >= 0 ? visit.before : visit.after;
+  const int after = visit.after >= 0 ? visit.after : visit.before;
+  std::tie(signs.other_sight, signs.surer_sight) =
+      std::minmax({sight(scene, place, before), sight(scene, place, after)});
+  signs.apart_m = scene.apart_m(scene.place(place).prototype, scene.image(visit.middle()));
+  return signs;
+}
+
 std::vector<Judged> judged_visits(const DoubtScene& scene, int place) {
   const int prototype = scene.number_of(scene.place(place).prototype);
   std::vector<Judged> judged;
   for (const PlaceVisit& visit : scene.visits(place)) {
-    Judged one{visit, {}, 0.0};
-    one.signs.pictures = visit.last - visit.first + 1;
     const bool own = visit.first <= prototype && prototype <= visit.last;
-    if (!own) {
-      one.signs.seen = std::max(sight(scene, place, visit.before), sight(scene, place, visit.after));
-      one.signs.apart_m = scene.apart_m(scene.place(place).prototype, scene.image(visit.middle()));
-      one.stray = probability_of_two_places(one.signs);
-    }
-    judged.push_back(one);
+    judged.push_back({visit, own ? 0.0 : probability_of_two_places(signs_of(scene, place, visit))});
   }
   return judged;
 }
@@ -57,12 +60,10 @@ std::vector<int> places_around(const std::vector<Judged>& visits, bool strays, i
 std::vector<std::size_t> hypotheses_between(const DoubtScene& scene, int place, const std::vector<ImageId>& leaving) {
   const auto leaves = [&](const ImageId& image) { return std::ranges::find(leaving, image) != leaving.end(); };
   std::vector<std::size_t> between;
-  for (std::size_t h = 0; h < scene.map().hypotheses.size(); ++h) {
+  for (const std::size_t h : scene.hypotheses_within(place)) {
     const map::Hypothesis& one = scene.map().hypotheses[h];
-    const bool within = scene.place_of(one.prototype_a) == place && scene.place_of(one.prototype_b) == place;
-    if (within && one.decision == map::Decision::kAccepted && leaves(one.prototype_a) != leaves(one.prototype_b)) {
-      between.push_back(h);
-    }
+    const bool joins = leaves(one.prototype_a) != leaves(one.prototype_b);
+    if (joins && one.decision == map::Decision::kAccepted) between.push_back(h);
   }
   return between;
 }
@@ -73,6 +74,7 @@ void say_what_to_do(const DoubtScene& scene, int place, const std::vector<ImageI
   map::Edit split = edit_of(kSplit, scene.place(place).prototype, {});
   split.images = leaving;
   doubt.if_no.push_back(std::move(split));
+  if (scene.joined_by_a_person(leaving)) doubt.by = map::Decider::kPerson;
   for (const std::size_t h : hypotheses_between(scene, place, leaving)) {
     const map::Hypothesis& one = scene.map().hypotheses[h];
     if (!doubt.hypothesis) doubt.hypothesis = h;
@@ -86,8 +88,9 @@ void say_what_to_do(const DoubtScene& scene, int place, const std::vector<ImageI
 }  // namespace
 
 double probability_of_two_places(const MixedPlaceSigns& signs) {
-  double odds = -2.0 + 4.0 * (0.4 - signs.seen);
-  if (signs.apart_m) odds += std::clamp(2.0 * (*signs.apart_m - 2.5), -4.0, 5.0);
+  // Of visits to places of rendered houses and wards, sound and wrongly merged: docs/experiments/doubts.md.
+  double odds = -2.5 + 8.0 * (0.7 - signs.surer_sight) + 3.0 * (0.6 - signs.other_sight);
+  if (signs.apart_m) odds += std::clamp(2.0 * (*signs.apart_m - 2.5), -5.0, 5.0);
   return 1.0 / (1.0 + std::exp(-odds));
 }
 

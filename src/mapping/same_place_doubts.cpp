@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "core/angles.hpp"
 #include "core/index.hpp"
 #include "features/aggregate.hpp"
 #include "mapping/compare_all.hpp"
@@ -103,27 +104,15 @@ std::vector<Pair> worth_a_look(Pairs pairs, const DoubtScene& scene, const Doubt
   return chosen;
 }
 
-double common_neighbours(const DoubtScene& scene, int a, int b) {
-  const std::vector<int>& of_a = scene.beside(a);
-  const std::vector<int>& of_b = scene.beside(b);
-  const auto shared = std::ranges::count_if(of_a, [&](int p) { return std::ranges::find(of_b, p) != of_b.end(); });
-  return static_cast<double>(shared) /
-         static_cast<double>(std::max<std::size_t>(1, std::min(of_a.size(), of_b.size())));
-}
-
-SamePlaceSigns signs_of(const DoubtScene& scene, const Pair& pair) {
-  const auto [a, b] = pair.places;
+SamePlaceSigns signs_of(const DoubtScene& scene, const Pair& pair, double way_m) {
   SamePlaceSigns signs;
   signs.distance = static_cast<double>(pair.seen.distance) / scene.map().motion.distance_scale;
-  signs.match_share = static_cast<double>(pair.seen.match_share);
   signs.confidence = static_cast<double>(pair.seen.confidence);
-  signs.apart_m = scene.apart_m(scene.place(a).prototype, scene.place(b).prototype);
-  signs.common_neighbours = common_neighbours(scene, a, b);
-  signs.joined = scene.way(a, b) != nullptr;
+  signs.apart_m = scene.apart_m(scene.place(pair.places.first).prototype, scene.place(pair.places.second).prototype);
+  signs.way_m = way_m;
   if (pair.hypotheses.empty()) return signs;
   const map::Hypothesis& hypothesis = scene.map().hypotheses[pair.hypotheses.front()];
-  signs.support = hypothesis.support;
-  signs.plausibility = hypothesis.plausibility;
+  signs.belief = hypothesis.support + hypothesis.plausibility - 1.0;
   return signs;
 }
 
@@ -158,25 +147,37 @@ Doubt doubt_of(const DoubtScene& scene, const DoubtConfig& config, const Pair& p
     const bool kept_apart = hypothesis.decision == Decision::kRejected;
     doubt.state = kept_apart ? Decision::kRejected : Decision::kUndecided;
   }
+  if (scene.parted_by_a_person(a, b)) doubt.by = map::Decider::kPerson;
   doubt.place_a = scene.place(scene.place_of(doubt.image_a)).id;
   doubt.place_b = scene.place(scene.place_of(doubt.image_b)).id;
-  doubt.probability = probability_of_one_place(signs_of(scene, pair));
-  const double most_m = 20.0 * config.usual_detour_m;
-  doubt.effect = effect_of(scene.way_m(std::array{a}, std::array{b}, -1, std::nullopt, most_m), config);
+  const double way_m = scene.way_m(std::array{a}, std::array{b}, -1, std::nullopt, 20.0 * config.usual_detour_m);
+  doubt.probability = probability_of_one_place(signs_of(scene, pair, way_m));
+  doubt.effect = effect_of(way_m, config);
   say_what_to_do(scene, pair, doubt);
   return doubt;
+}
+
+/// By how much the layout makes it likelier that two places are one, a logarithm: near each other for its accuracy,
+/// which falls with the way between them, or anywhere on the floor. Seldom it is wrong altogether.
+double odds_of_layout(const SamePlaceSigns& signs) {
+  constexpr double kFloor_m2 = 100.0;
+  constexpr double kWrong = 1e-3;
+  const double sigma_m = 0.3 + 0.05 * signs.way_m;
+  const double z = *signs.apart_m / sigma_m;
+  // A layout that is vague does not speak against them.
+  const double peak = std::max(1.0, kFloor_m2 / (2.0 * kPi * sigma_m * sigma_m));
+  return std::log((1.0 - kWrong) * peak * std::exp(-z * z / 2.0) + kWrong);
 }
 
 }  // namespace
 
 double probability_of_one_place(const SamePlaceSigns& signs) {
-  if (!std::isfinite(signs.distance)) return signs.plausibility && *signs.plausibility > 0.5 ? 0.05 : 0.01;
-  double odds = -0.5 - 2.0 * std::log(std::max(0.05, signs.distance));
-  odds += 2.0 * (signs.confidence - 0.5);
-  if (signs.support) odds += 1.5 * (*signs.support + *signs.plausibility - 1.0);
-  if (signs.apart_m) odds += std::clamp(2.0 - *signs.apart_m, -4.0, 2.0);
-  odds += 1.5 * signs.common_neighbours;
-  if (signs.joined) odds -= 1.0;
+  constexpr double kLeastDistance = 0.2;
+  constexpr double kNothingInCommon = 20.0;
+  const double distance = std::clamp(signs.distance, kLeastDistance, kNothingInCommon);
+  // Of pairs of rendered houses and wards, half a place's extent apart or not: docs/experiments/doubts.md.
+  double odds = -7.2 - 3.7 * std::log(distance) + 4.8 * signs.confidence + 3.3 * signs.belief;
+  if (signs.apart_m) odds = -6.0 - 4.0 * std::log(distance) + 2.0 * signs.confidence + odds_of_layout(signs);
   return 1.0 / (1.0 + std::exp(-odds));
 }
 

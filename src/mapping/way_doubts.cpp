@@ -9,16 +9,9 @@
 namespace homeward::mapping {
 namespace {
 
-/// Whether a person said of this way that it exists: it is by a person, or was closed or opened by one.
 bool said_by_a_person(const DoubtScene& scene, const PlaceIndices& ends, const WayFacts& way) {
   const auto by_person = [&](int e) { return scene.map().edges[at(e)].by == map::Decider::kPerson; };
-  if (std::ranges::any_of(way.edges, by_person)) return true;
-  return std::ranges::any_of(scene.map().edits, [&](const map::Edit& edit) {
-    if (edit.kind != map::EditKind::kBlockEdge || edit.undone) return false;
-    const int a = scene.place_of(edit.image_a);
-    const int b = scene.place_of(edit.image_b);
-    return a >= 0 && b >= 0 && PlaceIndices(std::minmax(a, b)) == ends;
-  });
+  return std::ranges::any_of(way.edges, by_person) || scene.way_said_by_a_person(ends.first, ends.second);
 }
 
 }  // namespace

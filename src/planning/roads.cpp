@@ -61,7 +61,7 @@ Roads::Roads(const map::TopologicalMap& map, const RouteRequest& request)
 double Roads::seconds(int edge) const {
   const map::Edge& way = map_.edges[at(edge)];
   double speed_mps = travel_.speed_mps * (way.weak ? travel_.weak_speed_share : 1.0);
-  if (way.shortcut) speed_mps = std::min(speed_mps, travel_.shortcut_mps);
+  if (way.shortcut || way.by == map::Decider::kPerson) speed_mps = std::min(speed_mps, travel_.shortcut_mps);
   return std::max(way.length_m, 0.0) / speed_mps;
 }
 

@@ -10,9 +10,9 @@ namespace homeward::planning {
 /// What a route should have little of.
 enum class RouteCost { kLength, kTime };
 
-/// How long driving takes: an edge its length over the speed, a weak one at a share of it, a shortcut no faster than
-/// its own speed; where two edges meet, the turn from one direction of travel into the other. A turn between edges of
-/// which one has no bearing counts as none.
+/// How long driving takes: an edge its length over the speed, a weak one at a share of it, a shortcut, or a way that a
+/// person drew, no faster than its own speed; where two edges meet, the turn from one direction of travel into the
+/// other. A turn between edges of which one has no bearing counts as none.
 struct TravelModel {
   double speed_mps = 0.4;
   double turn_radps = 0.6;

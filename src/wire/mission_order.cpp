@@ -19,7 +19,7 @@ std::optional<PathEdge> edge_between(const map::TopologicalMap& map, const Place
   // A robot that counts on a length needs a measured one.
   const bool metric = edge->length_from == map::LengthSource::kOdometry;
   return PathEdge{edge->bearing_rad, edge->turn_rad, metric ? std::optional(edge->length_m) : std::nullopt, edge->weak,
-                  edge->shortcut};
+                  edge->shortcut || edge->by == map::Decider::kPerson};
 }
 
 /// The ways between the views that an order tells of which a tour drove and which are open, each once: what is closed
@@ -79,6 +79,18 @@ MissionOrder order_for_route(const map::TopologicalMap& map, std::span<const Pla
   order.label = destination.label;
   order.dock = true;
   return order;
+}
+
+bool drawn_by_a_person(const map::TopologicalMap& map, const PlaceId& from, const PlaceId& to) {
+  const map::Edge* edge = map::find_edge(map, from, to);
+  return edge != nullptr && edge->by == map::Decider::kPerson && !edge->shortcut;
+}
+
+void confirm_way(const PlaceId& from, const PlaceId& to, MissionOrder& order) {
+  for (std::size_t i = 0; i + 1 < order.path.size(); ++i) {
+    PathPlace& step = order.path[i];
+    if (step.place == from && order.path[i + 1].place == to && step.next) step.next->shortcut = false;
+  }
 }
 
 void add_surroundings(const map::TopologicalMap& map, const map::MetricLayout& layout, std::span<const PlaceId> nearby,

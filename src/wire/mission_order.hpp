@@ -16,12 +16,19 @@ namespace homeward::wire {
 void add_surroundings(const map::TopologicalMap& map, const map::MetricLayout& layout, std::span<const PlaceId> nearby,
                       MissionOrder& order);
 
+/// Whether a person drew the way, and no tour drove it nor was it proposed as a shortcut.
+bool drawn_by_a_person(const map::TopologicalMap& map, const PlaceId& from, const PlaceId& to);
+
+/// A way by a person, which an order has driven as slowly as a shortcut, is driven as others: a mission has driven it.
+void confirm_way(const PlaceId& from, const PlaceId& to, MissionOrder& order);
+
 /// Takes a way out of those that an order says that a tour drove, both directions of it: it is closed for now, so that
 /// something on it says nothing of where the robot is. Nothing where the order does not tell of it.
 void leave_out_way(const PlaceId& from, const PlaceId& to, MissionOrder& order);
 
 /// The path part of a mission: the places of a route with their prototypes' appearances and what the map knows of the
-/// ways between them, and the destination's own picture, to whose heading the robot turns. Ids, order, permit and speed
+/// ways between them, and the destination's own picture, to whose heading the robot turns. Ways that a person drew are
+/// driven slowly, until confirm_way. Ids, order, permit and speed
 /// are the caller's. Precondition: the places are in the map.
 MissionOrder order_for_route(const map::TopologicalMap& map, std::span<const PlaceId> route,
                              const map::Destination& destination);

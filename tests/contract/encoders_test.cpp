@@ -9,6 +9,7 @@
 #include "support/sample_map.hpp"
 #include "wire/build_json.hpp"
 #include "wire/difference_json.hpp"
+#include "wire/doubt_json.hpp"
 #include "wire/edit_json.hpp"
 #include "wire/error_table.hpp"
 #include "wire/event_json.hpp"
@@ -158,6 +159,82 @@ TEST(Encoders, TellWhatTwoPicturesHaveInCommon) {
   pair.shift = -0.5;
   pair.matches = {{{0.0, 1.0}, {1.0, 0.0}, 0.3, true}};
   EXPECT_THAT(schemas().problems("pair", pair_to_json(pair)), IsEmpty());
+}
+
+std::vector<map::Doubt> sample_doubts() {
+  map::Doubt same;
+  same.image_a = ImageId("tour/00000.jpg");
+  same.image_b = ImageId("tour/00002.jpg");
+  same.place_a = PlaceId("p1");
+  same.place_b = PlaceId("p2");
+  same.probability = 0.5;
+  same.effect = 0.5;
+  same.hypothesis = 0;
+  same.neighbours = {{PlaceId("p1"), PlaceId("p2"), true, 0.75}};
+  map::Edit edit;
+  edit.kind = map::EditKind::kMerge;
+  edit.image_a = same.image_a;
+  edit.image_b = same.image_b;
+  same.if_yes = {edit};
+  edit.kind = map::EditKind::kDecide;
+  edit.text = "reject";
+  same.if_no = {edit};
+  map::Doubt mixed = same;
+  mixed.kind = map::DoubtKind::kMixedPlace;
+  mixed.state = map::Decision::kAccepted;
+  mixed.place_b = mixed.place_a;
+  mixed.hypothesis.reset();
+  edit.kind = map::EditKind::kSplit;
+  edit.images = {same.image_b};
+  mixed.if_no = {edit};
+  mixed.if_yes = {};
+  map::Doubt way = mixed;
+  way.kind = map::DoubtKind::kWay;
+  way.by = map::Decider::kPerson;
+  way.place_b = same.place_b;
+  edit.kind = map::EditKind::kBlockEdge;
+  edit.text = "false";
+  edit.images = {};
+  std::swap(edit.image_a, edit.image_b);
+  way.if_yes = {edit};
+  edit.kind = map::EditKind::kRemoveEdge;
+  way.if_no = {edit};
+  return {same, mixed, way};
+}
+
+TEST(Encoders, WriteDoubtsThatTheSchemaAccepts) {
+  const json all = doubts_to_json(sample_doubts(), sample_map(), "m1", {DoubtsAbout::kAll, {}, {}, 0, 20});
+  EXPECT_THAT(schemas().problems("doubts", all), IsEmpty());
+  EXPECT_EQ(all["total"], 3);
+  EXPECT_EQ(all["revision"], 4);
+  EXPECT_EQ(all["doubts"][0]["if_yes"], json::parse(R"([{"kind":"merge","place":"p2","into":"p1"}])"));
+  EXPECT_EQ(all["doubts"][0]["masses_after"], json::parse(R"({"true":0.1,"false":0.8,"unknown":0.1})"));
+  EXPECT_EQ(all["doubts"][1]["if_no"], json::parse(R"([{"kind":"split","place":"p1","images":["tour/00002.jpg"]}])"));
+  EXPECT_TRUE(all["doubts"][1]["support"].is_null());
+  EXPECT_EQ(all["doubts"][2]["if_yes"],
+            json::parse(R"([{"kind":"block_edge","from":"p2","to":"p1","blocked":false}])"));
+  for (const json& doubt : all["doubts"]) {
+    for (const char* answer : {"if_yes", "if_no"}) {
+      EXPECT_TRUE(doubt[answer].empty() || edits_from_json({{"edits", doubt[answer]}})) << doubt[answer];
+    }
+  }
+}
+
+TEST(Encoders, WriteThoseDoubtsThatAreAskedFor) {
+  const auto count = [](const DoubtFilter& filter) {
+    const json page = doubts_to_json(sample_doubts(), sample_map(), "m1", filter);
+    EXPECT_THAT(schemas().problems("doubts", page), IsEmpty());
+    return std::pair(page["total"].get<int>(), page["doubts"].size());
+  };
+  EXPECT_EQ(count({}), std::pair(2, std::size_t{2}));
+  EXPECT_EQ(count({DoubtsAbout::kUndecided, {}, {}, 0, 20}), std::pair(1, std::size_t{1}));
+  EXPECT_EQ(count({DoubtsAbout::kClose, {}, {}, 0, 20}), std::pair(1, std::size_t{1}));
+  EXPECT_EQ(count({DoubtsAbout::kDecided, {}, {}, 0, 20}), std::pair(1, std::size_t{1}));
+  EXPECT_EQ(count({DoubtsAbout::kAll, map::DoubtKind::kWay, {}, 0, 20}), std::pair(1, std::size_t{1}));
+  EXPECT_EQ(count({DoubtsAbout::kAll, {}, PlaceId("p2"), 0, 20}), std::pair(2, std::size_t{2}));
+  EXPECT_EQ(count({DoubtsAbout::kAll, {}, {}, 2, 20}), std::pair(3, std::size_t{1}));
+  EXPECT_EQ(count({DoubtsAbout::kAll, {}, {}, 5, 20}), std::pair(3, std::size_t{0}));
+  EXPECT_EQ(count({DoubtsAbout::kAll, {}, {}, 0, 1}), std::pair(3, std::size_t{1}));
 }
 
 TEST(Encoders, TellEverythingOfAMap) {

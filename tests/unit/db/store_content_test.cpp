@@ -363,5 +363,23 @@ TEST_F(StoreContent, AnswersAreKeptForADay) {
   EXPECT_FALSE(store().answer({"berta", "POST /maps", "k1"}, 1001)->has_value());
 }
 
+TEST_F(StoreContent, HowMissionsFaredOnWaysIsCounted) {
+  const MapId map = new_map();
+  const std::vector<DrivenWay> two = {{PlaceId("p1"), PlaceId("p2")}, {PlaceId("p2"), PlaceId("p3")}};
+  ASSERT_TRUE(store().count_way_drives(map, two, true, 5));
+  ASSERT_TRUE(store().count_way_drives(map, {two[0]}, true, 6));
+  ASSERT_TRUE(store().count_way_drives(map, {two[0]}, false, 7));
+  open();
+  const auto ways = store().way_drives(map).value();
+  ASSERT_EQ(ways.size(), 2U);
+  EXPECT_EQ(ways[0].driven, 2);
+  EXPECT_EQ(ways[0].failed, 1);
+  EXPECT_EQ(ways[0].last_us, 7);
+  EXPECT_EQ(ways[1].driven, 1);
+  EXPECT_EQ(store().count_way_drives(MapId("none"), two, true, 8).error().code, ErrorCode::kNotFound);
+  ASSERT_TRUE(store().remove_map(map));
+  EXPECT_TRUE(store().way_drives(map)->empty());
+}
+
 }  // namespace
 }  // namespace homeward::db::store_content_test

@@ -5,6 +5,7 @@
 
 #include "map/lookup.hpp"
 #include "mapping/edit_log.hpp"
+#include "pipeline/eye.hpp"
 #include "support/painted_tour.hpp"
 
 namespace homeward::pipeline::replay_check_test {

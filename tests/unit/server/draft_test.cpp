@@ -215,20 +215,5 @@ TEST_F(DraftTest, IsToldToDashboardsWhenItChangesAndWhenItGoes) {
   EXPECT_EQ(told("draft_gone").at("draft"), draft.at("id"));
 }
 
-TEST_F(DraftTest, TwoPicturesOfTheMapAreComparedAsPeopleSeeThem) {
-  teach(3);
-  const json members = graph().at("places").at(0).at("members");
-  ASSERT_GE(members.size(), 2U);
-  const std::string a = members.at(0);
-  const std::string b = members.at(1);
-  const Answer pair = admin->get(root_ + "/pair?image_a=" + a + "&image_b=" + b);
-  ASSERT_EQ(pair.status, 200) << pair.body;
-  EXPECT_EQ(pair.json().at("image_b"), b);
-  EXPECT_FALSE(pair.json().at("turn_rad").is_null());
-  EXPECT_GT(pair.json().at("matches").size(), 8U);
-  EXPECT_EQ(admin->get(root_ + "/pair?image_a=" + a).status, 422);
-  EXPECT_EQ(admin->get(root_ + "/pair?image_a=" + a + "&image_b=t/none.jpg").status, 404);
-}
-
 }  // namespace
 }  // namespace homeward::server::draft_test

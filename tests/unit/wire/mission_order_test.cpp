@@ -68,6 +68,26 @@ TEST(OrderForRoute, SaysWhichWayNoTourDrove) {
   EXPECT_TRUE(order.path[1].next->shortcut);
 }
 
+TEST(OrderForRoute, HasWaysThatAPersonDrewDrivenSlowlyUntilTheyAreConfirmed) {
+  map::TopologicalMap map = corridor();
+  for (map::Edge& edge : map.edges) {
+    if (edge.from != PlaceId("B") && edge.from != PlaceId("C")) continue;
+    edge.by = map::Decider::kPerson;
+    edge.shortcut = edge.from == PlaceId("C");
+  }
+  EXPECT_FALSE(drawn_by_a_person(map, PlaceId("A"), PlaceId("B")));
+  EXPECT_TRUE(drawn_by_a_person(map, PlaceId("B"), PlaceId("C")));
+  EXPECT_FALSE(drawn_by_a_person(map, PlaceId("C"), PlaceId("D"))) << "a shortcut was proposed";
+  MissionOrder order = order_for_route(map, places("ABCD"));
+  EXPECT_FALSE(order.path[0].next->shortcut);
+  EXPECT_TRUE(order.path[1].next->shortcut);
+  confirm_way(PlaceId("C"), PlaceId("B"), order);
+  EXPECT_TRUE(order.path[1].next->shortcut) << "the other direction";
+  confirm_way(PlaceId("B"), PlaceId("C"), order);
+  EXPECT_FALSE(order.path[1].next->shortcut);
+  EXPECT_TRUE(order.path[2].next->shortcut);
+}
+
 TEST(AddSurroundings, EndsAtThePrototypeOfAPlaceThatIsNoDestination) {
   const map::TopologicalMap map = corridor();
   MissionOrder order = order_for_route(map, places("ABC"));
