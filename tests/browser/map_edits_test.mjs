@@ -219,8 +219,8 @@ const checks = [
       house.steer({ do: 'change', edits, by: 'ben' });
       await card.getByText('No open way leads to Kitchen.').waitFor();
       await shoot(page, out, 'coverage');
-      await card.getByRole('button', { name: 'Near the bathroom – Bathroom' }).click();
-      await page.getByRole('heading', { level: 2, name: 'Near the bathroom', exact: true }).waitFor();
+      await card.getByRole('button', { name: 'Bathroom – Near the bathroom' }).click();
+      await page.getByRole('heading', { level: 2, name: 'Bathroom', exact: true }).waitFor();
     }),
   ],
   [

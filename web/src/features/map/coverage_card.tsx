@@ -32,18 +32,18 @@ export function CoverageCard({ graph, onChoose }: Props) {
         </Notice>
       ))}
       <div>
-        <Section title={`Ways that are hard to drive: ${weak.length}`}>
+        <Section title={`Ways that are hard to drive: ${weak.length}`} heading={false}>
           <p class="soft small">
             The chair may lose such a way. Driving the stretch once more on a tour often helps.
           </p>
           <Spots graph={graph} spots={weak_pairs} onChoose={onChoose} />
         </Section>
         {seen_once.length > 0 && (
-          <Section title={`Places that one tour alone has seen: ${seen_once.length}`}>
+          <Section title={`Places that one tour alone has seen: ${seen_once.length}`} heading={false}>
             <Spots graph={graph} spots={alone} onChoose={onChoose} />
           </Section>
         )}
-        <Section title={`Tours in this map: ${tours.length}`}>
+        <Section title={`Tours in this map: ${tours.length}`} heading={false}>
           <Tours tours={tours} />
         </Section>
       </div>
