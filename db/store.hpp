@@ -125,7 +125,7 @@ class Store {
   /// Its edits, as the next version. Errors: kNotFound, kStaleRevision (`expected_version` is not the present one).
   virtual Result<DraftRecord> save_draft_edits(const wire::DraftId& id, const std::vector<map::Edit>& edits,
                                                std::int64_t expected_version) = 0;
-  /// The check that was asked for last; what an earlier one found is forgotten. Errors: kNotFound.
+  /// The check that was asked for last; what an earlier one found stays until this one has ended. Errors: kNotFound.
   virtual Status set_draft_check(const wire::DraftId& id, const wire::DraftCheck& check) = 0;
   /// What a check found, as JSON, unless another was asked for meanwhile. Success also when the draft is gone.
   virtual Status keep_draft_findings(const wire::DraftId& id, const JobId& job, const std::string& findings) = 0;

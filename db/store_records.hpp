@@ -113,7 +113,8 @@ struct WayDrives {
   PlaceId to;
   std::int64_t driven = 0;
   std::int64_t failed = 0;
-  TimeUs last_us = 0;
+  TimeUs last_driven_us = 0;  // 0: never
+  TimeUs last_failed_us = 0;
 };
 
 /// From one place to the next.

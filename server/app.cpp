@@ -31,6 +31,8 @@ constexpr int kRequestWorkers = 4;
 constexpr std::size_t kRequestQueue = 256;
 constexpr int kRequestNiceness = 5;  // behind the pictures of those who drive
 constexpr std::size_t kHeavyQueue = 64;
+constexpr std::size_t kSlowQueue = 64;
+constexpr int kSlowNiceness = 7;  // behind requests
 constexpr std::size_t kBulkQueue = 4;
 constexpr int kBulkNiceness = 10;  // as builds
 constexpr std::size_t kJournalQueue = 100'000;
@@ -84,6 +86,7 @@ struct App::Parts {
         store(std::move(opened)),
         workers(kRequestWorkers, kRequestQueue, kRequestNiceness),
         heavy(threads_of(config), kHeavyQueue),
+        slow(1, kSlowQueue, kSlowNiceness),
         bulk(1, kBulkQueue, kBulkNiceness),
         journal(1, kJournalQueue),
         access(config.allowed_hosts, config.trusted_proxies),
@@ -95,7 +98,13 @@ struct App::Parts {
         driving(*store, maps, events, heavy, journal, clock, config.longest_mission_s),
         drafts(*store, maps, events, clock),
         jobs(*store, maps, drafts, events, clock, threads_of(config)),
-        front({router, access, files, authenticator, idempotency, metrics, workers, heavy, bulk, passwords, clock}) {
+        front({router, access, files, authenticator, idempotency, metrics, workers, heavy, slow, bulk, passwords,
+               clock}) {
+    // A draft that no dashboard is told of now is asked for by whoever opens its map.
+    maps.when_changed([this](const MapId& map) {
+      if (!slow.try_run([this, map] { drafts.map_changed(map); }))
+        spdlog::warn("drafts of map {} are not told", map.str());
+    });
     driving.when_arrived([this](const db::Drive& drive) { jobs.add_drive(drive); });
     add_account_routes(router, authenticator, *store);
     add_user_routes(router, authenticator, *store, clock);
@@ -119,6 +128,7 @@ struct App::Parts {
     passwords.stop();
     workers.stop();
     heavy.stop();
+    slow.stop();
     bulk.stop();
     driving.keep_what_is_left();
     journal.finish();
@@ -192,6 +202,7 @@ struct App::Parts {
     passwords.work_off();
     workers.work_off();
     heavy.work_off();
+    slow.work_off();
     bulk.work_off();
     journal.work_off();  // what the others have given it
     jobs.work_off();     // and what that has given them
@@ -203,6 +214,7 @@ struct App::Parts {
   Metrics metrics;
   WorkPool workers;
   WorkPool heavy;
+  WorkPool slow;
   WorkPool bulk;
   WorkPool journal;
   PasswordQueue passwords;

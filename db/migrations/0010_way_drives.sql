@@ -5,6 +5,7 @@ CREATE TABLE way_drives (
   to_place TEXT NOT NULL,
   driven INTEGER NOT NULL,
   failed INTEGER NOT NULL,
-  last_us INTEGER NOT NULL,
+  last_driven_us INTEGER NOT NULL,  -- 0: never
+  last_failed_us INTEGER NOT NULL,
   PRIMARY KEY (map, from_place, to_place)
 ) STRICT, WITHOUT ROWID;

@@ -113,6 +113,9 @@ void check_references(const map::TopologicalMap& map, const std::set<ImageId>& i
       if (!images.contains(member)) refuse_file("A place names an image that the map does not hold.", where);
     }
     if (!images.contains(place.prototype)) refuse_file("A place's prototype is not in the map.", where);
+    if (std::ranges::find(place.members, place.prototype) == place.members.end()) {
+      refuse_file("A place's prototype is none of its images.", where);
+    }
   }
   for (const map::Edge& edge : map.edges) {
     if (!places.contains(edge.from) || !places.contains(edge.to)) {

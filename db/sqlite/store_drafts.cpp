@@ -107,8 +107,8 @@ Result<DraftRecord> SqliteStore::save_draft_edits(const wire::DraftId& id, const
 
 Status SqliteStore::set_draft_check(const wire::DraftId& id, const wire::DraftCheck& check) {
   return database_.work([&](SQLite::Database& database) {
-    if (execute(database, "UPDATE drafts SET check_job = ?, check_version = ?, check_result = NULL WHERE id = ?",
-                check.job, check.version, id) == 0) {
+    if (execute(database, "UPDATE drafts SET check_job = ?, check_version = ? WHERE id = ?", check.job, check.version,
+                id) == 0) {
       no_draft(id);
     }
   });

@@ -76,24 +76,27 @@ Status SqliteStore::count_way_drives(const MapId& map, const std::vector<DrivenW
     }
     for (const DrivenWay& way : ways) {
       execute(database,
-              "INSERT INTO way_drives (map, from_place, to_place, driven, failed, last_us) VALUES (?, ?, ?, ?, ?, ?) "
-              "ON CONFLICT (map, from_place, to_place) DO UPDATE SET driven = driven + excluded.driven, "
-              "failed = failed + excluded.failed, last_us = excluded.last_us",
-              map, way.from, way.to, driven ? 1 : 0, driven ? 0 : 1, t_us);
+              "INSERT INTO way_drives (map, from_place, to_place, driven, failed, last_driven_us, last_failed_us) "
+              "VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT (map, from_place, to_place) DO UPDATE SET "
+              "driven = driven + excluded.driven, failed = failed + excluded.failed, "
+              "last_driven_us = max(last_driven_us, excluded.last_driven_us), "
+              "last_failed_us = max(last_failed_us, excluded.last_failed_us)",
+              map, way.from, way.to, driven ? 1 : 0, driven ? 0 : 1, driven ? t_us : 0, driven ? 0 : t_us);
     }
   });
 }
 
 Result<std::vector<WayDrives>> SqliteStore::way_drives(const MapId& map) {
   return database_.read([&](SQLite::Database& database) {
-    SQLite::Statement row = prepared(database,
-                                     "SELECT from_place, to_place, driven, failed, last_us FROM way_drives "
-                                     "WHERE map = ? ORDER BY from_place, to_place",
-                                     map);
+    SQLite::Statement row =
+        prepared(database,
+                 "SELECT from_place, to_place, driven, failed, last_driven_us, last_failed_us FROM way_drives "
+                 "WHERE map = ? ORDER BY from_place, to_place",
+                 map);
     std::vector<WayDrives> found;
     while (row.executeStep()) {
-      found.push_back(
-          {PlaceId(text(row, 0)), PlaceId(text(row, 1)), integer(row, 2), integer(row, 3), integer(row, 4)});
+      found.push_back({PlaceId(text(row, 0)), PlaceId(text(row, 1)), integer(row, 2), integer(row, 3), integer(row, 4),
+                       integer(row, 5)});
     }
     return found;
   });

@@ -143,8 +143,12 @@ class Driving : public LinkListener {
   // Tells the robot how probable its start is. Errors: kLost where it is unsure and could not find out.
   static Status set_start(const Start& start, wire::MissionOrder& order);
   void keep(const wire::MissionView& mission);
-  // Counts the ways between places `first` - 1 and `last` of a mission's path (way_counts.cpp).
-  void count_ways(const wire::MissionView& mission, std::int64_t first, std::int64_t last, bool driven);
+  // Of way_counts.cpp. Counts the way to the place that it leaves behind, where it has come from the one before:
+  // whoever finds itself elsewhere on its path has not driven what lies between. With the unit locked, before it moves
+  // on.
+  void count_driven(RobotUnit& unit, std::int64_t index, wire::DriveState state);
+  // Counts the way to a place of a mission's path.
+  void count_way(const wire::MissionView& mission, std::int64_t index, bool driven);
   // Ways of an order that people drew and missions have driven are driven as others.
   void confirm_ways(const map::TopologicalMap& map, const std::vector<PlaceId>& path, wire::MissionOrder& order,
                     const MapId& id);

@@ -138,9 +138,7 @@ void Driving::received_status(const Unit& found, wire::AgentStatus status) {
     const std::int64_t last = static_cast<std::int64_t>(mission.path.size()) - 1;
     const std::int64_t index = std::clamp<std::int64_t>(now.path_index, 0, std::max<std::int64_t>(0, last));
     const bool moved_on = index != mission.path_index;
-    const bool going = now.state == wire::DriveState::kDriving || now.state == wire::DriveState::kArrived;
-    const std::int64_t gone = now.state == wire::DriveState::kArrived ? last : index - 1;
-    if (going) count_ways(mission, mission.path_index, gone, true);
+    count_driven(unit, index, now.state);
     mission.path_index = index;
     mission.arrival_probability = now.arrival_probability;
     switch (now.state) {
@@ -155,7 +153,7 @@ void Driving::received_status(const Unit& found, wire::AgentStatus status) {
           unit.failed_because = why_failed(now);
           mission.reason = now.reason;
           keep(mission);
-        } else if (count_ways(mission, index, index, false); !begin_detour(found, why_failed(now))) {
+        } else if (count_way(mission, index, false); !begin_detour(found, why_failed(now))) {
           if (unit.online() && unit.lease && !unit.known_start(*unit.status_at)) {
             unit.looks_since = unit.status_at;  // whoever stands before the camera may go on
             unit.looks = 0;

@@ -151,6 +151,8 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
   unit.lifted = false;
   unit.sights.clear();
   unit.answered.reset();
+  unit.counted_to = 0;
+  unit.stepped_to = 0;
   unit.mission_at = now;
   unit.mission_ends = end_of(planned->length_m, now);
   unit.link->send(planned->order);

@@ -160,6 +160,8 @@ void Driving::send_detour(const Unit& found, const MissionId& mission, const wir
   planned->order.order = {unit.epoch, unit.seq};
   planned->order.speed_limit_mps = std::min(wire::kSpeedLimit_mps, unit.hello.max_speed_mps);
   unit.mission = planned->mission;
+  unit.counted_to = 0;
+  unit.stepped_to = 0;
   unit.mission_at = now;
   // Another way may be far longer; there are three at most.
   if (!astray && !unit.second_look_m && longest_mission_s_ == 0)

@@ -77,9 +77,11 @@ struct RobotUnit {
   std::int64_t epoch = 0;
   std::int64_t seq = 0;  // of the last mission or permit of this epoch
   std::optional<wire::MissionView> mission;
-  bool under_way = false;   // `mission` is accepted or driving: permits go out
-  SteadyTime mission_at;    // when its latest way was sent
-  SteadyTime mission_ends;  // when it has lasted too long
+  bool under_way = false;       // `mission` is accepted or driving: permits go out
+  std::int64_t counted_to = 0;  // place of its latest way up to which drives on ways were counted
+  std::int64_t stepped_to = 0;  // place of it that it heads for since it left the one before behind; 0: it leapt there
+  SteadyTime mission_at;        // when its latest way was sent
+  SteadyTime mission_ends;      // when it has lasted too long
   // Another way after a part of the present one failed; of this mission alone.
   std::vector<planning::Way> closed;
   int detours = 0;

@@ -99,6 +99,7 @@ void AppFront::answer(std::shared_ptr<Request> request, Reply reply) {
 
 bool AppFront::queue(Lane lane, const std::string& address, WorkPool::Task task) {
   if (lane == Lane::kPassword) return parts_.passwords.try_run(address, std::move(task));
+  if (lane == Lane::kSlow) return parts_.slow.try_run(std::move(task));
   if (lane == Lane::kBulk) return parts_.bulk.try_run(std::move(task));
   return (lane == Lane::kHeavy ? parts_.heavy : parts_.workers).try_run(std::move(task));
 }

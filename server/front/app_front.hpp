@@ -25,6 +25,7 @@ struct FrontParts {
   Metrics& metrics;
   WorkPool& workers;
   WorkPool& heavy;
+  WorkPool& slow;
   WorkPool& bulk;
   PasswordQueue& passwords;
   const Clock& clock;

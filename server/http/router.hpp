@@ -19,6 +19,7 @@ enum class Lane {
   kNow,      // on the socket thread at once: stops, health. Must not wait for anything
   kWork,     // on the request workers: the store, small things
   kHeavy,    // on the bounded pool for pictures; 503 when it is full
+  kSlow,     // what may take seconds and nobody drives by: one at a time, behind all else; 503 when too many wait
   kBulk,     // whole maps: one at a time, behind all else; 503 when too many wait
   kPassword  // one at a time, a few of each address; 503 when too many wait
 };

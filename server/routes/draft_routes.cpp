@@ -92,9 +92,7 @@ Response draft_findings(db::Store& store, const Request& request) {
   const auto findings = store.draft_findings(draft->id);
   if (!findings) return problem_of(findings);
   if (!*findings) {
-    return problem({ErrorCode::kNotFound,
-                    draft->check ? "The replay check has not ended." : "No replay check was made.",
-                    "drafts/" + draft->id.str()});
+    return problem({ErrorCode::kNotFound, "No replay check of this draft has ended.", "drafts/" + draft->id.str()});
   }
   Response response;
   response.headers["content-type"] = "application/json";
@@ -103,7 +101,7 @@ Response draft_findings(db::Store& store, const Request& request) {
   return response;
 }
 
-Response publish_draft(DraftService& drafts, const Request& request) {
+Response publish_draft(DraftService& drafts, BuildJobs& jobs, const Request& request) {
   auto version = asked_version(request);
   if (auto* refusal = std::get_if<Response>(&version)) return *refusal;
   const auto body = json_body(request);
@@ -114,6 +112,7 @@ Response publish_draft(DraftService& drafts, const Request& request) {
   const auto revision =
       drafts.publish(drafted_map(request), draft_in(request), std::get<std::int64_t>(version), leave_out_lost);
   if (!revision) return problem_of(revision);
+  jobs.end_check(draft_in(request));
   Response response = json_response(200, {{"revision", *revision}});
   response.headers["etag"] = wire::revision_tag(*revision);
   return response;
@@ -129,9 +128,11 @@ void add_draft_routes(Router& router, DraftService& drafts, BuildJobs& jobs, db:
   router.add({operation("add_draft"), [d](Request& request) { return add_draft(*d, request); }});
   router.add({operation("get_draft"),
               [d](Request& request) { return draft_response(200, d->get(drafted_map(request), draft_in(request))); }});
-  router.add({operation("remove_draft"), [d](Request& request) {
+  router.add({operation("remove_draft"), [d, j](Request& request) {
                 const Status status = d->remove(drafted_map(request), draft_in(request));
-                return status ? empty_response(204) : problem_of(status);
+                if (!status) return problem_of(status);
+                j->end_check(draft_in(request));
+                return empty_response(204);
               }});
   router.add({operation("edit_draft"), [d](Request& request) { return edit_draft(*d, request); }});
   router.add(
@@ -145,7 +146,7 @@ void add_draft_routes(Router& router, DraftService& drafts, BuildJobs& jobs, db:
                 return job ? json_response(202, {{"job", wire::job_to_json(*job)}}) : problem_of(job);
               }});
   router.add({operation("get_draft_check"), [db](Request& request) { return draft_findings(*db, request); }});
-  router.add({operation("publish_draft"), [d](Request& request) { return publish_draft(*d, request); }});
+  router.add({operation("publish_draft"), [d, j](Request& request) { return publish_draft(*d, *j, request); }});
 }
 
 }  // namespace homeward::server

@@ -172,7 +172,8 @@ Response way_drives(db::Store& store, const Request& request) {
                     {"to", way.to.str()},
                     {"driven", way.driven},
                     {"failed", way.failed},
-                    {"last_us", way.last_us}});
+                    {"last_driven_us", way.last_driven_us > 0 ? json(way.last_driven_us) : json(nullptr)},
+                    {"last_failed_us", way.last_failed_us > 0 ? json(way.last_failed_us) : json(nullptr)}});
   }
   return json_response(200, {{"ways", list}});
 }

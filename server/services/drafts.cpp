@@ -121,11 +121,37 @@ Result<wire::DraftView> DraftService::tell_all(const MapId& map, const wire::Dra
   if (!drafts) return pass_on(drafts);
   std::optional<wire::DraftView> own;
   for (wire::DraftView& draft : *drafts) {
-    events_.publish(draft);
+    tell_if_other(draft);
     if (draft.id == changed) own = std::move(draft);
   }
   if (!own) return fail(ErrorCode::kNotFound, "There is no such draft.", where_of(changed));
   return std::move(*own);
+}
+
+void DraftService::tell_if_other(const wire::DraftView& draft) {
+  const std::size_t now = std::hash<std::string>()(wire::draft_to_json(draft).dump());
+  const auto [told, is_new] = told_.try_emplace(draft.id, now);
+  if (!is_new && told->second == now) return;
+  told->second = now;
+  events_.publish(draft);
+}
+
+void DraftService::forget(const MapId& map, const wire::DraftId& id) {
+  std::erase_if(applied_, [&](const Applied& one) { return one.id == id; });
+  told_.erase(id);
+  events_.publish(wire::DraftGone{map, id});
+  if (const auto others = views(map)) {
+    for (const wire::DraftView& other : *others) tell_if_other(other);
+  }
+}
+
+void DraftService::map_changed(const MapId& map) {
+  const std::scoped_lock lock(mutex_);
+  const auto known = store_.drafts(map);
+  if (!known || known->empty()) return;
+  if (const auto drafts = views(map)) {
+    for (const wire::DraftView& draft : *drafts) tell_if_other(draft);
+  }
 }
 
 Result<std::vector<wire::DraftView>> DraftService::list(const MapId& map) {
@@ -162,11 +188,7 @@ Status DraftService::remove(const MapId& map, const wire::DraftId& id) {
   const std::scoped_lock lock(mutex_);
   if (const auto known = store_.draft(map, id); !known) return pass_on(known);
   if (const Status removed = store_.remove_draft(id); !removed) return removed;
-  std::erase_if(applied_, [&](const Applied& one) { return one.id == id; });
-  events_.publish(wire::DraftGone{map, id});
-  if (const auto others = views(map)) {
-    for (const wire::DraftView& other : *others) events_.publish(other);
-  }
+  forget(map, id);
   return {};
 }
 
@@ -241,14 +263,10 @@ Result<std::int64_t> DraftService::publish(const MapId& map, const wire::DraftId
     standing += edit.lost.empty() ? 1 : 0;
   }
   if (standing == 0) return fail(ErrorCode::kConflict, "The draft changes nothing.", where_of(id));
-  const auto revision = maps_.publish(map, id, edits);
+  const auto revision = maps_.publish(map, now->base->map.revision, id, edits);
   if (!revision) return revision;
   spdlog::info("draft {} is revision {} of map {}", id.str(), *revision, map.str());
-  std::erase_if(applied_, [&](const Applied& one) { return one.id == id; });
-  events_.publish(wire::DraftGone{map, id});
-  if (const auto others = views(map)) {
-    for (const wire::DraftView& other : *others) events_.publish(other);
-  }
+  forget(map, id);
   return revision;
 }
 
@@ -272,7 +290,7 @@ Result<map::MapDifference> DraftService::difference(const MapId& map, const wire
 
 void DraftService::tell(const MapId& map, const wire::DraftId& id) {
   const std::scoped_lock lock(mutex_);
-  if (const auto draft = view(map, id)) events_.publish(*draft);
+  if (const auto draft = view(map, id)) tell_if_other(*draft);
 }
 
 }  // namespace homeward::server

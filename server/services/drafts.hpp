@@ -61,6 +61,8 @@ class DraftService {
   /// drawn unless ways between them changed.
   Result<std::string> graph(const MapId& map, const wire::DraftId& id);
   Result<map::MapDifference> difference(const MapId& map, const wire::DraftId& id);
+  /// The map has another revision: tells dashboards of drafts that are other on it.
+  void map_changed(const MapId& map);
   /// Tells dashboards of a draft as it is now.
   void tell(const MapId& map, const wire::DraftId& id);
 
@@ -79,6 +81,8 @@ class DraftService {
   Result<DraftState> state_of(const MapId& map, const wire::DraftId& id);
   Result<std::vector<wire::DraftView>> views(const MapId& map);
   Result<wire::DraftView> view(const MapId& map, const wire::DraftId& id);
+  void tell_if_other(const wire::DraftView& draft);
+  void forget(const MapId& map, const wire::DraftId& id);
   Result<wire::DraftView> tell_all(const MapId& map, const wire::DraftId& changed);
   Result<wire::DraftView> step(const MapId& map, const wire::DraftId& id, std::int64_t version,
                                Status (*go)(std::vector<map::Edit>&));
@@ -87,8 +91,9 @@ class DraftService {
   MapService& maps_;
   EventHub& events_;
   const Clock& clock_;
-  std::mutex mutex_;             // one change of a draft at a time; of applied_
-  std::deque<Applied> applied_;  // of each draft the latest; those used last come last
+  std::mutex mutex_;                           // one change of a draft at a time; of applied_
+  std::deque<Applied> applied_;                // of each draft the latest; those used last come last
+  std::map<wire::DraftId, std::size_t> told_;  // hash of what dashboards were told last
 };
 
 }  // namespace homeward::server

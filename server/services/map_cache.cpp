@@ -95,7 +95,7 @@ std::shared_ptr<const std::vector<map::Doubt>> MapCache::doubts(const LoadedMap&
     if (const Entry* entry = entry_of(loaded); entry != nullptr && entry->doubts) return entry->doubts;
   }
   // Nothing stops it.
-  auto doubts = std::make_shared<const std::vector<map::Doubt>>(mapping::doubts_of(loaded->map, {}, 0).value());
+  auto doubts = std::make_shared<const std::vector<map::Doubt>>(mapping::doubts_of(loaded->map, {}, 1).value());
   const std::scoped_lock lock(mutex_);
   if (Entry* entry = entry_of(loaded)) entry->doubts = doubts;
   return doubts;

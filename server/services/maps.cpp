@@ -158,11 +158,12 @@ Result<db::MapRecord> MapService::keep_learnt(const MapId& id, const map::Topolo
   return saved;
 }
 
-Result<std::int64_t> MapService::publish(const MapId& id, const wire::DraftId& draft,
+Result<std::int64_t> MapService::publish(const MapId& id, std::int64_t revision, const wire::DraftId& draft,
                                          const std::vector<map::Edit>& edits) {
   const std::scoped_lock changing(changing_);
   const auto loaded = load(id);
   if (!loaded) return pass_on(loaded);
+  if ((*loaded)->map.revision != revision) return tl::unexpected<Error>(stale(id, (*loaded)->map.revision, revision));
   auto changed = std::make_shared<db::StoredMap>(**loaded);
   MapPictures pictures(store_, (*loaded)->map);
   const std::int64_t one_change = mapping::next_change(changed->map);

@@ -50,8 +50,9 @@ class MapService {
   /// Applies again what undo() took back last. Errors: kStaleRevision, those of mapping::redo_change.
   Result<std::int64_t> redo(const MapId& id, std::int64_t revision);
   /// Makes a draft the next revision: applies its edits that stand and were not lost as one change, and the draft is
-  /// gone, in one step. Errors: those of mapping::apply_edit.
-  Result<std::int64_t> publish(const MapId& id, const wire::DraftId& draft, const std::vector<map::Edit>& edits);
+  /// gone, in one step. Errors: kStaleRevision (they were applied to another revision), those of mapping::apply_edit.
+  Result<std::int64_t> publish(const MapId& id, std::int64_t revision, const wire::DraftId& draft,
+                               const std::vector<map::Edit>& edits);
   /// A small picture of an image of the map. Errors: kNotFound.
   Result<std::vector<std::uint8_t>> thumbnail(const MapId& id, const ImageId& image);
   /// What two pictures of the map have in common. Errors: kNotFound (not of the map, or not kept and no prototype),
@@ -68,7 +69,12 @@ class MapService {
   Result<db::MapRecord> keep_learnt(const MapId& id, const map::TopologicalMap& contents,
                                     const db::Thumbnails& thumbnails, std::int64_t revision,
                                     const db::AlongWithContents& along);
-  void tell(const db::MapRecord& record) { events_.publish(view_of(record)); }
+  void tell(const db::MapRecord& record) {
+    events_.publish(view_of(record));
+    if (when_changed_ && record.revision > 0) when_changed_(record.id);
+  }
+  /// `call` is told of each map that has a new revision, on whatever thread made it; set before the first request.
+  void when_changed(std::function<void(const MapId&)> call) { when_changed_ = std::move(call); }
 
  private:
   Result<std::int64_t> change(const MapId& id, std::int64_t revision,
@@ -77,6 +83,7 @@ class MapService {
   db::Store& store_;
   EventHub& events_;
   const Clock& clock_;
+  std::function<void(const MapId&)> when_changed_;
   std::mutex loading_;   // one load at a time
   std::mutex changing_;  // one edit or new build at a time
   MapCache cache_;

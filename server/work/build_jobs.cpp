@@ -136,8 +136,8 @@ Result<wire::JobView> BuildJobs::queue_locked(wire::JobView job) {
 
 bool BuildJobs::building(const MapId& map) {
   const std::scoped_lock lock(mutex_);
-  const auto changes = [&](const wire::JobView& job) { return job.map == map && job.kind != wire::JobKind::kCheck; };
-  return (running_ && changes(*running_)) || std::any_of(queue_.begin(), queue_.end(), changes);
+  const auto of_map = [&](const wire::JobView& job) { return job.map == map; };
+  return (running_ && of_map(*running_)) || std::any_of(queue_.begin(), queue_.end(), of_map);
 }
 
 Result<wire::JobView> BuildJobs::get(const JobId& id) {

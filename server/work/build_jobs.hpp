@@ -44,6 +44,8 @@ class BuildJobs {
   /// Tries a draft on the tours of its map. Errors: kNotFound, kConflict (the same is under way, or no tour of the map
   /// is kept), kOverloaded.
   Result<wire::JobView> check_draft(const MapId& map, const wire::DraftId& draft);
+  /// Ends the check of a draft that is gone, where one waits or runs.
+  void end_check(const wire::DraftId& draft);
   /// Keeps what a mission saw, unless the map is set not to learn by itself, and sets its job to work.
   void add_drive(const db::Drive& drive);
   /// The map is to have what the job offers. Errors: kNotFound, kConflict (it offers nothing), kOverloaded.
@@ -53,7 +55,7 @@ class BuildJobs {
   /// An offer is discarded. Errors: kNotFound, kConflict (it has ended).
   Result<wire::JobView> cancel(const JobId& id);
   Result<wire::JobView> get(const JobId& id);
-  /// Whether a job that changes the map waits or runs.
+  /// Whether a job of the map waits or runs.
   [[nodiscard]] bool building(const MapId& map);
   /// Returns once no job waits or runs.
   void work_off();

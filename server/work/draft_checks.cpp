@@ -38,6 +38,18 @@ Result<wire::JobView> BuildJobs::check_draft(const MapId& map, const wire::Draft
   return job;
 }
 
+void BuildJobs::end_check(const wire::DraftId& draft) {
+  std::optional<JobId> job;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (running_ && running_->draft == draft) job = running_->id;
+    for (const wire::JobView& waiting : queue_) {
+      if (waiting.draft == draft) job = waiting.id;
+    }
+  }
+  if (job) cancel(*job);
+}
+
 Result<wire::JobState> BuildJobs::check(wire::JobView& job, const std::stop_token& stop) {
   drafts_.tell(job.map, job.draft);
   const auto draft = drafts_.state(job.map, job.draft);

@@ -108,8 +108,10 @@ void compare_beliefs(const Places& before, const std::vector<KeptPicture>& pictu
                      const Replayed& now, ReplayCheck& check) {
   std::map<PlaceId, WorseSpot> spots;
   std::map<PlaceId, std::map<PlaceId, int>> taken_for;
+  const std::vector<PlaceId> taken_at = truths(before, pictures);
   for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const PlaceId place = before.of(pictures[i].image);
+    const PlaceId& place = taken_at[i];
+    if (place.empty()) continue;
     WorseSpot& spot = spots[place];
     spot.place = place;
     ++spot.of;
@@ -151,12 +153,15 @@ class GainedPictures {
     for (const KeptPicture& picture : pictures) seen_.emplace(picture.image, &picture.seen);
   }
 
-  void check(const map::MapDifference& difference, ReplayCheck& check) const {
+  /// False once `stop` is asked for.
+  bool check(const map::MapDifference& difference, ReplayCheck& check, const std::stop_token& stop) const {
     for (const map::PlaceDifference& one : difference.places) {
+      if (stop.stop_requested()) return false;
       if (!one.before || !one.after || one.gained.empty()) continue;
       check_looks(one, check);
       check_spots(one, check);
     }
+    return true;
   }
 
  private:
@@ -327,7 +332,9 @@ Result<ReplayCheck> check_by_replay(const TopologicalMap& before, const Topologi
   compare_beliefs(old_places, pictures, *old, *now, check);
   const map::MapDifference difference = map::difference(before, after);
   const Whereabouts whereabouts(before, sweeps_of(pictures));
-  GainedPictures(before, pictures, whereabouts).check(difference, check);
+  if (!GainedPictures(before, pictures, whereabouts).check(difference, check, stop)) {
+    return fail(ErrorCode::kCancelled, "The check was cancelled.");
+  }
   check_ways(after, difference, whereabouts, check);
   check_routes(before, after, check);
   std::ranges::stable_sort(check.worse, {}, &WorseSpot::kind);

@@ -276,7 +276,7 @@ Result<map::Edit> logged_edit_from_json(const json& value, const std::string& pa
   ObjectReader reader(value, path);
   map::Edit edit;
   edit.kind = read_kind(reader);
-  edit.image_a = ImageId(reader.text("image_a", 600));
+  edit.image_a = ImageId(reader.text("image_a"));
   edit.image_b = ImageId(reader.optional_text("image_b").value_or(""));
   edit.text = reader.text("text");
   for (const json& image : reader.array("images")) {

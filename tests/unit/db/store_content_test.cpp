@@ -374,7 +374,8 @@ TEST_F(StoreContent, HowMissionsFaredOnWaysIsCounted) {
   ASSERT_EQ(ways.size(), 2U);
   EXPECT_EQ(ways[0].driven, 2);
   EXPECT_EQ(ways[0].failed, 1);
-  EXPECT_EQ(ways[0].last_us, 7);
+  EXPECT_EQ(ways[0].last_driven_us, 6);
+  EXPECT_EQ(ways[0].last_failed_us, 7);
   EXPECT_EQ(ways[1].driven, 1);
   EXPECT_EQ(store().count_way_drives(MapId("none"), two, true, 8).error().code, ErrorCode::kNotFound);
   ASSERT_TRUE(store().remove_map(map));

@@ -47,10 +47,11 @@ class AppFrontTest : public ::testing::Test {
   Metrics metrics_;
   WorkPool workers_{1, 4};
   WorkPool heavy_{1, 4};
+  WorkPool slow_{1, 4};
   WorkPool bulk_{1, 4};
   PasswordQueue passwords_;
-  AppFront front_{
-      {router_, access_, files_, authenticator_, idempotency_, metrics_, workers_, heavy_, bulk_, passwords_, clock_}};
+  AppFront front_{{router_, access_, files_, authenticator_, idempotency_, metrics_, workers_, heavy_, slow_, bulk_,
+                   passwords_, clock_}};
 };
 
 TEST_F(AppFrontTest, AStopIsAnsweredAtOnceWhileAllWorkersAreTaken) {

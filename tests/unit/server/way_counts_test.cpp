@@ -41,6 +41,13 @@ class WayCountsTest : public testing::DrivingTest {
     ASSERT_EQ(made.status, 200) << made.body;
   }
 
+  /// Drives the order to a place of its path and stops there.
+  void drive_to(std::int64_t place) {
+    for (std::int64_t i = 1; i <= place; ++i) agent.status(wire::DriveState::kDriving, order, i);
+    agent.status(wire::DriveState::kStopped, order, place);
+    let_work_off(agent);
+  }
+
   FakeAgent agent;
   std::string lease;
   std::optional<wire::MissionOrder> order;
@@ -59,6 +66,10 @@ TEST_F(WayCountsTest, EachWayThatAMissionDroveIsCountedOnceAndOutlivesARestart) 
   agent.status(wire::DriveState::kDriving, order, 2);
   let_work_off(agent);
   EXPECT_EQ(counts(path, 0), (std::pair{1, 0}));
+  agent.status(wire::DriveState::kDriving, order, 1);
+  for (std::size_t i = 2; i < path.size(); ++i) {
+    agent.status(wire::DriveState::kDriving, order, static_cast<std::int64_t>(i));
+  }
   agent.status(wire::DriveState::kArrived, order, static_cast<std::int64_t>(path.size()) - 1);
   let_work_off(agent);
   for (std::size_t i = 0; i + 1 < path.size(); ++i) EXPECT_EQ(counts(path, i), (std::pair{1, 0})) << i;
@@ -66,6 +77,17 @@ TEST_F(WayCountsTest, EachWayThatAMissionDroveIsCountedOnceAndOutlivesARestart) 
   const json before = ways();
   restart();
   EXPECT_EQ(ways(), before);
+}
+
+TEST_F(WayCountsTest, WhoeverFindsItselfElsewhereHasNotDrivenWhatLiesBetween) {
+  set_off();
+  const json path = send().at("path");
+  ASSERT_GE(path.size(), 4U);
+  agent.status(wire::DriveState::kDriving, order, 1);
+  agent.status(wire::DriveState::kDriving, order, 3);
+  agent.status(wire::DriveState::kArrived, order, 3);
+  let_work_off(agent);
+  EXPECT_TRUE(ways().empty());
 }
 
 TEST_F(WayCountsTest, TheWayOnWhichAMissionFailedIsCounted) {
@@ -98,11 +120,26 @@ TEST_F(WayCountsTest, AWayThatAPersonDrewIsDrivenSlowlyUntilAMissionHasDrivenIt)
   let_work_off(agent);
   send();
   EXPECT_TRUE(order->path.at(0).next->shortcut) << "it was not driven to its end";
-  agent.status(wire::DriveState::kDriving, order, 2);
-  agent.status(wire::DriveState::kStopped, order, 2);
-  let_work_off(agent);
+  clock.pass(std::chrono::seconds(1));  // since it was drawn
+  drive_to(2);
   send();
   EXPECT_FALSE(order->path.at(0).next->shortcut);
+  clock.pass(std::chrono::seconds(1));
+  agent.status(wire::DriveState::kDriving, order, 1);
+  let_work_off(agent);
+  agent.status(wire::DriveState::kFailed, order, 1, wire::Reason{wire::ReasonCode::kRobotCannotGoOn});
+  let_work_off(agent);
+  admin->post(root + "/stop");
+  let_work_off(agent);
+  send();
+  EXPECT_TRUE(order->path.at(0).next->shortcut) << "it has failed since";
+  clock.pass(std::chrono::seconds(1));
+  drive_to(2);
+  clock.pass(std::chrono::seconds(1));
+  edit({{"kind", "remove_edge"}, {"from", path.at(0)}, {"to", path.at(1)}});
+  edit({{"kind", "add_edge"}, {"from", path.at(0)}, {"to", path.at(1)}});
+  send();
+  EXPECT_TRUE(order->path.at(0).next->shortcut) << "it was drawn anew";
 }
 
 }  // namespace

@@ -1,0 +1,21 @@
+#!/usr/bin/env python3
+"""A map of the real server is mended in a real browser. usage: mending_test.py BIN_FOLDER WEB_FOLDER [FOLDER FOR PICTURES]"""
+import pathlib
+import subprocess
+import sys
+
+import taught_demo
+
+HERE = pathlib.Path(__file__).resolve().parent
+PORT = 18473
+
+
+def main():
+    with taught_demo.running(sys.argv[1], sys.argv[2], PORT) as (address, login, _):
+        return subprocess.run(["node", HERE / "mending_test.mjs", "--base", address, f"--name={login['name']}",
+                               f"--password={login['password']}", *(f"--out={folder}" for folder in sys.argv[3:4])],
+                              check=False).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())
