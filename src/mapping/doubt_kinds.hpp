@@ -8,8 +8,8 @@
 
 #include "core/result.hpp"
 #include "map/doubt.hpp"
+#include "mapping/doubt_config.hpp"
 #include "mapping/doubt_scene.hpp"
-#include "mapping/doubts.hpp"
 
 namespace homeward::mapping {
 
