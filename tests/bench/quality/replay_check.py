@@ -20,6 +20,7 @@ import json
 import pathlib
 import random
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -70,9 +71,12 @@ class Case:
 
     def make(self):
         self.folder.mkdir(parents=True, exist_ok=True)
-        if not (self.tour / "poses.csv").is_file():
+        if not self.tour.is_dir():
             seed = self.world.split(":")[1]
-            run(self.homeward, "simulate", "tour", "--world", self.world, "--seed", seed, "--rooms", self.rooms(), "--marks", "--out", self.tour)
+            part = self.folder / "part"  # so that a tour that was cut short is made again
+            shutil.rmtree(part, ignore_errors=True)
+            run(self.homeward, "simulate", "tour", "--world", self.world, "--seed", seed, "--rooms", self.rooms(), "--marks", "--out", part)
+            part.rename(self.tour)
         if not self.map.is_file():
             run(self.homeward, "map", "build", "--tour", self.tour, "--camera", self.tour / "camera.json", "--out", self.map)
         if self.alone and not self.alone.is_dir():
