@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Short names for the contract's types; they are generated from proto/openapi.yaml.
-import type * as coming from './coming_types';
+import type * as own from './own_types';
 import type { components } from './generated/openapi';
 
 type Schemas = components['schemas'];
@@ -20,8 +20,8 @@ export type Reason = Schemas['Reason'];
 export type Problem = Schemas['Problem'];
 export type Job = Schemas['Job'];
 export type RefineMode = Schemas['RefineMode'];
-export type Graph = coming.Graph;
-export type Place = coming.Place;
+export type Graph = own.Graph;
+export type Place = own.Place;
 export type Edge = Schemas['Edge'];
 export type Destination = Schemas['Destination'];
 export type Hypothesis = Schemas['Hypothesis'];
@@ -35,7 +35,7 @@ export type Draft = Schemas['Draft'];
 export type Difference = Schemas['Difference'];
 export type ReplayCheck = Schemas['ReplayCheck'];
 export type WorseSpot = ReplayCheck['worse'][number];
-export type Doubt = coming.Doubt;
-export type Doubts = coming.Doubts;
+export type Doubt = Doubts['doubts'][number];
+export type Doubts = Schemas['Doubts'];
 export type Pair = Schemas['Pair'];
-export type ServerEvent = Schemas['ServerEvent'] | coming.DraftEvent;
+export type ServerEvent = Schemas['ServerEvent'] | own.DraftEvent;
