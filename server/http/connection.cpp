@@ -25,7 +25,7 @@ using asio::ip::tcp;
 using beast::error_code;
 
 constexpr std::chrono::seconds kSettle{2};
-constexpr std::chrono::seconds kSettleOfKnown{10};  // between two pieces; a shaky network may pause for seconds
+constexpr std::chrono::seconds kSettleOfKnown{10};      // between two pieces; a shaky network may pause for seconds
 constexpr std::size_t kReadBuffer_bytes = 32UL * 1024;  // has room for the largest head
 
 /// Lets a coroutine wait for an answer that another thread will post.

@@ -240,7 +240,8 @@ TEST(Encoders, WriteThoseDoubtsThatAreAskedFor) {
 TEST(Encoders, TellEverythingOfAMap) {
   const json graph = graph_to_json(sample_map(), MapId("house"), kLayout);
   EXPECT_EQ(graph["revision"], 4);
-  EXPECT_EQ(graph["places"][1], json::parse(R"({"id":"p2","label":"kitchen","name":"kitchen","prototype":"tour/00002.jpg",
+  EXPECT_EQ(graph["places"][1],
+            json::parse(R"({"id":"p2","label":"kitchen","name":"kitchen","prototype":"tour/00002.jpg",
     "members":["tour/00002.jpg"],"features":20,"x":1.0,"y":0.75})"));
   EXPECT_EQ(graph["edges"][1], json::parse(R"({"from":"p2","to":"p1","bearing_rad":null,"turn_rad":null,"length_m":1.5,
     "length_from":"unknown","confidence":0.1,"inliers":0,"weak":true,"blocked":true,"shortcut":false,"by":"person"})"));
