@@ -141,9 +141,9 @@ TEST(Encoders, TellWhatAReplayCheckFoundInWordsToo) {
   json value = replay_check_to_json(check, map, map);
   EXPECT_EQ(value["worse"][0]["words"], "At p1 it would not know where it is on 1 of 4 pictures.");
   EXPECT_FALSE(value["harmless"].get<bool>());
-  for (const auto& [key, what] : json::parse(R"({"format":"homeward-replay-check","version":1,"map":"house",
-    "draft":"d1","draft_version":1,"revision":4})")
-                                     .items()) {
+  const json of_draft = json::parse(R"({"format":"homeward-replay-check","version":1,"map":"house",
+    "draft":"d1","draft_version":1,"revision":4})");
+  for (const auto& [key, what] : of_draft.items()) {
     value[key] = what;
   }
   EXPECT_THAT(schemas().problems("replay_check", value), IsEmpty());

@@ -77,7 +77,7 @@ TEST(Draft, AppliedAgainIsTheSame) {
   ASSERT_TRUE(edit_draft(draft, base, make(EditKind::kMerge, 2, 2, 1), look));
   const DraftedMap again = apply_draft(base, draft.edits, look);
   EXPECT_TRUE(map::difference(draft.map, again.map).empty());
-  EXPECT_EQ(draft.map.edits, again.map.edits);
+  EXPECT_EQ(draft.edits, again.edits);
 }
 
 TEST(Draft, ChangesAreUndoneAndRedoneWhole) {
