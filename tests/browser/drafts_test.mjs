@@ -129,13 +129,13 @@ const checks = [
       await bar(page).getByRole('button', { name: 'Leave it for now' }).click();
       const theirs = list(page).getByRole('listitem').filter({ hasText: 'Bath day' });
       await theirs.getByText('ben closed a way').waitFor();
-      house.steer({ do: 'discard', draft: house.drafts.find((one) => one.by === 'ben').id });
+      house.steer({ do: 'draft_discard', draft: house.drafts.find((one) => one.by === 'ben').id });
       await theirs.waitFor({ state: 'detached' });
       assert.equal(await chosen(page).getByText('ben tries changes').count(), 0);
       // One that is open ends before the eyes of whoever looks at it.
       await list(page).getByRole('button', { name: 'Open the draft Draft of anna' }).click();
       await bar(page).waitFor();
-      house.steer({ do: 'discard', draft: house.drafts[0].id });
+      house.steer({ do: 'draft_discard', draft: house.drafts[0].id });
       await page.getByText('This draft is gone: it was published or discarded.').waitFor();
       await page.getByRole('button', { name: 'Understood' }).click();
       assert.equal(new URL(page.url()).pathname.includes('draft'), false);

@@ -100,7 +100,7 @@ function asked(house, { args, headers }) {
   throw new Refusal('stale_revision', `The draft is at version ${draft.version}.`, where);
 }
 
-export function beginDraft(house, { user, body, args }) {
+function beginDraft(house, { user, body, args }) {
   const map = house.find('maps', args[0]);
   const draft = {
     id: house.newId('d'),
@@ -123,12 +123,12 @@ function gone(house, draft) {
   house.tell({ type: 'draft_gone', v: 1, seq: (house.seq += 1), map: draft.map, draft: draft.id });
 }
 
-export function discardDraft(house, { args }) {
+function discardDraft(house, { args }) {
   gone(house, named(house, args));
   return { status: 204 };
 }
 
-export function editDraft(house, request) {
+function editDraft(house, request) {
   const draft = asked(house, request);
   const { graph } = tried(house, draft);
   const change = 1 + Math.max(0, ...draft.log.map((one) => one.change));
@@ -265,6 +265,22 @@ function checked(house, { args }) {
   if (!found)
     throw new Refusal('not_found', 'The draft was not checked yet.', `maps/${map}/drafts/${id}/check`);
   return { body: found };
+}
+
+/** Orders of the tests, as if another person had asked. */
+export function steerDrafts(house, order) {
+  const [{ id: map }] = house.maps;
+  const user = { name: order.by };
+  const edit = (draft, version) => {
+    const headers = { 'if-match': `"d${version}"` };
+    editDraft(house, { user, headers, args: [map, draft], body: { edits: order.edits } });
+  };
+  if (order.do === 'draft_discard') discardDraft(house, { args: [map, order.draft] });
+  else if (order.do === 'draft_edit') edit(order.draft, order.version);
+  else {
+    const { body } = beginDraft(house, { user, args: [map], body: { name: order.name } });
+    edit(body.id, body.version);
+  }
 }
 
 const kOne = 'maps\\/([^/]+)\\/drafts\\/([^/]+)';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the mock server knows and does: accounts, robots, leases, missions that progress, maps, tours, jobs.
-import { beginDraft, discardDraft, editDraft } from './mock-drafts.mjs';
+import { steerDrafts } from './mock-drafts.mjs';
 import { edit } from './mock-edits.mjs';
 import { kJumpNote, kitchenNote, newGraph, unnamedNote } from './mock-house.mjs';
 import { kRoutes } from './mock-routes.mjs';
@@ -345,7 +345,7 @@ export class House {
   }
 
   /** Orders of the tests: {do: "unreachable", on}, {do: "silent", on}, {do: "robot", set: {...}}, {do: "edit"},
-   *  {do: "change", edits, by}, {do: "draft", edits, by, name}, {do: "discard", draft},
+   *  {do: "change", edits, by}, {do: "draft", edits, by, name}, {do: "draft_discard", draft},
    *  {do: "draft_edit", draft, version, edits, by}, {do: "hold", holder}, {do: "offer"}, {do: "halt", reason},
    *  {do: "ask"}: the robot that is under way stands and asks whether this is it. */
   steer(order) {
@@ -366,19 +366,8 @@ export class House {
       const headers = { 'if-match': `"r${this.graph.revision}"` };
       const { edits, by } = order;
       edit(this, { user: { name: by }, headers, args: [this.maps[0].id], body: { edits } });
-    } else if (order.do === 'draft') {
-      // Another person tries changes.
-      const { edits, by, name = '' } = order;
-      const asked = { user: { name: by }, args: [this.maps[0].id] };
-      const { body } = beginDraft(this, { ...asked, body: { name } });
-      const headers = { 'if-match': `"d${body.version}"` };
-      if (edits) editDraft(this, { ...asked, headers, args: [...asked.args, body.id], body: { edits } });
-    } else if (order.do === 'draft_edit') {
-      const { draft, version, edits, by } = order;
-      const headers = { 'if-match': `"d${version}"` };
-      editDraft(this, { user: { name: by }, headers, args: [this.maps[0].id, draft], body: { edits } });
-    } else if (order.do === 'discard') {
-      discardDraft(this, { args: [this.maps[0].id, order.draft] });
+    } else if (order.do.startsWith('draft')) {
+      steerDrafts(this, order);
     } else if (order.do === 'ask') {
       this.ask(robot);
     } else if (order.do === 'halt') {

@@ -9,6 +9,7 @@ import { App } from './app';
 import './styles/tokens.css';
 import './styles/base.css';
 import './styles/parts.css';
+import './styles/choices.css';
 import './styles/shell.css';
 import './styles/go.css';
 import './styles/map.css';
