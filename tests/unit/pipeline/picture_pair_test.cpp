@@ -40,14 +40,16 @@ TEST_F(PicturePairs, OfOneSpotLieBelowEachOtherOnceTheTurnIsTakenOut) {
   EXPECT_NEAR(*both.turn_rad, 0.9, 0.05);
   EXPECT_GT(both.similarity, 0.3);
   int agreeing = 0;
+  int below_each_other = 0;
   for (const map::PairMatch& match : both.matches) {
     if (!match.agrees) continue;
     ++agreeing;
     const double off = match.b.x - *both.shift - match.a.x;
-    EXPECT_LT(std::abs(off - std::round(off)), 0.05) << match.a.x << " " << match.b.x;
-    EXPECT_LT(std::abs(match.a.y - match.b.y), 0.1);
+    const bool below = std::abs(off - std::round(off)) < 0.05 && std::abs(match.a.y - match.b.y) < 0.1;
+    below_each_other += below ? 1 : 0;
   }
   EXPECT_GT(agreeing, 20);
+  EXPECT_GT(below_each_other, 0.9 * agreeing) << "the floor at the robot's feet moves with it";
 }
 
 TEST_F(PicturePairs, TellWhatAgreesFirstAndThenWhatIsDistinctive) {
