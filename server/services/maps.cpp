@@ -170,6 +170,7 @@ Result<std::int64_t> MapService::publish(const MapId& id, std::int64_t revision,
   for (map::Edit edit : edits) {
     if (edit.undone || !edit.lost.empty()) continue;
     edit.change = one_change;
+    edit.t_us = clock_.wall_us();  // from now on it counts: drives of before say nothing of what it made
     const auto look = [&](const ImageId& image) { return pictures.look_at(image); };
     if (const Status status = mapping::apply_edit(changed->map, edit, look); !status) return pass_on(status);
   }

@@ -66,8 +66,13 @@ TEST_F(DraftTest, CountsForNobodyUntilItIsPublishedAndOutlivesARestart) {
   EXPECT_EQ(drafted.at("revision"), before.at("revision"));
   const json difference = admin->get(path_of(draft) + "/difference").json();
   EXPECT_GE(difference.at("places").size(), 3U);
+  clock.pass(std::chrono::seconds(60));
   const Answer published = change(draft, "/publish");
   ASSERT_EQ(published.status, 200) << published.body;
+  const std::int64_t drafted_us = draft.at("edits").back().at("t_us");
+  for (const json history = admin->get(root_ + "/history").json(); const json& edit : history.at("edits")) {
+    EXPECT_GE(edit.at("t_us").get<std::int64_t>(), drafted_us + 60'000'000) << "it counts from then on";
+  }
   json now = graph();
   EXPECT_EQ(now.at("revision"), published.json().at("revision"));
   EXPECT_EQ(now.at("places").size(), drafted.at("places").size());
