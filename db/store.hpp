@@ -93,7 +93,7 @@ class Store {
   virtual Result<MapRecord> map(const MapId& id) = 0;
   /// Errors: kNotFound.
   virtual Status set_map_state(const MapId& id, wire::MapState state) = 0;
-  /// Errors: kNotFound.
+  /// kOff: what drives saw is kept no longer. Errors: kNotFound.
   virtual Status set_map_refine(const MapId& id, wire::RefineMode mode) = 0;
   /// Keeps new contents as revision `contents.revision` and makes the map ready, together with what is to change
   /// `along` with it. The older file goes once the row has been switched. Errors: kNotFound, kStaleRevision
@@ -113,6 +113,10 @@ class Store {
   /// A map from the bytes of a map file, as it is; they are freed once they are on the disk, before the map is read
   /// from there. Errors: those of load_map.
   virtual Result<MapRecord> import_map(MapRecord map, std::string file) = 0;
+  // Of the latest build of a map here. Errors: kNotFound (the map, or it was not built here).
+  virtual Result<std::int64_t> build_revision(const MapId& id) = 0;
+  virtual Result<std::string> build_report(const MapId& id) = 0;
+  virtual Result<BuildSimilarity> build_similarity(const MapId& id) = 0;
   /// With its jobs; robots on it are left without a map. Errors: kNotFound.
   virtual Status remove_map(const MapId& id) = 0;
 
@@ -137,11 +141,14 @@ class Store {
   // --- What drives saw ---------------------------------------------------------------------------------------------
   /// The eight newest of each map are kept. Errors: kNotFound (the map).
   virtual Status add_drive(const Drive& drive) = 0;
-  virtual Result<std::vector<MissionId>> drives(const MapId& map) = 0;  // oldest first
+  /// Those that the map has not learnt from, oldest first.
+  virtual Result<std::vector<MissionId>> drives(const MapId& map) = 0;
+  /// All, oldest first.
+  virtual Result<std::vector<MissionId>> kept_drives(const MapId& map) = 0;
   /// Errors: kNotFound.
   virtual Result<Drive> drive(const MissionId& mission) = 0;
-  /// Success also when there are none.
-  virtual Status remove_drives(const std::vector<MissionId>& missions) = 0;
+  /// The map has learnt from these, or is not to. Success also when there are none.
+  virtual Status use_drives(const std::vector<MissionId>& missions) = 0;
 
   /// Counts one drive on each of these ways, which was `driven` to its end or failed there. Errors: kNotFound (the
   /// map).

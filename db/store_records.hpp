@@ -136,12 +136,25 @@ struct DraftRecord {
   bool checked = false;                   // it has ended, and its findings are kept
 };
 
+/// What a build leaves beside its map.
+struct MapBuild {
+  std::string report;                    // HTML; empty: it could not be drawn
+  std::vector<std::uint8_t> similarity;  // wire/similarity_blob.hpp
+};
+
+/// How alike the pictures of a map are, as its latest build compared them.
+struct BuildSimilarity {
+  std::int64_t revision = 0;        // that the build made
+  std::vector<std::uint8_t> bytes;  // wire/similarity_blob.hpp
+};
+
 /// What changes in one step with a map's contents.
 struct AlongWithContents {
   std::vector<TourId> new_tours;            // that the map is made from as well from now on
-  std::vector<MissionId> used_drives;       // that are not needed any more
+  std::vector<MissionId> used_drives;       // that the map has learnt from
   std::optional<wire::JobView> job = {};    // as it is afterwards
   std::optional<wire::DraftId> draft = {};  // that was published and is none any more
+  std::optional<MapBuild> build = {};       // in place of that of an earlier build
 };
 
 /// Whether the store can keep what it is given, and has what it was given.

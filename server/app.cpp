@@ -14,6 +14,7 @@
 #include "server/routes/account_routes.hpp"
 #include "server/routes/draft_routes.hpp"
 #include "server/routes/evidence_routes.hpp"
+#include "server/routes/inspection_routes.hpp"
 #include "server/routes/job_routes.hpp"
 #include "server/routes/map_routes.hpp"
 #include "server/routes/operation_routes.hpp"
@@ -97,6 +98,7 @@ struct App::Parts {
         maps(*store, events, clock),
         driving(*store, maps, events, heavy, journal, clock, config.longest_mission_s),
         drafts(*store, maps, events, clock),
+        inspection(*store, maps),
         jobs(*store, maps, drafts, events, clock, threads_of(config)),
         front({router, access, files, authenticator, idempotency, metrics, workers, heavy, slow, bulk, passwords,
                clock}) {
@@ -112,6 +114,7 @@ struct App::Parts {
     add_map_routes(router, maps, jobs, *store);
     add_draft_routes(router, drafts, jobs, *store);
     add_evidence_routes(router, maps);
+    add_inspection_routes(router, inspection);
     add_job_routes(router, jobs);
     add_robot_routes(router, driving, authenticator, *store);
     add_socket_routes(router, driving, events, [this] { return snapshot(); });
@@ -226,6 +229,7 @@ struct App::Parts {
   MapService maps;
   Driving driving;
   DraftService drafts;
+  InspectionService inspection;
   BuildJobs jobs;
   Router router;
   AppFront front;

@@ -77,6 +77,9 @@ class SqliteStore final : public Store {
   Result<StoredMap> load_map_contents(const MapId& id) override;
   Result<std::vector<std::uint8_t>> map_file_bytes(const MapId& id) override;
   Result<MapRecord> import_map(MapRecord map, std::string bytes) override;
+  Result<std::int64_t> build_revision(const MapId& id) override;
+  Result<std::string> build_report(const MapId& id) override;
+  Result<BuildSimilarity> build_similarity(const MapId& id) override;
   Status remove_map(const MapId& id) override;
 
   // --- Drafts ---
@@ -94,7 +97,8 @@ class SqliteStore final : public Store {
   Status add_drive(const Drive& drive) override;
   Result<std::vector<MissionId>> drives(const MapId& map) override;
   Result<Drive> drive(const MissionId& mission) override;
-  Status remove_drives(const std::vector<MissionId>& missions) override;
+  Result<std::vector<MissionId>> kept_drives(const MapId& map) override;
+  Status use_drives(const std::vector<MissionId>& missions) override;
   Status count_way_drives(const MapId& map, const std::vector<DrivenWay>& ways, bool driven, TimeUs t_us) override;
   Result<std::vector<WayDrives>> way_drives(const MapId& map) override;
 
@@ -143,7 +147,8 @@ class SqliteStore final : public Store {
   void need_no_longer(const std::filesystem::path& file_or_folder);
   // Within a transaction:
   static void write_job(SQLite::Database& database, const wire::JobView& job);
-  static void forget_drives(SQLite::Database& database, const std::vector<MissionId>& missions);
+  static void write_build(SQLite::Database& database, const MapId& id, std::int64_t revision, const MapBuild& build);
+  static void mark_drives_used(SQLite::Database& database, const std::vector<MissionId>& missions);
 
   FolderLock lock_;
   std::filesystem::path folder_;

@@ -40,6 +40,16 @@ Result<std::vector<MissionId>> SqliteStore::drives(const MapId& map) {
   return database_.read([&](SQLite::Database& database) {
     std::vector<MissionId> found;
     SQLite::Statement row =
+        prepared(database, "SELECT mission FROM drives WHERE map = ? AND used = 0 ORDER BY created_us, rowid", map);
+    while (row.executeStep()) found.emplace_back(text(row, 0));
+    return found;
+  });
+}
+
+Result<std::vector<MissionId>> SqliteStore::kept_drives(const MapId& map) {
+  return database_.read([&](SQLite::Database& database) {
+    std::vector<MissionId> found;
+    SQLite::Statement row =
         prepared(database, "SELECT mission FROM drives WHERE map = ? ORDER BY created_us, rowid", map);
     while (row.executeStep()) found.emplace_back(text(row, 0));
     return found;
@@ -65,8 +75,8 @@ Result<Drive> SqliteStore::drive(const MissionId& mission) {
   });
 }
 
-Status SqliteStore::remove_drives(const std::vector<MissionId>& missions) {
-  return database_.work([&](SQLite::Database& database) { forget_drives(database, missions); });
+Status SqliteStore::use_drives(const std::vector<MissionId>& missions) {
+  return database_.work([&](SQLite::Database& database) { mark_drives_used(database, missions); });
 }
 
 Status SqliteStore::count_way_drives(const MapId& map, const std::vector<DrivenWay>& ways, bool driven, TimeUs t_us) {
@@ -102,8 +112,8 @@ Result<std::vector<WayDrives>> SqliteStore::way_drives(const MapId& map) {
   });
 }
 
-void SqliteStore::forget_drives(SQLite::Database& database, const std::vector<MissionId>& missions) {
-  for (const MissionId& mission : missions) execute(database, "DELETE FROM drives WHERE mission = ?", mission);
+void SqliteStore::mark_drives_used(SQLite::Database& database, const std::vector<MissionId>& missions) {
+  for (const MissionId& mission : missions) execute(database, "UPDATE drives SET used = 1 WHERE mission = ?", mission);
 }
 
 }  // namespace homeward::db

@@ -128,6 +128,7 @@ Status SqliteStore::set_map_refine(const MapId& id, wire::RefineMode mode) {
   return database_.work([&](SQLite::Database& database) {
     need_map(database, id);
     execute(database, "UPDATE maps SET refine = ? WHERE id = ?", std::string(wire::refine_mode_name(mode)), id);
+    if (mode == wire::RefineMode::kOff) execute(database, "DELETE FROM drives WHERE map = ?", id);
   });
 }
 
@@ -176,8 +177,9 @@ Result<MapRecord> SqliteStore::save_map_contents(const MapId& id, const map::Top
     update_map(database, after, after.revision);
     execute(database, "DELETE FROM map_edits WHERE map = ?", id);
     insert_tours(database, id, along.new_tours, before->record.tours.size());
-    forget_drives(database, along.used_drives);
+    mark_drives_used(database, along.used_drives);
     if (along.job) write_job(database, *along.job);
+    if (along.build) write_build(database, id, contents.revision, *along.build);
     if (along.draft) execute(database, "DELETE FROM drafts WHERE id = ?", *along.draft);
   });
   if (!switched) {

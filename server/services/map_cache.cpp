@@ -68,23 +68,27 @@ std::shared_ptr<const map::MetricLayout> MapCache::layout(const LoadedMap& loade
   return layout;
 }
 
-std::shared_ptr<const std::string> MapCache::graph(const MapId& id, const LoadedMap& loaded) {
-  std::shared_ptr<const Drawing> drawing;
+std::shared_ptr<const std::vector<Eigen::Vector2d>> MapCache::drawing(const LoadedMap& loaded) {
   {
     const std::scoped_lock lock(mutex_);
-    if (const Entry* entry = entry_of(loaded)) {
-      if (entry->graph) return entry->graph;
-      drawing = entry->drawing;
-    }
+    if (const Entry* entry = entry_of(loaded); entry != nullptr && entry->drawing) return entry->drawing;
   }
-  if (!drawing) drawing = std::make_shared<const Drawing>(map::layout(loaded->map));
-  auto graph = std::make_shared<const std::string>(
-      wire::graph_to_json(loaded->map, id, *drawing).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  auto drawing = std::make_shared<const Drawing>(map::layout(loaded->map));
   const std::scoped_lock lock(mutex_);
-  if (Entry* entry = entry_of(loaded)) {
-    entry->drawing = drawing;
-    entry->graph = graph;
+  if (Entry* entry = entry_of(loaded)) entry->drawing = drawing;
+  return drawing;
+}
+
+std::shared_ptr<const std::string> MapCache::graph(const MapId& id, const LoadedMap& loaded) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const Entry* entry = entry_of(loaded); entry != nullptr && entry->graph) return entry->graph;
   }
+  const auto drawn = drawing(loaded);
+  auto graph = std::make_shared<const std::string>(
+      wire::graph_to_json(loaded->map, id, *drawn).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  const std::scoped_lock lock(mutex_);
+  if (Entry* entry = entry_of(loaded)) entry->graph = graph;
   return graph;
 }
 

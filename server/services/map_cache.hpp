@@ -40,6 +40,8 @@ class MapCache {
 
   /// Where the pictures of a map were taken (map::metric_layout); computed once for a map that is kept.
   std::shared_ptr<const map::MetricLayout> layout(const LoadedMap& loaded);
+  /// Where to draw its places (map::layout); the same.
+  std::shared_ptr<const std::vector<Eigen::Vector2d>> drawing(const LoadedMap& loaded);
   /// The graph of a map as the contract has it (wire::graph_to_json), as text; computed once for a map that is kept.
   std::shared_ptr<const std::string> graph(const MapId& id, const LoadedMap& loaded);
   /// What a person should look at in a map (mapping::doubts_of); found once for a map that is kept.

@@ -127,7 +127,7 @@ Result<std::int64_t> MapService::redo(const MapId& id, std::int64_t revision) {
 }
 
 Result<db::MapRecord> MapService::keep_build(const MapId& id, map::TopologicalMap contents,
-                                             const db::Thumbnails& thumbnails) {
+                                             const db::Thumbnails& thumbnails, db::MapBuild build) {
   const std::scoped_lock changing(changing_);
   const auto record = store_.map(id);
   if (!record) return pass_on(record);
@@ -144,7 +144,9 @@ Result<db::MapRecord> MapService::keep_build(const MapId& id, map::TopologicalMa
     mapping::count_common_features(contents, {}, 1, {});
   }
   contents.revision = record->revision + 1;
-  auto saved = store_.save_map_contents(id, contents, thumbnails, record->revision);
+  db::AlongWithContents along;
+  along.build = std::move(build);
+  auto saved = store_.save_map_contents(id, contents, thumbnails, record->revision, along);
   if (saved) tell(*saved);
   return saved;
 }

@@ -36,6 +36,9 @@ class MapService {
   Result<LoadedMap> to_build_on(const MapId& id);
   /// As MapCache says; where places are drawn stays through edits that do not move them.
   std::shared_ptr<const map::MetricLayout> layout(const LoadedMap& loaded) { return cache_.layout(loaded); }
+  std::shared_ptr<const std::vector<Eigen::Vector2d>> drawing(const LoadedMap& loaded) {
+    return cache_.drawing(loaded);
+  }
   std::shared_ptr<const std::string> graph(const MapId& id, const LoadedMap& loaded) {
     return cache_.graph(id, loaded);
   }
@@ -62,8 +65,10 @@ class MapService {
   Result<wire::BeliefView> localise(const MapId& id, std::span<const std::uint8_t> picture);
   Result<db::MapRecord> import(const std::string& name, std::string file);
 
-  /// Keeps a new build, over edits that were made meanwhile. Errors: those of the store.
-  Result<db::MapRecord> keep_build(const MapId& id, map::TopologicalMap contents, const db::Thumbnails& thumbnails);
+  /// Keeps a new build and what it left beside its map, over edits that were made meanwhile. Errors: those of the
+  /// store.
+  Result<db::MapRecord> keep_build(const MapId& id, map::TopologicalMap contents, const db::Thumbnails& thumbnails,
+                                   db::MapBuild build);
   /// Keeps what a map learnt as its next revision. Errors: kStaleRevision (it was changed meanwhile), those of the
   /// store.
   Result<db::MapRecord> keep_learnt(const MapId& id, const map::TopologicalMap& contents,

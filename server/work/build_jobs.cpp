@@ -9,6 +9,7 @@
 
 #include "pipeline/build_map.hpp"
 #include "server/services/tours.hpp"
+#include "server/work/build_record.hpp"
 #include "server/work/job_notes.hpp"
 #include "server/work/stored_tours.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostQueued = 16;
 constexpr int kBuildNiceness = 10;   // robots that drive come first
-constexpr double kBuildShare = 0.9;  // the rest: thumbnails and writing
+constexpr double kBuildShare = 0.9;  // the rest: thumbnails, the report and writing
 constexpr std::chrono::milliseconds kTellEvery{250};
 
 }  // namespace
@@ -263,7 +264,12 @@ Result<wire::JobState> BuildJobs::build(wire::JobView& job, const std::stop_toke
   tell(job);
   db::Thumbnails thumbnails;
   if (const Status made = add_thumbnails(built->map, *tours, stop, thumbnails); !made) return pass_on(made);
-  const auto kept = maps_.keep_build(job.map, std::move(built->map), thumbnails);
+  job.stage = "report";
+  tell(job);
+  const auto revision = store_.map(job.map);
+  if (revision) built->map.revision = revision->revision + 1;
+  db::MapBuild beside = build_record(*built, *tours, options, clock_.wall_us());
+  const auto kept = maps_.keep_build(job.map, std::move(built->map), thumbnails, std::move(beside));
   if (!kept) return pass_on(kept);
   job.notes = std::move(notes);  // they are about a map that is there
   // With the edits that people made while it was built.

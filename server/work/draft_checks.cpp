@@ -6,6 +6,7 @@
 
 #include "pipeline/replay_check.hpp"
 #include "server/work/build_jobs.hpp"
+#include "server/work/stored_drives.hpp"
 #include "server/work/stored_tours.hpp"
 #include "wire/replay_check_json.hpp"
 
@@ -60,7 +61,15 @@ Result<wire::JobState> BuildJobs::check(wire::JobView& job, const std::stop_toke
   if (!tours) return pass_on(tours);
   const map::TopologicalMap& before = draft->base->map;
   const map::TopologicalMap& after = draft->drafted->map;
-  const auto checked = pipeline::check_by_replay(before, after, tours->views(), threads_, progress_of(job), stop);
+  const auto missions = store_.kept_drives(job.map);
+  if (!missions) return pass_on(missions);
+  auto drives = drives_of(store_, *missions, before);
+  if (!drives) {
+    if (drives.error().code != ErrorCode::kFeatureConfigMismatch) return pass_on(drives);
+    drives = std::vector<std::vector<pipeline::DriveSight>>();  // of before a rebuild
+  }
+  const auto checked =
+      pipeline::check_by_replay(before, after, tours->views(), *drives, threads_, progress_of(job), stop);
   if (!checked) return pass_on(checked);
   nlohmann::json findings = wire::replay_check_to_json(*checked, before, after);
   findings["format"] = "homeward-replay-check";

@@ -8,8 +8,8 @@
 #include "pipeline/refine_map.hpp"
 #include "server/work/build_jobs.hpp"
 #include "server/work/job_notes.hpp"
+#include "server/work/stored_drives.hpp"
 #include "server/work/stored_tours.hpp"
-#include "wire/appearance_blob.hpp"
 
 namespace homeward::server {
 namespace {
@@ -29,40 +29,6 @@ pipeline::RefineOptions refine_options(const map::TopologicalMap& map, int threa
     }
   }
   return options;
-}
-
-/// The sights of drives one after the other. Errors: kFeatureConfigMismatch when none of them fits the map.
-Result<std::vector<pipeline::DriveSight>> sights_of(db::Store& store, const std::vector<MissionId>& drives,
-                                                    const map::TopologicalMap& map) {
-  std::vector<pipeline::DriveSight> sights;
-  std::string other_features;
-  for (const MissionId& id : drives) {
-    const auto drive = store.drive(id);
-    if (!drive && drive.error().code == ErrorCode::kNotFound) continue;  // newer ones took its place
-    if (!drive) return pass_on(drive);
-    if (drive->feature_config_id != map.feature_config_id) {
-      other_features = drive->feature_config_id;
-      continue;
-    }
-    for (const db::DriveSight& sight : drive->sights) {
-      pipeline::DriveSight read;
-      read.place = sight.place;
-      if (!sight.place.empty()) {
-        auto seen = wire::decode_appearance(sight.appearance, "missions/" + id.str());
-        if (!seen) return pass_on(seen);
-        read.seen = std::move(*seen);
-      }
-      sights.push_back(std::move(read));
-    }
-    sights.emplace_back();  // the next drive begins elsewhere
-  }
-  if (sights.empty() && !other_features.empty()) {
-    return fail(ErrorCode::kFeatureConfigMismatch,
-                "The drives saw features of the kind " + other_features + ", the map now has " + map.feature_config_id +
-                    ": they cannot be compared.",
-                map.name);
-  }
-  return sights;
 }
 
 }  // namespace
@@ -164,10 +130,11 @@ Result<wire::JobState> BuildJobs::refine_by_drives(wire::JobView& job, const std
   job.stage = "places";
   job.share = 0.0;
   tell(job);
-  const auto sights = sights_of(store_, job.drives, (*loaded)->map);
-  if (!sights) return pass_on(sights);
+  const auto drives = drives_of(store_, job.drives, (*loaded)->map);
+  if (!drives) return pass_on(drives);
+  const std::vector<pipeline::DriveSight> sights = one_after_the_other(*drives);
   const auto refined =
-      pipeline::refine_by_sights((*loaded)->map, *sights, refine_options((*loaded)->map, threads_), stop);
+      pipeline::refine_by_sights((*loaded)->map, sights, refine_options((*loaded)->map, threads_), stop);
   if (!refined) return pass_on(refined);
   const bool at_once = job.taken || record->refine == wire::RefineMode::kAuto;
   const mapping::Refinement& refinement = refined->refinement;
@@ -176,7 +143,7 @@ Result<wire::JobState> BuildJobs::refine_by_drives(wire::JobView& job, const std
   const auto certain =
       std::count_if(refined->sure.begin(), refined->sure.end(), [](const PlaceId& p) { return !p.empty(); });
   spdlog::info("job {}: {} sights of {} drives, {} at places that are certain, {} new appearances", job.id.str(),
-               sights->size(), job.drives.size(), certain, job.gained);
+               sights.size(), job.drives.size(), certain, job.gained);
   if (refinement.gained.empty()) {
     if (job.taken) job.notes.insert(job.notes.begin(), wire::Reason{wire::ReasonCode::kOfferOutdated});
     return wire::JobState::kDone;
@@ -236,7 +203,7 @@ bool BuildJobs::forget_drives_of(const wire::JobView& job) {
   if (used.empty()) {  // it had not begun
     if (const auto all = store_.drives(job.map)) used = *all;
   }
-  const Status status = store_.remove_drives(used);
+  const Status status = store_.use_drives(used);
   if (!status) spdlog::error("drives on map {} cannot be forgotten: {}", job.map.str(), status.error().message);
   return status.has_value();
 }

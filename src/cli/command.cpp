@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -25,6 +26,11 @@ void run_on(CLI::App& command, const std::function<Status()>& run) {
     tell(status.error());
     throw CLI::RuntimeError(wire::exit_code(status.error().code));
   });
+}
+
+TimeUs now_us() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
 }
 
 ProgressBar::ProgressBar() : terminal_(isatty(STDERR_FILENO) != 0) {}

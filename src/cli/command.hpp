@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/result.hpp"
+#include "core/time.hpp"
 
 namespace homeward::cli {
 
@@ -28,6 +29,9 @@ void run_on(CLI::App& command, const std::function<Status()>& run);
 
 /// "homeward: <message> (<where>)" on stderr.
 void tell(const Error& error);
+
+/// Now, by the machine's clock.
+TimeUs now_us();
 
 /// A progress bar on stderr; draws nothing when stderr is no terminal.
 class ProgressBar {

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <array>
 #include <chrono>
-#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -35,21 +32,11 @@ struct MapBuildOptions {
   bool json = false;
 };
 
-/// "21 November 2026", local time.
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  std::array<char, 64> text{};
-  if (localtime_r(&now, &local) == nullptr) return {};
-  std::strftime(text.data(), text.size(), "%e %B %Y", &local);
-  const std::string date = text.data();
-  return date.substr(std::min(date.find_first_not_of(' '), date.size()));
-}
-
 /// Returns the file.
 Result<std::string> write_report(const MapBuildOptions& options, const pipeline::BuiltMap& built,
                                  const TourFolders& tours) {
-  pipeline::ReportOptions report{today(), options.report_pictures, options.threads, options.seed};
+  pipeline::ReportOptions report{pipeline::report_date(now_us()), options.report_pictures, options.threads,
+                                 options.seed};
   for (const map::TourWarning& warning : built.notes.warnings) {
     report.warnings.push_back({wire::english(wire::reason_of(warning)), warning.image.str()});
   }

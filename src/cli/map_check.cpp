@@ -46,7 +46,7 @@ Status check(const MapCheckOptions& options) {
   Result<map::ReplayCheck> found;
   {
     ProgressBar bar;
-    found = pipeline::check_by_replay(*before, stored->map, tours->sources(), options.threads,
+    found = pipeline::check_by_replay(*before, stored->map, tours->sources(), {}, options.threads,
                                       [&](const pipeline::BuildProgress& at) { bar.show(at.stage, at.share); });
   }
   if (!found) return pass_on(found);

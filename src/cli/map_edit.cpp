@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
 #include <cstdint>
 #include <iostream>
 #include <memory>
@@ -74,8 +73,7 @@ Status apply(const MapEditOptions& options, map::TopologicalMap& map, Pictures& 
   if (options.redo) return mapping::redo_change(map, [&](const ImageId& image) { return pictures.look_at(image); });
   const auto edits = read_edits(options.edits);
   if (!edits) return pass_on(edits);
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const auto t_us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+  const TimeUs t_us = now_us();
   const std::int64_t change = mapping::next_change(map);
   for (std::size_t i = 0; i < edits->size(); ++i) {
     const std::string where = options.edits + ": edits/" + std::to_string(i);

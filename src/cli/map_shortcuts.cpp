@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -48,8 +47,7 @@ void print(const map::TopologicalMap& map) {
 /// The edits that a person asks for, by the numbers of the list. Errors: kInvalidInput (a number that is not in it, or
 /// that is to be both).
 Result<std::vector<map::Edit>> edits_of(const MapShortcutsOptions& options, const map::TopologicalMap& map) {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const auto t_us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+  const TimeUs t_us = now_us();
   std::vector<map::Edit> edits;
   const auto add = [&](const map::Shortcut& shortcut, bool accept) {
     map::Edit edit;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/enum_names.hpp"
@@ -36,6 +37,7 @@ struct Doubt {
   PlaceId place_b;                         // the same of a mixed place
   Decision state = Decision::kUndecided;   // as the map stands: they are one place, or the way exists
   Decider by = Decider::kMethod;           // a person's: it is not asked any more
+  std::string set_aside_by;                // who was not sure of it; empty: nobody
   double probability = 0.0;                // that the map is wrong here
   double effect = 0.0;                     // 0 to 1, how far ways of the map would change if it were decided otherwise
   std::optional<std::size_t> hypothesis;   // index into the map's, of the one that says it

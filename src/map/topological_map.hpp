@@ -143,9 +143,10 @@ enum class EditKind {
   kRemoveDestination,
   kNameDestination,
   kSetPictogram,
-  kSetDestinationPicture
+  kSetDestinationPicture,
+  kSetAside
 };
-inline constexpr std::size_t kEditKinds = 15;
+inline constexpr std::size_t kEditKinds = 16;
 
 /// What two pictures told of the way between the places whose prototypes they are; each found it for itself.
 struct SeenWay {
@@ -175,7 +176,8 @@ struct Edit {
                      // the destination)
   ImageId image_b;   // of the second one, where there is one; the new image of a destination
   std::string text;  // the new label for kRename, kAddDestination and kNameDestination, the new pictogram, "accept" or
-                     // "reject" for kDecide and kDecideShortcut, "true" or "false" for kBlockEdge
+                     // "reject" for kDecide and kDecideShortcut, "true" or "false" for kBlockEdge, the kind of doubt
+                     // for kSetAside
   std::vector<ImageId> images;  // for kSplit and kMove: the images that go
   std::string by;               // user name
   TimeUs t_us = 0;

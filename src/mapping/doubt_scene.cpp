@@ -114,7 +114,14 @@ void DoubtScene::read_edits() {
     }
     const bool of_way = edit.kind == map::EditKind::kBlockEdge || edit.kind == map::EditKind::kAddEdge;
     if (of_way && a >= 0 && b >= 0) said_ways_.insert(std::minmax(a, b));
+    if (edit.kind != map::EditKind::kSetAside || a < 0 || b < 0) continue;
+    if (const auto kind = map::kDoubtKindNames.find(edit.text)) set_aside_[{*kind, std::minmax(a, b)}] = edit.by;
   }
+}
+
+std::string DoubtScene::set_aside_by(map::DoubtKind kind, int a, int b) const {
+  const auto found = set_aside_.find({kind, std::minmax(a, b)});
+  return found == set_aside_.end() ? std::string() : found->second;
 }
 
 bool DoubtScene::joined_by_a_person(const std::vector<ImageId>& pictures) const {

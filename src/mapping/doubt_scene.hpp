@@ -65,6 +65,9 @@ class DoubtScene {
   /// Whether one of them drew, closed or opened the way between two places.
   [[nodiscard]] bool way_said_by_a_person(int a, int b) const { return said_ways_.contains(std::minmax(a, b)); }
 
+  /// Who said last not to be sure of such a doubt about two places, or one and the same; empty: nobody.
+  [[nodiscard]] std::string set_aside_by(map::DoubtKind kind, int a, int b) const;
+
   /// Metres between two pictures by the layout of the map; nothing where odometry does not join them.
   [[nodiscard]] std::optional<double> apart_m(const ImageId& a, const ImageId& b) const;
 
@@ -90,6 +93,7 @@ class DoubtScene {
   std::set<PlaceIndices> parted_;
   std::vector<std::pair<ImageId, ImageId>> joined_;
   std::set<PlaceIndices> said_ways_;
+  std::map<std::pair<map::DoubtKind, PlaceIndices>, std::string> set_aside_;
   map::MetricLayout layout_;
 };
 

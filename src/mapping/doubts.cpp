@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <tuple>
+#include <utility>
 
 #include "core/index.hpp"
 #include "map/lookup.hpp"
@@ -46,8 +47,9 @@ class NearHypotheses {
     for (; other != spots_.end() && other->a <= own->a + reach_; ++other) {
       const map::Hypothesis& one = scene_.map().hypotheses[other->hypothesis];
       const double weight = neighbour_weight(std::abs(other->a - own->a) + std::abs(other->b - own->b), reach_);
-      // One that the way driven excludes says nothing to others.
+      // One that the way driven excludes says nothing to others, nor one that a person made.
       if (other == own || !(weight > 0.0) || one.masses_before.is_false >= kExcluded) continue;
+      if (one.by == map::Decider::kPerson && one.masses_before.unknown >= 1.0) continue;
       const int a = scene_.place_of(one.prototype_a);
       const int b = scene_.place_of(one.prototype_b);
       if (a < 0 || b < 0) continue;
@@ -71,11 +73,14 @@ class NearHypotheses {
   std::vector<Spot> spots_;
 };
 
-/// What a person decided last, then by weight.
+/// What a person decided last, before that what somebody was not sure of, then by weight.
 void order(std::vector<Doubt>& doubts) {
-  std::ranges::stable_sort(doubts, [](const Doubt& x, const Doubt& y) {
-    if (x.by != y.by) return x.by == map::Decider::kMethod;
-    return x.weight() > y.weight();
+  const auto turn = [](const Doubt& doubt) {
+    if (doubt.by == map::Decider::kPerson) return 2;
+    return doubt.set_aside_by.empty() ? 0 : 1;
+  };
+  std::ranges::stable_sort(doubts, [&](const Doubt& x, const Doubt& y) {
+    return std::pair(turn(x), -x.weight()) < std::pair(turn(y), -y.weight());
   });
 }
 
@@ -96,6 +101,7 @@ Result<std::vector<Doubt>> doubts_of(const map::TopologicalMap& map, const Doubt
   std::ranges::move(*same, std::back_inserter(doubts));
   const NearHypotheses near(scene);
   for (Doubt& doubt : doubts) {
+    doubt.set_aside_by = scene.set_aside_by(doubt.kind, scene.place_of(doubt.image_a), scene.place_of(doubt.image_b));
     if (doubt.hypothesis) doubt.neighbours = near.of(*doubt.hypothesis, config.most_neighbours);
   }
   std::erase_if(doubts, [&](const Doubt& doubt) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <ranges>
+#include <string>
 #include <utility>
 
 #include "map/state.hpp"
@@ -52,6 +53,8 @@ Status apply_to(EditScene& scene) {
       return set_pictogram(scene);
     case EditKind::kSetDestinationPicture:
       return set_destination_picture(scene);
+    case EditKind::kSetAside:
+      return set_aside(scene);
   }
   return fail(ErrorCode::kInvalidInput, "This kind of edit is not known.", "kind");
 }
@@ -149,6 +152,25 @@ Status redo_change(TopologicalMap& map, const LookAt& look) {
   ++changed.revision;
   map = std::move(changed);
   return {};
+}
+
+Result<TopologicalMap> as_of_change(const TopologicalMap& map, std::int64_t change) {
+  const auto stands = [](const Edit& edit) { return !edit.undone; };
+  const auto is_it = [&](const Edit& edit) { return edit.change == change && stands(edit); };
+  if (change != 0 && std::ranges::none_of(map.edits, is_it)) {
+    return fail(ErrorCode::kNotFound, "The map has no change " + std::to_string(change) + " that stands.", "change");
+  }
+  TopologicalMap former = map;
+  for (std::size_t i = 0; i < former.edits.size(); ++i) {
+    Edit& edit = former.edits[i];
+    if (edit.change <= change || edit.undone) continue;
+    if (!map.unedited || i < map.settled_edits) {
+      return fail(ErrorCode::kConflict, "The map does not know any more how it was before its edits.", "change");
+    }
+    edit.undone = true;
+  }
+  if (map.unedited) replay(former, {});
+  return former;
 }
 
 void replay_edits(TopologicalMap& map, const std::vector<Edit>& log, bool rebuilt, const LookAt& look) {

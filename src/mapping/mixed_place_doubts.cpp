@@ -83,6 +83,7 @@ void say_what_to_do(const DoubtScene& scene, int place, const std::vector<ImageI
     doubt.if_yes.push_back(edit_of(kDecide, one.prototype_a, one.prototype_b, "accept"));
     doubt.if_no.push_back(edit_of(kDecide, one.prototype_a, one.prototype_b, "reject"));
   }
+  if (!doubt.hypothesis) doubt.if_yes.push_back(edit_of(kDecide, doubt.image_a, doubt.image_b, "accept"));
 }
 
 }  // namespace

@@ -118,11 +118,8 @@ SamePlaceSigns signs_of(const DoubtScene& scene, const Pair& pair, double way_m)
 
 void say_what_to_do(const DoubtScene& scene, const Pair& pair, Doubt& doubt) {
   using enum map::EditKind;
-  if (pair.hypotheses.empty()) {
-    doubt.if_yes.push_back(edit_of(kMerge, doubt.image_a, doubt.image_b));
-    return;
-  }
   doubt.if_yes.push_back(edit_of(kDecide, doubt.image_a, doubt.image_b, "accept"));
+  if (pair.hypotheses.empty()) doubt.if_no.push_back(edit_of(kDecide, doubt.image_a, doubt.image_b, "reject"));
   constexpr std::size_t kMost = 20;
   for (const std::size_t h : pair.hypotheses) {
     const map::Hypothesis& hypothesis = scene.map().hypotheses[h];

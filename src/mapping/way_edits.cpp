@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "map/doubt.hpp"
 #include "map/lookup.hpp"
 #include "mapping/place_edits.hpp"
 #include "mapping/shortcut_edges.hpp"
@@ -81,6 +82,14 @@ Status part(EditScene& scene, const Place& place) {
   return {};
 }
 
+/// What a person says of two pictures about which the method asked nothing: no evidence but that.
+map::Hypothesis own_hypothesis(const Edit& edit) {
+  map::Hypothesis own;
+  own.prototype_a = edit.image_a;
+  own.prototype_b = edit.image_b;
+  return own;
+}
+
 }  // namespace
 
 Status add_edge(EditScene& scene) {
@@ -135,12 +144,8 @@ Status decide_hypothesis(EditScene& scene) {
              (h.prototype_a == edit.image_b && h.prototype_b == edit.image_a);
     });
   };
-  if (find() == map.hypotheses.end()) {
-    const Status unknown =
-        scene.already_so({ErrorCode::kNotFound,
-                          "The map has no hypothesis on " + edit.image_a.str() + " and " + edit.image_b.str() + ".",
-                          edit.image_a.str()});
-    if (!unknown) return unknown;
+  if (edit.image_a == edit.image_b) {
+    return fail(ErrorCode::kInvalidInput, "A hypothesis is about two pictures.", edit.image_a.str());
   }
   const Place* a = map::find_place_of(map, edit.image_a);
   const Place* b = map::find_place_of(map, edit.image_b);
@@ -153,9 +158,20 @@ Status decide_hypothesis(EditScene& scene) {
   if (!accept && a == b) {
     if (const Status parted = part(scene, *b); !parted) return parted;
   }
-  if (const auto found = find(); found != map.hypotheses.end()) {
-    found->decision = accept ? map::Decision::kAccepted : map::Decision::kRejected;
-    found->by = map::Decider::kPerson;
+  auto decided = find();
+  if (decided == map.hypotheses.end()) decided = map.hypotheses.insert(decided, own_hypothesis(edit));
+  decided->decision = accept ? map::Decision::kAccepted : map::Decision::kRejected;
+  decided->by = map::Decider::kPerson;
+  return {};
+}
+
+Status set_aside(EditScene& scene) {
+  const Edit& edit = scene.edit();
+  if (!map::kDoubtKindNames.find(edit.text)) {
+    return fail(ErrorCode::kInvalidInput, "There is no doubt of the kind '" + edit.text + "'.", "about");
+  }
+  for (const ImageId& image : {edit.image_a, edit.image_b}) {
+    if (map::find_place_of(scene.map(), image) == nullptr) return no_place_with(image);
   }
   return {};
 }

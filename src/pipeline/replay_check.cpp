@@ -17,6 +17,7 @@
 #include "mapping/parallel.hpp"
 #include "pipeline/grow_map.hpp"
 #include "pipeline/look_at_tours.hpp"
+#include "pipeline/route_check.hpp"
 #include "pipeline/whereabouts.hpp"
 
 namespace homeward::pipeline {
@@ -104,24 +105,26 @@ std::optional<Replayed> replay(const TopologicalMap& map, const Places& places, 
 }
 
 /// The places of which some pictures were recognised and are no more, by the place that holds them before.
+/// `by_drive`: of what drives saw, else of tours.
 void compare_beliefs(const Places& before, const std::vector<KeptPicture>& pictures, const Replayed& old,
-                     const Replayed& now, ReplayCheck& check) {
+                     const Replayed& now, bool by_drive, ReplayCheck& check) {
   std::map<PlaceId, WorseSpot> spots;
   std::map<PlaceId, std::map<PlaceId, int>> taken_for;
   const std::vector<PlaceId> taken_at = truths(before, pictures);
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const PlaceId& place = taken_at[i];
-    if (place.empty()) continue;
+    if (place.empty() || pictures[i].by_drive != by_drive) continue;
     WorseSpot& spot = spots[place];
+    spot.kind = by_drive ? Worsening::kDrives : Worsening::kLocalisation;
     spot.place = place;
     ++spot.of;
     if (!old.right[i] || now.right[i]) continue;
-    spot.images.push_back(pictures[i].image);
+    ++spot.times;
+    if (!by_drive || spot.images.empty()) spot.images.push_back(pictures[i].image);
     if (!now.believed[i].empty()) ++taken_for[place][now.believed[i]];
   }
   for (auto& [place, spot] : spots) {
-    const auto worse = static_cast<int>(spot.images.size());
-    if (worse < kWorseLeast || worse < kWorseShare * spot.of) continue;
+    if (spot.times < kWorseLeast || spot.times < kWorseShare * spot.of) continue;
     int most = 0;
     for (const auto& [other, times] : taken_for[place]) {
       if (times <= most) continue;
@@ -150,7 +153,9 @@ class GainedPictures {
  public:
   GainedPictures(const TopologicalMap& before, const std::vector<KeptPicture>& pictures, const Whereabouts& whereabouts)
       : before_(before), whereabouts_(whereabouts) {
-    for (const KeptPicture& picture : pictures) seen_.emplace(picture.image, &picture.seen);
+    for (const KeptPicture& picture : pictures) {
+      if (!picture.by_drive) seen_.emplace(picture.image, &picture.seen);
+    }
   }
 
   /// False once `stop` is asked for.
@@ -167,7 +172,7 @@ class GainedPictures {
  private:
   void check_looks(const map::PlaceDifference& one, ReplayCheck& check) const {
     const Place& place = *map::find_place(before_, one.id);
-    WorseSpot unlike{Worsening::kPictures, one.id, {}, {}, 0, 0.0};
+    WorseSpot unlike{Worsening::kPictures, one.id, {}, {}, 0, 0, 0.0};
     for (const ImageId& image : one.gained) {
       if (!seen_.contains(image)) continue;
       ++unlike.of;
@@ -178,7 +183,7 @@ class GainedPictures {
 
   void check_spots(const map::PlaceDifference& one, ReplayCheck& check) const {
     const Place& place = *map::find_place(before_, one.id);
-    WorseSpot far{Worsening::kPlaces, one.id, {}, one.gained, static_cast<int>(one.gained.size()), 0.0};
+    WorseSpot far{Worsening::kPlaces, one.id, {}, one.gained, static_cast<int>(one.gained.size()), 0, 0.0};
     std::vector<double> apart_m;
     std::size_t parted = 0;
     for (const ImageId& image : one.gained) {
@@ -245,58 +250,29 @@ void check_ways(const TopologicalMap& after, const map::MapDifference& differenc
     const ImageId& from = map::find_place(after, one.from)->prototype;
     const ImageId& to = map::find_place(after, one.to)->prototype;
     if (const auto fault = fault_of(*one.after, from, to, whereabouts)) {
-      check.worse.push_back({fault->first, one.from, one.to, {from, to}, 2, fault->second});
+      check.worse.push_back({fault->first, one.from, one.to, {from, to}, 2, 0, fault->second});
     }
   }
 }
 
-/// Everywhere that open ways lead to from a place, itself included.
-std::set<PlaceId> reached_from(const std::unordered_map<PlaceId, std::vector<PlaceId>>& ways, const PlaceId& place) {
-  std::set<PlaceId> reached{place};
-  std::vector<PlaceId> next{place};
-  while (!next.empty()) {
-    const PlaceId here = next.back();
-    next.pop_back();
-    const auto out = ways.find(here);
-    if (out == ways.end()) continue;
-    for (const PlaceId& there : out->second) {
-      if (reached.insert(there).second) next.push_back(there);
-    }
+/// Destinations whose place goes. One that a person takes off its place is none.
+void check_destinations(const TopologicalMap& before, const Places& after, ReplayCheck& check) {
+  for (const map::Destination& one : before.destinations) {
+    if (!after.of(one.image).empty()) continue;
+    check.worse.push_back({Worsening::kDestination, one.place, {}, {one.image}, 1, 1, 0.0});
   }
-  return reached;
 }
 
-/// Ordered pairs of destinations, by their pictures, with an open way.
-std::set<std::pair<ImageId, ImageId>> routes(const TopologicalMap& map) {
-  std::unordered_map<PlaceId, std::vector<PlaceId>> ways;
-  for (const map::Edge& edge : map.edges) {
-    if (!edge.blocked) ways[edge.from].push_back(edge.to);
-  }
-  std::set<std::pair<ImageId, ImageId>> found;
-  for (const map::Destination& from : map.destinations) {
-    const std::set<PlaceId> reached = reached_from(ways, from.place);
-    for (const map::Destination& to : map.destinations) {
-      if (from.image != to.image && reached.contains(to.place)) found.emplace(from.image, to.image);
+/// Sights at places that the map has, after `pictures`.
+void add_drives(const TopologicalMap& map, const std::vector<std::vector<DriveSight>>& drives,
+                std::vector<KeptPicture>& pictures) {
+  int number = pictures.empty() ? 0 : pictures.back().tour;
+  for (const std::vector<DriveSight>& drive : drives) {
+    ++number;
+    for (const DriveSight& sight : drive) {
+      const Place* place = sight.place.empty() ? nullptr : map::find_place(map, sight.place);
+      if (place != nullptr) pictures.push_back({place->prototype, number, sight.seen, std::nullopt, true});
     }
-  }
-  return found;
-}
-
-/// Destinations that both maps have and that lead to each other no more; for each pair once.
-void check_routes(const TopologicalMap& before, const TopologicalMap& after, ReplayCheck& check) {
-  const auto old = routes(before);
-  const auto now = routes(after);
-  check.routes_before = static_cast<int>(old.size());
-  check.routes_after = static_cast<int>(now.size());
-  const auto place_of = [&](const ImageId& image) {
-    const auto found = std::ranges::find(after.destinations, image, &map::Destination::image);
-    return found == after.destinations.end() ? PlaceId() : found->place;
-  };
-  std::set<std::pair<ImageId, ImageId>> told;
-  for (const auto& [from, to] : old) {
-    if (now.contains({from, to}) || place_of(from).empty() || place_of(to).empty()) continue;
-    if (!told.insert(std::minmax(from, to)).second) continue;
-    check.worse.push_back({Worsening::kRoute, place_of(from), place_of(to), {from, to}, 2, 0.0});
   }
 }
 
@@ -324,12 +300,18 @@ Result<ReplayCheck> check_by_replay(const TopologicalMap& before, const Topologi
     return fail(ErrorCode::kCancelled, "The check was cancelled.");
   }
   ReplayCheck check;
-  check.pictures = static_cast<int>(pictures.size());
-  check.right_before = static_cast<int>(std::ranges::count(old->right, 1));
-  check.right_after = static_cast<int>(std::ranges::count(now->right, 1));
-  check.lost_before = static_cast<int>(std::ranges::count(old->believed, PlaceId()));
-  check.lost_after = static_cast<int>(std::ranges::count(now->believed, PlaceId()));
-  compare_beliefs(old_places, pictures, *old, *now, check);
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    if (pictures[i].by_drive) {
+      ++check.sights;
+      continue;
+    }
+    ++check.pictures;
+    check.right_before += old->right[i];
+    check.right_after += now->right[i];
+    check.lost_before += old->believed[i].empty() ? 1 : 0;
+    check.lost_after += now->believed[i].empty() ? 1 : 0;
+  }
+  for (const bool by_drive : {false, true}) compare_beliefs(old_places, pictures, *old, *now, by_drive, check);
   const map::MapDifference difference = map::difference(before, after);
   const Whereabouts whereabouts(before, sweeps_of(pictures));
   if (!GainedPictures(before, pictures, whereabouts).check(difference, check, stop)) {
@@ -337,13 +319,18 @@ Result<ReplayCheck> check_by_replay(const TopologicalMap& before, const Topologi
   }
   check_ways(after, difference, whereabouts, check);
   check_routes(before, after, check);
+  check_destinations(before, new_places, check);
+  for (WorseSpot& spot : check.worse) {
+    if (spot.times == 0) spot.times = static_cast<int>(spot.images.size());
+  }
   std::ranges::stable_sort(check.worse, {}, &WorseSpot::kind);
   if (progress) progress(1.0);
   return check;
 }
 
 Result<ReplayCheck> check_by_replay(const TopologicalMap& before, const TopologicalMap& after,
-                                    const std::vector<const TourSource*>& tours, int threads,
+                                    const std::vector<const TourSource*>& tours,
+                                    const std::vector<std::vector<DriveSight>>& drives, int threads,
                                     const ProgressSink& progress, const std::stop_token& stop) {
   const auto eye = eye_for(before, std::nullopt);
   if (!eye) return pass_on(eye);
@@ -367,6 +354,7 @@ Result<ReplayCheck> check_by_replay(const TopologicalMap& before, const Topologi
     pictures.push_back({id, seen->tours.tour_of[i], std::move(seen->tours.appearances[i]),
                         sweep == sweeps.end() ? std::nullopt : std::optional(sweep->second)});
   }
+  add_drives(before, drives, pictures);
   return check_by_replay(before, after, pictures, threads, stage("localise", kLookedAtShare, 1.0 - kLookedAtShare),
                          stop);
 }

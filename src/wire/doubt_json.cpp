@@ -64,6 +64,7 @@ json doubt_to_json(const map::Doubt& doubt, const map::TopologicalMap& map) {
                 {"place_b", doubt.place_b.str()},
                 {"state", decision_name(doubt.state)},
                 {"by", map::kDeciderNames.name(doubt.by)},
+                {"set_aside_by", doubt.set_aside_by.empty() ? json(nullptr) : json(doubt.set_aside_by)},
                 {"probability", doubt.probability},
                 {"effect", doubt.effect},
                 {"weight", doubt.weight()},

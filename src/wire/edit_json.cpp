@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "map/doubt.hpp"
 #include "map/lookup.hpp"
 #include "map/pictograms.hpp"
 #include "wire/json_reader.hpp"
@@ -29,7 +30,8 @@ constexpr std::array<std::string_view, map::kEditKinds> kKinds = {"rename",
                                                                   "remove_destination",
                                                                   "name_destination",
                                                                   "set_pictogram",
-                                                                  "set_destination_picture"};
+                                                                  "set_destination_picture",
+                                                                  "set_aside"};
 
 EditKind read_kind(ObjectReader& reader) {
   const std::string name = reader.choice("kind", {kKinds.begin(), kKinds.end()});
@@ -64,6 +66,16 @@ std::vector<ImageId> read_images(ObjectReader& reader) {
   }
   if (images.empty()) reader.problem("images", "'images' must name at least one image.");
   return images;
+}
+
+/// Of edits of destinations.
+void read_destination_fields(ObjectReader& reader, EditRequest& edit) {
+  if (edit.kind != EditKind::kAddDestination) edit.destination = read_destination(reader);
+  if (edit.kind == EditKind::kAddDestination || edit.kind == EditKind::kSetDestinationPicture) {
+    edit.prototype_a = ImageId(reader.text("image", 600));
+  }
+  if (edit.kind == EditKind::kAddDestination || edit.kind == EditKind::kNameDestination) edit.label = read_name(reader);
+  if (edit.kind == EditKind::kSetPictogram) edit.label = read_pictogram(reader);
 }
 
 void read_fields(ObjectReader& reader, EditRequest& edit) {
@@ -105,25 +117,15 @@ void read_fields(ObjectReader& reader, EditRequest& edit) {
       edit.prototype_b = ImageId(reader.text("image_b", 600));
       edit.yes = reader.boolean("accept");
       break;
-    case EditKind::kAddDestination:
-      edit.prototype_a = ImageId(reader.text("image", 600));
-      edit.label = read_name(reader);
+    case EditKind::kSetAside: {
+      const auto kinds = map::kDoubtKindNames.all();
+      edit.label = reader.choice("about", {kinds.begin(), kinds.end()});
+      edit.prototype_a = ImageId(reader.text("image_a", 600));
+      edit.prototype_b = ImageId(reader.text("image_b", 600));
       break;
-    case EditKind::kRemoveDestination:
-      edit.destination = read_destination(reader);
-      break;
-    case EditKind::kNameDestination:
-      edit.destination = read_destination(reader);
-      edit.label = read_name(reader);
-      break;
-    case EditKind::kSetPictogram:
-      edit.destination = read_destination(reader);
-      edit.label = read_pictogram(reader);
-      break;
-    case EditKind::kSetDestinationPicture:
-      edit.destination = read_destination(reader);
-      edit.prototype_a = ImageId(reader.text("image", 600));
-      break;
+    }
+    default:
+      read_destination_fields(reader, edit);
   }
 }
 
@@ -177,6 +179,11 @@ json edit_to_json(const EditRequest& edit) {
       value["image_b"] = edit.prototype_b.str();
       value["accept"] = edit.yes;
       break;
+    case EditKind::kSetAside:
+      value["about"] = edit.label;
+      value["image_a"] = edit.prototype_a.str();
+      value["image_b"] = edit.prototype_b.str();
+      break;
     default:
       put_destination(edit, value);
   }
@@ -224,8 +231,9 @@ Result<map::Edit> edit_for_map(const EditRequest& request, const map::Topologica
     edit.text = request.yes ? "accept" : "reject";
     return edit;
   }
-  if (request.kind == EditKind::kAddDestination) {
+  if (request.kind == EditKind::kAddDestination || request.kind == EditKind::kSetAside) {
     edit.image_a = request.prototype_a;
+    edit.image_b = request.prototype_b;
     return edit;
   }
   if (!request.destination.empty()) {

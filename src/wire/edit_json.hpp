@@ -20,12 +20,12 @@ namespace homeward::wire {
 ///   decide {prototype_a, prototype_b, accept}                  decide_shortcut {image_a, image_b, accept}
 ///   add_destination {image, label}                             remove_destination {destination}
 ///   name_destination {destination, label}                      set_pictogram {destination, pictogram}
-///   set_destination_picture {destination, image}
+///   set_destination_picture {destination, image}               set_aside {about, image_a, image_b}
 struct EditRequest {
   map::EditKind kind = map::EditKind::kRename;
   PlaceId place;      // also: from
   PlaceId other;      // into, to
-  std::string label;  // also: pictogram
+  std::string label;  // also: pictogram, about
   DestinationId destination;
   std::vector<ImageId> images;
   ImageId prototype_a;  // also: image_a, image_b, image

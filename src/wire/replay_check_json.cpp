@@ -13,8 +13,8 @@ namespace {
 
 using map::Worsening;
 
-constexpr std::array<const char*, map::kWorsenings> kWorseningNames = {"localisation", "pictures", "places",
-                                                                       "way",          "far_way",  "route"};
+constexpr std::array<const char*, map::kWorsenings> kWorseningNames = {
+    "localisation", "pictures", "places", "way", "far_way", "route", "drives", "destination"};
 
 std::string called(const map::TopologicalMap& map, const PlaceId& id) {
   const map::Place* place = map::find_place(map, id);
@@ -31,7 +31,7 @@ std::string metres(double value_m) {
 
 std::string worse_in_words(const map::WorseSpot& spot, const map::TopologicalMap& before,
                            const map::TopologicalMap& after) {
-  const std::string some = std::to_string(spot.images.size()) + " of " + std::to_string(spot.of) + " pictures";
+  const std::string some = std::to_string(spot.times) + " of " + std::to_string(spot.of) + " pictures";
   const std::string here = called(after, spot.place);
   const std::string there = called(after, spot.other);
   switch (spot.kind) {
@@ -50,6 +50,11 @@ std::string worse_in_words(const map::WorseSpot& spot, const map::TopologicalMap
              " long: do they only look alike?";
     case Worsening::kRoute:
       return "No open way leads between " + here + " and " + there + " any more.";
+    case Worsening::kDrives:
+      return "On drives it would not have known " + called(before, spot.place) + " on " + some +
+             (spot.other.empty() ? "." : ", and taken most of them for " + there + ".");
+    case Worsening::kDestination:
+      return "A destination goes with its place " + called(before, spot.place) + ".";
   }
   return {};
 }
@@ -63,18 +68,15 @@ nlohmann::json replay_check_to_json(const map::ReplayCheck& check, const map::To
                      {"other", spot.other.empty() ? nlohmann::json(nullptr) : nlohmann::json(spot.other.str())},
                      {"images", ids_to_json(spot.images)},
                      {"of", spot.of},
+                     {"times", spot.times},
                      {"distance_m", spot.distance_m},
                      {"words", worse_in_words(spot, before, after)}});
   }
-  return {{"pictures", check.pictures},
-          {"right_before", check.right_before},
-          {"right_after", check.right_after},
-          {"lost_before", check.lost_before},
-          {"lost_after", check.lost_after},
-          {"routes_before", check.routes_before},
-          {"routes_after", check.routes_after},
-          {"harmless", check.harmless()},
-          {"worse", worse}};
+  return {{"pictures", check.pictures},           {"sights", check.sights},
+          {"right_before", check.right_before},   {"right_after", check.right_after},
+          {"lost_before", check.lost_before},     {"lost_after", check.lost_after},
+          {"routes_before", check.routes_before}, {"routes_after", check.routes_after},
+          {"harmless", check.harmless()},         {"worse", worse}};
 }
 
 }  // namespace homeward::wire

@@ -20,6 +20,7 @@
 #include "wire/problem_json.hpp"
 #include "wire/replay_check_json.hpp"
 #include "wire/route_json.hpp"
+#include "wire/similarity_json.hpp"
 #include "wire/tour_json.hpp"
 
 namespace homeward::wire::encoders_test {
@@ -136,7 +137,7 @@ TEST(Encoders, TellWhatAReplayCheckFoundInWordsToo) {
   check.pictures = 20;
   for (std::size_t kind = 0; kind < map::kWorsenings; ++kind) {
     const PlaceId other = kind < 3 ? PlaceId() : PlaceId("p2");
-    check.worse.push_back({static_cast<map::Worsening>(kind), PlaceId("p1"), other, {ImageId("t/1.jpg")}, 4, 2.5});
+    check.worse.push_back({static_cast<map::Worsening>(kind), PlaceId("p1"), other, {ImageId("t/1.jpg")}, 4, 1, 2.5});
   }
   json value = replay_check_to_json(check, map, map);
   EXPECT_EQ(value["worse"][0]["words"], "At p1 it would not know where it is on 1 of 4 pictures.");
@@ -147,6 +148,12 @@ TEST(Encoders, TellWhatAReplayCheckFoundInWordsToo) {
     value[key] = what;
   }
   EXPECT_THAT(schemas().problems("replay_check", value), IsEmpty());
+}
+
+TEST(Encoders, SimilarityMatricesFitTheirSchema) {
+  EXPECT_THAT(schemas().problems("similarity", similarity_to_json(1, 256, 1, {})), IsEmpty());
+  EXPECT_THAT(schemas().problems("similarity", similarity_to_json(3, 256, 8, {ImageId("t/1.jpg"), ImageId("t/2.jpg")})),
+              IsEmpty());
 }
 
 TEST(Encoders, TellWhatTwoPicturesHaveInCommon) {

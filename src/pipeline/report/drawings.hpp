@@ -17,7 +17,7 @@ std::string draw_strip(const BuiltMap& built, const ReportFacts& facts);
 int round_step(int range, int most_steps);
 
 /// How alike all pictures are (above the diagonal) and which of them make one place (below), a PNG within SVG.
-std::string draw_matrix(const BuiltMap& built, const ReportFacts& facts);
+std::string draw_matrix(const BuiltMap& built);
 
 /// One bar of three lengths: for, unknown, against.
 std::string draw_masses(const map::Masses& masses, const std::string& words);

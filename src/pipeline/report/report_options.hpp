@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/time.hpp"
+
 namespace homeward::pipeline {
 
 /// What is odd about a tour, in words, and the first picture that it is about.
@@ -21,5 +23,8 @@ struct ReportOptions {
   std::uint64_t seed = 1;
   std::vector<ReportWarning> warnings = {};
 };
+
+/// A time as a report's date, "28 November 2026" where the machine is.
+std::string report_date(TimeUs t_us);
 
 }  // namespace homeward::pipeline

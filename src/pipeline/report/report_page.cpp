@@ -130,16 +130,16 @@ std::string tour_section(const BuiltMap& built, const ReportFacts& facts) {
          "only is grey, what occurs again has its colour again.</figcaption></figure>\n</section>\n";
 }
 
-std::string matrix_section(const BuiltMap& built, const ReportFacts& facts) {
+std::string matrix_section(const BuiltMap& built) {
   std::string html = "<section id=\"matrix\">\n<h2>Similarity</h2>\n";
   const std::size_t images = built.map.images.size();
   if (images == 0 || static_cast<std::size_t>(built.notes.pairs.images()) != images) {
     return html + "<p>There are no compared pictures.</p>\n</section>\n";
   }
-  return html + "<figure>" + draw_matrix(built, facts) + "\n<figcaption><ul class=\"legend\"><li>" +
-         legend_box("#aacdeb") + "have something in common</li><li>" + legend_box("#082350") +
-         "look the same</li><li>" + legend_box("#157347") + "one place</li><li>" + legend_box("#c87800") +
-         "undecided</li><li>" + legend_box("#b3261e") +
+  return html + "<figure>" + draw_matrix(built) + "\n<figcaption><ul class=\"legend\"><li>" + legend_box("#aacdeb") +
+         "have something in common</li><li>" + legend_box("#082350") + "look the same</li><li>" +
+         legend_box("#157347") + "one place</li><li>" + legend_box("#c87800") + "undecided</li><li>" +
+         legend_box("#b3261e") +
          "rejected</li></ul>Above the diagonal how alike every two pictures are, 1/(1 + D/D₀) of the visual distance "
          "D; "
          "below it what the map made of it. A tour that comes back draws a line beside the diagonal, or across it when "
@@ -157,7 +157,7 @@ Result<std::string> report_page(const BuiltMap& built, const std::vector<const T
   const auto pictures = draw_hypotheses(built, tours, drawn, options);
   if (!pictures) return pass_on(pictures);
   return head(built.map, options) + summary(built, facts) + to_do(built, facts, options.warnings) +
-         graph_section(built.map, facts) + tour_section(built, facts) + matrix_section(built, facts) +
+         graph_section(built.map, facts) + tour_section(built, facts) + matrix_section(built) +
          loops_section(built, facts, *pictures) + look_alikes_section(built, facts) + weak_section(built, facts) +
          coverage_section(built, facts) + skipped_section(built) + "</main>\n</body>\n</html>\n";
 }

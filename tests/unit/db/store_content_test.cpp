@@ -279,7 +279,7 @@ Drive drive_on(const MapId& map, const std::string& mission, TimeUs created_us) 
   return {MissionId(mission), map, "hw2", created_us, {{PlaceId("p1"), {1, 2, 3}}, {PlaceId(), {}}}};
 }
 
-TEST_F(StoreContent, WhatDrivesSawIsKeptUntilItIsUsed) {
+TEST_F(StoreContent, WhatDrivesSawIsKeptUntilNewerDrivesComeOrNobodyWantsIt) {
   const MapId map = new_map();
   EXPECT_EQ(store().add_drive(drive_on(MapId("none"), "m0", 1)).error().code, ErrorCode::kNotFound);
   for (int i = 0; i < 10; ++i) ASSERT_TRUE(store().add_drive(drive_on(map, "m" + std::to_string(i), i)));
@@ -295,10 +295,15 @@ TEST_F(StoreContent, WhatDrivesSawIsKeptUntilItIsUsed) {
   EXPECT_TRUE(drive.sights[1].place.empty());
   EXPECT_TRUE(drive.sights[1].appearance.empty());
   EXPECT_EQ(store().drive(MissionId("m0")).error().code, ErrorCode::kNotFound);
-  ASSERT_TRUE(store().remove_drives({kept.front()}));
+  ASSERT_TRUE(store().use_drives({kept.front()}));
   EXPECT_EQ(store().drives(map)->size(), 7U);
+  EXPECT_EQ(store().kept_drives(map)->size(), 8U);
+  EXPECT_TRUE(store().drive(kept.front())) << "what it saw stays";
+  ASSERT_TRUE(store().set_map_refine(map, wire::RefineMode::kOff));
+  EXPECT_TRUE(store().kept_drives(map)->empty());
+  ASSERT_TRUE(store().add_drive(drive_on(map, "m20", 20)));
   ASSERT_TRUE(store().remove_map(map));
-  EXPECT_EQ(store().drive(kept.back()).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(store().drive(MissionId("m20")).error().code, ErrorCode::kNotFound);
 }
 
 TEST_F(StoreContent, ContentsToursDrivesAndJobChangeTogetherOrNotAtAll) {

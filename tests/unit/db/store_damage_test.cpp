@@ -8,6 +8,7 @@
 #include <fstream>
 #include <random>
 
+#include "support/sample_map.hpp"
 #include "unit/db/store_fixture.hpp"
 
 namespace homeward::db::store_damage_test {
@@ -56,6 +57,9 @@ class StoreDamage : public StoreTest {
     map.id = MapId("m");
     map.tours = {tour.id};
     ASSERT_TRUE(store().add_map(map));
+    AlongWithContents along;
+    along.build = MapBuild{std::string(6000, 'r'), std::vector<std::uint8_t>(3000, 5)};
+    ASSERT_TRUE(store().save_map_contents(map.id, testing::sample_map(), {}, 0, along));
     for (int i = 0; i < 10; ++i) {
       const Drive drive{MissionId("d" + std::to_string(i % 3)), map.id, "c", i, {{PlaceId("p"), {1, 2}}, {{}, {}}}};
       ASSERT_TRUE(store().add_drive(drive));

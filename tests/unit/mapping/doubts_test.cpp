@@ -127,6 +127,38 @@ TEST(Doubts, APlaceThatHoldsAVisitToAnotherIsAskedAbout) {
   EXPECT_EQ(map.hypotheses[0].decision, map::Decision::kRejected);
 }
 
+TEST(Doubts, APlaceThatAPersonCalledOneIsAskedAboutNoMore) {
+  map::TopologicalMap map = mixed_map();
+  const std::vector<Doubt> found = asked(map, DoubtKind::kMixedPlace);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_FALSE(found[0].hypothesis);
+  ASSERT_EQ(found[0].if_yes.size(), 1U);
+  ASSERT_TRUE(apply_edit(map, found[0].if_yes.front()));
+  EXPECT_THAT(asked(map, DoubtKind::kMixedPlace), IsEmpty());
+  ASSERT_EQ(map.hypotheses.size(), 1U);
+  EXPECT_EQ(map.hypotheses[0].decision, map::Decision::kAccepted);
+  EXPECT_EQ(map.hypotheses[0].by, map::Decider::kPerson);
+}
+
+TEST(Doubts, WhatSomebodyWasNotSureOfComesLast) {
+  map::TopologicalMap map = straight_tour(12);
+  join(map, 1, 9, 0.98);
+  join(map, 4, 7, 0.98);
+  const std::vector<Doubt> found = asked(map, DoubtKind::kWay);
+  ASSERT_EQ(found.size(), 2U);
+  map::Edit aside = edit_of(map::EditKind::kSetAside, found[0].image_b, found[0].image_a, "way");
+  aside.by = "anna";
+  ASSERT_TRUE(apply_edit(map, aside));
+  const std::vector<Doubt> after = asked(map, DoubtKind::kWay);
+  ASSERT_EQ(after.size(), 2U);
+  EXPECT_EQ(after[0].image_a, found[1].image_a);
+  EXPECT_EQ(after[0].set_aside_by, "");
+  EXPECT_EQ(after[1].image_a, found[0].image_a);
+  EXPECT_EQ(after[1].set_aside_by, "anna");
+  ASSERT_TRUE(undo_change(map));
+  EXPECT_EQ(asked(map, DoubtKind::kWay)[0].image_a, found[0].image_a);
+}
+
 TEST(Doubts, AVisitThatGoesTheSameWayIsNone) {
   map::TopologicalMap map = straight_tour(10);
   for (int i = 0; i < 10; ++i) {  // and back again
@@ -160,7 +192,10 @@ TEST(Doubts, TwoPlacesThatLookAlikeAndLieTogetherAreAskedAbout) {
   EXPECT_EQ(std::minmax(found[0].place_a, found[0].place_b), std::minmax(place(1), place(8)));
   EXPECT_EQ(found[0].state, map::Decision::kUndecided);
   EXPECT_FALSE(found[0].hypothesis);
-  EXPECT_THAT(found[0].if_no, IsEmpty());
+  map::TopologicalMap apart = map;
+  ASSERT_TRUE(apply_edit(apart, found[0].if_no.front()));
+  EXPECT_EQ(apart.places.size(), 10U);
+  EXPECT_THAT(asked(apart, DoubtKind::kSamePlace), IsEmpty()) << "nobody is asked twice";
   ASSERT_TRUE(apply_edit(map, found[0].if_yes.front()));
   EXPECT_EQ(map.places.size(), 9U);
   EXPECT_THAT(asked(map, DoubtKind::kSamePlace), IsEmpty());

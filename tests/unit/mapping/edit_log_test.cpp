@@ -309,6 +309,43 @@ TEST(Edits, WhatWasUndoneWhileAMapWasBuiltIsNotBroughtBackByIt) {
   EXPECT_EQ(closed(built), std::pair(true, true));
 }
 
+TEST(Edits, WhatNobodyAskedAboutCanBeDecidedToo) {
+  auto map = three_places();
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kDecide, 1, 5, "reject")));
+  ASSERT_EQ(map.hypotheses.size(), 1U);
+  EXPECT_EQ(map.hypotheses[0].decision, map::Decision::kRejected);
+  EXPECT_EQ(map.hypotheses[0].by, map::Decider::kPerson);
+  EXPECT_EQ(map.places.size(), 3U);
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kDecide, 5, 1, "accept"), look));
+  ASSERT_EQ(map.hypotheses.size(), 1U) << "the same two pictures";
+  EXPECT_EQ(map.hypotheses[0].decision, map::Decision::kAccepted);
+  EXPECT_EQ(map.places.size(), 2U);
+  ASSERT_TRUE(undo_change(map));
+  ASSERT_TRUE(undo_change(map));
+  EXPECT_TRUE(map.hypotheses.empty());
+}
+
+TEST(Edits, AMapIsShownAsItWasAfterAnyChangeThatStands) {
+  auto map = three_places();
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kRename, 0, -1, "kitchen")));
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kRename, 0, -1, "pantry")));
+  ASSERT_TRUE(apply_edit(map, make(EditKind::kDelete, 5)));
+  ASSERT_TRUE(undo_change(map));
+  const auto label_after = [&](std::int64_t change) {
+    const auto former = as_of_change(map, change);
+    return former ? former->places[0].label : former.error().message;
+  };
+  EXPECT_EQ(label_after(0), "");
+  EXPECT_EQ(label_after(1), "kitchen");
+  EXPECT_EQ(label_after(2), "pantry");
+  EXPECT_EQ(as_of_change(map, 3).error().code, ErrorCode::kNotFound) << "it was taken back";
+  EXPECT_EQ(as_of_change(map, 4).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(as_of_change(map, 0)->revision, map.revision);
+  map.unedited = nullptr;  // as in files of before
+  EXPECT_EQ(label_after(2), "pantry");
+  EXPECT_EQ(as_of_change(map, 1).error().code, ErrorCode::kConflict);
+}
+
 TEST(Edits, WhatCannotBeIsRefusedAndChangesNothing) {
   const auto refused = [](const map::Edit& edit, ErrorCode code) {
     auto map = three_places();
@@ -345,7 +382,10 @@ TEST(Edits, WhatCannotBeIsRefusedAndChangesNothing) {
   refused(make(EditKind::kRemoveEdge, 0, 5), ErrorCode::kNotFound);
   refused(make(EditKind::kBlockEdge, 0, 5, "true"), ErrorCode::kNotFound);
   refused(make(EditKind::kBlockEdge, 0, 3, "perhaps"), ErrorCode::kInvalidInput);
-  refused(make(EditKind::kDecide, 0, 3, "accept"), ErrorCode::kNotFound);
+  refused(make(EditKind::kDecide, 0, 0, "accept"), ErrorCode::kInvalidInput);
+  refused(make(EditKind::kDecide, 0, 77, "accept"), ErrorCode::kNotFound);
+  refused(make(EditKind::kSetAside, 0, 3, "weather"), ErrorCode::kInvalidInput);
+  refused(make(EditKind::kSetAside, 0, 77, "way"), ErrorCode::kNotFound);
   refused(make(EditKind::kDecide, 0, 3, "maybe"), ErrorCode::kInvalidInput);
 }
 

@@ -79,7 +79,7 @@ ReplayCheck checked(const map::TopologicalMap& after, int threads = 2) {
 const ImageId& image(std::size_t index) { return taught().images.at(index).id; }
 
 TEST(ReplayCheck, FindsNothingAgainstTheMapItselfAndNames) {
-  const ReplayCheck same = check_by_replay(taught(), taught(), {&the_tour()}, 2).value();
+  const ReplayCheck same = check_by_replay(taught(), taught(), {&the_tour()}, {}, 2).value();
   EXPECT_TRUE(same.harmless());
   EXPECT_EQ(same.pictures, 14);
   EXPECT_GE(same.right_before, 12);
@@ -106,6 +106,37 @@ TEST(ReplayCheck, TellsDestinationsThatABridgeJoinedAndThePicturesThatNothingSho
   const auto route = std::ranges::find(check.worse, Worsening::kRoute, &WorseSpot::kind);
   ASSERT_NE(route, check.worse.end());
   EXPECT_EQ(std::ranges::count(check.worse, Worsening::kRoute, &WorseSpot::kind), 1) << "each pair once";
+}
+
+TEST(ReplayCheck, TellsADestinationThatGoesWithItsPlace) {
+  const ReplayCheck gone = checked(edited(EditKind::kDelete, image(13)));
+  const auto lost = std::ranges::find(gone.worse, Worsening::kDestination, &WorseSpot::kind);
+  ASSERT_NE(lost, gone.worse.end());
+  EXPECT_EQ(lost->images, std::vector<ImageId>{image(13)});
+  EXPECT_EQ(lost->place, map::find_place_of(taught(), image(13))->id);
+  EXPECT_TRUE(checked(edited(EditKind::kRemoveDestination, image(13))).harmless()) << "as a person wants it";
+}
+
+TEST(ReplayCheck, TellsWhatDrivesSawAndWouldNotBeKnownAnyMore) {
+  std::vector<DriveSight> drive;
+  for (const KeptPicture& picture : pictures()) {
+    drive.push_back({picture.seen, map::find_place_of(taught(), picture.image)->id});
+  }
+  drive.emplace_back();                            // the belief was not sure
+  drive.push_back({drive[0].seen, PlaceId("x")});  // nor is this place there any more
+  const ReplayCheck same = check_by_replay(taught(), taught(), {&the_tour()}, {drive, drive}, 2).value();
+  EXPECT_EQ(same.pictures, 14);
+  EXPECT_EQ(same.sights, 28);
+  EXPECT_TRUE(same.harmless());
+
+  map::TopologicalMap muddled = taught();
+  std::swap(muddled.places.front().appearances, muddled.places.back().appearances);
+  const ReplayCheck check = check_by_replay(taught(), muddled, {&the_tour()}, {drive}, 2).value();
+  const auto worse = std::ranges::find(check.worse, Worsening::kDrives, &WorseSpot::kind);
+  ASSERT_NE(worse, check.worse.end());
+  EXPECT_EQ(worse->images, std::vector<ImageId>{map::find_place(taught(), worse->place)->prototype});
+  EXPECT_GE(worse->times, 2);
+  EXPECT_LE(worse->times, worse->of);
 }
 
 TEST(ReplayCheck, TellsAWayByAPersonThatNoPictureSees) {
@@ -207,7 +238,7 @@ TEST(ReplayCheck, GivesTheSameWithAnyNumberOfThreadsAndCanBeCancelled) {
   for (std::size_t i = 0; i < one.worse.size(); ++i) EXPECT_EQ(one.worse[i].images, three.worse[i].images);
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_EQ(check_by_replay(taught(), after, {&the_tour()}, 1, {}, stop.get_token()).error().code,
+  EXPECT_EQ(check_by_replay(taught(), after, {&the_tour()}, {}, 1, {}, stop.get_token()).error().code,
             ErrorCode::kCancelled);
 }
 

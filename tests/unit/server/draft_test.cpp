@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "db/store.hpp"
 #include "support/server_fixture.hpp"
+#include "wire/appearance_blob.hpp"
 
 namespace homeward::server::draft_test {
 namespace {
@@ -180,6 +182,29 @@ TEST_F(DraftTest, IsTriedOnTheToursOfItsMap) {
             (json{{"job", job.at("id")}, {"version", draft.at("version")}}));
   restart();
   EXPECT_EQ(admin->get(path_of(draft) + "/check").json(), found);
+}
+
+TEST_F(DraftTest, IsTriedOnWhatDrivesSawToo) {
+  teach(4);
+  app.reset();
+  {
+    const auto store = db::open_sqlite_store(config.data).value();
+    const auto stored = store->load_map_contents(MapId(map_)).value();
+    db::Drive drive{MissionId("m1"), MapId(map_), stored.map.feature_config_id, 1, {}};
+    for (const map::Place& place : stored.map.places) {
+      drive.sights.push_back({place.id, wire::encode_appearance(place.appearances.front())});
+    }
+    ASSERT_TRUE(store->add_drive(drive));
+  }
+  start();
+  app->work_off();  // the map has learnt from it what it could
+  const json draft = begin();
+  const Answer asked = admin->post(path_of(draft) + "/check");
+  ASSERT_EQ(asked.status, 202) << asked.body;
+  EXPECT_EQ(wait_for_job(asked.json().at("job").at("id")).at("state"), "done");
+  const json found = admin->get(path_of(draft) + "/check").json();
+  EXPECT_EQ(found.at("sights"), graph().at("places").size());
+  EXPECT_TRUE(found.at("harmless").get<bool>()) << found.dump();
 }
 
 TEST_F(DraftTest, IsDiscardedAndIsNoPartOfAnotherMap) {

@@ -1,0 +1,2 @@
+-- What drives saw is kept after their map has learnt from it: drafts of the map are tried on it.
+ALTER TABLE drives ADD COLUMN used INTEGER NOT NULL DEFAULT 0 CHECK (used IN (0, 1));
