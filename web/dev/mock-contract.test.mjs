@@ -144,6 +144,13 @@ describe('the mock server', () => {
     expect(problemsOf('pair', pair)).toEqual([]);
   });
 
+  it('tells how missions fared on ways as the contract says', async () => {
+    const { body } = await ask('GET', 'maps/m1/ways');
+    const keys = ['driven', 'failed', 'from', 'last_driven_us', 'last_failed_us', 'to'];
+    for (const one of body.ways) expect(Object.keys(one).sort()).toEqual(keys);
+    expect(body.ways.some((one) => one.driven > 0 && one.last_failed_us === null)).toBe(true);
+  });
+
   it('tells events as the schema says, the snapshot first, and that it lives', async () => {
     const socket = new WebSocket(`${mock.url.replace('http', 'ws')}/api/v1/events`, { headers: { cookie } });
     const events = await new Promise((done, fail) => {

@@ -322,6 +322,7 @@ export const kRoutes = [
   [/^POST maps\/([^/]+)\/builds$/, 'installer', addToMap],
   [/^PUT maps\/([^/]+)\/refine$/, 'installer', setRefine],
   [/^GET maps\/([^/]+)\/graph$/, 'viewer', graphOf],
+  [/^GET maps\/[^/]+\/ways$/, 'viewer', (house) => ({ body: { ways: house.drives } })],
   [/^GET maps\/[^/]+\/history$/, 'viewer', (house) => ({ body: { edits: house.edits } })],
   [/^GET maps\/([^/]+)\/places\/([^/]+)\/thumbnail$/, 'viewer', thumbnailOf],
   [

@@ -2,7 +2,7 @@
 // What the mock server knows and does: accounts, robots, leases, missions that progress, maps, tours, jobs.
 import { steerDrafts } from './mock-drafts.mjs';
 import { edit } from './mock-edits.mjs';
-import { kJumpNote, kitchenNote, newGraph, unnamedNote } from './mock-house.mjs';
+import { kJumpNote, kitchenNote, newDrives, newGraph, unnamedNote } from './mock-house.mjs';
 import { kRoutes } from './mock-routes.mjs';
 import { Refusal } from './mock-refusal.mjs';
 
@@ -28,6 +28,7 @@ export class House {
     this.taught = newGraph('m1');
     this.graph = structuredClone(this.taught);
     this.edits = [];
+    this.drives = newDrives();
     this.drafts = []; // each with the log of its edits
     const tour = {
       id: 't1',

@@ -20,6 +20,7 @@ import type {
   TokenInfo,
   Tour,
   User,
+  WayDrives,
 } from './types';
 
 const kRoot = '/api/v1';
@@ -165,6 +166,8 @@ export const setRefine = (map: string, refine: RefineMode) =>
   call<MapInfo>(`/maps/${id(map)}/refine`, { method: 'PUT', body: { refine } });
 export const maps = () => call<{ maps: MapInfo[] }>('/maps');
 export const history = (map: string) => call<{ edits: LoggedEdit[] }>(`/maps/${id(map)}/history`);
+/** How missions fared on the ways of a map; ways that none came to are not told. */
+export const wayDrives = (map: string) => call<{ ways: WayDrives[] }>(`/maps/${id(map)}/ways`);
 export const removeMap = (map: string) => call<unknown>(`/maps/${id(map)}`, { method: 'DELETE' });
 export const takeJob = (job: string) => call<unknown>(`/jobs/${id(job)}/take`, { method: 'POST' });
 export const cancelJob = (job: string) => call<unknown>(`/jobs/${id(job)}/cancel`, { method: 'POST' });
