@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a map was driven, how it came about and how it was built, in a real browser against the pretended house.
 // Usage: node tests/browser/inspection_test.mjs [FOLDER FOR SCREENSHOTS [WORDS]]     after web/build.sh
+import assert from 'node:assert/strict';
 import { runChecks } from './browser.mjs';
-import { inEveryLook, pretendedHouses, screenshotFolder } from './house.mjs';
+import { inEveryLook, pretendedHouses, screenshotFolder, tab } from './house.mjs';
 
 const out = screenshotFolder();
 const { browser, withHouse } = await pretendedHouses();
@@ -15,6 +16,20 @@ async function directions(page, other) {
     .filter({ hasText: `of the way to ${other}` })
     .last();
 }
+
+/** Three changes, of which the second is taken back. */
+function someChanges(house) {
+  const change = (by, edits) => house.steer({ do: 'change', by, edits });
+  change('ben', [{ kind: 'rename', place: 'p5', label: 'big kitchen' }]);
+  change('anna', [{ kind: 'delete', place: 'p12' }]);
+  change('ben', [{ kind: 'add_edge', from: 'p5', to: 'p9' }]);
+}
+
+const part = (page, name) =>
+  page.getByRole('navigation', { name: 'Of this map' }).getByRole('link', { name, exact: true });
+const other = (page) => page.getByRole('region', { name: 'What is other' });
+const history = (page) => page.getByRole('region', { name: 'Changes by people' });
+const pathname = (page) => new URL(page.url()).pathname;
 
 const checks = [
   [
@@ -50,6 +65,95 @@ const checks = [
       await page.waitForTimeout(5);
       ben([{ kind: 'move', into: 'p9', images: ['t1/p8b.jpg'] }]);
       await out_of_here.getByText(slow).waitFor();
+    }),
+  ],
+  [
+    'two states of a map stand beside each other, with what is other in words, at an address of their own',
+    withHouse(async (page, house) => {
+      someChanges(house);
+      await tab(page, 'Map');
+      await part(page, 'Changes').click();
+      await other(page).getByText('From “As it was built” to “As it is now”.').waitFor();
+      await other(page).getByText('“kitchen” is called “big kitchen” now.').waitFor();
+      await other(page)
+        .getByText(/is no place any more/)
+        .waitFor();
+      await other(page).getByText('The way between Big kitchen and Bedroom is new.').waitFor();
+      assert.equal(await page.getByTestId('graph').count(), 2);
+      await page.getByLabel('Compare').selectOption({ index: 1 });
+      await other(page)
+        .getByText(/^From “After ben named a place “big kitchen”/)
+        .waitFor();
+      assert.equal(await other(page).getByText('is called “big kitchen” now').count(), 0);
+      assert.equal(pathname(page), '/map/m1/changes/1');
+      await page.getByLabel('With').selectOption({ index: 0 });
+      await other(page)
+        .getByText(/is no place any more/)
+        .waitFor();
+      await other(page).getByText('is new').waitFor({ state: 'detached' });
+      assert.equal(pathname(page), '/map/m1/changes/1/2');
+      await page.reload();
+      await other(page)
+        .getByText(/is no place any more/)
+        .waitFor();
+    }),
+  ],
+  [
+    'before and after a change is one press away, by keyboard',
+    withHouse(async (page, house) => {
+      someChanges(house);
+      await tab(page, 'Map');
+      await history(page)
+        .getByRole('link', { name: /^Before and after: ben named a place/ })
+        .focus();
+      await page.keyboard.press('Enter');
+      await other(page).getByText('1 difference').waitFor();
+      assert.equal(pathname(page), '/map/m1/changes/0/1');
+      await other(page)
+        .getByRole('button', { name: /^Show on the map/ })
+        .click();
+      await page.getByText('Ringed in the drawings: Big kitchen').waitFor();
+      assert.equal(pathname(page), '/map/m1/changes/0/1/place/p5');
+      await page.getByRole('link', { name: 'Open it in the map as it is' }).click();
+      await page.locator('.inspector').getByRole('heading', { level: 2, name: 'Big kitchen' }).waitFor();
+    }),
+  ],
+  [
+    'a change that was taken back is no state, and a map that nobody changed has one',
+    withHouse(async (page, house) => {
+      await page.goto('/map/m1/changes');
+      await page.getByText('The map is as it was built').waitFor();
+      someChanges(house);
+      await page.getByLabel('Compare').waitFor();
+      assert.equal(await page.getByLabel('Compare').getByRole('option').count(), 3);
+      await history(page)
+        .getByRole('button', { name: /^Take the newest back/ })
+        .click();
+      await history(page).getByText('(taken back)').waitFor();
+      await page.waitForFunction(
+        () => document.querySelectorAll('.form-columns select')[0].options.length === 2,
+      );
+      assert.equal(
+        await history(page)
+          .getByRole('link', { name: /^Before and after/ })
+          .count(),
+        2,
+      );
+    }),
+  ],
+  [
+    'two states at every width and in light and dark are accessible and fit',
+    inEveryLook(withHouse, out, async (page, house, see) => {
+      someChanges(house);
+      await page.goto('/map/m1/changes');
+      await other(page).waitFor();
+      await page.waitForTimeout(700);
+      await see('changes');
+      await page.getByTestId('graph').first().scrollIntoViewIfNeeded();
+      await page.mouse.wheel(0, 250);
+      await see('changes-drawings');
+      await other(page).scrollIntoViewIfNeeded();
+      await see('changes-list');
     }),
   ],
   [

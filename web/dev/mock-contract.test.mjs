@@ -144,6 +144,19 @@ describe('the mock server', () => {
     expect(problemsOf('pair', pair)).toEqual([]);
   });
 
+  it('answers of former states as the schemas say', async () => {
+    const root = 'maps/m1';
+    const { revision } = (await ask('GET', `${root}/graph`)).body;
+    const edits = [{ kind: 'block_edge', from: 'p1', to: 'p2', blocked: true }];
+    await ask('POST', `${root}/edits`, { edits }, { 'If-Match': `"r${revision}"` });
+    const number = (await ask('GET', `${root}/history`)).body.edits.at(-1).change;
+    const { body: built } = await ask('GET', `${root}/history/0/graph`);
+    expect([problemsOf('graph', built), built.edges.some((one) => one.blocked)]).toEqual([[], false]);
+    const { body: difference } = await ask('GET', `${root}/history/0/difference?to=${number}`);
+    expect([problemsOf('difference', difference), difference.edges.length]).toEqual([[], 1]);
+    expect((await ask('GET', `${root}/history/77/graph`)).body.code).toBe('not_found');
+  });
+
   it('tells how missions fared on ways as the contract says', async () => {
     const { body } = await ask('GET', 'maps/m1/ways');
     const keys = ['driven', 'failed', 'from', 'last_driven_us', 'last_failed_us', 'to'];

@@ -2,6 +2,7 @@
 // The routes of the mock server: [method and path, least role, handler(house, {user, body, headers, args})].
 import { kDoubtRoutes } from './mock-doubts.mjs';
 import { kDraftRoutes } from './mock-drafts.mjs';
+import { kFormerRoutes } from './mock-former.mjs';
 import { edit, redo, undo } from './mock-edits.mjs';
 import { kitchenNote, noWayText, wayBetween } from './mock-house.mjs';
 import { Refusal } from './mock-refusal.mjs';
@@ -335,6 +336,7 @@ export const kRoutes = [
   [/^POST maps\/([^/]+)\/redo$/, 'installer', redo],
   ...kDraftRoutes,
   ...kDoubtRoutes,
+  ...kFormerRoutes,
   [/^GET tours$/, 'viewer', (house) => ({ body: { tours: house.tours } })],
   [/^GET tours\/([^/]+)$/, 'viewer', (house, { args }) => ({ body: house.find('tours', args[0]) })],
   [/^POST tours$/, 'installer', addTour],

@@ -168,6 +168,12 @@ export const maps = () => call<{ maps: MapInfo[] }>('/maps');
 export const history = (map: string) => call<{ edits: LoggedEdit[] }>(`/maps/${id(map)}/history`);
 /** How missions fared on the ways of a map; ways that none came to are not told. */
 export const wayDrives = (map: string) => call<{ ways: WayDrives[] }>(`/maps/${id(map)}/ways`);
+/** The map as it was after a change; 0: before all of them. */
+export const formerGraph = (map: string, change: number) =>
+  call<Graph>(`/maps/${id(map)}/history/${change}/graph`);
+/** `to`: a later change; null: the map as it is. */
+export const formerDifference = (map: string, change: number, to: number | null) =>
+  call<Difference>(`/maps/${id(map)}/history/${change}/difference${to === null ? '' : `?to=${to}`}`);
 export const removeMap = (map: string) => call<unknown>(`/maps/${id(map)}`, { method: 'DELETE' });
 export const takeJob = (job: string) => call<unknown>(`/jobs/${id(job)}/take`, { method: 'POST' });
 export const cancelJob = (job: string) => call<unknown>(`/jobs/${id(job)}/cancel`, { method: 'POST' });
