@@ -157,6 +157,64 @@ const checks = [
     }),
   ],
   [
+    'the report of the build stands in the page, whole and without scripts, to print and to open on its own',
+    withHouse(async (page) => {
+      await tab(page, 'Map');
+      await part(page, 'Report').click();
+      const frame = page.getByTitle('Report of the map Ground floor');
+      const content = frame.contentFrame();
+      await content.getByRole('heading', { level: 1, name: 'Ground floor' }).waitFor();
+      assert.equal(await frame.getAttribute('sandbox'), 'allow-same-origin allow-modals');
+      const inner = () =>
+        frame.evaluate((one) => one.contentDocument.documentElement.scrollHeight - one.clientHeight);
+      await page.waitForTimeout(200);
+      assert.ok((await inner()) <= 1, 'the report scrolls inside the page');
+      await frame.evaluate((one) => (one.contentWindow.print = () => (globalThis.printed = true)));
+      await page.getByRole('button', { name: 'Print' }).click();
+      assert.equal(await page.evaluate(() => globalThis.printed), true);
+      const [alone] = await Promise.all([
+        page.context().waitForEvent('page'),
+        page.getByRole('link', { name: 'Open on its own' }).click(),
+      ]);
+      await alone.getByRole('heading', { name: 'Weak places' }).waitFor();
+      await page.reload();
+      await content.getByRole('heading', { name: 'All places' }).waitFor();
+    }),
+  ],
+  [
+    'Escape stops the chair also out of the report',
+    withHouse(async (page, house) => {
+      await page.goto('/map/m1/report');
+      await page.frameLocator('iframe').getByRole('heading', { name: 'Weak places' }).click();
+      assert.equal(await page.evaluate(() => document.activeElement.localName), 'iframe');
+      await page.keyboard.press('Escape');
+      await page
+        .getByTestId('stop-word')
+        .getByText(/stop|stand/i)
+        .waitFor();
+      await page.waitForTimeout(400);
+      assert.equal(house.robots[0].state, 'stopped');
+    }),
+  ],
+  [
+    'a map that was not built here has no report, and the page says what to do',
+    withHouse(async (page, house) => {
+      house.built = false;
+      await page.goto('/map/m1/report');
+      await page.getByText('There is no report of this map: it was not built on this server.').waitFor();
+      await page.getByText('Build it here').getByRole('link', { name: 'Tours' }).click();
+      await page.getByRole('heading', { level: 1, name: 'Tours' }).waitFor();
+    }),
+  ],
+  [
+    'the report at every width and in light and dark is accessible and fits',
+    inEveryLook(withHouse, out, async (page, house, see) => {
+      await page.goto('/map/m1/report');
+      await page.frameLocator('iframe').getByRole('heading', { level: 1 }).waitFor();
+      await see('report');
+    }),
+  ],
+  [
     'how ways were driven is accessible and fits at every width and in light and dark',
     inEveryLook(withHouse, out, async (page, house, see) => {
       house.steer({ do: 'change', by: 'ben', edits: [{ kind: 'add_edge', from: 'p5', to: 'p9' }] });

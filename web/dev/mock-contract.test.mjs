@@ -157,6 +157,13 @@ describe('the mock server', () => {
     expect((await ask('GET', `${root}/history/77/graph`)).body.code).toBe('not_found');
   });
 
+  it('answers a report as a page of its own', async () => {
+    const answer = await fetch(`${mock.url}/api/v1/maps/m1/report`, { headers: { cookie } });
+    expect([answer.status, answer.headers.get('content-type')]).toEqual([200, 'text/html; charset=utf-8']);
+    expect(answer.headers.get('content-security-policy')).toMatch(/frame-ancestors 'self'/);
+    expect(await answer.text()).not.toMatch(/<script/);
+  });
+
   it('tells how missions fared on ways as the contract says', async () => {
     const { body } = await ask('GET', 'maps/m1/ways');
     const keys = ['driven', 'failed', 'from', 'last_driven_us', 'last_failed_us', 'to'];

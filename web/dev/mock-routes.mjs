@@ -6,6 +6,7 @@ import { kFormerRoutes } from './mock-former.mjs';
 import { edit, redo, undo } from './mock-edits.mjs';
 import { kitchenNote, noWayText, wayBetween } from './mock-house.mjs';
 import { Refusal } from './mock-refusal.mjs';
+import { kReportRoutes } from './mock-report.mjs';
 
 const kLeaseMs = 10_000;
 
@@ -337,6 +338,7 @@ export const kRoutes = [
   ...kDraftRoutes,
   ...kDoubtRoutes,
   ...kFormerRoutes,
+  ...kReportRoutes,
   [/^GET tours$/, 'viewer', (house) => ({ body: { tours: house.tours } })],
   [/^GET tours\/([^/]+)$/, 'viewer', (house, { args }) => ({ body: house.find('tours', args[0]) })],
   [/^POST tours$/, 'installer', addTour],

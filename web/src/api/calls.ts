@@ -157,6 +157,15 @@ export const placeThumbnailUrl = (map: string, place: string, revision: number) 
 /** `image` is a picture's lasting id, "tour/file". */
 export const imageThumbnailUrl = (map: string, image: string) =>
   `${kRoot}/maps/${id(map)}/images/${image.split('/').map(id).join('/')}/thumbnail`;
+/** A page by itself, without scripts. */
+export const reportUrl = (map: string) => `${kRoot}/maps/${id(map)}/report`;
+/** Whether there is a report; where there is none, why. */
+export async function askReport(map: string): Promise<true> {
+  const answer = await answerOf(`/maps/${id(map)}/report`, { headers: { Accept: 'text/html' } });
+  if (!answer.ok) throw await refused(answer);
+  await answer.body?.cancel(); // the frame reads it
+  return true;
+}
 export const exportUrl = (map: string) => `${kRoot}/maps/${id(map)}/export`;
 export const buildMap = (body: { name: string; tours: string[] }) =>
   call<{ map: MapInfo; job: Job }>('/maps', { method: 'POST', body });

@@ -13,6 +13,7 @@ import { atLeast } from '../../lib/roles';
 import { follow } from '../../lib/router';
 import { ChangesPage } from './changes_page';
 import { EvidencePage } from './evidence_page';
+import { ReportPage } from './report_page';
 import { mapAddress, pathOf, show, type MapPageName } from './map_address';
 import { MapDrawing, type OpenDraft } from './map_drawing';
 
@@ -106,11 +107,13 @@ const kPages: readonly (readonly [MapPageName, string])[] = [
   ['drawing', 'Places'],
   ['evidence', 'Evidence'],
   ['changes', 'Changes'],
+  ['report', 'Report'],
 ];
 
 /** Pages about the map itself, whatever draft is open. */
 const kOwnPages: Readonly<Partial<Record<MapPageName, ComponentType<OfMap>>>> = {
   changes: ChangesPage,
+  report: ReportPage,
 };
 
 /** The page that the address names, with the way to the other ones. */
