@@ -164,6 +164,21 @@ describe('the mock server', () => {
     expect(await answer.text()).not.toMatch(/<script/);
   });
 
+  it('answers how alike the pictures are as the schemas say, with tiles that are pictures', async () => {
+    const { body } = await ask('GET', 'maps/m1/similarity');
+    expect([problemsOf('similarity', body), body.images.length, body.levels]).toEqual([[], 26, 1]);
+    const tile = (path) => fetch(`${mock.url}/api/v1/maps/m1/similarity/${path}`, { headers: { cookie } });
+    const answer = await tile('0/0/0');
+    const bytes = Buffer.from(await answer.arrayBuffer());
+    expect(answer.headers.get('content-type')).toBe('image/png');
+    expect([bytes.toString('latin1', 1, 4), bytes.readUInt32BE(16), bytes.readUInt32BE(20)]).toEqual([
+      'PNG',
+      256,
+      256,
+    ]);
+    expect([(await tile('1/0/0')).status, (await tile('0/0/1')).status]).toEqual([404, 404]);
+  });
+
   it('tells how missions fared on ways as the contract says', async () => {
     const { body } = await ask('GET', 'maps/m1/ways');
     const keys = ['driven', 'failed', 'from', 'last_driven_us', 'last_failed_us', 'to'];

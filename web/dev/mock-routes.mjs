@@ -7,6 +7,7 @@ import { edit, redo, undo } from './mock-edits.mjs';
 import { kitchenNote, noWayText, wayBetween } from './mock-house.mjs';
 import { Refusal } from './mock-refusal.mjs';
 import { kReportRoutes } from './mock-report.mjs';
+import { kSimilarityRoutes } from './mock-similarity.mjs';
 
 const kLeaseMs = 10_000;
 
@@ -339,6 +340,7 @@ export const kRoutes = [
   ...kDoubtRoutes,
   ...kFormerRoutes,
   ...kReportRoutes,
+  ...kSimilarityRoutes,
   [/^GET tours$/, 'viewer', (house) => ({ body: { tours: house.tours } })],
   [/^GET tours\/([^/]+)$/, 'viewer', (house, { args }) => ({ body: house.find('tours', args[0]) })],
   [/^POST tours$/, 'installer', addTour],

@@ -16,6 +16,7 @@ import type {
   ReplayCheck,
   Robot,
   Role,
+  Similarity,
   Sweep,
   TokenInfo,
   Tour,
@@ -225,6 +226,16 @@ export const doubts = (
   if (place !== '') query.set('place', place);
   return call<Doubts>(`/maps/${id(map)}/doubts?${query.toString()}`);
 };
+/** How alike all pictures of a map are; drawn as tiles. */
+export const similarity = (map: string) => call<Similarity>(`/maps/${id(map)}/similarity`);
+/** `revision`: of the map, whose places and decisions are drawn too. */
+export const similarityTileUrl = (
+  map: string,
+  level: number,
+  column: number,
+  row: number,
+  revision: number,
+) => `${kRoot}/maps/${id(map)}/similarity/${level}/${column}/${row}?r=${revision}`;
 export const pair = (map: string, image_a: string, image_b: string) =>
   call<Pair>(`/maps/${id(map)}/pair?${new URLSearchParams({ image_a, image_b }).toString()}`);
 

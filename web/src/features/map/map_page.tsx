@@ -14,6 +14,7 @@ import { follow } from '../../lib/router';
 import { ChangesPage } from './changes_page';
 import { EvidencePage } from './evidence_page';
 import { ReportPage } from './report_page';
+import { SimilarityPage } from './similarity_page';
 import { mapAddress, pathOf, show, type MapPageName } from './map_address';
 import { MapDrawing, type OpenDraft } from './map_drawing';
 
@@ -108,12 +109,14 @@ const kPages: readonly (readonly [MapPageName, string])[] = [
   ['evidence', 'Evidence'],
   ['changes', 'Changes'],
   ['report', 'Report'],
+  ['similarity', 'Similarity'],
 ];
 
 /** Pages about the map itself, whatever draft is open. */
 const kOwnPages: Readonly<Partial<Record<MapPageName, ComponentType<OfMap>>>> = {
   changes: ChangesPage,
   report: ReportPage,
+  similarity: SimilarityPage,
 };
 
 /** The page that the address names, with the way to the other ones. */
