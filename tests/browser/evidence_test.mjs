@@ -91,14 +91,42 @@ const checks = [
       await list(page).getByText('1 to 1 of 1').waitFor();
       await doubt(page).getByText('between 100 % and 100 % sure').waitFor();
       await doubt(page).getByRole('button', { name: 'Not sure' }).click();
-      await page.getByText('You have looked at all of these.').waitFor();
-      assert.equal(house.edits.length, 1);
-      await list(page).getByRole('button').first().click();
+      await page.getByText('1 of them was left open').waitFor();
+      assert.deepEqual(
+        house.edits.map(({ kind, text, by }) => [kind, text, by]),
+        [
+          ['decide', 'reject', 'anna'],
+          ['set_aside', 'same_place', 'anna'],
+        ],
+      );
+      await page.reload();
+      await list(page)
+        .getByRole('button', { name: /anna was not sure\.$/ })
+        .click();
+      await doubt(page).getByText('anna was not sure.').waitFor();
+      await doubt(page).getByRole('button', { name: 'Still not sure' }).waitFor();
       await doubt(page).getByRole('button', { name: 'Yes, one place' }).click();
       await page.getByText('There is nothing of this kind to look at.').waitFor();
       assert.equal(house.graph.hypotheses[1].decision, 'accepted');
       await page.getByLabel('Show').selectOption({ label: 'Decided by somebody' });
       await doubt(page).getByText('Somebody has decided that they are').waitFor();
+    }),
+  ],
+  [
+    'what somebody else was not sure of comes last',
+    withHouse(async (page, house) => {
+      await open(page);
+      await doubt(page).getByText('Near the kitchen and Near the bathroom become one place.').waitFor();
+      const about = { about: 'same_place', image_a: 't1/p4.jpg', image_b: 't1/p12.jpg' };
+      house.steer({ do: 'change', by: 'ben', edits: [{ kind: 'set_aside', ...about }] });
+      const last = list(page).getByRole('button').last();
+      await last.getByText('ben was not sure.').waitFor();
+      await doubt(page).getByText('between 100 % and 100 % sure').waitFor();
+      await page.getByRole('link', { name: 'Places', exact: true }).click();
+      const history = page.getByRole('region', { name: 'Changes by people' });
+      await history
+        .getByText('was not sure whether two places are one: Near the kitchen – Near the bathroom')
+        .waitFor();
     }),
   ],
   [
@@ -144,11 +172,14 @@ const checks = [
       await page.getByText('Your answers go to the draft.').waitFor();
       await doubt(page).getByRole('button', { name: 'No, two places' }).click();
       await page.getByText('Saved.').waitFor();
+      await doubt(page).getByRole('button', { name: 'Not sure' }).click();
+      await page.getByText('You have looked at all of these.').waitFor();
       await list(page)
         .getByRole('button', { name: /looked at$/ })
+        .first()
         .click();
       await doubt(page).getByText('Answered in this draft').waitFor();
-      assert.deepEqual([house.edits.length, house.drafts[0].log.length], [0, 1]);
+      assert.deepEqual([house.edits.length, house.drafts[0].log.length], [0, 2]);
       await page.getByRole('link', { name: 'Places', exact: true }).click();
       const other = page.getByRole('region', { name: 'What is other' });
       await other
@@ -184,6 +215,10 @@ const checks = [
       await page.getByLabel('Kind').selectOption({ label: 'One place that may be two' });
       await doubt(page, 'Do both pictures show one place?').waitFor();
       await see('evidence-mixed');
+      await page.getByLabel('Kind').selectOption({ label: 'Two places that may be one' });
+      await list(page).getByRole('button').last().click();
+      await doubt(page).getByText('anna was not sure.').waitFor();
+      await see('evidence-left-open');
     }),
   ],
 ];

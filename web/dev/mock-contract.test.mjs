@@ -144,6 +144,48 @@ describe('the mock server', () => {
     expect(problemsOf('pair', pair)).toEqual([]);
   });
 
+  it('answers of former states as the schemas say', async () => {
+    const root = 'maps/m1';
+    const { revision } = (await ask('GET', `${root}/graph`)).body;
+    const edits = [{ kind: 'block_edge', from: 'p1', to: 'p2', blocked: true }];
+    await ask('POST', `${root}/edits`, { edits }, { 'If-Match': `"r${revision}"` });
+    const number = (await ask('GET', `${root}/history`)).body.edits.at(-1).change;
+    const { body: built } = await ask('GET', `${root}/history/0/graph`);
+    expect([problemsOf('graph', built), built.edges.some((one) => one.blocked)]).toEqual([[], false]);
+    const { body: difference } = await ask('GET', `${root}/history/0/difference?to=${number}`);
+    expect([problemsOf('difference', difference), difference.edges.length]).toEqual([[], 1]);
+    expect((await ask('GET', `${root}/history/77/graph`)).body.code).toBe('not_found');
+  });
+
+  it('answers a report as a page of its own', async () => {
+    const answer = await fetch(`${mock.url}/api/v1/maps/m1/report`, { headers: { cookie } });
+    expect([answer.status, answer.headers.get('content-type')]).toEqual([200, 'text/html; charset=utf-8']);
+    expect(answer.headers.get('content-security-policy')).toMatch(/frame-ancestors 'self'/);
+    expect(await answer.text()).not.toMatch(/<script/);
+  });
+
+  it('answers how alike the pictures are as the schemas say, with tiles that are pictures', async () => {
+    const { body } = await ask('GET', 'maps/m1/similarity');
+    expect([problemsOf('similarity', body), body.images.length, body.levels]).toEqual([[], 26, 1]);
+    const tile = (path) => fetch(`${mock.url}/api/v1/maps/m1/similarity/${path}`, { headers: { cookie } });
+    const answer = await tile('0/0/0');
+    const bytes = Buffer.from(await answer.arrayBuffer());
+    expect(answer.headers.get('content-type')).toBe('image/png');
+    expect([bytes.toString('latin1', 1, 4), bytes.readUInt32BE(16), bytes.readUInt32BE(20)]).toEqual([
+      'PNG',
+      256,
+      256,
+    ]);
+    expect([(await tile('1/0/0')).status, (await tile('0/0/1')).status]).toEqual([404, 404]);
+  });
+
+  it('tells how missions fared on ways as the contract says', async () => {
+    const { body } = await ask('GET', 'maps/m1/ways');
+    const keys = ['driven', 'failed', 'from', 'last_driven_us', 'last_failed_us', 'to'];
+    for (const one of body.ways) expect(Object.keys(one).sort()).toEqual(keys);
+    expect(body.ways.some((one) => one.driven > 0 && one.last_failed_us === null)).toBe(true);
+  });
+
   it('tells events as the schema says, the snapshot first, and that it lives', async () => {
     const socket = new WebSocket(`${mock.url.replace('http', 'ws')}/api/v1/events`, { headers: { cookie } });
     const events = await new Promise((done, fail) => {

@@ -62,7 +62,26 @@ function allDoubts(house) {
       if_yes: [],
       if_no: [{ kind: 'remove_edge', from, to }],
     }));
-  return [...pairs, ...weak, ...(house.moreDoubts ?? [])].sort((a, b) => b.weight - a.weight);
+  const all = [...pairs, ...weak, ...(house.moreDoubts ?? [])].map((one) => ({
+    ...one,
+    set_aside_by: setAsideBy(house, one),
+  }));
+  const last = (one) => Number(one.set_aside_by !== null);
+  return all.sort((a, b) => last(a) - last(b) || b.weight - a.weight);
+}
+
+/** Who was not sure of a doubt that nobody has decided since. */
+function setAsideBy({ edits }, { kind, image_a, image_b, by, state }) {
+  if (by === 'person' && state !== 'undecided') return null;
+  const own = [image_a, image_b].sort().join(' ');
+  const found = edits.findLast(
+    (one) =>
+      one.kind === 'set_aside' &&
+      !one.undone &&
+      one.text === kind &&
+      [one.image_a, one.image_b].sort().join(' ') === own,
+  );
+  return found?.by ?? null;
 }
 
 const kAbout = {

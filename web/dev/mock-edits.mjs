@@ -89,6 +89,7 @@ export function logged(graph, one, by, change, i) {
     block_edge: () => ({ ...way(), text: String(one.blocked) }),
     decide: () => ({ image_a: one.prototype_a, image_b: one.prototype_b, text: decision(one.accept) }),
     decide_shortcut: () => ({ image_a: one.image_a, image_b: one.image_b, text: decision(one.accept) }),
+    set_aside: () => ({ image_a: one.image_a, image_b: one.image_b, text: one.about }),
     add_destination: () => ({ image_a: one.image, text: one.label }),
     remove_destination: () => ({ image_a: dock(one.destination) }),
     name_destination: () => ({ image_a: dock(one.destination), text: one.label }),
@@ -225,6 +226,8 @@ export function apply(graph, { kind, image_a, image_b, text, images, by }, where
       if (!found) refuse('not_found', `The map has no shortcut between ${image_a} and ${image_b}.`);
       Object.assign(found, { state: text === 'accept' ? 'accepted' : 'rejected', by });
     },
+    // Kept in the log alone; see the doubts.
+    set_aside: () => void [place_of(image_a), place_of(image_b)],
     add_destination: () => {
       const place = place_of(image_a).id;
       free(image_a);

@@ -213,3 +213,21 @@ export function newGraph(map) {
     ],
   };
 }
+
+/** How missions fared: often between hall and kitchen, once not into the bathroom, and never elsewhere. */
+export function newDrives() {
+  const day_us = 86_400e6;
+  const now_us = Date.now() * 1000;
+  const way = (from, to, driven, failed, ...ago) => {
+    const [last_driven_us, last_failed_us] = ago.map((days) =>
+      days === null ? null : now_us - days * day_us,
+    );
+    return { from, to, driven, failed, last_driven_us, last_failed_us };
+  };
+  const path = ['p1', 'p2', 'p3', 'p4', 'p5'];
+  return [
+    ...path.slice(1).map((place, i) => way(path[i], place, 12, 1, 2, 20)),
+    ...path.slice(1).map((place, i) => way(place, path[i], 9, 0, 1, null)),
+    way('p12', 'p13', 0, 1, null, 3),
+  ];
+}

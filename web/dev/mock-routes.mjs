@@ -2,9 +2,12 @@
 // The routes of the mock server: [method and path, least role, handler(house, {user, body, headers, args})].
 import { kDoubtRoutes } from './mock-doubts.mjs';
 import { kDraftRoutes } from './mock-drafts.mjs';
+import { kFormerRoutes } from './mock-former.mjs';
 import { edit, redo, undo } from './mock-edits.mjs';
 import { kitchenNote, noWayText, wayBetween } from './mock-house.mjs';
 import { Refusal } from './mock-refusal.mjs';
+import { kReportRoutes } from './mock-report.mjs';
+import { kSimilarityRoutes } from './mock-similarity.mjs';
 
 const kLeaseMs = 10_000;
 
@@ -322,6 +325,7 @@ export const kRoutes = [
   [/^POST maps\/([^/]+)\/builds$/, 'installer', addToMap],
   [/^PUT maps\/([^/]+)\/refine$/, 'installer', setRefine],
   [/^GET maps\/([^/]+)\/graph$/, 'viewer', graphOf],
+  [/^GET maps\/[^/]+\/ways$/, 'viewer', (house) => ({ body: { ways: house.drives } })],
   [/^GET maps\/[^/]+\/history$/, 'viewer', (house) => ({ body: { edits: house.edits } })],
   [/^GET maps\/([^/]+)\/places\/([^/]+)\/thumbnail$/, 'viewer', thumbnailOf],
   [
@@ -334,6 +338,9 @@ export const kRoutes = [
   [/^POST maps\/([^/]+)\/redo$/, 'installer', redo],
   ...kDraftRoutes,
   ...kDoubtRoutes,
+  ...kFormerRoutes,
+  ...kReportRoutes,
+  ...kSimilarityRoutes,
   [/^GET tours$/, 'viewer', (house) => ({ body: { tours: house.tours } })],
   [/^GET tours\/([^/]+)$/, 'viewer', (house, { args }) => ({ body: house.find('tours', args[0]) })],
   [/^POST tours$/, 'installer', addTour],

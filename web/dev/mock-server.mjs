@@ -75,6 +75,7 @@ async function answer(house, root, request, response) {
     );
     if (result.picture)
       return void response.writeHead(200, { 'Content-Type': 'image/svg+xml' }).end(pictureOf(result.picture));
+    if (result.raw !== undefined) return void response.writeHead(200, result.headers).end(result.raw);
     const headers = { 'Content-Type': 'application/json', ...result.headers };
     response
       .writeHead(result.status ?? 200, headers)

@@ -2,7 +2,7 @@
 // What the mock server knows and does: accounts, robots, leases, missions that progress, maps, tours, jobs.
 import { steerDrafts } from './mock-drafts.mjs';
 import { edit } from './mock-edits.mjs';
-import { kJumpNote, kitchenNote, newGraph, unnamedNote } from './mock-house.mjs';
+import { kJumpNote, kitchenNote, newDrives, newGraph, unnamedNote } from './mock-house.mjs';
 import { kRoutes } from './mock-routes.mjs';
 import { Refusal } from './mock-refusal.mjs';
 
@@ -28,6 +28,8 @@ export class House {
     this.taught = newGraph('m1');
     this.graph = structuredClone(this.taught);
     this.edits = [];
+    this.drives = newDrives();
+    this.built = true; // on this server: there is a report of it, and how alike its pictures are
     this.drafts = []; // each with the log of its edits
     const tour = {
       id: 't1',
@@ -145,7 +147,7 @@ export class House {
     return { status, headers: { 'Set-Cookie': cookie }, body: { user: this.shownUser(user) } };
   }
 
-  /** Answers one request: {status, headers, body} or {picture}; throws a Refusal. */
+  /** Answers one request: {status, headers, body}, {raw, headers} or {picture}; throws a Refusal. */
   async call(request, path, body, query = new URLSearchParams()) {
     const route = `${request.method} ${path.replace(/^\//, '')}`;
     if (route === 'GET setup') return { body: { needed: this.users.length === 0 } };

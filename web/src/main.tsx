@@ -14,6 +14,7 @@ import './styles/shell.css';
 import './styles/go.css';
 import './styles/map.css';
 import './styles/evidence.css';
+import './styles/similarity.css';
 import './styles/pages.css';
 
 startServerConnection();

@@ -16,10 +16,12 @@ import type {
   ReplayCheck,
   Robot,
   Role,
+  Similarity,
   Sweep,
   TokenInfo,
   Tour,
   User,
+  WayDrives,
 } from './types';
 
 const kRoot = '/api/v1';
@@ -156,6 +158,15 @@ export const placeThumbnailUrl = (map: string, place: string, revision: number) 
 /** `image` is a picture's lasting id, "tour/file". */
 export const imageThumbnailUrl = (map: string, image: string) =>
   `${kRoot}/maps/${id(map)}/images/${image.split('/').map(id).join('/')}/thumbnail`;
+/** A page by itself, without scripts. */
+export const reportUrl = (map: string) => `${kRoot}/maps/${id(map)}/report`;
+/** Whether there is a report; where there is none, why. */
+export async function askReport(map: string): Promise<true> {
+  const answer = await answerOf(`/maps/${id(map)}/report`, { headers: { Accept: 'text/html' } });
+  if (!answer.ok) throw await refused(answer);
+  await answer.body?.cancel(); // the frame reads it
+  return true;
+}
 export const exportUrl = (map: string) => `${kRoot}/maps/${id(map)}/export`;
 export const buildMap = (body: { name: string; tours: string[] }) =>
   call<{ map: MapInfo; job: Job }>('/maps', { method: 'POST', body });
@@ -165,6 +176,14 @@ export const setRefine = (map: string, refine: RefineMode) =>
   call<MapInfo>(`/maps/${id(map)}/refine`, { method: 'PUT', body: { refine } });
 export const maps = () => call<{ maps: MapInfo[] }>('/maps');
 export const history = (map: string) => call<{ edits: LoggedEdit[] }>(`/maps/${id(map)}/history`);
+/** How missions fared on the ways of a map; ways that none came to are not told. */
+export const wayDrives = (map: string) => call<{ ways: WayDrives[] }>(`/maps/${id(map)}/ways`);
+/** The map as it was after a change; 0: before all of them. */
+export const formerGraph = (map: string, change: number) =>
+  call<Graph>(`/maps/${id(map)}/history/${change}/graph`);
+/** `to`: a later change; null: the map as it is. */
+export const formerDifference = (map: string, change: number, to: number | null) =>
+  call<Difference>(`/maps/${id(map)}/history/${change}/difference${to === null ? '' : `?to=${to}`}`);
 export const removeMap = (map: string) => call<unknown>(`/maps/${id(map)}`, { method: 'DELETE' });
 export const takeJob = (job: string) => call<unknown>(`/jobs/${id(job)}/take`, { method: 'POST' });
 export const cancelJob = (job: string) => call<unknown>(`/jobs/${id(job)}/cancel`, { method: 'POST' });
@@ -207,6 +226,16 @@ export const doubts = (
   if (place !== '') query.set('place', place);
   return call<Doubts>(`/maps/${id(map)}/doubts?${query.toString()}`);
 };
+/** How alike all pictures of a map are; drawn as tiles. */
+export const similarity = (map: string) => call<Similarity>(`/maps/${id(map)}/similarity`);
+/** `revision`: of the map, whose places and decisions are drawn too. */
+export const similarityTileUrl = (
+  map: string,
+  level: number,
+  column: number,
+  row: number,
+  revision: number,
+) => `${kRoot}/maps/${id(map)}/similarity/${level}/${column}/${row}?r=${revision}`;
 export const pair = (map: string, image_a: string, image_b: string) =>
   call<Pair>(`/maps/${id(map)}/pair?${new URLSearchParams({ image_a, image_b }).toString()}`);
 

@@ -37,5 +37,7 @@ export type ReplayCheck = Schemas['ReplayCheck'];
 export type WorseSpot = ReplayCheck['worse'][number];
 export type Doubt = Doubts['doubts'][number];
 export type Doubts = Schemas['Doubts'];
+export type WayDrives = Schemas['WayDrives'];
+export type Similarity = Schemas['Similarity'];
 export type Pair = Schemas['Pair'];
 export type ServerEvent = Schemas['ServerEvent'] | own.DraftEvent;

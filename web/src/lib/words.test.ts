@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
-import { ageText, count, dateText, percent, timeText, titled } from './words';
+import { ageText, count, dateText, dayText, percent, timeText, titled } from './words';
 
 describe('words', () => {
   it('writes labels as people do', () => {
@@ -21,6 +21,14 @@ describe('words', () => {
     const noon_us = new Date(2026, 4, 7, 12, 5).getTime() * 1000;
     expect(timeText(noon_us, noon_us / 1000 + 3600e3)).toMatch(/^12:05/);
     expect(timeText(noon_us, noon_us / 1000 + 24 * 3600e3)).toBe(dateText(noon_us));
+  });
+
+  it('gives the day, and the year where it was another one', () => {
+    const day = (year: number) =>
+      dayText(new Date(year, 4, 3, 12).getTime() * 1000, new Date(2026, 7, 1).getTime());
+    expect(day(2026)).toMatch(/3/);
+    expect(day(2026)).not.toMatch(/2026/);
+    expect(day(2025)).toMatch(/2025/);
   });
 
   it('keeps shares between 0 and 100 %', () => {

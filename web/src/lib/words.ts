@@ -37,6 +37,13 @@ export function timeText(t_us: number, now_ms: number): string {
   return then.toLocaleTimeString(undefined, { timeStyle: 'short' });
 }
 
+/** Microseconds since the Unix epoch as the reader's day, with the year where it is another than now: "3 May". */
+export function dayText(t_us: number, now_ms: number): string {
+  const then = new Date(t_us / 1000);
+  const year = then.getFullYear() === new Date(now_ms).getFullYear() ? undefined : 'numeric';
+  return then.toLocaleDateString(undefined, { day: 'numeric', month: 'long', year });
+}
+
 /** Microseconds since the Unix epoch as the reader's date and time. */
 export function dateText(t_us: number): string {
   return new Date(t_us / 1000).toLocaleString(undefined, { dateStyle: 'medium', timeStyle: 'short' });

@@ -74,6 +74,13 @@ describe('changeWords', () => {
     expect(words(edit(1, { kind: 'decide_shortcut', text: 'reject' }))).toEqual(['rejected a shortcut']);
   });
 
+  it('says what somebody was not sure of, and of one place its name once', () => {
+    const unsure = (text: string, image_b: string) => words(edit(1, { kind: 'set_aside', text, image_b }))[0];
+    expect(unsure('same_place', 't/p2.jpg')).toBe('was not sure whether two places are one: Hall – Kitchen');
+    expect(unsure('mixed_place', 't/p1.jpg')).toBe('was not sure whether a place is one: Hall');
+    expect(unsure('way', 't/p9.jpg')).toBe('was not sure whether there is a way');
+  });
+
   it('does without the names of places that are gone', () => {
     expect(words(close(1, 't/p8.jpg', 't/p9.jpg'), close(1, 't/p7.jpg', 't/p8.jpg'))).toEqual([
       'closed a way (2 times)',

@@ -34,6 +34,13 @@ export function redoable(changes: readonly Change[]): Change | null {
   return changes.find((one) => one.redoable) ?? null;
 }
 
+/** What somebody was not sure of, by the kind of the doubt. */
+const kOf: Readonly<Record<string, string | undefined>> = {
+  same_place: 'whether two places are one',
+  mixed_place: 'whether a place is one',
+  way: 'whether there is a way',
+};
+
 const kVerbs: Readonly<Record<LoggedEdit['kind'], (text: string) => string>> = {
   rename: (text) => (text === '' ? 'took the name of a place away' : `named a place “${text}”`),
   merge: () => 'joined two places',
@@ -45,6 +52,7 @@ const kVerbs: Readonly<Record<LoggedEdit['kind'], (text: string) => string>> = {
   block_edge: (text) => (text === 'true' ? 'closed a way' : 'opened a way'),
   decide: () => 'decided whether two places are one',
   decide_shortcut: (text) => (text === 'accept' ? 'accepted a shortcut' : 'rejected a shortcut'),
+  set_aside: (text) => `was not sure ${kOf[text] ?? 'of a doubt'}`,
   add_destination: (text) => `added the destination “${text}”`,
   remove_destination: () => 'removed a destination',
   name_destination: (text) => `named a destination “${text}”`,
@@ -72,7 +80,8 @@ export function changeWords(change: Change, graph: Graph): string {
     if (seen.has(`${kind} ${text} ${pair}`)) continue;
     seen.add(`${kind} ${text} ${pair}`);
     const [from, to] = [titleOf(graph, image_a), titleOf(graph, image_b)];
-    const between = from !== null && to !== null ? `: ${from} – ${to}` : '';
+    const ends = [...new Set([from, to])].join(' – ');
+    const between = from !== null && to !== null ? `: ${ends}` : '';
     const words = kVerbs[kind](text) + between;
     parts.set(words, (parts.get(words) ?? 0) + 1);
   }

@@ -41,6 +41,7 @@ export function picturesOf(edit: Edit, graph: Graph): string[] {
     case 'decide':
       return [edit.prototype_a, edit.prototype_b];
     case 'decide_shortcut':
+    case 'set_aside':
       return [edit.image_a, edit.image_b];
     case 'add_destination':
     case 'set_destination_picture':

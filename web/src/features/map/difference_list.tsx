@@ -10,20 +10,33 @@ interface Props {
   difference: Difference;
   before: Graph;
   after: Graph;
+  against?: string;
+  nothing?: string;
+  chosen?: string | null; // the place whose differences are marked
   onChoose: (place: string) => void;
 }
 
-/** All that is other with a draft, in words; each with a sign, so that nobody needs the colours. */
-export function DifferenceList({ difference, before, after, onChoose }: Props) {
+/** All that is other with a draft, or in a later state, in words; each with a sign, so that nobody needs the colours. */
+export function DifferenceList({
+  difference,
+  before,
+  after,
+  against = 'Against the map as the chair uses it.',
+  nothing = 'Nothing yet: the draft is as the map is.',
+  chosen = null,
+  onChoose,
+}: Props) {
   const [most, setMost] = useState(kShown);
   const lines = differenceLines(difference, before, after);
   return (
     <section class="card stack" aria-label="What is other">
       <h2>What is other</h2>
       {lines.length === 0 ? (
-        <p class="soft">Nothing yet: the draft is as the map is.</p>
+        <p class="soft">{nothing}</p>
       ) : (
-        <p class="soft">Against the map as the chair uses it. {count(lines.length, 'difference')}.</p>
+        <p class="soft">
+          {against} {count(lines.length, 'difference')}.
+        </p>
       )}
       <ul class="list">
         {lines.slice(0, most).map(({ tone, words, place }) => (
@@ -37,6 +50,7 @@ export function DifferenceList({ difference, before, after, onChoose }: Props) {
                 type="button"
                 class="button small"
                 aria-label={`Show on the map: ${words}`}
+                aria-pressed={chosen === null ? undefined : chosen === place}
                 onClick={() => onChoose(place)}
               >
                 Show

@@ -7,7 +7,7 @@ import { follow } from '../../lib/router';
 import { placeTitle, titlesApart } from '../../lib/whereabouts';
 import { percent } from '../../lib/words';
 import { reasonSentence } from '../../words/reasons';
-import { kDoubtKinds, questionOf, standWords, worthWords } from './doubt_words';
+import { kDoubtKinds, questionOf, setAside, setAsideWords, standWords, worthWords } from './doubt_words';
 import { effectsWords } from './edit_words';
 import type { Editor } from './editor';
 import { mapAddress, pathOf } from './map_address';
@@ -20,11 +20,10 @@ interface Props {
   answered: boolean; // in the draft that is open
   begun: boolean; // the reader has asked for this one: it comes into view
   onAnswer: (edits: Edit[]) => void;
-  onPass: () => void;
 }
 
 /** One doubt: two pictures, how the map stands, what speaks for and against, and the answer with what it would do. */
-export function DoubtCard({ editor, doubt, answered, begun, onAnswer, onPass }: Props) {
+export function DoubtCard({ editor, doubt, answered, begun, onAnswer }: Props) {
   const { graph, mayEdit, busy } = editor;
   const question = questionOf(doubt);
   const heading = useRef<HTMLHeadingElement>(null);
@@ -33,6 +32,8 @@ export function DoubtCard({ editor, doubt, answered, begun, onAnswer, onPass }: 
   }, [begun]);
   const titles = titlesApart(graph, doubt.place_a, doubt.place_b);
   const { masses_before, masses_after } = doubt;
+  const left_open = setAsideWords(doubt);
+  const unsure = left_open === null ? [setAside(doubt)] : []; // it is known already
   return (
     <section class="card stack doubt" aria-label={question.text}>
       <div class="row apart">
@@ -54,6 +55,11 @@ export function DoubtCard({ editor, doubt, answered, begun, onAnswer, onPass }: 
       <p>
         <strong>{standWords(doubt)}</strong> {worthWords(doubt)}
       </p>
+      {left_open !== null && (
+        <p>
+          <span class="pill warn">{left_open}</span>
+        </p>
+      )}
       {doubt.reasons.map((reason, i) => (
         <p key={i} class="soft">
           {reasonSentence(reason)}
@@ -87,10 +93,10 @@ export function DoubtCard({ editor, doubt, answered, begun, onAnswer, onPass }: 
             </div>
           ))}
           <div class="stack tight">
-            <button type="button" class="button" disabled={busy} onClick={onPass}>
-              Not sure
+            <button type="button" class="button" disabled={busy} onClick={() => onAnswer(unsure)}>
+              {unsure.length > 0 ? 'Not sure' : 'Still not sure'}
             </button>
-            <span class="soft small">Goes on to the next one.</span>
+            <span class="soft small">{effectsWords(unsure, graph)}</span>
           </div>
         </div>
       )}

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
-import type { Doubt, Edit, Graph } from '../../api/types';
-import { massWords, questionOf, standWords, worthWords } from './doubt_words';
+import type { Doubt, Edit, Graph, LoggedEdit } from '../../api/types';
+import {
+  allSeenWords,
+  answeredBy,
+  massWords,
+  questionOf,
+  setAside,
+  setAsideWords,
+  standWords,
+  worthWords,
+} from './doubt_words';
 import { effectsWords } from './edit_words';
 
 const doubt = (part: Partial<Doubt> = {}): Doubt => ({
@@ -12,6 +21,7 @@ const doubt = (part: Partial<Doubt> = {}): Doubt => ({
   place_b: 'p2',
   state: 'undecided',
   by: 'method',
+  set_aside_by: null,
   probability: 0.45,
   effect: 0.6,
   weight: 0.27,
@@ -58,6 +68,45 @@ describe('a doubt in words', () => {
   });
 });
 
+describe('what nobody is sure of', () => {
+  const logged = (part: Partial<LoggedEdit>): LoggedEdit => ({
+    kind: 'set_aside',
+    image_a: 't/p1.jpg',
+    image_b: 't/p2.jpg',
+    text: 'same_place',
+    images: [],
+    by: 'ben',
+    t_us: 0,
+    undone: false,
+    change: 1,
+    redoable: false,
+    lost: null,
+    ...part,
+  });
+
+  it('says who was not sure', () => {
+    expect(setAsideWords(doubt())).toBeNull();
+    expect(setAsideWords(doubt({ set_aside_by: 'ben' }))).toBe('ben was not sure.');
+  });
+
+  it('is named at the end', () => {
+    expect(allSeenWords([doubt()])).toBe('You have looked at all of these.');
+    expect(allSeenWords([doubt({ set_aside_by: 'ben' }), doubt()])).toBe(
+      'All of these were looked at. 1 of them was left open: somebody who knows the house well may be sure.',
+    );
+  });
+
+  it('is saved about that doubt alone', () => {
+    const { kind, ...about } = setAside(doubt({ kind: 'way' })) as Extract<Edit, { kind: 'set_aside' }>;
+    expect([kind, about]).toEqual(['set_aside', { about: 'way', image_a: 't/p1.jpg', image_b: 't/p2.jpg' }]);
+    expect(answeredBy([logged({})], doubt())).toBe(true);
+    expect(answeredBy([logged({})], doubt({ kind: 'way' }))).toBe(false);
+    expect(answeredBy([logged({ undone: true })], doubt())).toBe(false);
+    expect(answeredBy([logged({ image_b: 't/p3.jpg' })], doubt())).toBe(false);
+    expect(answeredBy([logged({ kind: 'decide', text: 'reject' })], doubt())).toBe(true);
+  });
+});
+
 describe('what an answer would do', () => {
   const place = (id: string, label: string) => ({
     id,
@@ -91,6 +140,9 @@ describe('what an answer would do', () => {
     expect(said({ ...decide, prototype_b: 't/p1.jpg', accept: false })).toBe('Hall becomes two places.');
     expect(said({ kind: 'split', place: 'p1', images: ['t/a', 't/b'] })).toBe(
       '2 pictures leave Hall and become a place of their own.',
+    );
+    expect(said({ kind: 'set_aside', about: 'way', image_a: 't/p1.jpg', image_b: 't/p2.jpg' })).toBe(
+      'The map stays as it is. This comes last from now on, and says that you were not sure.',
     );
     expect(said({ kind: 'remove_edge', from: 'p1', to: 'p2' })).toBe(
       'The way between Hall and p2 is removed.',

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Doubt, Masses } from '../../api/types';
+import type { Doubt, Edit, LoggedEdit, Masses } from '../../api/types';
 import { percent } from '../../lib/words';
 
 export const kDoubtKinds: Readonly<Record<Doubt['kind'], string>> = {
@@ -58,6 +58,35 @@ export function standWords(doubt: Doubt): string {
 export function worthWords({ probability, effect }: Doubt): string {
   const much = effect >= 0.5 ? 'Much' : effect >= 0.2 ? 'Something' : 'Little';
   return `The map is wrong here with a chance of ${percent(probability)}. ${much} of it depends on that.`;
+}
+
+/** That somebody looked and left it open; null where nobody did. */
+export function setAsideWords({ set_aside_by: by }: Pick<Doubt, 'set_aside_by'>): string | null {
+  return by === null ? null : `${by} was not sure.`;
+}
+
+/** When every one of these was looked at. */
+export function allSeenWords(doubts: readonly Doubt[]): string {
+  const open = doubts.filter((one) => one.set_aside_by !== null).length;
+  if (open === 0) return 'You have looked at all of these.';
+  const left = `${open} of them ${open === 1 ? 'was' : 'were'} left open`;
+  return `All of these were looked at. ${left}: somebody who knows the house well may be sure.`;
+}
+
+/** What "not sure" asks for. */
+export function setAside({ kind: about, image_a, image_b }: Doubt): Edit {
+  return { kind: 'set_aside', about, image_a, image_b };
+}
+
+/** Whether one of these edits, of a draft, answers a doubt or leaves it open. */
+export function answeredBy(edits: readonly LoggedEdit[], { kind: about, image_a, image_b }: Doubt): boolean {
+  return edits.some(
+    ({ kind, undone, text, ...one }) =>
+      !undone &&
+      one.image_a === image_a &&
+      one.image_b === image_b &&
+      (kind === 'decide' || (kind === 'set_aside' && text === about)),
+  );
 }
 
 export function massWords({ true: yes, false: no, unknown }: Masses): string {

@@ -33,6 +33,8 @@ export function effectWords(edit: Edit, graph: Graph): string {
       return decisionWords(edit.prototype_a, edit.prototype_b, edit.accept, graph);
     case 'decide_shortcut':
       return edit.accept ? 'The shortcut may be driven.' : 'The shortcut is not offered any more.';
+    case 'set_aside':
+      return 'The map stays as it is. This comes last from now on, and says that you were not sure.';
     case 'add_destination':
       return `Riders can be sent to ${edit.label}.`;
     case 'remove_destination':

@@ -10,7 +10,7 @@ import { indexOf } from '../../lib/graph_index';
 import { placeTitle, titlesApart } from '../../lib/whereabouts';
 import { count, percent } from '../../lib/words';
 import { DoubtCard } from './doubt_card';
-import { keyOf, kDoubtKinds } from './doubt_words';
+import { allSeenWords, answeredBy, keyOf, kDoubtKinds, setAsideWords } from './doubt_words';
 import { useEditor, type Editor } from './editor';
 import { mapAddress, show } from './map_address';
 import type { OpenDraft } from './map_drawing';
@@ -110,12 +110,8 @@ function DoubtPages({ filter, editor, version, onPage }: PagesProps) {
 }
 
 /** Whether an edit of the draft that is open has answered a doubt. */
-function answeredIn({ draft }: Editor, { image_a, image_b }: Doubt): boolean {
-  return (
-    draft?.edits.some(
-      (one) => one.kind === 'decide' && !one.undone && one.image_a === image_a && one.image_b === image_b,
-    ) ?? false
-  );
+function answeredIn({ draft }: Editor, doubt: Doubt): boolean {
+  return draft !== null && answeredBy(draft.edits, doubt);
 }
 
 function DoubtPage({
@@ -127,12 +123,13 @@ function DoubtPage({
   editor: Editor;
   onPage: (offset: number) => void;
 }) {
+  // Until the page comes anew; an answer that is what the map says already is not saved anywhere else.
   const [passed, setPassed] = useState<ReadonlySet<string>>(new Set());
   const [asked, setAsked] = useState<string | null>(null);
   const { doubts, total, offset } = page;
   const present =
     doubts.find((one) => keyOf(one) === asked) ??
-    doubts.find((one) => !passed.has(keyOf(one)) && !answeredIn(editor, one)) ??
+    doubts.find((one) => one.set_aside_by === null && !passed.has(keyOf(one)) && !answeredIn(editor, one)) ??
     null;
   const pass = (one: Doubt) => {
     setPassed((before) => new Set([...before, keyOf(one)]));
@@ -153,10 +150,9 @@ function DoubtPage({
           answered={answeredIn(editor, present)}
           begun={asked !== null || passed.size > 0}
           onAnswer={(edits) => answer(present, edits)}
-          onPass={() => pass(present)}
         />
       ) : (
-        <Notice>You have looked at all of these.</Notice>
+        <Notice>{allSeenWords(doubts)}</Notice>
       )}
       <section class="card stack" aria-label="What to look at">
         <div class="row apart">
@@ -213,6 +209,7 @@ interface RowProps {
 function DoubtRow({ graph, doubt, done, shown, onShow }: RowProps) {
   const [a, b] = titlesApart(graph, doubt.place_a, doubt.place_b);
   const pair = doubt.place_a === doubt.place_b ? a : `${a} – ${b}`;
+  const left_open = setAsideWords(doubt);
   return (
     <li>
       <button type="button" class="place-row" aria-pressed={shown} onClick={onShow}>
@@ -226,8 +223,12 @@ function DoubtRow({ graph, doubt, done, shown, onShow }: RowProps) {
           <br />
           <span class="soft small">{kDoubtKinds[doubt.kind]}</span>
         </span>
-        <span class={`pill ${done ? 'good' : ''}`}>
-          {done ? (
+        <span class={`pill ${left_open !== null ? 'warn' : done ? 'good' : ''}`}>
+          {left_open !== null ? (
+            <>
+              <span aria-hidden="true">?</span> <span class="hidden-text">{left_open}</span>
+            </>
+          ) : done ? (
             <>
               <span aria-hidden="true">✓</span> <span class="hidden-text">looked at</span>
             </>

@@ -6,6 +6,7 @@ import type { DifferenceMarks } from './difference_marks';
 import { elementsOf, kSize } from './graph_elements';
 import { graphStyle } from './graph_style';
 import { showDetailInView } from './detail_in_view';
+import type { LinkedDrawings } from './linked_drawings';
 import { picking } from './picking';
 import { PlaceMarks } from './place_marks';
 import { pictureShare, placeViews, probabilities } from './place_views';
@@ -19,12 +20,13 @@ interface Props {
   belief: Belief | null;
   way: readonly string[]; // places still to be driven
   chosen: string | null;
-  marks?: DifferenceMarks | null; // what is other with the draft that is shown
+  marks?: DifferenceMarks | null; // what is other with the draft or the state that is shown
+  linked?: LinkedDrawings | null; // it moves with these
   onChoose: (place: string) => void;
 }
 
 /** The map as a drawing. Everything it offers is also in the list beside it, so it is hidden from screen readers. */
-export function GraphView({ graph, belief, way, chosen, marks = null, onChoose }: Props) {
+export function GraphView({ graph, belief, way, chosen, marks = null, linked = null, onChoose }: Props) {
   const box = useRef<HTMLDivElement>(null);
   const [drawing, setDrawing] = useState<Core | null>(null);
   const choose = useRef(onChoose);
@@ -61,9 +63,11 @@ export function GraphView({ graph, belief, way, chosen, marks = null, onChoose }
       made.on('tap', 'node', (event) => choose.current((event.target as { id(): string }).id()));
       const unwatch = watchLook(made, container, diameter);
       const forget = showDetailInView(made, diameter);
+      const unlink = linked?.join(made);
       setDrawing(made);
       destroy = () => {
         look.current = { map: graph.map, zoom: made.zoom(), pan: { ...made.pan() } };
+        unlink?.();
         unwatch();
         forget();
         setDrawing(null);
@@ -74,7 +78,7 @@ export function GraphView({ graph, belief, way, chosen, marks = null, onChoose }
       wanted = false;
       destroy?.();
     };
-  }, [graph, diameter, marks]);
+  }, [graph, diameter, marks, linked]);
 
   useEffect(() => {
     if (!drawing) return;

@@ -2,15 +2,19 @@
 import { computed, effect, signal } from '@preact/signals';
 import { navigate, path } from '../../lib/router';
 
-/** What of the map pages an address shows: /map/m1/draft/d3/evidence/place/p4. */
+export const kMapPages = ['drawing', 'evidence', 'changes', 'report', 'similarity'] as const;
+export type MapPageName = (typeof kMapPages)[number];
+
+/** What of the map pages an address shows: /map/m1/draft/d3/evidence/place/p4, /map/m1/changes/2/5. */
 export interface MapAddress {
   map: string | null; // null: the one that the page would show by itself
   draft: string | null;
-  page: 'drawing' | 'evidence';
+  page: MapPageName;
+  of: readonly number[]; // what the page is about: of changes two of them, of similarity two pictures
   place: string | null;
 }
 
-const kNowhere: MapAddress = { map: null, draft: null, page: 'drawing', place: null };
+const kNowhere: MapAddress = { map: null, draft: null, page: 'drawing', of: [], place: null };
 
 /** The address that a path says; null for one that names no map. */
 export function readAddress(pathname: string): MapAddress | null {
@@ -20,8 +24,15 @@ export function readAddress(pathname: string): MapAddress | null {
     const at = rest.indexOf(word);
     return at < 0 ? null : (rest[at + 1] ?? null);
   };
-  const page = rest.includes('evidence') ? 'evidence' : 'drawing';
-  return { map, draft: after('draft'), page, place: after('place') };
+  const page = kMapPages.find((one) => one !== 'drawing' && rest.includes(one)) ?? 'drawing';
+  return { map, draft: after('draft'), page, of: numbersAfter(rest, page), place: after('place') };
+}
+
+function numbersAfter(parts: readonly string[], page: MapPageName): number[] {
+  const at = parts.indexOf(page);
+  const [a = '', b = ''] = at < 0 ? [] : parts.slice(at + 1);
+  const own = /^\d{1,9}$/.test(a) ? (/^\d{1,9}$/.test(b) ? [a, b] : [a]) : [];
+  return own.map(Number);
 }
 
 function decoded(part: string): string {
@@ -32,13 +43,13 @@ function decoded(part: string): string {
   }
 }
 
-export function pathOf({ map, draft, page, place }: MapAddress): string {
+export function pathOf({ map, draft, page, of, place }: MapAddress): string {
   if (map === null) return '/map';
   const parts = [
     'map',
     map,
     ...(draft === null ? [] : ['draft', draft]),
-    ...(page === 'drawing' ? [] : [page]),
+    ...(page === 'drawing' ? [] : [page, ...of.map(String)]),
     ...(place === null ? [] : ['place', place]),
   ];
   return `/${parts.map(encodeURIComponent).join('/')}`;
@@ -52,7 +63,7 @@ effect(() => {
 
 /** What is to be shown: as the address says; where it says nothing, what was looked at last. */
 export const mapAddress = computed<MapAddress>(
-  () => readAddress(path.value) ?? { ...latest.value, page: 'drawing' },
+  () => readAddress(path.value) ?? { ...latest.value, page: 'drawing', of: [] },
 );
 
 /** Shows something else of `map`; what is not named stays as it is. */

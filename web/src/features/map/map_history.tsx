@@ -6,12 +6,16 @@ import type { LoggedEdit } from '../../api/types';
 import { Choice } from '../../components/field';
 import { Icon } from '../../components/icons';
 import { Notice } from '../../components/notice';
+import { follow } from '../../lib/router';
 import { count, dateText } from '../../lib/words';
 import { changesOf, changeWords, lostBecause, redoable, undoable, type Change } from './changes';
 import { kHistoryPart, type Editor } from './editor';
+import { mapAddress, pathOf } from './map_address';
 import { Outcome } from './outcome';
+import { around, numbersOf, standing } from './states';
 
 const kShown = 8;
+const kChanges = { page: 'changes', place: null } as const;
 
 /** What people changed, newest first, taking the newest back, and making again what was taken back. */
 export function MapHistory({ editor }: { editor: Editor }) {
@@ -42,6 +46,7 @@ export function MapHistory({ editor }: { editor: Editor }) {
     };
   }, [graph.map, graph.revision, of_draft]);
   const changes = changesOf(edits ?? []);
+  const stand = standing(changes);
   const people = [...new Set(changes.map((one) => one.by))].sort();
   const wanted = people.includes(person) ? person : '';
   const shown = changes.filter((one) => wanted === '' || one.by === wanted);
@@ -99,7 +104,24 @@ export function MapHistory({ editor }: { editor: Editor }) {
                 <strong>{one.by}</strong> {changeWords(one, graph)}
                 {one.undone && <span class="soft"> (taken back)</span>}
               </span>
-              <span class="soft small">{dateText(one.t_us)}</span>
+              <span class="row">
+                <span class="soft small">{dateText(one.t_us)}</span>
+                {!of_draft && !one.undone && (
+                  <a
+                    class="button small"
+                    aria-label={`Before and after: ${one.by} ${changeWords(one, graph)}`}
+                    href={pathOf({
+                      ...mapAddress.value,
+                      ...kChanges,
+                      map: graph.map,
+                      of: numbersOf(around(one, stand)),
+                    })}
+                    onClick={follow}
+                  >
+                    Before and after
+                  </a>
+                )}
+              </span>
               {lostBecause(one).map((why) => (
                 <Notice key={why} tone="warn" still>
                   {of_draft

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { ComponentType } from 'preact';
 import { useEffect } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import { draftsOf, wantDrafts } from '../../api/drafts';
@@ -10,8 +11,11 @@ import { chosenMap, maps } from '../../lib/chosen';
 import { useLoaded } from '../../lib/loaded';
 import { atLeast } from '../../lib/roles';
 import { follow } from '../../lib/router';
+import { ChangesPage } from './changes_page';
 import { EvidencePage } from './evidence_page';
-import { mapAddress, pathOf, show } from './map_address';
+import { ReportPage } from './report_page';
+import { SimilarityPage } from './similarity_page';
+import { mapAddress, pathOf, show, type MapPageName } from './map_address';
 import { MapDrawing, type OpenDraft } from './map_drawing';
 
 const kVersions = 1e6; // of a draft at most, on one revision of its map
@@ -100,22 +104,33 @@ function WithDraft({ map, graph, mayEdit, draft }: OfMap & { draft: Draft }) {
   );
 }
 
-const kPages = [
+const kPages: readonly (readonly [MapPageName, string])[] = [
   ['drawing', 'Places'],
   ['evidence', 'Evidence'],
-] as const;
+  ['changes', 'Changes'],
+  ['report', 'Report'],
+  ['similarity', 'Similarity'],
+];
+
+/** Pages about the map itself, whatever draft is open. */
+const kOwnPages: Readonly<Partial<Record<MapPageName, ComponentType<OfMap>>>> = {
+  changes: ChangesPage,
+  report: ReportPage,
+  similarity: SimilarityPage,
+};
 
 /** The page that the address names, with the way to the other ones. */
 function Shown(props: OfMap & { open: OpenDraft | null }) {
   const address = mapAddress.value;
   const Page = address.page === 'evidence' ? EvidencePage : MapDrawing;
+  const Own = kOwnPages[address.page];
   return (
     <>
       <nav class="segments map-parts" aria-label="Of this map">
         {kPages.map(([page, words]) => (
           <a
             key={page}
-            href={pathOf({ ...address, map: props.map.id, page, place: null })}
+            href={pathOf({ ...address, map: props.map.id, page, of: [], place: null })}
             aria-current={page === address.page ? 'page' : undefined}
             onClick={follow}
           >
@@ -123,7 +138,18 @@ function Shown(props: OfMap & { open: OpenDraft | null }) {
           </a>
         ))}
       </nav>
-      <Page {...props} />
+      {Own ? (
+        <>
+          {props.open && (
+            <Notice tone="warn" still>
+              You are working on a draft. What is here is of the map itself, as the chair uses it.
+            </Notice>
+          )}
+          <Own map={props.map} graph={props.open?.before ?? props.graph} mayEdit={props.mayEdit} />
+        </>
+      ) : (
+        <Page {...props} />
+      )}
     </>
   );
 }
