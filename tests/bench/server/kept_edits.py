@@ -9,11 +9,17 @@ import copy
 import threading
 
 FULL = ("kind", "image_a", "image_b", "text", "images", "by", "t_us")
-OF_DRAFT = ("kind", "image_a", "image_b", "text", "images", "by")  # published, an edit gets a new time
 
 
-def detail(edit, fields=FULL):
-    return {field: edit[field] for field in fields}
+def detail(edit):
+    return {field: edit[field] for field in FULL}
+
+
+def of_draft(known):
+    """What stays of an edit when its draft is published: the time is a new one, and which pictures a decision parts shows
+    only where it is applied."""
+    gone = ("t_us", "images") if known["kind"] == "decide" else ("t_us",)
+    return {field: known[field] for field in FULL if field in known and field not in gone}
 
 
 def asked(request):
@@ -179,7 +185,7 @@ class Request:
             standing = self.kept(state, standing, found)
         if not standing:
             return False
-        add(state.log, [{field: one[field] for field in OF_DRAFT if field in one} for one in standing])
+        add(state.log, [of_draft(one) for one in standing])
         state.revision += 1
         del state.drafts[self.draft]
         return not self.answer or self.answer["revision"] == state.revision
@@ -188,12 +194,11 @@ class Request:
         """Those of the standing edits that the map took. Known where it was at the revision at which the draft was looked at;
         else any that are there in their order."""
         if self.seen["revision"] == state.revision:
-            return [detail(one, OF_DRAFT) for one in self.seen["edits"] if not one["undone"] and one["lost"] is None]
+            return [detail(one) for one in self.seen["edits"] if not one["undone"] and one["lost"] is None]
         change = next_change(state.log)
-        there = [detail(one, OF_DRAFT) for one in found.history if one["change"] == change]
+        there = [detail(one) for one in found.history if one["change"] == change]
         rest = iter(standing)
-        in_order = all(any(all(one.get(field, there_one[field]) == there_one[field] for field in OF_DRAFT)
-                           for one in rest) for there_one in there)
+        in_order = all(any(all(real[field] == value for field, value in of_draft(one).items()) for one in rest) for real in there)
         return there if in_order else []
 
 
