@@ -34,8 +34,15 @@ const { house } = mock;
 house.graph = largeGraph('m1', places);
 house.taught = house.graph;
 house.maps[0].places = places;
-house.moreDoubts = Array.from({ length: kDoubts }, (_, i) => doubt(1 + ((i * 7) % places), 1 + ((i * 11 + 3) % places), i));
-house.steer({ do: 'draft', by: 'ben', name: 'Large', edits: Array.from({ length: kEdits }, (_, i) => edit(i)) });
+house.moreDoubts = Array.from({ length: kDoubts }, (_, i) =>
+  doubt(1 + ((i * 7) % places), 1 + ((i * 11 + 3) % places), i),
+);
+house.steer({
+  do: 'draft',
+  by: 'ben',
+  name: 'Large',
+  edits: Array.from({ length: kEdits }, (_, i) => edit(i)),
+});
 let server_ms = 0;
 const call = house.call.bind(house);
 house.call = async (...request) => {
@@ -167,7 +174,8 @@ async function keys() {
       globalThis.keyShown = new Promise((done) =>
         document.activeElement.addEventListener(
           'keydown',
-          ({ timeStamp }) => requestAnimationFrame(() => setTimeout(() => done(performance.now() - timeStamp))),
+          ({ timeStamp }) =>
+            requestAnimationFrame(() => setTimeout(() => done(performance.now() - timeStamp))),
           { once: true },
         ),
       );
