@@ -7,25 +7,45 @@ import { Refusal } from './mock-refusal.mjs';
 
 const kCheckStepMs = 120;
 
-/** The map with a draft's edits, and these with why some do not hold any more. */
+/** What edits may change of a graph; the rest is shared. */
+const copied = (graph) => ({
+  ...graph,
+  places: graph.places.map((one) => ({ ...one, members: [...one.members] })),
+  edges: graph.edges.map((one) => ({ ...one })),
+  destinations: graph.destinations.map((one) => ({ ...one })),
+  hypotheses: graph.hypotheses.map((one) => ({ ...one })),
+  shortcuts: graph.shortcuts.map((one) => ({ ...one })),
+});
+
+const kKept = new WeakMap(); // by the log of a draft: the graph it was tried on, and what came of it
+
+/** The map with a draft's edits, what is other in it, and why some do not hold any more. Nobody may change what it gives. */
 function tried(house, draft) {
-  const graph = structuredClone(house.graph);
+  const kept = kKept.get(draft.log);
+  if (kept?.on === house.graph) return kept.found;
+  const found = applied(house, draft);
+  kKept.set(draft.log, { on: house.graph, found });
+  return found;
+}
+
+function applied(house, draft) {
+  let graph = copied(house.graph);
   const edits = draft.log.map((one) => {
     if (one.undone) return one;
-    const trial = structuredClone(graph);
+    const trial = copied(graph);
     try {
       apply(trial, one);
     } catch (thrown) {
       return { ...one, lost: thrown.message };
     }
-    Object.assign(graph, trial);
+    graph = trial;
     return { ...one, lost: null };
   });
-  return { graph, edits };
+  return { graph, edits, other: difference(house.graph, graph) };
 }
 
 function touchesOf(house, draft) {
-  const { places, edges, destinations } = difference(house.graph, tried(house, draft).graph);
+  const { places, edges, destinations } = tried(house, draft).other;
   const known = new Set(house.graph.places.map((one) => one.id));
   const all = [
     ...places.map((one) => one.id),
@@ -130,7 +150,7 @@ function discardDraft(house, { args }) {
 
 function editDraft(house, request) {
   const draft = asked(house, request);
-  const { graph } = tried(house, draft);
+  const graph = copied(tried(house, draft).graph);
   const change = 1 + Math.max(0, ...draft.log.map((one) => one.change));
   const added = request.body.edits.map((one, i) => logged(graph, one, request.user.name, change, i));
   added.forEach((one, i) => apply(graph, one, `body/edits/${i}`));
@@ -178,8 +198,8 @@ function publish(house, request) {
 
 /** What a replay would say: where ways or places went, pictures are lost and destinations lead to each other no more. */
 function checkOf(house, draft) {
-  const { graph } = tried(house, draft);
-  const { places, edges } = difference(house.graph, graph);
+  const { graph, other } = tried(house, draft);
+  const { places, edges } = other;
   const routes = (one) =>
     one.destinations
       .flatMap((a) => one.destinations.map((b) => [a.place, b.place]))
@@ -308,7 +328,7 @@ export const kDraftRoutes = [
   [
     route('GET', '\\/difference'),
     'viewer',
-    (house, { args }) => ({ body: difference(house.graph, tried(house, named(house, args)).graph) }),
+    (house, { args }) => ({ body: tried(house, named(house, args)).other }),
   ],
   [route('POST', '\\/check'), 'installer', check],
   [route('GET', '\\/check'), 'viewer', checked],

@@ -3,14 +3,15 @@
 """Maps broken on purpose, and how soon a person is asked about what is wrong with them.
 
 usage: doubts.py --work DIR --eval DIR [--bin DIR] [--worlds house,wards] [--first N] [--seeds N] [--alike] [--ask N]
-                 [--without-odometry] [--no-answers]
+                 [--without-odometry] [--no-answers] [--api]
 
 --eval: the folder of map.py. For each world and seed N, N+1, ...: a tour of all rooms (of wards: three) is rendered and its
 map built (both kept in DIR); 5 places of it are wrongly merged, 5 loops missed, 3 ways made that do not exist
 (homeward_bench_faults; --alike: places that look most alike are merged; --without-odometry: of tours that had none).
 `homeward map doubts` then names what to look at, and the faults among the first 20 (--ask) are counted. What it asks is then
 answered as the true poses say, by `homeward map edit`, one question after the other, until map.py finds nothing wrong, or
-nothing more is asked.
+nothing more is asked. --api: a server does all that instead: the tour is uploaded and built there, the map exported, broken
+and imported again, and asked about and answered by the calls that the dashboard makes (doubts_api.py).
 Prints a line for each map and their sum; ends with 1 when fewer than 0.9 of all faults are among the first 20, or a map is
 not whole after the answers.
 """
@@ -75,15 +76,18 @@ class Case:
         if options.without_odometry:
             self.tour = without_odometry(self.tour)
         self.sound = options.work / f"{self.tour.name}.map"
-        if not self.sound.is_file():
-            run(self.program, "map", "build", "--tour", self.tour, "--camera", self.tour / "camera.json", "--out", self.sound)
         self.poses = read_poses(self.tour)
         kind = "alike" if options.alike else "any"
         self.broken = options.work / f"{self.tour.name}-{kind}.map"
+        self.build()
         told = self.broken.with_suffix(".faults.json")
         run(options.bin / "homeward_bench_faults", "--map", self.sound, "--tour", self.tour, "--out", self.broken, "--faults",
             told, "--seed", seed, *(["--alike"] if options.alike else []))
         self.faults = json.loads(told.read_text())["faults"]
+
+    def build(self):
+        if not self.sound.is_file():
+            run(self.program, "map", "build", "--tour", self.tour, "--camera", self.tour / "camera.json", "--out", self.sound)
 
     def distance(self, image_a, image_b):
         return math.dist(*(self.poses[image.rsplit("/", 1)[-1]] for image in (image_a, image_b)))
@@ -159,14 +163,23 @@ def main():
     parser.add_argument("--without-odometry", action="store_true")
     parser.add_argument("--ask", type=int, default=20)
     parser.add_argument("--no-answers", action="store_true")
+    parser.add_argument("--api", action="store_true")
     options = parser.parse_args()
     options.work.mkdir(parents=True, exist_ok=True)
+    if not options.api:
+        return measure(options, Case)
+    import doubts_api  # which needs this file
+    with doubts_api.server(options) as case:
+        return measure(options, case)
+
+
+def measure(options, make_case):
     rows, bad = [], []
     print("| map | merged | loops | ways | of all | by masses alone | asked at | answers | false merges | edges ok | connected |\n"
           "|---|---|---|---|---|---|---|---|---|---|---|", flush=True)
     for seed in range(options.first, options.first + options.seeds):
         for world in options.worlds.split(","):
-            case = Case(options, world, seed)
+            case = make_case(options, world, seed)
             at = case.found(case.doubts(case.broken, 1000))
             first = {kind: [0 < number <= options.ask for number, fault in zip(at, case.faults) if fault["kind"] == kind]
                      for kind in ("mixed_place", "same_place", "way")}

@@ -93,12 +93,13 @@ function MapOrDraft({ map, graph, mayEdit }: OfMap) {
 
 function WithDraft({ map, graph, mayEdit, draft }: OfMap & { draft: Draft }) {
   const state = kVersions * draft.revision + draft.version;
-  const made = useLoaded(() => calls.draftGraph(draft), state);
-  const difference = useLoaded(() => calls.draftDifference(draft), state).value;
+  // Together: to draw thousands of places takes a while, and is not to be done for each of the two.
+  const difference = () => calls.draftDifference(draft).catch(() => null);
+  const made = useLoaded(() => Promise.all([calls.draftGraph(draft), difference()]), state);
   return (
     <Loading of={made} what="The draft">
-      {(after) => (
-        <Shown map={map} graph={after} open={{ draft, before: graph, difference }} mayEdit={mayEdit} />
+      {([after, other]) => (
+        <Shown map={map} graph={after} open={{ draft, before: graph, difference: other }} mayEdit={mayEdit} />
       )}
     </Loading>
   );
