@@ -205,7 +205,7 @@ function checkOf(house, draft) {
       .flatMap((a) => one.destinations.map((b) => [a.place, b.place]))
       .filter(([a, b]) => a !== b);
   const open = (one) => routes(one).filter(([a, b]) => wayBetween(one, a, b) !== null);
-  const spot = { other: null, images: [], of: 14, distance_m: 0, words: 'It is worse here.' };
+  const spot = { other: null, images: [], of: 14, times: 0, distance_m: 0, words: 'It is worse here.' };
   const removed = places.filter((one) => one.change === 'removed');
   const lost = removed.map((one) => ({
     ...spot,
@@ -213,6 +213,7 @@ function checkOf(house, draft) {
     place: one.id,
     other: house.graph.edges.find(({ from }) => from === one.id)?.to ?? null,
     images: one.left,
+    times: one.left.length,
   }));
   const ways = edges
     .filter((one) => one.change === 'added')
@@ -223,7 +224,10 @@ function checkOf(house, draft) {
     .filter((one) => graph.places.some(({ id }) => id === one[0]) && !still.includes(String(one)))
     .slice(0, 3)
     .map(([place, other]) => ({ ...spot, kind: 'route', place, other, of: 0 }));
-  const worse = [...lost, ...ways, ...cut];
+  const gone = house.graph.destinations
+    .filter(({ place }) => removed.some(({ id }) => id === place))
+    .map(({ place, image }) => ({ ...spot, kind: 'destination', place, images: [image], of: 1, times: 1 }));
+  const worse = [...lost, ...ways, ...cut, ...gone];
   const all = house.graph.places.flatMap((one) => one.members).length;
   const missing = lost.flatMap((one) => one.images).length;
   return {
@@ -234,6 +238,7 @@ function checkOf(house, draft) {
     draft_version: draft.version,
     revision: house.graph.revision,
     pictures: all,
+    sights: 0,
     right_before: all,
     right_after: all - missing,
     lost_before: 0,

@@ -33,6 +33,7 @@ const said = (spot: Partial<WorseSpot>) =>
       other: null,
       images: ['t/1', 't/2', 't/3'],
       of: 14,
+      times: 3,
       distance_m: 6.14,
       words: '',
       ...spot,
@@ -58,6 +59,10 @@ describe('what a check found', () => {
     expect(said({ kind: 'route', other: 'p2' })).toBe(
       'The chair could not drive from Hall to Bathroom any more.',
     );
+    expect(said({ kind: 'drives', images: ['t/p1.jpg'], other: 'p2' })).toBe(
+      'On its drives the chair would not have known Hall on 3 of 14 pictures. Most of it would be taken for Bathroom.',
+    );
+    expect(said({ kind: 'destination' })).toBe('The destination at Hall would go with its place.');
   });
 
   it('has a verdict', () => {

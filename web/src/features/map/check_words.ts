@@ -20,9 +20,9 @@ function pictures(n: number, of: number): string {
 
 /** What gets worse at a spot, in one sentence. */
 export function worseWords(spot: WorseSpot, before: Graph, after: Graph): string {
-  const { kind, place, other, images, of, distance_m } = spot;
+  const { kind, place, other, of, distance_m } = spot;
   const title = titleIn(after, before);
-  const some = pictures(images.length, of);
+  const some = pictures(spot.times, of);
   const to = other === null ? 'another place' : title(other);
   switch (kind) {
     case 'localisation': {
@@ -39,12 +39,19 @@ export function worseWords(spot: WorseSpot, before: Graph, after: Graph): string
       return `The new way from ${title(place)} to ${to} is about ${distance_m.toFixed(1)} m: too long to be seen along.`;
     case 'route':
       return `The chair could not drive from ${title(place)} to ${to} any more.`;
+    case 'drives': {
+      const taken = other === null ? '' : ` Most of it would be taken for ${to}.`;
+      return `On its drives the chair would not have known ${title(place)} on ${some}.${taken}`;
+    }
+    case 'destination':
+      return `The destination at ${title(place)} would go with its place.`;
   }
 }
 
 /** What a check found in all. */
-export function verdictWords({ harmless, pictures: all, worse }: ReplayCheck): string {
-  if (harmless) return `Nothing gets worse on the ${all} pictures of the tours.`;
+export function verdictWords({ harmless, pictures: all, sights, worse }: ReplayCheck): string {
+  const drives = sights > 0 ? ` and ${sights} of drives` : '';
+  if (harmless) return `Nothing gets worse on the ${all} pictures of the tours${drives}.`;
   return worse.length === 1
     ? 'One thing gets worse. Look at it before you publish.'
     : `${worse.length} things get worse. Look at them before you publish.`;

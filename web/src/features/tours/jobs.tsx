@@ -26,6 +26,7 @@ const kStages: Readonly<Record<string, string>> = {
   cluster: 'Finding the places',
   places: 'Finding the places',
   thumbnails: 'Making small pictures',
+  report: 'Writing the report',
 };
 
 /** What a build does now, for people; stages that this version does not know are shown as they are called. */
