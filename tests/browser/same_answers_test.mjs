@@ -107,6 +107,7 @@ class House {
 const escaped = (text) => String(text).replace(/[.*+?^${}()|[\]\\]/g, '\\$&');
 
 const kRevision = { 'If-Match': '"r{revision}"' };
+const kVersion = { 'If-Match': '"d1"' };
 const edits = (...all) => ({ body: { edits: all }, headers: kRevision });
 
 // [what it is about, method, path, options]; in order, for some change what the next ones find.
@@ -314,7 +315,55 @@ const kRequests = [
     'maps/{map}/edits',
     edits({ kind: 'set_destination_picture', destination: '{destination}', image: 'a/1.jpg' }),
   ],
+  [
+    'no picture to be unsure of',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'set_aside', about: 'way', image_a: 'a/1.jpg', image_b: 'a/2.jpg' }),
+  ],
+  [
+    'one picture twice',
+    'POST',
+    'maps/{map}/edits',
+    edits({ kind: 'decide', prototype_a: '{far_image}', prototype_b: '{far_image}', accept: true }),
+  ],
   ['nothing to redo', 'POST', 'maps/{map}/redo', { headers: kRevision }],
+  ['no draft', 'GET', 'maps/{map}/drafts/none'],
+  ['no draft to discard', 'DELETE', 'maps/{map}/drafts/none'],
+  ['no map for a draft', 'POST', 'maps/none/drafts', { body: { name: 'x' } }],
+  ['a viewer drafts', 'POST', 'maps/{map}/drafts', { as: 'vic', body: { name: 'x' } }],
+  ['a draft', 'POST', 'maps/{map}/drafts', { body: { name: 'x' }, keep: 'draft', id: (body) => body.id }],
+  ['no version', 'POST', 'maps/{map}/drafts/{draft}/undo', { body: {} }],
+  [
+    'a version of old',
+    'POST',
+    'maps/{map}/drafts/{draft}/undo',
+    { body: {}, headers: { 'If-Match': '"d0"' } },
+  ],
+  ['nothing to undo', 'POST', 'maps/{map}/drafts/{draft}/undo', { body: {}, headers: kVersion }],
+  ['nothing to redo in it', 'POST', 'maps/{map}/drafts/{draft}/redo', { body: {}, headers: kVersion }],
+  ['nothing to publish', 'POST', 'maps/{map}/drafts/{draft}/publish', { body: {}, headers: kVersion }],
+  ['no check yet', 'GET', 'maps/{map}/drafts/{draft}/check'],
+  [
+    'no place to rename in it',
+    'POST',
+    'maps/{map}/drafts/{draft}/edits',
+    { body: { edits: [{ kind: 'rename', place: 'p99999', label: 'x' }] }, headers: kVersion },
+  ],
+  ['no map for doubts', 'GET', 'maps/none/doubts'],
+  ['doubts of no kind', 'GET', 'maps/{map}/doubts?kind=mood'],
+  ['doubts of no place', 'GET', 'maps/{map}/doubts?place=p99999'],
+  ['too many doubts', 'GET', 'maps/{map}/doubts?limit=1001'],
+  ['one picture alone', 'GET', 'maps/{map}/pair?image_a={far_image}'],
+  ['a pair of no picture', 'GET', 'maps/{map}/pair?image_a={far_image}&image_b=a/1.jpg'],
+  ['no map for ways', 'GET', 'maps/none/ways'],
+  ['no such change', 'GET', 'maps/{map}/history/999999/graph'],
+  ['a change that is no number', 'GET', 'maps/{map}/history/first/difference'],
+  ['a later change that is no number', 'GET', 'maps/{map}/history/0/difference?to=last'],
+  ['no map for a report', 'GET', 'maps/none/report'],
+  ['no map for a matrix', 'GET', 'maps/none/similarity'],
+  ['no such tile', 'GET', 'maps/{map}/similarity/0/9999/0'],
+  ['a level that is too high', 'GET', 'maps/{map}/similarity/31/0/0'],
   ['no map to edit', 'POST', 'maps/none/edits', edits({ kind: 'rename', place: '{place}', label: 'x' })],
 ];
 
@@ -329,7 +378,7 @@ for (const [about, method, path, options = {}] of kRequests) {
   const told = [];
   for (const house of [real, pretended]) {
     const { status, body } = await house.ask(method, path, options);
-    if (options.keep) house.ids[options.keep] = body.lease.id;
+    if (options.keep) house.ids[options.keep] = (options.id ?? ((one) => one.lease.id))(body);
     // Of an answer that is not a refusal the schemas say what it is.
     told.push(`${status} ${status >= 400 ? house.bare(body) : ''}`);
   }
