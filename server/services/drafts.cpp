@@ -249,6 +249,20 @@ Result<wire::DraftView> DraftService::redo(const MapId& map, const wire::DraftId
 Result<std::int64_t> DraftService::publish(const MapId& map, const wire::DraftId& id, std::int64_t version,
                                            bool leave_out_lost) {
   const std::scoped_lock lock(mutex_);
+  // Where somebody changes the map meanwhile, the draft is applied to what it is then.
+  constexpr int kMostAttempts = 20;
+  Result<std::int64_t> revision = publish_on_present(map, id, version, leave_out_lost);
+  for (int attempt = 1; attempt < kMostAttempts; ++attempt) {
+    const bool overtaken = !revision && revision.error().code == ErrorCode::kStaleRevision &&
+                           revision.error().where == "maps/" + map.str();
+    if (!overtaken) break;
+    revision = publish_on_present(map, id, version, leave_out_lost);
+  }
+  return revision;
+}
+
+Result<std::int64_t> DraftService::publish_on_present(const MapId& map, const wire::DraftId& id, std::int64_t version,
+                                                      bool leave_out_lost) {
   const auto now = state_of(map, id);
   if (!now) return pass_on(now);
   if (const Status fits = check_version(now->record, version); !fits) return pass_on(fits);

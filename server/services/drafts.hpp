@@ -84,6 +84,9 @@ class DraftService {
   void tell_if_other(const wire::DraftView& draft);
   void forget(const MapId& map, const wire::DraftId& id);
   Result<wire::DraftView> tell_all(const MapId& map, const wire::DraftId& changed);
+  /// Errors: those of publish(), and kStaleRevision of the map where it was changed meanwhile.
+  Result<std::int64_t> publish_on_present(const MapId& map, const wire::DraftId& id, std::int64_t version,
+                                          bool leave_out_lost);
   Result<wire::DraftView> step(const MapId& map, const wire::DraftId& id, std::int64_t version,
                                Status (*go)(std::vector<map::Edit>&));
 

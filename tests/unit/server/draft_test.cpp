@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <thread>
+
 #include "db/store.hpp"
 #include "support/server_fixture.hpp"
 #include "wire/appearance_blob.hpp"
@@ -182,6 +185,30 @@ TEST_F(DraftTest, IsTriedOnTheToursOfItsMap) {
             (json{{"job", job.at("id")}, {"version", draft.at("version")}}));
   restart();
   EXPECT_EQ(admin->get(path_of(draft) + "/check").json(), found);
+}
+
+TEST_F(DraftTest, IsPublishedWhileSomebodyElseEditsTheMap) {
+  teach(3);
+  HttpClient ben = signed_in("ben", "installer");
+  std::atomic<bool> ended = false;
+  std::atomic<int> edits = 0;
+  const std::string first = place(0);
+  std::jthread editor([&] {
+    while (!ended) {
+      const std::string tag = ben.get(root_ + "/graph").headers.at("etag");
+      const json rename = {{"kind", "rename"}, {"place", first}, {"label", "hall " + std::to_string(edits)}};
+      if (ben.post(root_ + "/edits", {{"edits", {rename}}}, {{"If-Match", tag}}).status == 200) ++edits;
+    }
+  });
+  for (int i = 0; i < 10; ++i) {
+    const json draft = edited(begin(), rename(2, "attic " + std::to_string(i)));
+    const Answer published = change(draft, "/publish");
+    EXPECT_EQ(published.status, 200) << published.body;
+  }
+  ended = true;
+  editor.join();
+  EXPECT_GT(edits, 10);
+  EXPECT_EQ(graph().at("places").at(2).at("label"), "attic 9");
 }
 
 TEST_F(DraftTest, IsTriedOnWhatDrivesSawToo) {
