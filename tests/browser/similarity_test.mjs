@@ -51,6 +51,8 @@ const checks = [
       await card.getByText('Picture 2 of Ground floor, down the side').waitFor();
       assert.equal(await card.getByTestId('small-map').locator('.mark').count(), 2);
       await page.waitForURL('**/map/m1/similarity/9/2');
+      await page.mouse.move(0, 0);
+      await card.getByText('They are 40 % alike.').waitFor();
       await page.reload();
       await card.getByRole('link', { name: 'Kitchen', exact: true }).waitFor();
       await press(page, 0, 1, 26);
@@ -113,7 +115,7 @@ const checks = [
       await page.getByText('The map has no picture or place “cellar”.').waitFor();
       await page.getByLabel('B, down the side').fill('kitchen');
       await page.keyboard.press('Enter');
-      await said(/^Picture 24 of .+, and picture 9 of .+, the kitchen\./);
+      await said(/^Picture 24 of .+, and picture 9 of .+, the kitchen\. .+ They are 40 % alike\.$/);
     }),
   ],
   [

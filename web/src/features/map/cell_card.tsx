@@ -23,10 +23,11 @@ interface Props {
   pictures: Pictures;
   cursor: Cell | null; // what was chosen
   hovered: Cell | null; // what the mouse is over, shown meanwhile
+  alike: string | null; // how alike those of the cursor are, where it is known
 }
 
 /** The two pictures of a cell beside each other, where they are, and how the map has them. */
-export function CellCard({ graph, pictures, cursor, hovered }: Props) {
+export function CellCard({ graph, pictures, cursor, hovered, alike }: Props) {
   const cell = hovered ?? cursor;
   if (!cell)
     return (
@@ -73,6 +74,7 @@ export function CellCard({ graph, pictures, cursor, hovered }: Props) {
       </div>
       <p>
         {pill && <span class={`pill ${pill.tone}`}>{pill.words}</span>} {verdictWords(cell, pictures, graph)}
+        {!hovered && alike !== null && ` ${alike}`}
       </p>
       <SmallMap
         graph={graph}

@@ -8,6 +8,7 @@ import { Notice } from '../../components/notice';
 import { useLoaded } from '../../lib/loaded';
 import { follow, navigate } from '../../lib/router';
 import { count } from '../../lib/words';
+import { useAlike } from './alike';
 import { CellCard } from './cell_card';
 import { mapAddress, pathOf } from './map_address';
 import { Matrix } from './matrix';
@@ -24,7 +25,7 @@ interface Props {
 
 /** How alike all pictures of a map are to each other, as a matrix, with the two pictures of any of its cells. */
 export function SimilarityPage({ map, graph }: Props) {
-  const loaded = useLoaded(() => calls.similarity(map.id));
+  const loaded = useLoaded(() => calls.similarity(map.id), graph.revision);
   if (loaded.problem?.status === 404)
     return (
       <Notice still>
@@ -86,6 +87,7 @@ function Shown({ graph, similarity }: { graph: Graph; similarity: Similarity }) 
   const [cursor, setCursor] = useCursor(graph.map, images.length);
   const [hovered, setHovered] = useState<Cell | null>(null);
   const [asked, setAsked] = useState(0);
+  const alike = useAlike(graph.map, images, cursor, kSettledMs);
   const sheet = useMemo(() => ({ count: images.length, tile_px, levels }), [images, tile_px, levels]);
   const edges = useMemo(() => pictures.runs.slice(1, kMostEdges).map((one) => one.start), [pictures]);
   return (
@@ -111,7 +113,7 @@ function Shown({ graph, similarity }: { graph: Graph; similarity: Similarity }) 
           <Legend />
         </section>
         <div class="map-side">
-          <CellCard graph={graph} pictures={pictures} cursor={cursor} hovered={hovered} />
+          <CellCard graph={graph} pictures={pictures} cursor={cursor} hovered={hovered} alike={alike} />
           <GoTo
             graph={graph}
             pictures={pictures}
@@ -122,7 +124,7 @@ function Shown({ graph, similarity }: { graph: Graph; similarity: Similarity }) 
           />
         </div>
       </div>
-      <Spoken words={cursor ? cellWords(cursor, pictures, graph) : ''} />
+      <Spoken words={cursor ? [cellWords(cursor, pictures, graph), alike ?? ''].join(' ').trim() : ''} />
     </>
   );
 }
