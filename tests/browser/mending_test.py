@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A map of the real server is mended in a real browser. usage: mending_test.py BIN_FOLDER WEB_FOLDER [FOLDER FOR PICTURES]"""
+"""A map of the real server is mended and inspected in a real browser. usage: mending_test.py BIN_FOLDER WEB_FOLDER [FOLDER FOR PICTURES]"""
 import pathlib
 import subprocess
 import sys
@@ -12,9 +12,11 @@ PORT = 18473
 
 def main():
     with taught_demo.running(sys.argv[1], sys.argv[2], PORT) as (address, login, _):
-        return subprocess.run(["node", HERE / "mending_test.mjs", "--base", address, f"--name={login['name']}",
-                               f"--password={login['password']}", *(f"--out={folder}" for folder in sys.argv[3:4])],
-                              check=False).returncode
+        asked = ["--base", address, f"--name={login['name']}", f"--password={login['password']}",
+                 *(f"--out={folder}" for folder in sys.argv[3:4])]
+        ended = [subprocess.run(["node", HERE / test, *asked], check=False).returncode
+                 for test in ("mending_test.mjs", "inspecting_test.mjs")]
+        return max(ended)
 
 
 if __name__ == "__main__":
