@@ -43,10 +43,17 @@ export function difference(before, after) {
   const edges = changes(before.edges, after.edges, ({ from, to }) => `${from} ${to}`, edge);
   const id = ({ id: own }) => own;
   const destinations = changes(before.destinations, after.destinations, id, destination);
-  const decided = after.hypotheses.flatMap(({ prototype_a, prototype_b, decision }, i) => {
-    const was = before.hypotheses[i].decision;
-    return was === decision ? [] : [{ prototype_a, prototype_b, before: was, after: decision }];
-  });
+  const pair = ({ prototype_a, prototype_b }) => `${prototype_a} ${prototype_b}`;
+  const decision = (one) => one.decision;
+  const open = 'undecided'; // as good as what nobody asked about
+  const decided = changes(before.hypotheses, after.hypotheses, pair, decision)
+    .map(({ of: { prototype_a, prototype_b }, before: was, after: is }) => ({
+      prototype_a,
+      prototype_b,
+      before: was ?? open,
+      after: is ?? open,
+    }))
+    .filter((one) => one.before !== one.after);
   return {
     format: 'homeward-difference',
     version: 1,

@@ -2,7 +2,9 @@
 // What of the mock server's map a person should look at, and two pictures beside each other.
 import { Refusal } from './mock-refusal.mjs';
 
-const kMost = 20;
+const kKinds = ['same_place', 'mixed_place', 'way'];
+const kUsual = 20; // on a page
+const kMost = 1000;
 
 /** From the hypotheses, and from the ways that are hard to drive. */
 function allDoubts(house) {
@@ -84,20 +86,39 @@ function setAsideBy({ edits }, { kind, image_a, image_b, by, state }) {
   return found?.by ?? null;
 }
 
+const isDecided = (one) => one.by === 'person';
+
 const kAbout = {
+  asked: (one) => !isDecided(one),
+  undecided: (one) => !isDecided(one) && one.state === 'undecided',
+  close: (one) => !isDecided(one) && one.state !== 'undecided',
+  decided: isDecided,
   all: () => true,
-  undecided: (one) => one.state === 'undecided',
-  close: (one) => one.state !== 'undecided' && one.by === 'method' && one.probability > 0.05,
-  decided: (one) => one.by === 'person',
 };
 
+/** One of the words that a query may say; null where it says nothing. */
+function choice(query, name, known) {
+  const text = query.get(name);
+  if (text === null || known.includes(text)) return text;
+  throw new Refusal('invalid_input', `'${text}' is none of ${known.join(', ')}.`, `query/${name}`);
+}
+
+function count(query, name, least, most) {
+  const text = query.get(name);
+  if (text === null) return null;
+  if (/^\d+$/.test(text) && Number(text) >= least && Number(text) <= most) return Number(text);
+  throw new Refusal('invalid_input', `Between ${least} and ${most} can be asked for.`, `query/${name}`);
+}
+
 function doubts(house, { args, query }) {
+  const about = kAbout[choice(query, 'about', Object.keys(kAbout)) ?? 'asked'];
+  const kind = choice(query, 'kind', kKinds);
+  const place = query.get('place');
+  const offset = count(query, 'offset', 0, 1e6) ?? 0;
+  const limit = count(query, 'limit', 1, kMost) ?? kUsual;
   const map = house.find('maps', args[0]);
-  const about = kAbout[query.get('about') ?? 'all'];
-  if (!about) throw new Refusal('invalid_input', 'about is undecided, close, decided or all.', 'query/about');
-  const [kind, place] = [query.get('kind'), query.get('place')];
-  const offset = Number(query.get('offset') ?? 0);
-  const limit = Math.min(kMost, Number(query.get('limit') ?? kMost));
+  if (place !== null && !house.graph.places.some((one) => one.id === place))
+    throw new Refusal('unknown_place', `The map has no place ${place}.`, 'query/place');
   const found = allDoubts(house)
     .filter(about)
     .filter((one) => !kind || one.kind === kind)
@@ -117,11 +138,14 @@ function doubts(house, { args, query }) {
 
 /** Two pictures of the drawn house look much alike; the later is turned a little. */
 function pair(house, { args, query }) {
+  const [image_a, image_b] = ['image_a', 'image_b'].map((name) => {
+    if (query.get(name)) return query.get(name);
+    throw new Refusal('invalid_input', `Name a picture as ${name}.`, `query/${name}`);
+  });
   house.find('maps', args[0]);
-  const [image_a, image_b] = [query.get('image_a'), query.get('image_b')];
   const known = (image) => house.graph.places.some((one) => one.members.includes(image));
   for (const image of [image_a, image_b])
-    if (!known(image)) throw new Refusal('not_found', `The map has no picture ${image}.`, `maps/${args[0]}`);
+    if (!known(image)) throw new Refusal('not_found', `The map has no picture ${image}.`, `images/${image}`);
   const shift = 0.08;
   const matches = Array.from({ length: 16 }, (_, i) => {
     const a = { x: (0.07 + 0.053 * i) % 1, y: 0.25 + 0.5 * ((i * 7) % 10) * 0.1 };

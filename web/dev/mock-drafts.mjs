@@ -100,24 +100,34 @@ export function tellDrafts(house, map) {
   for (const one of house.drafts) if (one.map === map.id) house.send('draft', shown(house, one));
 }
 
+const whereOf = (id) => `drafts/${id}`;
+
 function named(house, [map, id]) {
-  house.find('maps', map);
   const found = house.drafts.find((one) => one.map === map && one.id === id);
-  if (!found) throw new Refusal('not_found', 'There is no draft with this id.', `maps/${map}/drafts/${id}`);
-  return found;
+  if (found) return found;
+  const words = 'There is no such draft; it may have been published or discarded.';
+  throw new Refusal('not_found', words, whereOf(id));
 }
 
 function asked(house, { args, headers }) {
-  const draft = named(house, args);
-  if (!headers['if-match'])
+  const tag = headers['if-match'];
+  if (!tag)
     throw Refusal.ofHttp(
       428,
       'Precondition required',
-      'Say in If-Match which version of the draft is meant.',
+      'Say in If-Match which version of the draft the change is made against.',
     );
-  if (headers['if-match'] === `"d${draft.version}"`) return draft;
-  const where = `maps/${draft.map}/drafts/${draft.id}`;
-  throw new Refusal('stale_revision', `The draft is at version ${draft.version}.`, where);
+  const against = /^"d(\d+)"$/.exec(tag)?.[1];
+  if (!against)
+    throw new Refusal(
+      'invalid_input',
+      'If-Match must name a version of the draft, such as "d4".',
+      'If-Match',
+    );
+  const draft = named(house, args);
+  if (Number(against) === draft.version) return draft;
+  const words = `The draft is at version ${draft.version}, the change was made against ${against}.`;
+  throw new Refusal('stale_revision', words, whereOf(draft.id));
 }
 
 function beginDraft(house, { user, body, args }) {
@@ -160,7 +170,8 @@ function editDraft(house, request) {
 }
 
 function step(house, draft, found, state) {
-  if (!found) throw new Refusal('not_found', 'There is no such change.');
+  const way = state.undone ? 'undo' : 'redo';
+  if (!found) throw new Refusal('not_found', `There is no change to ${way}.`, whereOf(draft.id));
   draft.log = draft.log.map((one) => (one.change === found.change ? { ...one, ...state } : one));
   draft.version += 1;
   return told(house, draft);
@@ -184,10 +195,15 @@ function publish(house, request) {
   const all = tried(house, draft).edits;
   const lost = all.find((one) => one.lost !== null && !one.undone);
   if (lost && !request.body?.leave_out_lost)
-    throw new Refusal('conflict', lost.lost, `maps/${draft.map}/drafts/${draft.id}`);
+    throw new Refusal(
+      'conflict',
+      `The map has changed and does not take every edit of the draft any more: ${lost.lost}`,
+      whereOf(draft.id),
+    );
   const edits = all
     .filter((one) => !one.undone && one.lost === null)
     .map((one) => ({ ...one, change, redoable: false }));
+  if (edits.length === 0) throw new Refusal('conflict', 'The draft changes nothing.', whereOf(draft.id));
   const log = [...house.edits.map((one) => ({ ...one, redoable: false })), ...edits];
   house.drafts = house.drafts.filter((one) => one !== draft);
   const map = house.find('maps', draft.map);
@@ -252,6 +268,8 @@ function checkOf(house, draft) {
 
 function check(house, { args }) {
   const draft = named(house, args);
+  if (house.jobs.some((one) => one.id === draft.check?.job && one.state === 'running'))
+    throw new Refusal('conflict', 'This draft is being checked already.', whereOf(draft.id));
   const job = {
     id: house.newId('j'),
     kind: 'check',
@@ -286,9 +304,8 @@ function check(house, { args }) {
 }
 
 function checked(house, { args }) {
-  const { map, id, checked: found } = named(house, args);
-  if (!found)
-    throw new Refusal('not_found', 'The draft was not checked yet.', `maps/${map}/drafts/${id}/check`);
+  const { id, checked: found } = named(house, args);
+  if (!found) throw new Refusal('not_found', 'No replay check of this draft has ended.', whereOf(id));
   return { body: found };
 }
 
@@ -315,9 +332,11 @@ export const kDraftRoutes = [
   [
     /^GET maps\/([^/]+)\/drafts$/,
     'viewer',
-    (house, { args }) => ({
-      body: { drafts: house.drafts.filter((one) => one.map === args[0]).map((one) => shown(house, one)) },
-    }),
+    (house, { args }) => {
+      const { id } = house.find('maps', args[0]);
+      const own = house.drafts.filter((one) => one.map === id);
+      return { body: { drafts: own.map((one) => shown(house, one)) } };
+    },
   ],
   [/^POST maps\/([^/]+)\/drafts$/, 'installer', beginDraft],
   [route('GET'), 'viewer', (house, { args }) => answer(house, named(house, args))],

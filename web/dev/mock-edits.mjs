@@ -133,6 +133,17 @@ export function apply(graph, { kind, image_a, image_b, text, images, by }, where
     if (from === to) refuse('invalid_input', `Both images are in place ${from}.`);
     return [from, to];
   };
+  /** On the two pictures; where the method asked nothing about them, a person's own, without any evidence. */
+  const hypothesis = () => {
+    const own = [image_a, image_b].sort().join(' ');
+    const is_it = (one) => [one.prototype_a, one.prototype_b].sort().join(' ') === own;
+    const known = graph.hypotheses.find(is_it);
+    if (known) return known;
+    const nothing = { true: 0, false: 0, unknown: 1 };
+    const evidence = { masses_before: nothing, masses_after: nothing, support: 0, plausibility: 1 };
+    graph.hypotheses.push({ prototype_a: image_a, prototype_b: image_b, ...evidence });
+    return graph.hypotheses.at(-1);
+  };
   const destination = (image) => graph.destinations.find((one) => one.image === image);
   const free = (image) => {
     const known = destination(image);
@@ -213,13 +224,10 @@ export function apply(graph, { kind, image_a, image_b, text, images, by }, where
       edge.blocked = text === 'true';
     },
     decide: () => {
-      const found = graph.hypotheses.find(
-        (one) => one.prototype_a === image_a && one.prototype_b === image_b,
-      );
-      if (!found) refuse('not_found', `The map has no hypothesis on ${image_a} and ${image_b}.`);
-      if (text === 'accept' && place_of(image_a) !== place_of(image_b))
-        merge(place_of(image_a), place_of(image_b));
-      Object.assign(found, { decision: text === 'accept' ? 'accepted' : 'rejected', by: 'person' });
+      if (image_a === image_b) refuse('invalid_input', 'A hypothesis is about two pictures.');
+      const [a, b] = [place_of(image_a), place_of(image_b)];
+      if (text === 'accept' && a !== b) merge(a, b);
+      Object.assign(hypothesis(), { decision: text === 'accept' ? 'accepted' : 'rejected', by: 'person' });
     },
     decide_shortcut: () => {
       const found = graph.shortcuts.find((one) => one.image_a === image_a && one.image_b === image_b);

@@ -18,6 +18,13 @@ const kTable = {
   internal: [500, 'A fault of this program'],
 };
 
+/** A number of a path or a query. */
+export function wholeNumber(text, most, where) {
+  const number = /^\d+$/.test(text) ? Number(text) : NaN;
+  if (number <= most) return number;
+  throw new Refusal('invalid_input', `A whole number from 0 to ${most} was expected.`, where);
+}
+
 /** A request that is answered with a problem document. */
 export class Refusal extends Error {
   constructor(code, message, where = '') {

@@ -18,11 +18,7 @@ dt { color: #56616b } dd { margin: 0; font-size: 1.6rem; font-weight: 600 } @med
 function report(house, { args: [id] }) {
   const map = house.find('maps', id);
   if (!house.built)
-    throw new Refusal(
-      'not_found',
-      'There is no report of this map: it was not built here.',
-      `maps/${id}/report`,
-    );
+    throw new Refusal('not_found', 'The map was not built here; a build keeps its report.', `maps/${id}`);
   const { places, edges, hypotheses } = house.taught;
   const facts = [
     ['Places', places.length],

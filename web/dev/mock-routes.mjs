@@ -296,6 +296,11 @@ function thumbnailOf(house, { args }) {
   return { picture: args[1] };
 }
 
+/** What is told of a map that is there. */
+const ofMap =
+  (told) =>
+  (house, { args }) => (house.find('maps', args[0]), { body: told(house) });
+
 export const kRoutes = [
   [
     /^POST logout$/,
@@ -325,8 +330,8 @@ export const kRoutes = [
   [/^POST maps\/([^/]+)\/builds$/, 'installer', addToMap],
   [/^PUT maps\/([^/]+)\/refine$/, 'installer', setRefine],
   [/^GET maps\/([^/]+)\/graph$/, 'viewer', graphOf],
-  [/^GET maps\/[^/]+\/ways$/, 'viewer', (house) => ({ body: { ways: house.drives } })],
-  [/^GET maps\/[^/]+\/history$/, 'viewer', (house) => ({ body: { edits: house.edits } })],
+  [/^GET maps\/([^/]+)\/ways$/, 'viewer', ofMap((house) => ({ ways: house.drives }))],
+  [/^GET maps\/([^/]+)\/history$/, 'viewer', ofMap((house) => ({ edits: house.edits }))],
   [/^GET maps\/([^/]+)\/places\/([^/]+)\/thumbnail$/, 'viewer', thumbnailOf],
   [
     /^GET maps\/[^/]+\/images\/[^/]+\/(p\d+)b?\.jpg\/thumbnail$/,

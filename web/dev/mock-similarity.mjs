@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // How alike the pictures of the mock server's map are: the tiles of a matrix, painted as they are asked for.
 import { pngOf } from './mock-png.mjs';
-import { Refusal } from './mock-refusal.mjs';
+import { Refusal, wholeNumber } from './mock-refusal.mjs';
 
 const kTile_px = 256;
+const kLast = { level: 30, column: 1e6, row: 1e6 };
 const kAlike = [
   [255, 255, 255],
   [170, 205, 235],
@@ -26,7 +27,8 @@ function imagesOf(house) {
 
 function similarity(house, map) {
   house.find('maps', map);
-  if (!house.built) throw new Refusal('not_found', 'The map was not built here.', `maps/${map}/similarity`);
+  if (!house.built)
+    throw new Refusal('not_found', 'The map was not built here; a build keeps its report.', `maps/${map}`);
   const images = imagesOf(house);
   const levels = 1 + Math.max(0, Math.ceil(Math.log2(images.length / kTile_px)));
   return { format: 'homeward-similarity', version: 1, revision: 1, tile_px: kTile_px, levels, images };
@@ -50,11 +52,13 @@ function decided({ graph }, images, shift) {
 }
 
 function tile(house, { args: [map, ...numbers] }) {
+  const [level, column, row] = Object.entries(kLast).map(([name, last], i) =>
+    wholeNumber(numbers[i], last, `path/${name}`),
+  );
   const { images, levels } = similarity(house, map);
-  const [level, column, row] = numbers.map(Number);
   const side = Math.ceil(images.length / (kTile_px * 2 ** level));
   if (level >= levels || column >= side || row >= side)
-    throw new Refusal('not_found', 'The matrix has no such tile.', `maps/${map}/similarity`);
+    throw new Refusal('not_found', 'The similarity matrix has no such tile.', 'path');
   const place = new Map(
     house.graph.places.flatMap(({ id, members }, n) => members.map((one) => [one, { id, look: n % 37 }])),
   );
@@ -76,5 +80,5 @@ function tile(house, { args: [map, ...numbers] }) {
 
 export const kSimilarityRoutes = [
   [/^GET maps\/([^/]+)\/similarity$/, 'viewer', (house, { args }) => ({ body: similarity(house, args[0]) })],
-  [/^GET maps\/([^/]+)\/similarity\/(\d+)\/(\d+)\/(\d+)$/, 'viewer', tile],
+  [/^GET maps\/([^/]+)\/similarity\/([^/]+)\/([^/]+)\/([^/]+)$/, 'viewer', tile],
 ];
