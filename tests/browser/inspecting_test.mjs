@@ -211,7 +211,7 @@ const checks = [
       await page.getByLabel('Compare').selectOption(await larder.getAttribute('value'));
       await other.getByText(/^From “After .*Larder/).waitFor();
       await other.getByText('“Larder” is called “Pantry” now.').waitFor();
-      await see('inspect-changes');
+      await see('mend-changes');
     },
   ],
   [
