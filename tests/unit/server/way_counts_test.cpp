@@ -47,13 +47,6 @@ class WayCountsTest : public testing::DrivingTest {
     agent.status(wire::DriveState::kStopped, order, place);
     let_work_off(agent);
   }
-  /// While no mission is under way: of one the server would take the link to be lost.
-  void let_a_second_pass() {
-    let_work_off(agent);
-    clock.pass(std::chrono::seconds(1));
-    agent.status(wire::DriveState::kIdle);
-    let_work_off(agent);
-  }
 
   FakeAgent agent;
   std::string lease;
@@ -124,23 +117,25 @@ TEST_F(WayCountsTest, AWayThatAPersonDrewIsDrivenSlowlyUntilAMissionHasDrivenIt)
   EXPECT_FALSE(order->path.at(1).next->shortcut);
   agent.status(wire::DriveState::kDriving, order, 1);
   agent.status(wire::DriveState::kStopped, order, 1);
-  let_a_second_pass();
+  let_work_off(agent);
   send();
   EXPECT_TRUE(order->path.at(0).next->shortcut) << "it was not driven to its end";
+  clock.pass(std::chrono::seconds(1));  // since it was drawn
   drive_to(2);
-  let_a_second_pass();
   send();
   EXPECT_FALSE(order->path.at(0).next->shortcut);
+  clock.pass(std::chrono::seconds(1));
   agent.status(wire::DriveState::kDriving, order, 1);
   let_work_off(agent);
   agent.status(wire::DriveState::kFailed, order, 1, wire::Reason{wire::ReasonCode::kRobotCannotGoOn});
   let_work_off(agent);
   admin->post(root + "/stop");
-  let_a_second_pass();
+  let_work_off(agent);
   send();
   EXPECT_TRUE(order->path.at(0).next->shortcut) << "it has failed since";
+  clock.pass(std::chrono::seconds(1));
   drive_to(2);
-  let_a_second_pass();
+  clock.pass(std::chrono::seconds(1));
   edit({{"kind", "remove_edge"}, {"from", path.at(0)}, {"to", path.at(1)}});
   edit({{"kind", "add_edge"}, {"from", path.at(0)}, {"to", path.at(1)}});
   send();
