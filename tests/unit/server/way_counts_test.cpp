@@ -129,6 +129,8 @@ TEST_F(WayCountsTest, AWayThatAPersonDrewIsDrivenSlowlyUntilAMissionHasDrivenIt)
   let_work_off(agent);
   agent.status(wire::DriveState::kFailed, order, 1, wire::Reason{wire::ReasonCode::kRobotCannotGoOn});
   let_work_off(agent);
+  for (int i = 0; i < 1000 && counts(path, 0).second == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   admin->post(root + "/stop");
   let_work_off(agent);
   send();
