@@ -139,7 +139,7 @@ class Store {
   virtual Status remove_draft(const wire::DraftId& id) = 0;
 
   // --- What drives saw ---------------------------------------------------------------------------------------------
-  /// The eight newest of each map are kept. Errors: kNotFound (the map).
+  /// The eight newest of each map are kept, none of one that is not to learn. Errors: kNotFound (the map).
   virtual Status add_drive(const Drive& drive) = 0;
   /// Those that the map has not learnt from, oldest first.
   virtual Result<std::vector<MissionId>> drives(const MapId& map) = 0;

@@ -10,9 +10,11 @@ constexpr int kMostDrivesOfMap = 8;
 
 Status SqliteStore::add_drive(const Drive& drive) {
   return database_.work([&](SQLite::Database& database) {
-    if (!prepared(database, "SELECT id FROM maps WHERE id = ?", drive.map).executeStep()) {
+    SQLite::Statement map = prepared(database, "SELECT refine FROM maps WHERE id = ?", drive.map);
+    if (!map.executeStep()) {
       refuse(ErrorCode::kNotFound, "There is no map with this id.", "maps/" + drive.map.str());
     }
+    if (text(map, 0) == wire::refine_mode_name(wire::RefineMode::kOff)) return;
     execute(database, "INSERT OR REPLACE INTO drives (mission, map, feature_config_id, created_us) VALUES (?, ?, ?, ?)",
             drive.mission, drive.map, drive.feature_config_id, drive.created_us);
     std::int64_t number = 0;

@@ -47,6 +47,14 @@ Response json_response(int status, const nlohmann::json& value) {
   return response;
 }
 
+Response json_text_response(std::string text) {
+  Response response;
+  response.headers["content-type"] = "application/json";
+  response.headers["cache-control"] = "private, no-cache";
+  response.body = std::move(text);
+  return response;
+}
+
 Response empty_response(int status) {
   Response response;
   response.status = status;

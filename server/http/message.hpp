@@ -56,6 +56,8 @@ struct Response {
 };
 
 Response json_response(int status, const nlohmann::json& value);
+/// 200 with JSON that is text already, for the caller alone and to be asked for anew each time.
+Response json_text_response(std::string text);
 Response empty_response(int status);
 Response bytes_response(std::span<const std::uint8_t> bytes, const std::string& content_type);
 

@@ -74,11 +74,7 @@ Response go_in_draft(DraftService& drafts, DraftStep step, const Request& reques
 Response draft_graph(DraftService& drafts, const Request& request) {
   auto graph = drafts.graph(drafted_map(request), draft_in(request));
   if (!graph) return problem_of(graph);
-  Response response;
-  response.headers["content-type"] = "application/json";
-  response.headers["cache-control"] = "private, no-cache";
-  response.body = std::move(*graph);
-  return response;
+  return json_text_response(std::move(*graph));
 }
 
 Response draft_difference(DraftService& drafts, const Request& request) {

@@ -37,11 +37,7 @@ Response former_graph(InspectionService& inspection, const Request& request) {
   if (!change) return problem_of(change);
   auto graph = inspection.former_graph(map_of(request), *change);
   if (!graph) return problem_of(graph);
-  Response response;
-  response.headers["content-type"] = "application/json";
-  response.headers["cache-control"] = "private, no-cache";
-  response.body = std::move(*graph);
-  return response;
+  return json_text_response(std::move(*graph));
 }
 
 Response former_difference(InspectionService& inspection, const Request& request) {
@@ -90,7 +86,7 @@ Response tile(InspectionService& inspection, const Request& request) {
   const auto tile = inspection.similarity_tile(map_of(request), static_cast<int>(*level), static_cast<int>(*column),
                                                static_cast<int>(*row));
   if (!tile) return problem_of(tile);
-  Response response = bytes_response(tile->png, "image/png");
+  Response response = bytes_response(*tile, "image/png");
   response.headers["cache-control"] = "private, max-age=60";
   return response;
 }

@@ -6,7 +6,6 @@
 
 #include "imageio/decode.hpp"
 #include "map/layout.hpp"
-#include "map/turned_layout.hpp"
 #include "mapping/edit_log.hpp"
 #include "pipeline/similarity_picture.hpp"
 #include "wire/graph_json.hpp"
@@ -15,22 +14,34 @@
 namespace homeward::server {
 namespace {
 
-constexpr std::size_t kMostMatrices = 2;  // in memory, some megabytes each
+// In memory, some megabytes each:
+constexpr std::size_t kMostMatrices = 2;
+constexpr std::size_t kMostFormer = 4;
 
 }  // namespace
 
 Result<std::string> InspectionService::former_graph(const MapId& id, std::int64_t change) {
   const auto loaded = maps_.load(id);
   if (!loaded) return pass_on(loaded);
+  const std::int64_t revision = (*loaded)->map.revision;
+  const auto same = [&](const Former& one) {
+    return one.map == id && one.revision == revision && one.change == change;
+  };
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto kept = std::ranges::find_if(former_, same); kept != former_.end()) return kept->graph;
+  }
   const auto former = mapping::as_of_change((*loaded)->map, change);
   if (!former) return pass_on(former);
-  const auto present = maps_.drawing(*loaded);
+  const bool drawn_alike = map::drawn_alike(*former, (*loaded)->map);
   const nlohmann::json graph =
-      wire::graph_to_json(*former, id,
-                          map::drawn_alike(*former, (*loaded)->map)
-                              ? *present
-                              : map::turned_layout(*former, map::layout(*former), (*loaded)->map, *present));
-  return graph.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+      wire::graph_to_json(*former, id, drawn_alike ? *maps_.drawing(*loaded) : map::layout(*former));
+  std::string text = graph.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  const std::scoped_lock lock(mutex_);
+  std::erase_if(former_, [&](const Former& one) { return same(one) || (one.map == id && one.revision != revision); });
+  if (former_.size() == kMostFormer) former_.pop_front();
+  former_.push_back({id, revision, change, text});
+  return text;
 }
 
 Result<map::MapDifference> InspectionService::former_difference(const MapId& id, std::int64_t from,
@@ -58,7 +69,10 @@ Result<InspectionService::Similarity> InspectionService::similarity(const MapId&
   if (!revision) return pass_on(revision);
   const std::scoped_lock lock(mutex_);
   const auto kept = std::ranges::find(kept_, id, &Kept::map);
-  if (kept != kept_.end() && kept->similarity.revision == *revision) return kept->similarity;
+  if (kept != kept_.end() && kept->similarity.revision == *revision) {
+    std::rotate(kept, kept + 1, kept_.end());
+    return kept_.back().similarity;
+  }
   const auto stored = store_.build_similarity(id);
   if (!stored) return pass_on(stored);
   auto matrix = wire::decode_similarity(stored->bytes, "maps/" + id.str() + "/similarity");
@@ -69,7 +83,7 @@ Result<InspectionService::Similarity> InspectionService::similarity(const MapId&
   return kept_.back().similarity;
 }
 
-Result<InspectionService::Tile> InspectionService::similarity_tile(const MapId& id, int level, int column, int row) {
+Result<std::vector<std::uint8_t>> InspectionService::similarity_tile(const MapId& id, int level, int column, int row) {
   const auto loaded = maps_.load(id);
   if (!loaded) return pass_on(loaded);
   const auto found = similarity(id);
@@ -77,7 +91,7 @@ Result<InspectionService::Tile> InspectionService::similarity_tile(const MapId& 
   const map::TopologicalMap& map = (*loaded)->map;
   const auto tile = pipeline::similarity_tile(*found->matrix, map, level, column, row);
   if (!tile) return pass_on(tile);
-  return Tile{map.revision, imageio::encode_png(*tile)};
+  return imageio::encode_png(*tile);
 }
 
 }  // namespace homeward::server

@@ -22,8 +22,8 @@ class InspectionService {
  public:
   InspectionService(db::Store& store, MapService& maps) : store_(store), maps_(maps) {}
 
-  /// The map as it was after a change, 0 for none, as the contract has it (wire::graph_to_json), as text; drawn as the
-  /// present one where it can be. Errors: those of MapService::load and mapping::as_of_change.
+  /// The map as it was after a change, 0 for none, as the contract has it (wire::graph_to_json), as text. Errors:
+  /// those of MapService::load and mapping::as_of_change.
   Result<std::string> former_graph(const MapId& id, std::int64_t change);
   /// From the map after a change to that after another, or as it is now. Errors: the same.
   Result<map::MapDifference> former_difference(const MapId& id, std::int64_t from, std::optional<std::int64_t> to);
@@ -37,12 +37,8 @@ class InspectionService {
   };
   /// Errors: kNotFound (none is kept).
   Result<Similarity> similarity(const MapId& id);
-  /// A tile as PNG, and the map's revision that it is of. Errors: kNotFound (none is kept, or no such tile).
-  struct Tile {
-    std::int64_t revision = 0;
-    std::vector<std::uint8_t> png;
-  };
-  Result<Tile> similarity_tile(const MapId& id, int level, int column, int row);
+  /// A tile as PNG. Errors: kNotFound (none is kept, or no such tile).
+  Result<std::vector<std::uint8_t>> similarity_tile(const MapId& id, int level, int column, int row);
 
  private:
   struct Kept {
@@ -51,8 +47,15 @@ class InspectionService {
   };
   db::Store& store_;
   MapService& maps_;
-  std::mutex mutex_;       // of kept_
-  std::deque<Kept> kept_;  // the matrices that were asked for last
+  struct Former {
+    MapId map;
+    std::int64_t revision = 0;
+    std::int64_t change = 0;
+    std::string graph;
+  };
+  std::mutex mutex_;           // of what follows; what was asked for last comes last
+  std::deque<Kept> kept_;      // matrices
+  std::deque<Former> former_;  // whoever compares comes back to the same states
 };
 
 }  // namespace homeward::server

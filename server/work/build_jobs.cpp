@@ -268,8 +268,9 @@ Result<wire::JobState> BuildJobs::build(wire::JobView& job, const std::stop_toke
   tell(job);
   const auto revision = store_.map(job.map);
   if (revision) built->map.revision = revision->revision + 1;
-  db::MapBuild beside = build_record(*built, *tours, options, clock_.wall_us());
-  const auto kept = maps_.keep_build(job.map, std::move(built->map), thumbnails, std::move(beside));
+  auto beside = build_record(*built, *tours, options, clock_.wall_us(), stop);
+  if (!beside) return pass_on(beside);
+  const auto kept = maps_.keep_build(job.map, std::move(built->map), thumbnails, std::move(*beside));
   if (!kept) return pass_on(kept);
   job.notes = std::move(notes);  // they are about a map that is there
   // With the edits that people made while it was built.

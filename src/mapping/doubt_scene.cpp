@@ -112,6 +112,10 @@ void DoubtScene::read_edits() {
         if (a >= 0 && left >= 0 && left != a) parted_.insert(std::minmax(a, left));
       }
     }
+    if (edit.kind == map::EditKind::kDecide && edit.text == "accept") joined_.emplace_back(edit.image_a, edit.image_b);
+    if (edit.kind == map::EditKind::kDecide && edit.text == "reject" && a >= 0 && b >= 0 && a != b) {
+      parted_.insert(std::minmax(a, b));
+    }
     const bool of_way = edit.kind == map::EditKind::kBlockEdge || edit.kind == map::EditKind::kAddEdge;
     if (of_way && a >= 0 && b >= 0) said_ways_.insert(std::minmax(a, b));
     if (edit.kind != map::EditKind::kSetAside || a < 0 || b < 0) continue;

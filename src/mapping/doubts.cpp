@@ -101,7 +101,9 @@ Result<std::vector<Doubt>> doubts_of(const map::TopologicalMap& map, const Doubt
   std::ranges::move(*same, std::back_inserter(doubts));
   const NearHypotheses near(scene);
   for (Doubt& doubt : doubts) {
-    doubt.set_aside_by = scene.set_aside_by(doubt.kind, scene.place_of(doubt.image_a), scene.place_of(doubt.image_b));
+    if (doubt.by == map::Decider::kMethod) {
+      doubt.set_aside_by = scene.set_aside_by(doubt.kind, scene.place_of(doubt.image_a), scene.place_of(doubt.image_b));
+    }
     if (doubt.hypothesis) doubt.neighbours = near.of(*doubt.hypothesis, config.most_neighbours);
   }
   std::erase_if(doubts, [&](const Doubt& doubt) {

@@ -2,6 +2,8 @@
 #include "mapping/way_edits.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "map/doubt.hpp"
@@ -90,6 +92,20 @@ map::Hypothesis own_hypothesis(const Edit& edit) {
   return own;
 }
 
+/// Whether another hypothesis on the places of the two pictures has that decision by a person: a build decides so those
+/// of the passes that hold them.
+bool decided_so(const TopologicalMap& map, const Edit& edit, map::Decision decision) {
+  const auto places = [&](const ImageId& a, const ImageId& b) {
+    const Place* one = map::find_place_of(map, a);
+    const Place* other = map::find_place_of(map, b);
+    return std::less<>()(one, other) ? std::pair(one, other) : std::pair(other, one);
+  };
+  const auto ends = places(edit.image_a, edit.image_b);
+  return std::ranges::any_of(map.hypotheses, [&](const map::Hypothesis& h) {
+    return h.by == map::Decider::kPerson && h.decision == decision && places(h.prototype_a, h.prototype_b) == ends;
+  });
+}
+
 }  // namespace
 
 Status add_edge(EditScene& scene) {
@@ -138,12 +154,6 @@ Status decide_hypothesis(EditScene& scene) {
   if (edit.text != "accept" && edit.text != "reject") {
     return fail(ErrorCode::kInvalidInput, "A hypothesis can be decided with \"accept\" or \"reject\".", "decision");
   }
-  const auto find = [&] {
-    return std::ranges::find_if(map.hypotheses, [&](const map::Hypothesis& h) {
-      return (h.prototype_a == edit.image_a && h.prototype_b == edit.image_b) ||
-             (h.prototype_a == edit.image_b && h.prototype_b == edit.image_a);
-    });
-  };
   if (edit.image_a == edit.image_b) {
     return fail(ErrorCode::kInvalidInput, "A hypothesis is about two pictures.", edit.image_a.str());
   }
@@ -158,9 +168,16 @@ Status decide_hypothesis(EditScene& scene) {
   if (!accept && a == b) {
     if (const Status parted = part(scene, *b); !parted) return parted;
   }
-  auto decided = find();
-  if (decided == map.hypotheses.end()) decided = map.hypotheses.insert(decided, own_hypothesis(edit));
-  decided->decision = accept ? map::Decision::kAccepted : map::Decision::kRejected;
+  const map::Decision decision = accept ? map::Decision::kAccepted : map::Decision::kRejected;
+  auto decided = std::ranges::find_if(map.hypotheses, [&](const map::Hypothesis& h) {
+    return (h.prototype_a == edit.image_a && h.prototype_b == edit.image_b) ||
+           (h.prototype_a == edit.image_b && h.prototype_b == edit.image_a);
+  });
+  if (decided == map.hypotheses.end()) {
+    if (decided_so(map, edit, decision)) return {};
+    decided = map.hypotheses.insert(decided, own_hypothesis(edit));
+  }
+  decided->decision = decision;
   decided->by = map::Decider::kPerson;
   return {};
 }

@@ -256,9 +256,9 @@ void check_ways(const TopologicalMap& after, const map::MapDifference& differenc
 }
 
 /// Destinations whose place goes. One that a person takes off its place is none.
-void check_destinations(const TopologicalMap& before, const Places& after, ReplayCheck& check) {
+void check_destinations(const TopologicalMap& before, const Places& old, const Places& after, ReplayCheck& check) {
   for (const map::Destination& one : before.destinations) {
-    if (!after.of(one.image).empty()) continue;
+    if (old.of(one.image).empty() || !after.of(one.image).empty()) continue;
     check.worse.push_back({Worsening::kDestination, one.place, {}, {one.image}, 1, 1, 0.0});
   }
 }
@@ -319,7 +319,7 @@ Result<ReplayCheck> check_by_replay(const TopologicalMap& before, const Topologi
   }
   check_ways(after, difference, whereabouts, check);
   check_routes(before, after, check);
-  check_destinations(before, new_places, check);
+  check_destinations(before, old_places, new_places, check);
   for (WorseSpot& spot : check.worse) {
     if (spot.times == 0) spot.times = static_cast<int>(spot.images.size());
   }

@@ -201,7 +201,7 @@ const checks = [
     withHouse(async (page, house) => {
       house.built = false;
       await page.goto('/map/m1/report');
-      await page.getByText('There is no report of this map: it was not built on this server.').waitFor();
+      await page.getByText('There is no report of this map. The map was not built here').waitFor();
       await page.getByText('Build it here').getByRole('link', { name: 'Tours' }).click();
       await page.getByRole('heading', { level: 1, name: 'Tours' }).waitFor();
     }),

@@ -70,7 +70,8 @@ Result<HypothesisPicture> draw(const Eye& eye, const Pictures& pictures, const B
 Result<std::unordered_map<int, HypothesisPicture>> draw_hypotheses(const BuiltMap& built,
                                                                    const std::vector<const TourSource*>& tours,
                                                                    const std::vector<int>& wanted,
-                                                                   const ReportOptions& options) {
+                                                                   const ReportOptions& options,
+                                                                   const std::stop_token& stop) {
   std::unordered_map<int, HypothesisPicture> drawn;
   if (wanted.empty()) return drawn;
   const auto eye = Eye::create(built.map.camera, built.map.feature_config);
@@ -82,7 +83,9 @@ Result<std::unordered_map<int, HypothesisPicture>> draw_hypotheses(const BuiltMa
     const map::Hypothesis& hypothesis = built.map.hypotheses[static_cast<std::size_t>(wanted[i])];
     results[i] = draw(*eye, pictures, built, images, hypothesis, options.seed);
   };
-  mapping::parallel_for(wanted.size(), options.threads, work, {}, {});
+  if (!mapping::parallel_for(wanted.size(), options.threads, work, {}, stop)) {
+    return fail(ErrorCode::kCancelled, "Drawing the report was cancelled.");
+  }
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (!results[i]) return pass_on(results[i]);
     drawn.emplace(wanted[i], std::move(*results[i]));

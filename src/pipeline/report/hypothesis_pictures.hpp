@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -21,10 +22,11 @@ struct HypothesisPicture {
   int agree = 0;    // of these, that one motion explains
 };
 
-/// Pictures of the hypotheses with these indices, by index. Errors: those of TourSource::read and Eye.
+/// Pictures of the hypotheses with these indices, by index. Errors: kCancelled, those of TourSource::read and Eye.
 Result<std::unordered_map<int, HypothesisPicture>> draw_hypotheses(const BuiltMap& built,
                                                                    const std::vector<const TourSource*>& tours,
                                                                    const std::vector<int>& wanted,
-                                                                   const ReportOptions& options);
+                                                                   const ReportOptions& options,
+                                                                   const std::stop_token& stop = {});
 
 }  // namespace homeward::pipeline

@@ -16,7 +16,7 @@ constexpr std::size_t kMostRows = 300;  // of hypotheses without a picture
 /// What the way driven said, where the builder told.
 std::optional<mapping::TrackVerdict> way_of(const BuiltMap& built, int index) {
   const auto& way = built.notes.mapping.way;
-  if (way.size() != built.map.hypotheses.size()) return std::nullopt;
+  if (at(index) >= way.size()) return std::nullopt;
   return way[at(index)];
 }
 
@@ -29,10 +29,10 @@ std::string way_text(const std::optional<mapping::TrackVerdict>& way) {
 /// What keeps a hypothesis open that has support enough.
 std::string obstacle(const BuiltMap& built, int index) {
   const mapping::MappingNotes& notes = built.notes.mapping;
-  if (notes.meets.size() == built.map.hypotheses.size() && notes.meets[at(index)] == 0) {
+  if (at(index) < notes.meets.size() && notes.meets[at(index)] == 0) {
     return "their pictures share too few features to have been taken at one spot";
   }
-  if (notes.reliability.size() == built.map.hypotheses.size() &&
+  if (at(index) < notes.reliability.size() &&
       notes.reliability[at(index)] < notes.config.hypotheses.least_reliability) {
     return "looks were wrong too often on this tour to be trusted";
   }
@@ -46,7 +46,7 @@ std::string reason(const BuiltMap& built, const ReportFacts& facts, int index) {
   if (h.by != map::Decider::kMethod) return "A person decided this.";
   const auto way = way_of(built, index);
   const std::vector<char>& taken_back = built.notes.mapping.taken_back;
-  if (taken_back.size() == built.map.hypotheses.size() && taken_back[at(index)] != 0) {
+  if (at(index) < taken_back.size() && taken_back[at(index)] != 0) {
     return "It was accepted at first. The other loops that were closed lead elsewhere: taken back, two places.";
   }
   if (h.decision == map::Decision::kRejected && way == mapping::TrackVerdict::kContradicts) {

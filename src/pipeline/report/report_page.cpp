@@ -150,11 +150,11 @@ std::string matrix_section(const BuiltMap& built) {
 }  // namespace
 
 Result<std::string> report_page(const BuiltMap& built, const std::vector<const TourSource*>& tours,
-                                const ReportOptions& options) {
+                                const ReportOptions& options, const std::stop_token& stop) {
   const ReportFacts facts = gather_facts(built);
   std::vector<int> drawn = facts.uncertain_first;
   drawn.resize(std::min(drawn.size(), static_cast<std::size_t>(std::max(0, options.most_pictures))));
-  const auto pictures = draw_hypotheses(built, tours, drawn, options);
+  const auto pictures = draw_hypotheses(built, tours, drawn, options, stop);
   if (!pictures) return pass_on(pictures);
   return head(built.map, options) + summary(built, facts) + to_do(built, facts, options.warnings) +
          graph_section(built.map, facts) + tour_section(built, facts) + matrix_section(built) +

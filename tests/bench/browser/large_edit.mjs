@@ -15,6 +15,7 @@ import { parseArgs } from 'node:util';
 import { startMock } from '../../../web/dev/mock-server.mjs';
 import { largeGraph } from '../../../web/dev/mock-large.mjs';
 import { launch, openPage, signIn } from '../../browser/browser.mjs';
+import { keyTimes } from './keys.mjs';
 
 const { values } = parseArgs({
   options: { places: { type: 'string', default: '5000' }, runs: { type: 'string', default: '7' } },
@@ -165,29 +166,6 @@ const summary = (times) => {
   return { median: +sorted[Math.floor(sorted.length / 2)].toFixed(1), largest: +sorted.at(-1).toFixed(1) };
 };
 
-async function keys() {
-  const field = page.getByLabel('Find a place');
-  const times = [];
-  for (const key of 'ward 3 near the office') {
-    await field.focus();
-    await page.evaluate(() => {
-      globalThis.keyShown = new Promise((done) =>
-        document.activeElement.addEventListener(
-          'keydown',
-          ({ timeStamp }) =>
-            requestAnimationFrame(() => setTimeout(() => done(performance.now() - timeStamp))),
-          { once: true },
-        ),
-      );
-      return null;
-    });
-    await page.keyboard.press(key === ' ' ? 'Space' : key);
-    times.push(await page.evaluate(() => globalThis.keyShown));
-  }
-  await field.fill('');
-  return times;
-}
-
 /** Drags the drawing to and fro; frames that the page made meanwhile. */
 async function panning() {
   const box = await page.getByTestId('graph').boundingBox();
@@ -233,7 +211,7 @@ const figures = { places, ways: house.graph.edges.length, edits: kEdits, doubts:
 const map = await several(() => opened('/map/m1', kList, kDrawing));
 figures.map_list_ms = figure(map, 0);
 figures.map_drawing_ms = figure(map, 1);
-figures.key_ms = summary(await keys());
+figures.key_ms = summary(await keyTimes(page));
 const drags = await several(panning);
 figures.panning = {
   frames_per_s: summary(drags.map((one) => one.per_s)).median,

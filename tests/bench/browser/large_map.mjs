@@ -9,6 +9,7 @@ import { parseArgs } from 'node:util';
 import { startMock } from '../../../web/dev/mock-server.mjs';
 import { largeGraph } from '../../../web/dev/mock-large.mjs';
 import { launch, openPage, signIn } from '../../browser/browser.mjs';
+import { keyTimes } from './keys.mjs';
 
 const { values } = parseArgs({ options: { places: { type: 'string', default: '5000' } } });
 const places = Number(values.places);
@@ -39,25 +40,7 @@ for (let i = 0; i < kRuns; i += 1) {
   first_list_ms.push(await page.evaluate(() => globalThis.firstListAt));
 }
 
-const field = page.getByLabel('Find a place');
-const key_ms = [];
-for (const key of 'ward 3 near the office'.split('')) {
-  await field.focus();
-  await page.evaluate(() => {
-    globalThis.keyShown = new Promise((done) =>
-      document.activeElement.addEventListener(
-        'keydown',
-        ({ timeStamp }) =>
-          requestAnimationFrame(() => setTimeout(() => done(performance.now() - timeStamp))),
-        { once: true },
-      ),
-    );
-    return null;
-  });
-  await page.keyboard.press(key === ' ' ? 'Space' : key);
-  key_ms.push(await page.evaluate(() => globalThis.keyShown));
-}
-await field.fill('');
+const key_ms = await keyTimes(page);
 
 const session = await page.context().newCDPSession(page);
 await session.send('Performance.enable');
@@ -70,7 +53,10 @@ async function spent_s(beliefs) {
   const before = await taskSeconds();
   for (let i = 0; i < beliefs; i += 1) {
     const at = `p${1 + ((i * 7) % places)}`;
-    const top = [0, 1, 2, 3].map((n) => ({ place: `p${1 + ((i * 7 + n) % places)}`, probability: 0.6 / 2 ** n }));
+    const top = [0, 1, 2, 3].map((n) => ({
+      place: `p${1 + ((i * 7 + n) % places)}`,
+      probability: 0.6 / 2 ** n,
+    }));
     const belief = { updates: i, place: at, probability: 0.9, top, lost: false };
     mock.house.steer({ do: 'robot', set: { belief } });
     await page.waitForTimeout(100);
@@ -86,7 +72,12 @@ const summary = (times) => {
   const sorted = [...times].sort((a, b) => a - b);
   return { median: +sorted[Math.floor(sorted.length / 2)].toFixed(1), largest: +sorted.at(-1).toFixed(1) };
 };
-const figures = { places, first_list_ms: summary(first_list_ms), key_ms: summary(key_ms), belief_ms: summary(belief_ms) };
+const figures = {
+  places,
+  first_list_ms: summary(first_list_ms),
+  key_ms: summary(key_ms),
+  belief_ms: summary(belief_ms),
+};
 process.stdout.write(`${JSON.stringify(figures)}\n`);
 await browser.close();
 mock.close();

@@ -302,6 +302,10 @@ TEST_F(StoreContent, WhatDrivesSawIsKeptUntilNewerDrivesComeOrNobodyWantsIt) {
   ASSERT_TRUE(store().set_map_refine(map, wire::RefineMode::kOff));
   EXPECT_TRUE(store().kept_drives(map)->empty());
   ASSERT_TRUE(store().add_drive(drive_on(map, "m20", 20)));
+  EXPECT_TRUE(store().kept_drives(map)->empty()) << "nobody wants it";
+  ASSERT_TRUE(store().set_map_refine(map, wire::RefineMode::kAsk));
+  ASSERT_TRUE(store().add_drive(drive_on(map, "m20", 20)));
+  EXPECT_EQ(store().kept_drives(map)->size(), 1U);
   ASSERT_TRUE(store().remove_map(map));
   EXPECT_EQ(store().drive(MissionId("m20")).error().code, ErrorCode::kNotFound);
 }

@@ -155,6 +155,10 @@ TEST(Doubts, WhatSomebodyWasNotSureOfComesLast) {
   EXPECT_EQ(after[0].set_aside_by, "");
   EXPECT_EQ(after[1].image_a, found[0].image_a);
   EXPECT_EQ(after[1].set_aside_by, "anna");
+  map::TopologicalMap answered = map;
+  for (const map::Edit& edit : after[1].if_yes) ASSERT_TRUE(apply_edit(answered, edit));
+  EXPECT_EQ(doubts(answered).back().by, map::Decider::kPerson);
+  EXPECT_EQ(doubts(answered).back().set_aside_by, "") << "somebody was sure since";
   ASSERT_TRUE(undo_change(map));
   EXPECT_EQ(asked(map, DoubtKind::kWay)[0].image_a, found[0].image_a);
 }

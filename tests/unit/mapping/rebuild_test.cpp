@@ -185,6 +185,37 @@ TEST_F(Rebuild, DecisionsOnHypothesesHold) {
   EXPECT_EQ(kept->decision, map::Decision::kRejected);
 }
 
+TEST_F(Rebuild, ADecisionOnOtherPicturesOfTwoPassesIsThatOfTheirHypothesis) {
+  tour_ = corridor_tour(walk(30, true), {60});
+  map_ = make_map(tour_.input(), {}, nullptr);
+  const std::size_t hypotheses = map_.hypotheses.size();
+  const auto accepted = std::ranges::find(map_.hypotheses, map::Decision::kAccepted, &map::Hypothesis::decision);
+  ASSERT_NE(accepted, map_.hypotheses.end());
+  const auto index = map::image_indices(map_);
+  // The next picture of the same pass through the place, or the one before.
+  const auto beside = [&](const ImageId& one) {
+    for (const int step : {1, -1}) {
+      const int other = index.at(one) + step;
+      if (other < 0 || other >= static_cast<int>(map_.images.size())) continue;
+      const ImageId& id = map_.images[static_cast<std::size_t>(other)].id;
+      if (map::find_place_of(map_, id) == map::find_place_of(map_, one)) return id;
+    }
+    return ImageId();
+  };
+  map::Edit reject;
+  reject.kind = map::EditKind::kDecide;
+  reject.image_a = beside(accepted->prototype_a);
+  reject.image_b = accepted->prototype_b;
+  reject.text = "reject";
+  ASSERT_FALSE(reject.image_a.empty());
+  ASSERT_TRUE(apply_edit(map_, reject, look()));
+  EXPECT_EQ(map_.hypotheses.size(), hypotheses + 1) << "nobody had asked about these two";
+  map::TopologicalMap again = make_map(tour_.input(), {}, &map_);
+  EXPECT_NE(id_of(again, reject.image_a), id_of(again, reject.image_b));
+  EXPECT_EQ(again.hypotheses.size(), hypotheses) << "the build has asked, and knows the answer";
+  EXPECT_EQ(again.edits.back().lost, "");
+}
+
 TEST_F(Rebuild, EditsOfImagesThatAreGoneStayInTheLog) {
   edit(map::EditKind::kRename, kLast, -1, "shed");
   const CorridorTour shorter = corridor_tour(walk(12, false), {12});

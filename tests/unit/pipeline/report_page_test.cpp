@@ -175,6 +175,14 @@ TEST(ReportPage, WithoutHypothesesSaysThatNothingHadToBeDecided) {
   EXPECT_EQ(count_of(page, "<article"), 0);
 }
 
+TEST(ReportPage, CanBeStopped) {
+  std::stop_source stop;
+  stop.request_stop();
+  const auto page = report_page(with_hypotheses(2), {&tour()}, {}, stop.get_token());
+  ASSERT_FALSE(page);
+  EXPECT_EQ(page.error().code, ErrorCode::kCancelled);
+}
+
 TEST(ReportPage, OfAnEmptyMapSaysThatItIsEmpty) {
   const auto page = report_page(BuiltMap{}, {}, {});
   ASSERT_TRUE(page);

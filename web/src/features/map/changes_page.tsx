@@ -83,7 +83,7 @@ function Compared({ map, graph, stand, states }: ComparedProps) {
         />
       </div>
       <TwoGraphs
-        key={`${states.from} ${states.to ?? ''}`}
+        key={`${states.from} ${states.to ?? ''} ${graph.revision}`}
         map={map}
         graph={graph}
         stand={stand}

@@ -168,6 +168,7 @@ function DoubtPage({
               graph={editor.graph}
               doubt={one}
               done={passed.has(keyOf(one)) || answeredIn(editor, one)}
+              answered={answeredIn(editor, one)}
               shown={present !== null && keyOf(one) === keyOf(present)}
               onShow={() => setAsked(keyOf(one))}
             />
@@ -202,14 +203,16 @@ interface RowProps {
   graph: Graph;
   doubt: Doubt;
   done: boolean;
+  answered: boolean; // in the draft that is open
   shown: boolean;
   onShow: () => void;
 }
 
-function DoubtRow({ graph, doubt, done, shown, onShow }: RowProps) {
+function DoubtRow({ graph, doubt, done, answered, shown, onShow }: RowProps) {
   const [a, b] = titlesApart(graph, doubt.place_a, doubt.place_b);
   const pair = doubt.place_a === doubt.place_b ? a : `${a} – ${b}`;
   const left_open = setAsideWords(doubt);
+  const open = left_open !== null && !answered;
   return (
     <li>
       <button type="button" class="place-row" aria-pressed={shown} onClick={onShow}>
@@ -223,8 +226,8 @@ function DoubtRow({ graph, doubt, done, shown, onShow }: RowProps) {
           <br />
           <span class="soft small">{kDoubtKinds[doubt.kind]}</span>
         </span>
-        <span class={`pill ${left_open !== null ? 'warn' : done ? 'good' : ''}`}>
-          {left_open !== null ? (
+        <span class={`pill ${open ? 'warn' : done ? 'good' : ''}`}>
+          {open ? (
             <>
               <span aria-hidden="true">?</span> <span class="hidden-text">{left_open}</span>
             </>

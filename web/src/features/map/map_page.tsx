@@ -94,8 +94,8 @@ function MapOrDraft({ map, graph, mayEdit }: OfMap) {
 function WithDraft({ map, graph, mayEdit, draft }: OfMap & { draft: Draft }) {
   const state = kVersions * draft.revision + draft.version;
   // Together: to draw thousands of places takes a while, and is not to be done for each of the two.
-  const difference = () => calls.draftDifference(draft).catch(() => null);
-  const made = useLoaded(() => Promise.all([calls.draftGraph(draft), difference()]), state);
+  const ask = () => Promise.all([calls.draftGraph(draft), calls.draftDifference(draft)]);
+  const made = useLoaded(ask, state);
   return (
     <Loading of={made} what="The draft">
       {([after, other]) => (

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect, useRef, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
-import type { MapInfo } from '../../api/types';
+import type { Graph, MapInfo } from '../../api/types';
 import { Loading } from '../../components/loading';
 import { Notice } from '../../components/notice';
 import { useLoaded } from '../../lib/loaded';
 import { follow } from '../../lib/router';
 
 /** What the latest build says of itself, as whoever hands a map over signs it: to read, and to print. */
-export function ReportPage({ map }: { map: MapInfo }) {
-  const report = useLoaded(() => calls.askReport(map.id));
+export function ReportPage({ map, graph }: { map: MapInfo; graph: Graph }) {
+  const report = useLoaded(() => calls.askReport(map.id), graph.revision);
   if (report.problem?.status === 404)
     return (
       <Notice still>
-        There is no report of this map: it was not built on this server. Build it here from its tours, under{' '}
+        There is no report of this map. {report.problem.message} Build it here from its tours, under{' '}
         <a href="/tours" onClick={follow}>
           Tours
         </a>
@@ -22,7 +22,7 @@ export function ReportPage({ map }: { map: MapInfo }) {
     );
   return (
     <Loading of={report} what="The report">
-      {() => <Report map={map} />}
+      {() => <Report key={graph.revision} map={map} />}
     </Loading>
   );
 }
@@ -46,8 +46,8 @@ function Report({ map }: { map: MapInfo }) {
     <>
       <div class="row apart">
         <p class="soft">
-          What the latest build found, as it was built: changes by people are not in it. It is for whoever
-          accepts the map.
+          What the latest build found. What people changed since then, and tours that were added, are not in
+          it. It is for whoever accepts the map.
         </p>
         <div class="row">
           <button type="button" class="button main" onClick={() => frame.current?.contentWindow?.print()}>

@@ -90,8 +90,18 @@ function Shown({ graph, similarity }: { graph: Graph; similarity: Similarity }) 
   const alike = useAlike(graph.map, images, cursor, kSettledMs);
   const sheet = useMemo(() => ({ count: images.length, tile_px, levels }), [images, tile_px, levels]);
   const edges = useMemo(() => pictures.runs.slice(1, kMostEdges).map((one) => one.start), [pictures]);
+  const later = useMemo(() => {
+    const compared = new Set(images);
+    return graph.places.flatMap((one) => one.members).filter((one) => !compared.has(one)).length;
+  }, [graph, images]);
   return (
     <>
+      {later > 0 && (
+        <Notice still>
+          {count(later, 'picture')} of tours that were added since the build {later === 1 ? 'is' : 'are'} not
+          in it: build the map again to compare all.
+        </Notice>
+      )}
       <p class="soft">
         Each of {count(images.length, 'picture')} against every other, in the order of the tours. Dark spots
         away from the diagonal are places that were passed again, or that look alike.

@@ -49,7 +49,7 @@ describe('a way that a person drew', () => {
     edges: [],
     destinations: [],
   } as unknown as Graph;
-  const edge = { from: 'p1', to: 'p2', by: 'person' as const };
+  const edge = { from: 'p1', to: 'p2', by: 'person' as const, shortcut: false };
   const edit = (part: Partial<LoggedEdit>) =>
     ({
       kind: 'move',
@@ -64,6 +64,7 @@ describe('a way that a person drew', () => {
   it('is slow until it was driven, and after it failed', () => {
     expect(isSlow(edge, null, graph, [])).toBe(true);
     expect(isSlow(edge, drives(), graph, [])).toBe(false);
+    expect(isSlow({ ...edge, shortcut: true }, null, graph, [])).toBe(false);
     expect(isSlow(edge, drives({ failed: 1, last_failed_us: at(5, 4) }), graph, [])).toBe(true);
     expect(isSlow(edge, drives({ failed: 1, last_failed_us: at(5, 2) }), graph, [])).toBe(false);
     expect(isSlow({ ...edge, by: 'method' }, null, graph, [])).toBe(false);
@@ -72,7 +73,7 @@ describe('a way that a person drew', () => {
   it('is slow again after its places were changed', () => {
     expect(isSlow(edge, drives(), graph, [edit({})])).toBe(true);
     expect(isSlow(edge, drives(), graph, [edit({ image_a: 't/9.jpg', images: ['t/1.jpg'] })])).toBe(true);
-    expect(isSlow(edge, drives(), graph, [edit({ undone: true })])).toBe(false);
+    expect(isSlow(edge, drives(), graph, [edit({ undone: true })])).toBe(true);
     expect(isSlow(edge, drives(), graph, [edit({ t_us: at(5, 1) })])).toBe(false);
     expect(isSlow(edge, drives(), graph, [edit({ image_a: 't/9.jpg' })])).toBe(false);
     expect(isSlow(edge, drives(), graph, [edit({ kind: 'rename' }), edit({ kind: 'set_aside' })])).toBe(

@@ -47,7 +47,8 @@ function changedUs(graph: Graph, edits: readonly LoggedEdit[], from: string, to:
     images.has(image_a) || (image_b !== null && images.has(image_b)) || more.some((one) => images.has(one));
   return Math.max(
     0,
-    ...edits.filter((one) => kOfPlaces.has(one.kind) && !one.undone && here(one)).map((one) => one.t_us),
+    // Also what was taken back: the chair may have driven while it stood.
+    ...edits.filter((one) => kOfPlaces.has(one.kind) && here(one)).map((one) => one.t_us),
   );
 }
 
@@ -56,12 +57,12 @@ function changedUs(graph: Graph, edits: readonly LoggedEdit[], from: string, to:
  * changed and without failing there since.
  */
 export function isSlow(
-  edge: Pick<Edge, 'from' | 'to' | 'by'>,
+  edge: Pick<Edge, 'from' | 'to' | 'by' | 'shortcut'>,
   drives: WayDrives | null,
   graph: Graph,
   edits: readonly LoggedEdit[],
 ): boolean {
-  if (edge.by !== 'person') return false;
+  if (edge.by !== 'person' || edge.shortcut) return false;
   const driven_us = drives?.last_driven_us ?? null;
   if (driven_us === null || driven_us < (drives?.last_failed_us ?? 0)) return true;
   return driven_us <= changedUs(graph, edits, edge.from, edge.to);
