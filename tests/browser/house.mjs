@@ -23,7 +23,8 @@ export function screenshotFolder() {
   return process.argv[2] ?? mkdtempSync(join(tmpdir(), 'homeward-screens-'));
 }
 
-/** A browser, and what gives each check a house and a page of its own; an exception in it or blocked content fails. */
+/** A browser, and what gives each check a house and a page of its own; an exception in it or blocked content fails. A robot
+ *  that was sent waits on its way for `house.steer({ do: 'go_on' })`. */
 export async function pretendedHouses() {
   const dist = fileURLToPath(new URL('../../web/dist', import.meta.url));
   if (!existsSync(join(dist, 'index.html')))
@@ -32,7 +33,7 @@ export async function pretendedHouses() {
   const withHouse =
     (check, { name = 'anna', fresh = false, ...look } = {}) =>
     async () => {
-      const mock = await startMock({ port: 0, dist, step_ms: 150, fresh });
+      const mock = await startMock({ port: 0, dist, step_ms: 150, fresh, waits: true });
       const page = await openPage(browser, { base: mock.url, ...look });
       page.setDefaultTimeout(kPatienceMs);
       try {

@@ -99,6 +99,7 @@ const checks = [
       await phaseIs(page, 'driving');
       await journey(page).getByText('On the way to Kitchen').waitFor();
       await page.getByRole('progressbar').waitFor();
+      house.steer({ do: 'go_on' });
       await phaseIs(page, 'arrived');
       await journey(page).getByText('Arrived: Kitchen').waitFor();
       await page.getByText('I am in the kitchen.').waitFor();
@@ -230,7 +231,9 @@ const checks = [
       house.steer({ do: 'silent', on: true });
       await page.keyboard.press('Escape');
       await page.getByTestId('stop-word').getByText('STOP was not heard').waitFor();
-      await page.waitForTimeout(2000);
+      house.steer({ do: 'go_on' });
+      for (let i = 0; i < 100 && house.robots[0].mission.state !== 'arrived'; i += 1)
+        await page.waitForTimeout(50);
       assert.equal(house.robots[0].mission.state, 'arrived');
       house.steer({ do: 'silent', on: false });
       await phaseIs(page, 'arrived');
@@ -264,6 +267,7 @@ const checks = [
       await page.getByText('I am not sure where I am.').waitFor();
       await destination(page, 'Bedroom').click();
       await journey(page).getByText('The robot is not sure where it is; it looks around first.').waitFor();
+      house.steer({ do: 'go_on' });
       await phaseIs(page, 'arrived');
       assert.equal(await journey(page).getByText('it looks around first').count(), 0);
     }),
@@ -309,6 +313,7 @@ const checks = [
         await destination(page, 'Hall').click();
         await asking.waitFor({ state: 'detached' }); // it drives
         assert.equal(await page.getByRole('button', { name: 'Chair is somewhere else' }).count(), 0);
+        house.steer({ do: 'go_on' });
         await phaseIs(page, 'arrived');
       },
       { name: 'ben', size: kPhone },
@@ -400,6 +405,8 @@ const checks = [
         await page.getByText('anna is driving the chair just now.').waitFor();
         assert.equal(house.robots[0].mission, null);
         await page.getByRole('button', { name: 'Take over' }).click();
+        await phaseIs(page, 'driving');
+        house.steer({ do: 'go_on' });
         await phaseIs(page, 'arrived');
         assert.equal(house.robots[0].lease.holder, 'ben');
       },
@@ -409,7 +416,6 @@ const checks = [
   [
     'another destination while the chair drives is asked for again first, on both pages',
     withHouse(async (page, house) => {
-      house.step_ms = 1500;
       const asked = page.getByText('Chair is on the way to Living room.');
       const goal = () => house.robots[0].mission.destination;
       await destination(page, 'Living room').click();
@@ -466,6 +472,7 @@ const checks = [
       const kept = page.waitForRequest((one) => one.method() === 'PUT' && one.url().endsWith('/lease'));
       await page.reload();
       await kept;
+      house.steer({ do: 'go_on' });
       await phaseIs(page, 'arrived');
       house.sessions.clear();
       await page.keyboard.press('Escape');
@@ -516,7 +523,7 @@ const checks = [
   ],
   [
     'a place that gets a name becomes a goal for riders',
-    withHouse(async (page) => {
+    withHouse(async (page, house) => {
       await tab(page, 'Map');
       await page
         .getByRole('button', { name: /^Near the hall/ })
@@ -527,6 +534,8 @@ const checks = [
       await page.getByText('Named Coat stand.').waitFor();
       await tab(page, 'Go');
       await destination(page, 'Coat stand').click();
+      await phaseIs(page, 'driving');
+      house.steer({ do: 'go_on' });
       await journey(page).getByText('Arrived: Coat stand').waitFor();
     }),
   ],

@@ -28,8 +28,8 @@ const kTypes = {
 const kPolicy =
   "default-src 'self'; img-src 'self' blob:; connect-src 'self'; style-src 'self'; script-src 'self'; object-src 'none'; base-uri 'none'; frame-ancestors 'none'";
 
-export function startMock({ port = 8099, dist, step_ms = 900, fresh = false } = {}) {
-  const house = new House({ step_ms, fresh });
+export function startMock({ port = 8099, dist, step_ms = 900, fresh = false, waits = false } = {}) {
+  const house = new House({ step_ms, fresh, waits });
   const root = resolve(dist ?? fileURLToPath(new URL('../dist', import.meta.url)));
   const events = new WebSocketServer({ noServer: true });
   house.tell = (message) => {

@@ -9,9 +9,13 @@ import { Refusal } from './mock-refusal.mjs';
 const kRanks = ['viewer', 'rider', 'carer', 'installer', 'admin'];
 
 export class House {
-  constructor({ step_ms, fresh }) {
+  /** step_ms: how long the robot takes from a place to the next. `waits`: having set out, it stays where it is until a test
+   *  tells it to go on, so that no test has to be quicker than the robot. */
+  constructor({ step_ms, fresh, waits = false }) {
     Object.assign(this, {
       step_ms,
+      waits,
+      goes_on: !waits,
       seq: 0,
       ids: 0,
       unreachable: false,
@@ -201,6 +205,7 @@ export class House {
   // ----- driving
   drive(robot, mission) {
     robot.mission = { ...mission, state: 'accepted' };
+    this.goes_on = !this.waits;
     this.tellRobot(robot);
     clearInterval(robot.timer);
     const timer = setInterval(() => this.step(robot), this.step_ms);
@@ -209,6 +214,7 @@ export class House {
   }
   step(robot) {
     const { mission } = robot;
+    if (mission.state === 'driving' && !this.goes_on) return;
     const at = mission.path[mission.path_index];
     robot.belief = {
       updates: 60,
@@ -349,7 +355,8 @@ export class House {
   /** Orders of the tests: {do: "unreachable", on}, {do: "silent", on}, {do: "robot", set: {...}}, {do: "edit"},
    *  {do: "change", edits, by}, {do: "draft", edits, by, name}, {do: "draft_discard", draft},
    *  {do: "draft_edit", draft, version, edits, by}, {do: "hold", holder}, {do: "offer"}, {do: "halt", reason},
-   *  {do: "ask"}: the robot that is under way stands and asks whether this is it. */
+   *  {do: "go_on"}: the robot that waits drives to the end of its way; {do: "ask"}: the one that is under way stands and
+   *  asks whether this is it. */
   steer(order) {
     const robot = this.robots[0];
     if (order.do === 'unreachable') {
@@ -370,6 +377,8 @@ export class House {
       edit(this, { user: { name: by }, headers, args: [this.maps[0].id], body: { edits } });
     } else if (order.do.startsWith('draft')) {
       steerDrafts(this, order);
+    } else if (order.do === 'go_on') {
+      this.goes_on = true;
     } else if (order.do === 'ask') {
       this.ask(robot);
     } else if (order.do === 'halt') {
