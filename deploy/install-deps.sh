@@ -47,7 +47,7 @@ packages=(
   googletest
   g++-aarch64-linux-gnu
   qemu-user
-  chromium
+  chromium-headless-shell
   fonts-dejavu-core
 )
 
