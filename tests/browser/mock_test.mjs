@@ -653,6 +653,18 @@ const checks = [
       await list.getByRole('button', { name: 'Office 33', exact: true }).click();
       await page.getByRole('heading', { name: 'Office 33' }).waitFor();
       await shoot(page, out, 'large-map-chosen');
+      // A place that is a dot among thousands is chosen by a press, too.
+      await page.goto('/map/m1/place/p1234');
+      const ring = page.locator('.place-marks .chosen[data-place=p1234]');
+      await ring.waitFor();
+      const graph = await page.getByTestId('graph').boundingBox();
+      const [x, y] = await Promise.all(['cx', 'cy'].map((name) => ring.getAttribute(name).then(Number)));
+      await page.getByLabel('Find a place').fill('office 33');
+      await list.getByRole('button', { name: 'Office 33', exact: true }).click();
+      await page.getByRole('heading', { name: 'Office 33' }).waitFor();
+      await page.mouse.click(graph.x + x, graph.y + y);
+      await ring.waitFor();
+      assert.ok(page.url().endsWith('/place/p1234'), page.url());
     }),
   ],
   [

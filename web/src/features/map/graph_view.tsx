@@ -2,18 +2,21 @@
 import type { Core } from 'cytoscape';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import type { Belief, Graph } from '../../api/types';
-import type { DifferenceMarks } from './difference_marks';
-import { elementsOf, kSize } from './graph_elements';
+import { lineId, type DifferenceMarks } from './difference_marks';
+import { contentOf, kSize, type GraphContent, type Spot } from './graph_content';
 import { graphStyle } from './graph_style';
-import { showDetailInView } from './detail_in_view';
 import type { LinkedDrawings } from './linked_drawings';
 import { picking } from './picking';
 import { PlaceMarks } from './place_marks';
 import { pictureShare, placeViews, probabilities } from './place_views';
+import { nearestWithin, showPlacesInView } from './places_in_view';
+import { spotsFor } from './spots';
+import { WaysLayer } from './ways_layer';
 
 const kMarginPx = { x: 56, y: 30 }; // names stand below their places and reach beyond them
 const kLargestPicturePx = 120;
-const kManyPlaces = 500; // from here on the drawing moves as a picture of itself
+const kNowhere: ReadonlyMap<string, Spot> = new Map();
+const kPressPx = 12; // from a place: as good as on it
 
 interface Props {
   graph: Graph;
@@ -25,10 +28,17 @@ interface Props {
   onChoose: (place: string) => void;
 }
 
+/** What is drawn now. */
+interface Drawing {
+  core: Core; // what may be pressed or read
+  content: GraphContent;
+  ways: WaysLayer;
+}
+
 /** The map as a drawing. Everything it offers is also in the list beside it, so it is hidden from screen readers. */
 export function GraphView({ graph, belief, way, chosen, marks = null, linked = null, onChoose }: Props) {
   const box = useRef<HTMLDivElement>(null);
-  const [drawing, setDrawing] = useState<Core | null>(null);
+  const [drawing, setDrawing] = useState<Drawing | null>(null);
   const choose = useRef(onChoose);
   choose.current = onChoose;
   const diameter = useMemo(() => kSize * pictureShare(placeViews(graph)), [graph]);
@@ -43,33 +53,37 @@ export function GraphView({ graph, belief, way, chosen, marks = null, linked = n
     // The list is shown first: to draw thousands of places takes a while.
     void Promise.all([import('cytoscape'), nextPaint()]).then(([{ default: cytoscape }]) => {
       if (!wanted) return;
-      const views = placeViews(graph);
-      const placed = views.every((view) => view.x !== null && view.y !== null);
+      const content = contentOf(graph, marks, spotsFor(cytoscape, graph));
       leaveStylesToUs();
       const made = cytoscape({
         container,
-        elements: elementsOf(graph, marks),
         style: graphStyle(diameter),
-        layout: { name: placed ? 'preset' : 'cose', fit: false, animate: false },
+        layout: { name: 'preset', fit: false },
         minZoom: 0.1,
         maxZoom: Math.max(3, kLargestPicturePx / diameter),
         autoungrabify: true,
         boxSelectionEnabled: false,
-        textureOnViewport: views.length > kManyPlaces,
       });
       // A change of the map leaves what the reader looks at where it was.
       if (look.current?.map === graph.map) made.viewport(look.current);
-      else showAll(made, diameter);
-      made.on('tap', 'node', (event) => choose.current((event.target as { id(): string }).id()));
-      const unwatch = watchLook(made, container, diameter);
-      const forget = showDetailInView(made, diameter);
+      else showAll(made, content, diameter);
+      made.on('tap', ({ position }: { position: Spot }) => {
+        const within = Math.max(diameter / 2, kPressPx / made.zoom());
+        const place = nearestWithin(content.places, position, within);
+        if (place) choose.current(place.id);
+      });
+      const ways = new WaysLayer(made, content, diameter);
+      const drawn = { core: made, content, ways };
+      const unwatch = watchLook(drawn, container, diameter);
+      const forget = showPlacesInView(made, content, diameter, (dots) => ways.setDots(dots));
       const unlink = linked?.join(made);
-      setDrawing(made);
+      setDrawing(drawn);
       destroy = () => {
         look.current = { map: graph.map, zoom: made.zoom(), pan: { ...made.pan() } };
         unlink?.();
         unwatch();
         forget();
+        ways.end();
         setDrawing(null);
         made.destroy();
       };
@@ -81,34 +95,40 @@ export function GraphView({ graph, belief, way, chosen, marks = null, linked = n
   }, [graph, diameter, marks, linked]);
 
   useEffect(() => {
-    if (!drawing) return;
-    drawing.batch(() => {
-      drawing.edges('.way').removeClass('way');
-      way.forEach((to, i) => {
-        const from = way[i - 1];
-        if (from !== undefined) drawing.$id(from < to ? `${from}|${to}` : `${to}|${from}`).addClass('way');
-      });
-    });
+    drawing?.ways.setWay(new Set(way.slice(1).map((to, i) => lineId(way[i] ?? '', to))));
   }, [drawing, way]);
 
   useEffect(() => {
-    const node = drawing?.$id(chosen ?? '');
-    if (!drawing || !node?.nonempty()) return;
-    const { x, y } = node.position();
-    const { x1, x2, y1, y2 } = drawing.extent();
-    if (x < x1 || x > x2 || y < y1 || y > y2) drawing.center(node);
+    const place = drawing?.content.at.get(chosen ?? '');
+    if (!drawing || !place) return;
+    const { core } = drawing;
+    const { x1, x2, y1, y2 } = core.extent();
+    if (place.x >= x1 && place.x <= x2 && place.y >= y1 && place.y <= y2) return;
+    core.pan({
+      x: core.width() / 2 - core.zoom() * place.x,
+      y: core.height() / 2 - core.zoom() * place.y,
+    });
   }, [drawing, chosen]);
 
   const zoom = (factor: number) => {
     if (!drawing) return;
-    const centre = { x: drawing.width() / 2, y: drawing.height() / 2 };
-    drawing.zoom({ level: drawing.zoom() * factor, renderedPosition: centre });
+    const { core } = drawing;
+    core.zoom({
+      level: core.zoom() * factor,
+      renderedPosition: { x: core.width() / 2, y: core.height() / 2 },
+    });
   };
   return (
     <div class="graph">
       <div class="graph-canvas" ref={box} aria-hidden="true" data-testid="graph" />
       {picking.value && <p class="graph-pick">{picking.value.what}: press it in the drawing.</p>}
-      <PlaceMarks drawing={drawing} diameter={diameter} shares={shares} chosen={chosen} />
+      <PlaceMarks
+        drawing={drawing?.core ?? null}
+        at={drawing?.content.at ?? kNowhere}
+        diameter={diameter}
+        shares={shares}
+        chosen={chosen}
+      />
       <div class="graph-tools" role="group" aria-label="Size of the drawing">
         <button type="button" aria-label="Larger" onClick={() => zoom(1.4)}>
           +
@@ -116,7 +136,11 @@ export function GraphView({ graph, belief, way, chosen, marks = null, linked = n
         <button type="button" aria-label="Smaller" onClick={() => zoom(1 / 1.4)}>
           −
         </button>
-        <button type="button" aria-label="Show all" onClick={() => drawing && showAll(drawing, diameter)}>
+        <button
+          type="button"
+          aria-label="Show all"
+          onClick={() => drawing && showAll(drawing.core, drawing.content, diameter)}
+        >
           ⤢
         </button>
       </div>
@@ -129,9 +153,8 @@ function nextPaint(): Promise<void> {
   return new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
 }
 
-/** All places in view. Cytoscape's own fit measures every name and line of the drawing. */
-function showAll(drawing: Core, diameter: number): void {
-  const points = drawing.nodes().map((node) => node.position());
+/** All places in view. */
+function showAll(drawing: Core, { places: points }: GraphContent, diameter: number): void {
   if (points.length === 0) return;
   const [x1, y1] = [Math.min(...points.map((one) => one.x)), Math.min(...points.map((one) => one.y))];
   const [x2, y2] = [Math.max(...points.map((one) => one.x)), Math.max(...points.map((one) => one.y))];
@@ -151,17 +174,20 @@ function showAll(drawing: Core, diameter: number): void {
 }
 
 /** Follows the size of the container and the change between light and dark; returns its end. */
-function watchLook(drawing: Core, container: HTMLElement, diameter: number): () => void {
+function watchLook({ core, content, ways }: Drawing, container: HTMLElement, diameter: number): () => void {
   const dark = matchMedia('(prefers-color-scheme: dark)');
-  const restyle = () => void drawing.style(graphStyle(diameter));
+  const restyle = () => {
+    core.style(graphStyle(diameter));
+    ways.draw();
+  };
   dark.addEventListener('change', restyle);
   let size = `${container.clientWidth} x ${container.clientHeight}`;
   const sizes = new ResizeObserver(() => {
     const present = `${container.clientWidth} x ${container.clientHeight}`;
     if (present === size) return; // an observer tells the size once at first
     size = present;
-    drawing.resize();
-    showAll(drawing, diameter);
+    core.resize();
+    showAll(core, content, diameter);
   });
   sizes.observe(container);
   return () => {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Core } from 'cytoscape';
 import { useEffect, useRef } from 'preact/hooks';
+import type { Spot } from './graph_content';
 
 const kLeastPx = 9; // so that a mark is found where the whole of a large map is shown
 
 interface Props {
   drawing: Core | null;
+  at: ReadonlyMap<string, Spot>; // places, in units of the drawing
   diameter: number; // of a place, in units of the drawing
   shares: ReadonlyMap<string, number>; // how probable it is that the robot is there
   chosen: string | null;
@@ -15,7 +17,7 @@ interface Props {
  * Where the robot believes to be, and the chosen place: rings over the drawing, in a layer of their own. The drawing itself,
  * which for a large map takes long to draw, stays as it is when they change.
  */
-export function PlaceMarks({ drawing, diameter, shares, chosen }: Props) {
+export function PlaceMarks({ drawing, at, diameter, shares, chosen }: Props) {
   const svg = useRef<SVGSVGElement>(null);
   const marks = [
     ...[...shares].map(([place, share]) => ({ place, share })),
@@ -23,7 +25,7 @@ export function PlaceMarks({ drawing, diameter, shares, chosen }: Props) {
   ];
   useEffect(() => {
     if (!drawing) return;
-    const follow = () => svg.current && lay(svg.current, drawing, diameter);
+    const follow = () => svg.current && lay(svg.current, drawing, at, diameter);
     follow();
     drawing.on('viewport resize', follow);
     return () => void drawing.off('viewport resize', follow);
@@ -45,17 +47,16 @@ export function PlaceMarks({ drawing, diameter, shares, chosen }: Props) {
 }
 
 /** Puts each ring around its place as it is shown now. */
-function lay(svg: SVGSVGElement, drawing: Core, diameter: number): void {
+function lay(svg: SVGSVGElement, drawing: Core, at: ReadonlyMap<string, Spot>, diameter: number): void {
   const zoom = drawing.zoom();
   const pan = drawing.pan();
   const radius_px = Math.max(kLeastPx, (diameter * zoom) / 2);
   const ring_px = Math.max(2, 0.1 * radius_px);
   for (const circle of svg.querySelectorAll('circle')) {
-    const node = drawing.$id(circle.dataset['place'] ?? '');
-    const there = node.nonempty();
-    circle.setAttribute('visibility', there ? 'visible' : 'hidden');
-    if (!there) continue;
-    const { x, y } = node.position();
+    const place = at.get(circle.dataset['place'] ?? '');
+    circle.setAttribute('visibility', place ? 'visible' : 'hidden');
+    if (!place) continue;
+    const { x, y } = place;
     const share = Number(circle.dataset['share'] ?? 0);
     const kind = circle.getAttribute('class');
     const width_px = (kind === 'halo' ? 4 : kind === 'chosen' ? 2.5 : 1 + 2 * share) * ring_px;
