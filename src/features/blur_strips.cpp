@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/sanitized.hpp"
 #include "core/vector_targets.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -43,17 +44,18 @@ int reflected(int i, int count) {
 
 /// `count` sums (a multiple of kLanes) of neighbours in one row, weighted; `from` is the first one's leftmost
 /// neighbour.
-void along_row(const float* from, int count, Kernel kernel, float* to) {
+HOMEWARD_LOOKED_AT_BEFORE void along_row(const float* from, int count, Kernel kernel, float* to) {
   const Lanes f;
   const std::size_t taps = kernel.size();
+  const float* weights = kernel.data();
   int i = 0;
   for (; i + kBlock <= count; i += kBlock) {
     Sum sums[kSums];
     for (std::ptrdiff_t b = 0; b < kSums; ++b) {
-      sums[b] = hn::LoadU(f, from + i + b * kLanes) * hn::Set(f, kernel[0]);
+      sums[b] = hn::LoadU(f, from + i + b * kLanes) * hn::Set(f, weights[0]);
     }
     for (std::size_t k = 1; k < taps; ++k) {
-      const Sum weight = hn::Set(f, kernel[k]);
+      const Sum weight = hn::Set(f, weights[k]);
       const float* neighbour = from + i + k;
       for (std::ptrdiff_t b = 0; b < kSums; ++b) {
         sums[b] = hn::MulAdd(hn::LoadU(f, neighbour + b * kLanes), weight, sums[b]);
@@ -62,9 +64,9 @@ void along_row(const float* from, int count, Kernel kernel, float* to) {
     for (std::ptrdiff_t b = 0; b < kSums; ++b) hn::Store(sums[b], f, to + i + b * kLanes);
   }
   for (; i < count; i += kLanes) {
-    Sum sum = hn::LoadU(f, from + i) * hn::Set(f, kernel[0]);
+    Sum sum = hn::LoadU(f, from + i) * hn::Set(f, weights[0]);
     for (std::size_t k = 1; k < taps; ++k) {
-      sum = hn::MulAdd(hn::LoadU(f, from + i + k), hn::Set(f, kernel[k]), sum);
+      sum = hn::MulAdd(hn::LoadU(f, from + i + k), hn::Set(f, weights[k]), sum);
     }
     hn::StoreU(sum, f, to + i);
   }
@@ -72,14 +74,16 @@ void along_row(const float* from, int count, Kernel kernel, float* to) {
 
 /// kStep sums down columns for each of two rows, which share what they read: `rows` are the neighbours of both, one
 /// more than weights, from the uppermost on. The weights are the same above and below.
-inline void down_block(const float* const* rows, std::ptrdiff_t from, Kernel kernel, float* upper, float* lower) {
+HOMEWARD_LOOKED_AT_BEFORE inline void down_block(const float* const* rows, std::ptrdiff_t from, Kernel kernel,
+                                                 float* upper, float* lower) {
   const Lanes f;
   const std::size_t middle = kernel.size() / 2;
+  const float* weights = kernel.data();
   Sum upper_sums[kPair];
   Sum lower_sums[kPair];
   Sum below[kPair];  // the upper row's next neighbours below
   Sum above[kPair];  // the lower row's next neighbours above
-  const Sum first_weight = hn::Set(f, kernel[middle]);
+  const Sum first_weight = hn::Set(f, weights[middle]);
   for (std::ptrdiff_t b = 0; b < kPair; ++b) {
     above[b] = hn::Load(f, rows[middle] + from + b * kLanes);
     below[b] = hn::Load(f, rows[middle + 1] + from + b * kLanes);
@@ -87,7 +91,7 @@ inline void down_block(const float* const* rows, std::ptrdiff_t from, Kernel ker
     lower_sums[b] = below[b] * first_weight;
   }
   for (std::size_t k = 1; k <= middle; ++k) {
-    const Sum weight = hn::Set(f, kernel[middle + k]);
+    const Sum weight = hn::Set(f, weights[middle + k]);
     for (std::ptrdiff_t b = 0; b < kPair; ++b) {
       const Sum farther_above = hn::Load(f, rows[middle - k] + from + b * kLanes);
       const Sum farther_below = hn::Load(f, rows[middle + 1 + k] + from + b * kLanes);
@@ -106,7 +110,11 @@ inline void down_block(const float* const* rows, std::ptrdiff_t from, Kernel ker
 /// Two rows of `count` sums down columns; `lower` is null below the last row.
 void down_columns(const float* const* rows, int count, Kernel kernel, float* upper, float* lower) {
   int i = 0;
+  const int whole = (count + kStep - 1) / kStep * kStep;
+  for (std::size_t k = 0; k <= kernel.size(); ++k) expect_usable(std::span(rows[k], static_cast<std::size_t>(whole)));
+  expect_usable(std::span(upper, static_cast<std::size_t>(count)));
   if (lower != nullptr) {
+    expect_usable(std::span(lower, static_cast<std::size_t>(count)));
     for (; i + kStep <= count; i += kStep) down_block(rows, i, kernel, upper + i, lower + i);
   }
   for (; i < count; i += kStep) {
@@ -161,7 +169,9 @@ class Strip {
       for (int i = 0; i < width_; i += kLine) hwy::Prefetch(ahead + i);
     }
     float* kept = kept_[static_cast<std::size_t>(row % span_)];
+    expect_usable(std::span(kept, static_cast<std::size_t>(whole_)));
     if (first_ >= reach_ && first_ + whole_ + reach_ <= from_.columns) {
+      expect_usable(std::span(source, padded_.size()));
       along_row(source, whole_, kernel_, kept);
       return;
     }
