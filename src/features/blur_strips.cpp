@@ -144,6 +144,8 @@ class Strip {
     for (int k = 0; k < 2 * span_; ++k) kept_.push_back(ring_[static_cast<std::size_t>(k % span_ * lines)].numbers);
     padded_.resize(static_cast<std::size_t>(whole_ + 2 * reach_));
     at_border_.resize(static_cast<std::size_t>(span_));
+    expect_usable(kernel_);
+    expect_usable(std::span(padded_));
   }
 
   void blur(const FloatPicture<float>& to) {

@@ -170,6 +170,8 @@ export async function askReport(map: string): Promise<true> {
 export const exportUrl = (map: string) => `${kRoot}/maps/${id(map)}/export`;
 export const buildMap = (body: { name: string; tours: string[] }) =>
   call<{ map: MapInfo; job: Job }>('/maps', { method: 'POST', body });
+export const rebuildMap = (map: string) =>
+  call<{ job: Job }>(`/maps/${id(map)}/builds`, { method: 'POST', body: { kind: 'build' } });
 export const addToMap = (map: string, tours: string[]) =>
   call<{ job: Job }>(`/maps/${id(map)}/builds`, { method: 'POST', body: { kind: 'add', tours } });
 export const setRefine = (map: string, refine: RefineMode) =>

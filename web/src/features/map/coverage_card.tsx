@@ -7,7 +7,7 @@ import { Section } from '../../components/section';
 import { useLoaded } from '../../lib/loaded';
 import { indexOf } from '../../lib/graph_index';
 import { placeTitle } from '../../lib/whereabouts';
-import { count } from '../../lib/words';
+import { count, dateText } from '../../lib/words';
 import { coverageOf } from './coverage';
 
 const kShown = 20; // at first, and with each press
@@ -55,14 +55,18 @@ function Tours({ tours }: { tours: ReturnType<typeof coverageOf>['tours'] }) {
   const known = useLoaded(calls.tours).value?.tours ?? [];
   return (
     <ul class="list">
-      {tours.map(({ tour, pictures, places }) => (
-        <li key={tour}>
-          <strong>{known.find((one) => one.id === tour)?.name ?? tour}</strong>
-          <span class="soft">
-            {count(pictures, 'picture')} at {count(places, 'place')}
-          </span>
-        </li>
-      ))}
+      {tours.map(({ tour, pictures, places }) => {
+        const brought = known.find((one) => one.id === tour);
+        return (
+          <li key={tour}>
+            <strong>{brought?.name ?? tour}</strong>
+            <span class="soft">
+              {brought && `brought ${dateText(brought.created_us)}, `}
+              {count(pictures, 'picture')} at {count(places, 'place')}
+            </span>
+          </li>
+        );
+      })}
     </ul>
   );
 }

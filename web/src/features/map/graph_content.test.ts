@@ -90,7 +90,7 @@ describe('what is drawn of a map', () => {
     expect(contentOf(gone, null).lines).toHaveLength(2);
   });
 
-  it('puts a place without a spot where it is told to', () => {
+  it('puts places where it is told to', () => {
     const graph = graphOf([place('p1', '', null)], []);
     expect(contentOf(graph, null, new Map([['p1', { x: 3, y: 4 }]])).places[0]).toMatchObject({ x: 3, y: 4 });
     expect(contentOf(graph, null).places[0]).toMatchObject({ x: 0, y: 0 });

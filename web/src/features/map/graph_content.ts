@@ -5,7 +5,7 @@ import { indexOf } from '../../lib/graph_index';
 import type { DifferenceMarks } from './difference_marks';
 import { kToneSigns, type Tone } from './difference_words';
 import { lineLook, type LineLook } from './line_look';
-import { drawnEdges, placeViews, type Line, type PlaceView } from './place_views';
+import { drawnEdges, placeViews, type PlaceView } from './place_views';
 import { proposedLines } from './shortcut_words';
 
 /** The unit square of the layout, in the drawing's own units. */
@@ -26,9 +26,10 @@ export interface DrawnPlace extends Spot {
 
 export interface DrawnLine {
   id: string;
-  from: string;
-  to: string;
+  from: Spot;
+  to: Spot;
   look: LineLook;
+  ahead: LineLook; // the same while a robot has it before it
 }
 
 /** What is drawn: places, ways, shortcuts that wait; with a draft also what is gone, and a sign at all that is other. */
@@ -38,11 +39,11 @@ export interface GraphContent {
   at: ReadonlyMap<string, DrawnPlace>; // by id
 }
 
-/** `spots` are those of places that the graph gives none. */
+/** `spots`, where they are given, in place of the graph's own. */
 export function contentOf(
   graph: Graph,
   marks: DifferenceMarks | null,
-  spots: ReadonlyMap<string, Spot> = new Map(),
+  spots: ReadonlyMap<string, Spot> | null = null,
 ): GraphContent {
   const present = indexOf(graph).places;
   const gone = marks ? placeViews(marks.before).filter((view) => !present.has(view.id)) : [];
@@ -58,32 +59,36 @@ export function contentOf(
     : [];
   const proposed = proposedLines(graph).map((line) => ({
     ...line,
-    look: lineLook({ weak: false, closed: 'no', shortcut: true, proposed: true }, null),
+    weak: false,
+    closed: 'no' as const,
+    shortcut: true,
+    proposed: true,
   }));
-  const all = [...[...lines, ...lost].map((line) => lineOf(line, marks)), ...proposed];
-  return { places, lines: all.filter(({ from, to }) => at.has(from) && at.has(to)), at };
+  const all = [...lines, ...lost, ...proposed].flatMap((line) => {
+    const [from, to] = [at.get(line.from), at.get(line.to)];
+    const tone = marks?.lines.get(line.id) ?? null;
+    const { id } = line;
+    return from && to
+      ? [{ id, from, to, look: lineLook(line, tone), ahead: lineLook(line, tone, true) }]
+      : [];
+  });
+  return { places, lines: all, at };
 }
 
 function placeOf(
   graph: Graph,
   view: PlaceView,
   marks: DifferenceMarks | null,
-  spots: ReadonlyMap<string, Spot>,
+  spots: ReadonlyMap<string, Spot> | null,
 ): DrawnPlace {
   const tone = marks?.places.get(view.id) ?? null;
   const name = tone ? `${kToneSigns[tone].sign} ${view.title}` : view.named ? view.title : null;
-  const spot = spots.get(view.id) ?? { x: 0, y: 0 };
+  const own = { x: kSize * (view.x ?? 0), y: kSize * (view.y ?? 0) };
   return {
     id: view.id,
     name,
     tone,
     picture: calls.imageThumbnailUrl(graph.map, indexOf(graph).places.get(view.id)?.prototype ?? ''),
-    x: view.x === null ? spot.x : kSize * view.x,
-    y: view.y === null ? spot.y : kSize * view.y,
+    ...(spots?.get(view.id) ?? own),
   };
-}
-
-function lineOf(line: Line, marks: DifferenceMarks | null): DrawnLine {
-  const { id, from, to } = line;
-  return { id, from, to, look: lineLook(line, marks?.lines.get(id) ?? null) };
 }

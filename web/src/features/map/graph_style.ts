@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { StylesheetJson } from 'cytoscape';
 import type { Tone } from './difference_words';
+import { kToneColours } from './line_look';
 
 /** A colour of tokens.css as it is now, in the light or in the dark. */
 export function token(name: string): string {
@@ -57,9 +58,8 @@ export function graphStyle(diameter: number): StylesheetJson {
 
 /** A rule for each way in which a place is other with a draft. */
 function toned(style: (colour: string, tone: Tone) => object): StylesheetJson {
-  const colours: Readonly<Record<Tone, string>> = { added: 'brand', removed: 'danger', changed: 'amber' };
-  return (Object.keys(colours) as Tone[]).map((tone) => ({
+  return (Object.keys(kToneColours) as Tone[]).map((tone) => ({
     selector: `node.${tone}`,
-    style: style(token(colours[tone]), tone),
+    style: style(token(kToneColours[tone]), tone),
   })) as StylesheetJson;
 }

@@ -16,7 +16,8 @@ import { WaysLayer } from './ways_layer';
 const kMarginPx = { x: 56, y: 30 }; // names stand below their places and reach beyond them
 const kLargestPicturePx = 120;
 const kNowhere: ReadonlyMap<string, Spot> = new Map();
-const kPressPx = 12; // from a place: as good as on it
+const kPressPx = 12; // from the middle of a place, however small it is: as good as on it
+const kSlackPx = 8; // beyond its edge, for fingers
 
 interface Props {
   graph: Graph;
@@ -53,7 +54,9 @@ export function GraphView({ graph, belief, way, chosen, marks = null, linked = n
     // The list is shown first: to draw thousands of places takes a while.
     void Promise.all([import('cytoscape'), nextPaint()]).then(([{ default: cytoscape }]) => {
       if (!wanted) return;
-      const content = contentOf(graph, marks, spotsFor(cytoscape, graph));
+      const states = marks ? [graph, marks.before] : [graph];
+      const spots = spotsFor(cytoscape, states, diameter);
+      const content = contentOf(graph, marks, spots);
       leaveStylesToUs();
       const made = cytoscape({
         container,
@@ -68,7 +71,7 @@ export function GraphView({ graph, belief, way, chosen, marks = null, linked = n
       if (look.current?.map === graph.map) made.viewport(look.current);
       else showAll(made, content, diameter);
       made.on('tap', ({ position }: { position: Spot }) => {
-        const within = Math.max(diameter / 2, kPressPx / made.zoom());
+        const within = Math.max(diameter / 2 + kSlackPx / made.zoom(), kPressPx / made.zoom());
         const place = nearestWithin(content.places, position, within);
         if (place) choose.current(place.id);
       });

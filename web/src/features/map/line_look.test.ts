@@ -10,6 +10,7 @@ describe('the look of a way', () => {
       colour: 'line-strong',
       dash: 'solid',
       width: 1,
+      rank: 0,
       sign: null,
       text: 'ink',
     });
@@ -32,6 +33,16 @@ describe('the look of a way', () => {
       dash: 'dotted',
       sign: '✕',
     });
+  });
+
+  it('tells the way ahead of a robot, but not instead of that it is closed or other', () => {
+    expect(lineLook({ ...kOpen, weak: true }, null, true)).toMatchObject({ colour: 'brand', width: 2.4 });
+    expect(lineLook({ ...kOpen, closed: 'both' }, null, true)).toMatchObject({
+      colour: 'danger',
+      width: 2.4,
+      sign: '✕',
+    });
+    expect(lineLook(kOpen, 'removed', true)).toEqual(lineLook(kOpen, 'removed'));
   });
 
   it('says first of all what a draft makes other', () => {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
-import type { Graph, Place } from '../../api/types';
+import type { Graph, Place, Tour } from '../../api/types';
 import { Section } from '../../components/section';
 import { useLoaded } from '../../lib/loaded';
-import { count } from '../../lib/words';
+import { count, dateText } from '../../lib/words';
 import { byTour, fileOf, type TourPictures } from './tour_order';
 
 const kAtOnce = 5;
@@ -48,7 +48,7 @@ function Tours({ graph, images }: { graph: Graph; images: readonly string[] }) {
         <OneTour
           key={one.tour}
           map={graph.map}
-          name={known.find((tour) => tour.id === one.tour)?.name ?? one.tour}
+          tour={known.find((tour) => tour.id === one.tour) ?? null}
           pictures={one}
         />
       ))}
@@ -56,14 +56,17 @@ function Tours({ graph, images }: { graph: Graph; images: readonly string[] }) {
   );
 }
 
-function OneTour({ map, name, pictures }: { map: string; name: string; pictures: TourPictures }) {
+function OneTour({ map, tour, pictures }: { map: string; tour: Tour | null; pictures: TourPictures }) {
   const [most, setMost] = useState(kShown);
   const { images } = pictures;
   return (
     <div class="stack tight">
       <p>
-        <strong>{name}</strong>{' '}
-        <span class="soft small">{count(images.length, 'picture')}, in their order</span>
+        <strong>{tour?.name ?? pictures.tour}</strong>{' '}
+        <span class="soft small">
+          {tour && `brought ${dateText(tour.created_us)}, `}
+          {count(images.length, 'picture')}, in their order
+        </span>
       </p>
       <ol class="choices">
         {images.slice(0, most).map((image) => (

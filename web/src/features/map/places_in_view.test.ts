@@ -35,6 +35,15 @@ describe('the places that are elements of the drawing', () => {
     expect(inView).toHaveLength(399);
   });
 
+  it('are first of all those that a draft makes other', () => {
+    const places = row(20_000).map((one, i) =>
+      i >= 13_990 && i < 14_010 ? { ...one, name: '+', tone: 'added' as const } : one,
+    );
+    const some = elementPlaces(places, { x1: 10_000, x2: 14_000, y1: -100, y2: 100 }, 2);
+    expect(some.slice(0, 10).every((one) => one.tone === 'added')).toBe(true);
+    expect(some.filter((one) => one.tone !== null)).toHaveLength(20);
+  });
+
   it('are all in view and around it where pictures can be seen', () => {
     const some = elementPlaces(row(5000), { x1: 1000, x2: 1100, y1: -10, y2: 10 }, 30);
     expect(some.map((one) => one.x).sort((a, b) => a - b)).toEqual(

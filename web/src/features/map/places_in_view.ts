@@ -35,8 +35,8 @@ export function elementPlaces(
   const rest = diameter_px >= kLeastPx ? near.filter((one) => one.name === null) : [];
   const all = [...told, ...rest];
   if (all.length <= kMostElements) return all;
-  const seen = all.filter((one) => within(one, extent, 0));
-  return [...seen, ...all.filter((one) => !within(one, extent, 0))].slice(0, kMostElements);
+  const rank = (one: DrawnPlace) => (within(one, extent, 0) ? 0 : 2) + (one.tone === null ? 1 : 0);
+  return [0, 1, 2, 3].flatMap((wanted) => all.filter((one) => rank(one) === wanted)).slice(0, kMostElements);
 }
 
 /** The place nearest to a spot, at most so far away. */

@@ -6,24 +6,31 @@ import { Loading } from '../../components/loading';
 import { Notice } from '../../components/notice';
 import { useLoaded } from '../../lib/loaded';
 import { follow } from '../../lib/router';
+import { BuildAgain } from '../tours/build_again';
 
 /** What the latest build says of itself, as whoever hands a map over signs it: to read, and to print. */
-export function ReportPage({ map, graph }: { map: MapInfo; graph: Graph }) {
+export function ReportPage({ map, graph, mayEdit }: { map: MapInfo; graph: Graph; mayEdit: boolean }) {
   const report = useLoaded(() => calls.askReport(map.id), graph.revision);
   if (report.problem?.status === 404)
     return (
-      <Notice still>
-        There is no report of this map. {report.problem.message} Build it here from its tours, under{' '}
-        <a href="/tours" onClick={follow}>
-          Tours
-        </a>
-        .
-      </Notice>
+      <>
+        <Notice still>
+          There is no report of this map. {report.problem.message} Build it here from its tours, under{' '}
+          <a href="/tours" onClick={follow}>
+            Tours
+          </a>
+          .
+        </Notice>
+        {mayEdit && <BuildAgain map={map} />}
+      </>
     );
   return (
-    <Loading of={report} what="The report">
-      {() => <Report key={graph.revision} map={map} />}
-    </Loading>
+    <>
+      <Loading of={report} what="The report">
+        {() => <Report key={graph.revision} map={map} />}
+      </Loading>
+      {mayEdit && <BuildAgain map={map} />}
+    </>
   );
 }
 

@@ -26,13 +26,15 @@ const graphOf = (...places: Graph['places']): Graph => ({
 });
 
 describe('spots of places that a map gives none', () => {
-  it('are asked for by no place that has one', () => {
-    expect(spotsFor(cytoscape, graphOf(place('p1', 0), place('p2', 1))).size).toBe(0);
+  it('are not asked for where each place has one', () => {
+    expect(spotsFor(cytoscape, [graphOf(place('p1', 0), place('p2', 1))], 100)).toBeNull();
   });
 
-  it('lie apart', () => {
-    const spots = spotsFor(cytoscape, graphOf(place('p1', null), place('p2', null)));
-    const [a, b] = [spots.get('p1'), spots.get('p2')];
-    expect(a && b && Math.hypot(a.x - b.x, a.y - b.y)).toBeGreaterThan(1);
+  it('keep places apart, those of an earlier state too', () => {
+    const states = [graphOf(place('p1', null), place('p2', null)), graphOf(place('p3', 0.5))];
+    const spots = [...(spotsFor(cytoscape, states, 100)?.values() ?? [])];
+    expect(spots).toHaveLength(3);
+    for (const [i, a] of spots.entries())
+      for (const b of spots.slice(i + 1)) expect(Math.hypot(a.x - b.x, a.y - b.y)).toBeGreaterThan(100);
   });
 });

@@ -4,30 +4,33 @@
 import type { Core } from 'cytoscape';
 import type { DrawnPlace, GraphContent, Spot } from './graph_content';
 import { token } from './graph_style';
-import { kWayLook, type LineLook } from './line_look';
+import { kToneColours, type LineLook } from './line_look';
 
 const kLeastLinePx = 0.75;
 const kLeastDotPx = 1.5; // its radius
 const kSignPx = 12; // at least
+const kTones = ['changed', 'removed', 'added'] as const; // of dots, from the lowest up
 
 /** Which part of the drawing is shown, and how large. */
-export interface Shown {
+interface Shown {
   zoom: number;
   pan: Spot; // px
   width_px: number;
   height_px: number;
+  density: number; // pixels of the screen for each px
 }
 
-interface Drawn extends LineLook {
-  from: Spot;
-  to: Spot;
+/** Lines of one look: what takes time is to begin a path. */
+interface LineGroup {
+  look: LineLook;
+  lines: { from: Spot; to: Spot }[];
 }
 
 /** A canvas below `drawing` that follows it. */
 export class WaysLayer {
   private readonly canvas = document.createElement('canvas');
   private way: ReadonlySet<string> = new Set();
-  private lines: readonly Drawn[];
+  private groups: readonly LineGroup[];
   private dots: readonly DrawnPlace[] = [];
   private shown = ''; // what was drawn last, as text
 
@@ -36,7 +39,7 @@ export class WaysLayer {
     private readonly content: GraphContent,
     private readonly diameter: number, // of a place, in units of the drawing
   ) {
-    this.lines = linesOf(content, this.way);
+    this.groups = groupsOf(content, this.way);
     this.canvas.className = 'graph-ways';
     drawing.container()?.prepend(this.canvas);
     drawing.on('render', this.follow); // in the same frame as the drawing itself
@@ -52,7 +55,7 @@ export class WaysLayer {
   setWay(lines: ReadonlySet<string>): void {
     if (lines.size === this.way.size && [...lines].every((one) => this.way.has(one))) return;
     this.way = lines;
-    this.lines = linesOf(this.content, lines);
+    this.groups = groupsOf(this.content, lines);
     this.draw();
   }
 
@@ -67,12 +70,11 @@ export class WaysLayer {
     const context = this.canvas.getContext('2d');
     const shown = this.present();
     this.shown = JSON.stringify(shown);
-    const scale = devicePixelRatio;
-    this.canvas.width = Math.round(shown.width_px * scale);
-    this.canvas.height = Math.round(shown.height_px * scale);
+    this.canvas.width = Math.round(shown.width_px * shown.density);
+    this.canvas.height = Math.round(shown.height_px * shown.density);
     if (!context) return;
-    context.scale(scale, scale);
-    drawLines(context, this.lines, Math.min(3, 0.4 * this.diameter), shown);
+    context.scale(shown.density, shown.density);
+    drawLines(context, this.groups, Math.min(3, 0.4 * this.diameter), shown);
     drawDots(context, this.dots, this.diameter, shown);
   }
 
@@ -87,61 +89,70 @@ export class WaysLayer {
       pan: { ...drawing.pan() },
       width_px: drawing.width(),
       height_px: drawing.height(),
+      density: devicePixelRatio,
     };
   }
 }
 
-/** `way`: the lines that a robot has before it, by id. */
-function linesOf({ lines, at }: GraphContent, way: ReadonlySet<string>): Drawn[] {
-  return lines.flatMap(({ id, from, to, look }) => {
-    const [a, b] = [at.get(from), at.get(to)];
-    return a && b ? [{ ...look, ...(way.has(id) ? kWayLook : {}), from: a, to: b }] : [];
-  });
+/** From the lowest up. `way`: the lines that a robot has before it, by id. */
+function groupsOf(content: GraphContent, way: ReadonlySet<string>): LineGroup[] {
+  const groups = new Map<string, LineGroup>();
+  for (const { id, from, to, look: plain, ahead } of content.lines) {
+    const look = way.has(id) ? ahead : plain;
+    const key = JSON.stringify(look);
+    let group = groups.get(key);
+    if (!group) groups.set(key, (group = { look, lines: [] }));
+    group.lines.push({ from, to });
+  }
+  return [...groups.values()].sort((a, b) => a.look.rank - b.look.rank);
 }
 
-const onScreen = ({ x, y }: Spot, { zoom, pan }: Shown): Spot => ({
-  x: x * zoom + pan.x,
-  y: y * zoom + pan.y,
-});
-
 /** Whether any part of the box of two points, in px, is in view. */
-function inView(a: Spot, b: Spot, beyond_px: number, { width_px, height_px }: Shown): boolean {
+function inView(
+  [ax, ay]: readonly [number, number],
+  [bx, by]: readonly [number, number],
+  beyond_px: number,
+  { width_px, height_px }: Shown,
+): boolean {
   return (
-    Math.max(a.x, b.x) > -beyond_px &&
-    Math.min(a.x, b.x) < width_px + beyond_px &&
-    Math.max(a.y, b.y) > -beyond_px &&
-    Math.min(a.y, b.y) < height_px + beyond_px
+    Math.max(ax, bx) > -beyond_px &&
+    Math.min(ax, bx) < width_px + beyond_px &&
+    Math.max(ay, by) > -beyond_px &&
+    Math.min(ay, by) < height_px + beyond_px
   );
 }
 
-/** Lines of one look are one path: what takes time is to begin one. */
+const onScreen = ({ x, y }: Spot, { zoom, pan }: Shown): [number, number] => [
+  x * zoom + pan.x,
+  y * zoom + pan.y,
+];
+
 function drawLines(
   context: CanvasRenderingContext2D,
-  lines: readonly Drawn[],
+  groups: readonly LineGroup[],
   unit: number, // a plain line's width, in units of the drawing
   shown: Shown,
 ): void {
-  const paths = new Map<string, { look: LineLook; path: Path2D; middles: Spot[] }>();
-  for (const { from, to, ...look } of lines) {
-    const [a, b] = [onScreen(from, shown), onScreen(to, shown)];
-    if (!inView(a, b, kSignPx, shown)) continue;
-    const key = `${look.width} ${look.dash} ${look.colour} ${look.sign ?? ''}`;
-    let group = paths.get(key);
-    if (!group) paths.set(key, (group = { look, path: new Path2D(), middles: [] }));
-    group.path.moveTo(a.x, a.y);
-    group.path.lineTo(b.x, b.y);
-    if (look.sign !== null) group.middles.push({ x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 });
-  }
-  const groups = [...paths.values()].sort((a, b) => a.look.width - b.look.width);
-  for (const { look, path } of groups) {
+  const signs: { look: LineLook; middles: [number, number][] }[] = [];
+  for (const { look, lines } of groups) {
+    const middles: [number, number][] = [];
+    const path = new Path2D();
+    for (const { from, to } of lines) {
+      const [a, b] = [onScreen(from, shown), onScreen(to, shown)];
+      if (!inView(a, b, kSignPx, shown)) continue;
+      path.moveTo(...a);
+      path.lineTo(...b);
+      if (look.sign !== null) middles.push([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]);
+    }
     const width_px = Math.max(kLeastLinePx, look.width * unit * shown.zoom);
     context.strokeStyle = token(look.colour);
     context.lineWidth = width_px;
     context.setLineDash(dashesOf(look.dash, width_px));
     context.stroke(path);
+    signs.push({ look, middles });
   }
   context.setLineDash([]);
-  for (const { look, middles } of groups) drawSigns(context, look, middles, unit * shown.zoom);
+  for (const { look, middles } of signs) drawSigns(context, look, middles, unit * shown.zoom);
 }
 
 function dashesOf(dash: LineLook['dash'], width_px: number): number[] {
@@ -153,7 +164,7 @@ function dashesOf(dash: LineLook['dash'], width_px: number): number[] {
 function drawSigns(
   context: CanvasRenderingContext2D,
   look: LineLook,
-  middles: readonly Spot[],
+  middles: readonly (readonly [number, number])[],
   unit_px: number,
 ): void {
   if (look.sign === null) return;
@@ -164,7 +175,7 @@ function drawSigns(
   context.strokeStyle = token('surface');
   context.lineWidth = Math.max(3, 2.4 * unit_px);
   context.fillStyle = token(look.text);
-  for (const { x, y } of middles) {
+  for (const [x, y] of middles) {
     context.strokeText(look.sign, x, y);
     context.fillText(look.sign, x, y);
   }
@@ -177,16 +188,19 @@ function drawDots(
   shown: Shown,
 ): void {
   const radius_px = Math.max(kLeastDotPx, (diameter * shown.zoom) / 2);
-  const path = new Path2D();
-  for (const place of places) {
-    const at = onScreen(place, shown);
-    if (!inView(at, at, radius_px, shown)) continue;
-    path.moveTo(at.x + radius_px, at.y);
-    path.arc(at.x, at.y, radius_px, 0, 2 * Math.PI);
-  }
+  const ring_px = Math.min(2, 0.4 * radius_px);
   context.fillStyle = token('sunken');
-  context.fill(path);
-  context.strokeStyle = token('line-strong');
-  context.lineWidth = Math.min(2, 0.4 * radius_px);
-  context.stroke(path);
+  for (const tone of [null, ...kTones]) {
+    const path = new Path2D();
+    for (const place of places) {
+      const at = onScreen(place, shown);
+      if (place.tone !== tone || !inView(at, at, radius_px, shown)) continue;
+      path.moveTo(at[0] + radius_px, at[1]);
+      path.arc(...at, radius_px, 0, 2 * Math.PI);
+    }
+    context.fill(path);
+    context.strokeStyle = token(tone === null ? 'line-strong' : kToneColours[tone]);
+    context.lineWidth = tone === null ? ring_px : 2.5 * ring_px;
+    context.stroke(path);
+  }
 }
