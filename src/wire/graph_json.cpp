@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/graph_json.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "map/place_names.hpp"
 #include "wire/entity_tag.hpp"
 #include "wire/inspect_json.hpp"
@@ -11,15 +14,30 @@ namespace {
 
 using nlohmann::json;
 
+/// The mean of all colours, in hundredths: by day and by night it differs several times.
+double brightness(const features::Appearance& appearance) {
+  const auto& moments = appearance.colour_moments;  // three of each colour, its mean first
+  const double mean = (static_cast<double>(moments[0]) + moments[3] + moments[6]) / 3.0;
+  return mean > 0.0 ? std::round(100.0 * std::min(mean, 1.0)) / 100.0 : 0.0;
+}
+
 json place_to_json(const map::Place& place, const std::string& name, const Eigen::Vector2d& position) {
-  return {{"id", place.id.str()},
-          {"label", place.label},
-          {"name", name},
-          {"prototype", place.prototype.str()},
-          {"members", ids_to_json(place.members)},
-          {"features", place.appearances.empty() ? 0 : place.appearances.front().size()},
-          {"x", finite_or_null(position.x())},
-          {"y", finite_or_null(position.y())}};
+  json value = {{"id", place.id.str()},
+                {"label", place.label},
+                {"name", name},
+                {"prototype", place.prototype.str()},
+                {"members", ids_to_json(place.members)},
+                {"features", place.appearances.empty() ? 0 : place.appearances.front().size()},
+                {"x", finite_or_null(position.x())},
+                {"y", finite_or_null(position.y())}};
+  const auto& appearances = place.appearances.entries();
+  if (!appearances.empty()) value["brightness"] = brightness(*appearances.front().appearance);
+  for (std::size_t i = 1; i < appearances.size(); ++i) {
+    const ImageId& image = appearances[i].image;
+    value["learnt"].push_back({{"image", image.empty() ? json() : json(image.str())},
+                               {"brightness", brightness(*appearances[i].appearance)}});
+  }
+  return value;
 }
 
 json edge_of_graph(const map::Edge& edge) {

@@ -245,11 +245,19 @@ TEST(Encoders, WriteThoseDoubtsThatAreAskedFor) {
 }
 
 TEST(Encoders, TellEverythingOfAMap) {
-  const json graph = graph_to_json(sample_map(), MapId("house"), kLayout);
+  map::TopologicalMap map = sample_map();
+  features::Appearance dark = map.places[1].appearances.front();
+  dark.colour_moments = {0.06F, 0.0F, 0.0F, 0.05F, 0.0F, 0.0F, 0.04F, 0.0F, 0.0F};
+  map.places[1].appearances.push_back(dark, ImageId("evening/00007.jpg"));
+  dark.colour_moments.fill(std::numeric_limits<float>::quiet_NaN());
+  map.places[1].appearances.push_back(dark);
+  const json graph = graph_to_json(map, MapId("house"), kLayout);
+  EXPECT_THAT(schemas().problems("graph", graph), IsEmpty());
   EXPECT_EQ(graph["revision"], 4);
   EXPECT_EQ(graph["places"][1],
             json::parse(R"({"id":"p2","label":"kitchen","name":"kitchen","prototype":"tour/00002.jpg",
-    "members":["tour/00002.jpg"],"features":20,"x":1.0,"y":0.75})"));
+    "members":["tour/00002.jpg"],"features":20,"brightness":0.0,
+    "learnt":[{"image":"evening/00007.jpg","brightness":0.05},{"image":null,"brightness":0.0}],"x":1.0,"y":0.75})"));
   EXPECT_EQ(graph["edges"][1], json::parse(R"({"from":"p2","to":"p1","bearing_rad":null,"turn_rad":null,"length_m":1.5,
     "length_from":"unknown","confidence":0.1,"inliers":0,"weak":true,"blocked":true,"shortcut":false,"by":"person"})"));
   EXPECT_EQ(graph["destinations"][0],

@@ -126,6 +126,15 @@ export function newGraph(map) {
     prototype: `t1/${id}.jpg`,
     members: [`t1/${id}.jpg`, `t1/${id}b.jpg`],
     features: 180 + 7 * Number(id.slice(1)),
+    brightness: 0.41,
+    ...(label === 'kitchen'
+      ? {
+          learnt: [
+            { image: `t1/${id}b.jpg`, brightness: 0.18 },
+            { image: null, brightness: 0.06 },
+          ],
+        }
+      : {}),
     x,
     y,
   }));

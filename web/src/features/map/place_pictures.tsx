@@ -5,6 +5,7 @@ import type { Graph, Place, Tour } from '../../api/types';
 import { Section } from '../../components/section';
 import { useLoaded } from '../../lib/loaded';
 import { count, dateText } from '../../lib/words';
+import { RecognisedBy } from './recognised_by';
 import { byTour, fileOf, type TourPictures } from './tour_order';
 
 const kAtOnce = 5;
@@ -36,6 +37,7 @@ export function PlacePictures({ graph, place, title }: { graph: Graph; place: Pl
       <Section title="All pictures, by tour" heading={false}>
         <Tours graph={graph} images={place.members} />
       </Section>
+      <RecognisedBy graph={graph} place={place} />
     </div>
   );
 }

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Place, Tour } from '../../api/types';
+import { dateText } from '../../lib/words';
+
+/** One look of a place by which it is recognised. */
+export interface KnownLook {
+  image: string | null; // null: it was seen on a drive
+  brightness: number; // the mean of all its colours, 0 to 1
+}
+
+const kDark = 0.1;
+const kDim = 0.22;
+
+/** The looks that a place is recognised by, its own picture's first; none where the server does not tell. */
+export function appearancesOf({ prototype, brightness, learnt }: Place): readonly KnownLook[] {
+  return brightness === undefined ? [] : [{ image: prototype, brightness }, ...(learnt ?? [])];
+}
+
+/** In which light a picture was taken. */
+export function lightWords(brightness: number): string {
+  if (brightness < kDark) return 'in the dark';
+  return brightness < kDim ? 'in dim light' : 'in good light';
+}
+
+/** From where a look is, of when, and in which light. */
+export function appearanceWords(
+  { image, brightness }: KnownLook,
+  tours: readonly Pick<Tour, 'id' | 'name' | 'created_us'>[],
+): string {
+  const light = lightWords(brightness);
+  if (image === null) return `Seen on a drive, ${light}`;
+  const tour = tours.find(({ id }) => id === image.split('/')[0]);
+  if (!tour) return `A picture of a tour, ${light}`;
+  return `From the tour ${tour.name}, brought ${dateText(tour.created_us)}, ${light}`;
+}
