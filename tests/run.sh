@@ -91,4 +91,5 @@ fi
 say "All tests"
 configure release -DHOMEWARD_UNIT_TESTS_IN="${unit_tests:-}" -DHOMEWARD_TESTS_YIELD=ON
 build release all benchmarks
-ASAN_OPTIONS="malloc_context_size=12" ctest --preset release -j "$tests_at_once" --no-tests=error
+ASAN_OPTIONS="malloc_context_size=12${ASAN_OPTIONS:+:$ASAN_OPTIONS}" \
+  ctest --preset release -j "$tests_at_once" --no-tests=error

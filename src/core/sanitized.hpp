@@ -32,8 +32,10 @@ void expect_usable([[maybe_unused]] std::span<Value> values) {
 #ifdef __SANITIZE_ADDRESS__
   // The interface has no const; it changes nothing.
   auto* begin = const_cast<std::remove_const_t<Value>*>(values.data());
-  const void* bad = __asan_region_is_poisoned(begin, values.size_bytes());
-  if (bad != nullptr) static_cast<void>(*static_cast<const volatile char*>(bad));
+  void* bad = __asan_region_is_poisoned(begin, values.size_bytes());
+  if (bad == nullptr) return;
+  void* frame = __builtin_frame_address(0);
+  __asan_report_error(__builtin_return_address(0), frame, frame, bad, 0, 1);
 #endif
 }
 

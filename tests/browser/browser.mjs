@@ -14,8 +14,9 @@ const kChromiums = ['/usr/bin/chromium-headless-shell', '/usr/bin/chromium'];
 
 /** Starts the system's Chromium; CHROMIUM names another one. */
 export async function launch() {
-  const executablePath = [process.env.CHROMIUM, ...kChromiums].find((path) => path && existsSync(path));
-  if (!executablePath) throw new Error(`there is no Chromium at ${kChromiums.join(' or ')}; set CHROMIUM`);
+  const places = process.env.CHROMIUM ? [process.env.CHROMIUM] : kChromiums;
+  const executablePath = places.find((path) => existsSync(path));
+  if (!executablePath) throw new Error(`there is no Chromium at ${places.join(' or ')}; set CHROMIUM`);
   const { chromium } = require('playwright-core');
   const asRoot = process.getuid?.() === 0;
   return chromium.launch({

@@ -11,6 +11,7 @@ import { person, realServer, takeBack } from './person.mjs';
 
 const values = realServer();
 const out = values.out ?? mkdtempSync(join(tmpdir(), 'homeward-screens-'));
+const kBuildMs = 300_000; // beside a chair that looks around
 const browser = await launch();
 const anna = await person(browser, values.base, values.name, values.password);
 const { page, ask } = anna;
@@ -66,6 +67,23 @@ async function two_places() {
 }
 
 const checks = [
+  [
+    'a place tells of when its pictures are, and by which looks in which light it is recognised',
+    async () => {
+      const { places } = await graph();
+      const known = places.find(({ label }) => label !== '');
+      assert.ok(known.brightness > 0, JSON.stringify(known));
+      await at(known.id);
+      await (
+        await open('All pictures, by tour')
+      )
+        .getByText(/brought .+, \d+ pictures?, in their order/)
+        .waitFor();
+      const looks = await open(/^Recognised by: /);
+      await looks.getByText(/^From the tour .+, brought .+, in good light$/).waitFor();
+      await see('inspect-place');
+    },
+  ],
   [
     'two places are joined, and parted again as they were',
     async () => {
@@ -234,6 +252,38 @@ const checks = [
       ]);
       await alone.getByRole('heading', { name: 'Weak ways' }).waitFor();
       await alone.close();
+    },
+  ],
+  [
+    'a map is built again, and what people changed is kept',
+    async () => {
+      const before = await graph();
+      const [first] = await two_places();
+      await at(first.id);
+      await chosen.getByLabel('Name', { exact: true }).fill('Larder');
+      await chosen.getByRole('button', { name: 'Save', exact: true }).click();
+      await chosen.getByText('Named Larder.').waitFor();
+      await part('Report').click();
+      const again = page.getByRole('region', { name: 'Build it again' });
+      await again.getByRole('button', { name: `Build again ${map_name}` }).click();
+      await again.getByRole('button', { name: 'Build again', exact: true }).click();
+      await again.getByRole('progressbar').waitFor();
+      await again.getByRole('progressbar').waitFor({ state: 'detached', timeout: kBuildMs });
+      const { jobs } = await ask('GET', '/jobs');
+      const [job] = jobs.filter((one) => one.kind === 'build').sort((a, b) => b.created_us - a.created_us);
+      assert.equal(job.state, 'done', JSON.stringify(job));
+      assert.ok(!job.notes.some(({ code }) => code === 'edit_lost'), JSON.stringify(job.notes));
+      const after = await graph();
+      const where = (state) => state.places.find(({ members }) => members.includes(first.prototype));
+      assert.equal(where(after).label, 'Larder');
+      assert.deepEqual(
+        after.destinations.map(({ label }) => label),
+        before.destinations.map(({ label }) => label),
+      );
+      await see('mend-built-again');
+      await page.goto(`/map/${map}`);
+      await takeBack(history, ask, map);
+      assert.equal(where(await graph()).label, first.label);
     },
   ],
   [

@@ -2,7 +2,7 @@
 // How a map was driven, how it came about and how it was built, in a real browser against the pretended house.
 // Usage: node tests/browser/inspection_test.mjs [FOLDER FOR SCREENSHOTS [WORDS]]     after web/build.sh
 import assert from 'node:assert/strict';
-import { runChecks } from './browser.mjs';
+import { findings, runChecks, shoot } from './browser.mjs';
 import { inEveryLook, pretendedHouses, screenshotFolder, tab } from './house.mjs';
 
 const out = screenshotFolder();
@@ -65,6 +65,21 @@ const checks = [
       await page.waitForTimeout(5);
       ben([{ kind: 'move', into: 'p9', images: ['t1/p8b.jpg'] }]);
       await out_of_here.getByText(slow).waitFor();
+    }),
+  ],
+  [
+    'a place tells by which looks it is recognised: from where, of when, and in which light',
+    withHouse(async (page) => {
+      await page.goto('/map/m1');
+      await page.getByRole('button', { name: 'Kitchen', exact: true }).click();
+      const chosen = page.locator('.inspector');
+      await chosen.getByText('Recognised by: 3').click();
+      await chosen.getByText(/^From the tour Ground floor, brought .+, in good light$/).waitFor();
+      await chosen.getByText(/^From the tour Ground floor, brought .+, in dim light$/).waitFor();
+      await chosen.getByText('Seen on a drive, in the dark').waitFor();
+      await page.waitForTimeout(300);
+      assert.deepEqual(await findings(page), []);
+      await shoot(page, out, 'recognised-by');
     }),
   ],
   [
@@ -179,6 +194,24 @@ const checks = [
       await alone.getByRole('heading', { name: 'Weak places' }).waitFor();
       await page.reload();
       await content.getByRole('heading', { name: 'All places' }).waitFor();
+    }),
+  ],
+  [
+    'a map is built again where its report is, and what is to be known of that stands there',
+    withHouse(async (page, house) => {
+      await page.goto('/map/m1/report');
+      const again = page.getByRole('region', { name: 'Build it again' });
+      await again.getByRole('button', { name: /^Build again/ }).click();
+      await again.getByRole('button', { name: 'Keep' }).click();
+      assert.equal(house.jobs.length, 0, 'nobody was sure');
+      await again.getByRole('button', { name: /^Build again/ }).click();
+      await again.getByRole('button', { name: 'Build again', exact: true }).click();
+      await again.getByRole('button', { name: /^Hide what is to be known/ }).waitFor();
+      assert.deepEqual(
+        house.jobs.map(({ kind, state }) => [kind, state]),
+        [['build', 'done']],
+      );
+      assert.deepEqual(await findings(page), []);
     }),
   ],
   [

@@ -614,6 +614,11 @@ const checks = [
       await canvas.locator('canvas').first().waitFor();
       await page.waitForTimeout(500); // the drawing fits itself to its box
       const box = await canvas.boundingBox();
+      const inked = await page.locator('.graph-ways').evaluate((one) => {
+        const { data } = one.getContext('2d').getImageData(0, 0, one.width, one.height);
+        return data.filter((value, i) => i % 4 === 3 && value > 0).length;
+      });
+      assert.ok(inked > 500, `the ways are drawn: ${inked} pixels`);
       // The drawing shows the unit square with a margin; the kitchen is at (0.34, 0.08), found by trying around there.
       let found = false;
       for (let dy = 0; dy < 0.25 && !found; dy += 0.03)
@@ -657,11 +662,11 @@ const checks = [
       await page.goto('/map/m1/place/p1234');
       const ring = page.locator('.place-marks .chosen[data-place=p1234]');
       await ring.waitFor();
-      const graph = await page.getByTestId('graph').boundingBox();
       const [x, y] = await Promise.all(['cx', 'cy'].map((name) => ring.getAttribute(name).then(Number)));
       await page.getByLabel('Find a place').fill('office 33');
       await list.getByRole('button', { name: 'Office 33', exact: true }).click();
       await page.getByRole('heading', { name: 'Office 33' }).waitFor();
+      const graph = await page.getByTestId('graph').boundingBox();
       await page.mouse.click(graph.x + x, graph.y + y);
       await ring.waitFor();
       assert.ok(page.url().endsWith('/place/p1234'), page.url());

@@ -172,7 +172,6 @@ async function panning() {
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   await page.mouse.move(x, y);
   await page.mouse.down();
-  await page.mouse.move(x + 20, y); // the drawing turns into a picture of itself
   await page.evaluate(() => {
     globalThis.frames = [performance.now()];
     const note = () => {
