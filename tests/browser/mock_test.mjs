@@ -791,7 +791,7 @@ const checks = [
       await row.getByRole('img', { name: 'p11.jpg' }).waitFor();
       await row.scrollIntoViewIfNeeded();
       await shoot(page, out, 'build-warning');
-      await row.getByRole('button', { name: 'Hide what is to be known of Again' }).click();
+      await row.getByRole('button', { name: 'Hide this: what is to be known of Again' }).click();
       await row.getByText('The tour jumps').waitFor({ state: 'detached' });
       await page.reload();
       await row.getByText('Ready').waitFor();

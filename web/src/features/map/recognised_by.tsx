@@ -24,18 +24,13 @@ function Appearances({ graph, place }: { graph: Graph; place: Place }) {
         What the chair compares with what it sees. Looks that it learnt later, by night for example, help
         where the light is other.
       </p>
-      <ul class="list">
+      <ul class="choices">
         {appearancesOf(place).map((one, i) => (
-          <li key={i}>
+          <li key={i} class="choice">
             {one.image !== null && (
-              <img
-                class="picture"
-                src={calls.imageThumbnailUrl(graph.map, one.image)}
-                alt=""
-                loading="lazy"
-              />
+              <img src={calls.imageThumbnailUrl(graph.map, one.image)} alt="" loading="lazy" />
             )}
-            <span>{appearanceWords(one, tours)}</span>
+            <span class="small">{appearanceWords(one, tours)}</span>
           </li>
         ))}
       </ul>

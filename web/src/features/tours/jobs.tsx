@@ -49,7 +49,7 @@ function BuildNotes({ job, map }: { job: Job; map: MapInfo }) {
           <button
             type="button"
             class="button small"
-            aria-label={`Hide what is to be known of ${map.name}`}
+            aria-label={`Hide this: what is to be known of ${map.name}`}
             onClick={() => dismiss(job.id)}
           >
             Hide this
