@@ -74,11 +74,8 @@ const checks = [
       const known = places.find(({ label }) => label !== '');
       assert.ok(known.brightness > 0, JSON.stringify(known));
       await at(known.id);
-      await (
-        await open('All pictures, by tour')
-      )
-        .getByText(/brought .+, \d+ pictures?, in their order/)
-        .waitFor();
+      const pictures = await open('All pictures, by tour');
+      await pictures.getByText(/brought .+, \d+ pictures?, in their order/).waitFor();
       const looks = await open(/^Recognised by: /);
       await looks.getByText(/^From the tour .+, brought .+, in good light$/).waitFor();
       await see('inspect-place');

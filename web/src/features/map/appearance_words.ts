@@ -2,8 +2,8 @@
 import type { Place, Tour } from '../../api/types';
 import { dateText } from '../../lib/words';
 
-/** One look of a place by which it is recognised. */
-export interface KnownLook {
+/** One appearance by which a place is recognised. */
+export interface KnownAppearance {
   image: string | null; // null: it was seen on a drive
   brightness: number; // the mean of all its colours, 0 to 1
 }
@@ -13,7 +13,7 @@ const kDark = 0.15;
 const kDim = 0.33;
 
 /** The looks that a place is recognised by, its own picture's first; none where the server does not tell. */
-export function appearancesOf({ prototype, brightness, learnt }: Place): readonly KnownLook[] {
+export function appearancesOf({ prototype, brightness, learnt }: Place): readonly KnownAppearance[] {
   return brightness === undefined ? [] : [{ image: prototype, brightness }, ...(learnt ?? [])];
 }
 
@@ -25,7 +25,7 @@ export function lightWords(brightness: number): string {
 
 /** From where a look is, of when, and in which light. */
 export function appearanceWords(
-  { image, brightness }: KnownLook,
+  { image, brightness }: KnownAppearance,
   tours: readonly Pick<Tour, 'id' | 'name' | 'created_us'>[],
 ): string {
   const light = lightWords(brightness);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ways and distant places, below the drawing. An element of cytoscape takes about 0.2 ms to be made and styled, a line here a
-// hundredth of that, so cytoscape gets only what somebody may press or read.
+// Ways and distant places, below the drawing. A way that is an element of cytoscape takes 0.13 ms to be made, styled and drawn;
+// here all of one look are a single path. So cytoscape gets only the places that are looked at.
 import type { Core } from 'cytoscape';
 import type { DrawnPlace, GraphContent, Spot } from './graph_content';
 import { token } from './graph_style';
