@@ -330,6 +330,9 @@ TEST_F(LearningTest, ADriveOffersWhatItSawAndAPersonTakesIt) {
   json after = graph(map);
   EXPECT_EQ(after.at("revision"), 3);
   after["revision"] = before.at("revision");
+  EXPECT_FALSE(before.at("places")[0].contains("learnt"));
+  EXPECT_EQ(after.at("places")[0].at("learnt").size(), done.at("gained").get<std::size_t>());
+  after["places"][0].erase("learnt");
   EXPECT_EQ(after, before) << "appearances alone";
   EXPECT_EQ(admin->get(at(map) + "/history").json().at("edits").size(), 1U);
   with_store([&](db::Store& store) {
