@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exploration/explorer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/angles.hpp"
+#include "matching/verify.hpp"
+
+namespace homeward::exploration {
+namespace {
+
+double length_m(const Pose2& moved) { return std::hypot(moved.x_m, moved.y_m); }
+
+}  // namespace
+
+Pose2 Explorer::floor_from_robot(const Pose2& odometry) const {
+  return aligned_ * inverse(aligned_odometry_) * odometry;
+}
+
+PosePrior Explorer::prior(const Pose2& odometry) const {
+  const Pose2 moved = inverse(aligned_odometry_) * odometry;
+  const double driven_m = length_m(moved);
+  return {aligned_ * moved, 0.02 + config_.odometry_spread * driven_m,
+          0.01 + config_.odometry_spread_rad_per_m * driven_m +
+              config_.odometry_spread_rad_per_rad * std::abs(moved.theta_rad)};
+}
+
+void Explorer::align_to_recent(std::span<const SurfacePoint> surface, const Pose2& odometry) {
+  const PosePrior before = prior(odometry);
+  ReferenceSurface reference;
+  const std::size_t first = views_.size() > static_cast<std::size_t>(config_.recent)
+                                ? views_.size() - static_cast<std::size_t>(config_.recent)
+                                : 0;
+  for (std::size_t i = first; i < views_.size(); ++i) reference.add(views_[i].surface, poses_[i]);
+  const auto aligned = align(reference, surface, before, config_.alignment);
+  aligned_ = aligned && aligned->agreement >= config_.least_agreement ? aligned->reference_from_robot
+                                                                      : before.reference_from_robot;
+  aligned_odometry_ = odometry;
+}
+
+void Explorer::see(const RangeSweep& sweep, const Pose2& odometry) {
+  if (views_.empty()) return;
+  const Pose2 moved = inverse(aligned_odometry_) * odometry;
+  const bool is_due =
+      length_m(moved) >= config_.aligned_every_m || std::abs(moved.theta_rad) >= config_.aligned_every_rad;
+  if (!is_due) return;
+  const std::vector<SurfacePoint> surface = surface_of(sweep, config_.filter);
+  align_to_recent(surface, odometry);
+  floor_.see(sweep, surface, aligned_);
+  coverage_.follow(floor_.frame());
+}
+
+bool Explorer::wants_picture(const Pose2& odometry) const {
+  return since_picture_m(odometry) >= config_.picture_every_m;
+}
+
+double Explorer::since_picture_m(const Pose2& odometry) const {
+  constexpr double kFar_m = 1e9;
+  return views_.empty() ? kFar_m : length_m(inverse(views_.back().odometry) * odometry);
+}
+
+void Explorer::take(const RangeSweep& sweep, const Pose2& odometry,
+                    std::shared_ptr<const features::Appearance> appearance) {
+  KeyView view{odometry, sweep, surface_of(sweep, config_.filter), std::move(appearance), 0.0};
+  if (!begun_) {
+    begun_ = true;
+    aligned_odometry_ = odometry;
+  } else {
+    align_to_recent(view.surface, odometry);
+    view.driven_m = views_.back().driven_m + length_m(inverse(views_.back().odometry) * odometry);
+    const int last = static_cast<int>(views_.size()) - 1;
+    links_.push_back({last, last + 1, inverse(poses_.back()) * aligned_, 0.01, radians(0.3), false});
+  }
+  views_.push_back(std::move(view));
+  poses_.push_back(aligned_);
+  floor_.see(sweep, views_.back().surface, aligned_);
+  coverage_.add(floor_, position_m(aligned_), config_.view);
+  look_for_loop();
+}
+
+Reach Explorer::reach(const Pose2& odometry) const {
+  return Reach::from(floor_, position_m(floor_from_robot(odometry)), config_.reach);
+}
+
+std::vector<std::uint8_t> Explorer::given_up_cells() const {
+  constexpr double kAround_m = 0.3;
+  const FloorFrame& frame = floor_.frame();
+  std::vector<std::uint8_t> cells(frame.size(), 0);
+  const int around = static_cast<int>(kAround_m / frame.cell_m);
+  for (const Eigen::Vector2d& at_m : given_up_m_) {
+    const FloorCell middle = frame.cell(at_m);
+    for (int row = middle.row - around; row <= middle.row + around; ++row) {
+      for (int column = middle.column - around; column <= middle.column + around; ++column)
+        if (frame.holds({column, row})) cells[frame.index({column, row})] = 1;
+    }
+  }
+  return cells;
+}
+
+std::optional<NextView> Explorer::next(const Reach& reach, const std::optional<Eigen::Vector2d>& driven_to_m) const {
+  return next_view(floor_, reach, coverage_, given_up_cells(), driven_to_m, config_.view);
+}
+
+void Explorer::give_up(const Eigen::Vector2d& at_m) { given_up_m_.push_back(at_m); }
+
+/// How the newest key view lies to an old one, if their sweeps and their pictures agree on it.
+std::optional<PoseLink> Explorer::loop_with(int then) const {
+  const auto old = static_cast<std::size_t>(then);
+  const KeyView& now = views_.back();
+  ReferenceSurface reference;
+  const std::size_t first = old >= 3 ? old - 3 : 0;
+  const std::size_t last = std::min(old + 3, views_.size() - 1 - static_cast<std::size_t>(config_.loop_gap));
+  for (std::size_t i = first; i <= last; ++i) reference.add(views_[i].surface, poses_[i]);
+  const double driven_m = now.driven_m - views_[old].driven_m;
+  const double doubt_m = 0.1 + config_.loop_drift * driven_m;
+  const double doubt_rad = radians(1.0) + radians(0.1) * driven_m;
+  // From several starts, as far as the drift may have got; the best few by a look are worked out.
+  struct Start {
+    Pose2 pose;
+    double agreement;
+  };
+  std::vector<Start> starts;
+  const int steps = std::min(3, static_cast<int>(std::ceil(doubt_m / 0.25)));
+  for (int right = -steps; right <= steps; ++right) {
+    for (int up = -steps; up <= steps; ++up) {
+      for (int turn = -2; turn <= 2; ++turn) {
+        Pose2 pose = poses_.back();
+        pose.x_m += right * 0.25;
+        pose.y_m += up * 0.25;
+        pose.theta_rad = wrap_angle(pose.theta_rad + turn * 0.5 * std::min(doubt_rad, radians(10.0)));
+        starts.push_back({pose, agreement(reference, now.surface, pose, 0.15)});
+      }
+    }
+  }
+  std::ranges::stable_sort(starts, std::greater<>(), &Start::agreement);
+  std::optional<Alignment> best;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, starts.size()); ++i) {
+    const auto aligned = align(reference, now.surface, {starts[i].pose, 0.5, 0.2}, config_.alignment);
+    if (aligned && (!best || aligned->agreement > best->agreement)) best = aligned;
+  }
+  if (!best || best->agreement < config_.loop_agreement) return std::nullopt;
+  const Pose2 then_from_now = inverse(poses_[old]) * best->reference_from_robot;
+  const Pose2 off = inverse(poses_.back()) * best->reference_from_robot;
+  if (length_m(off) > 3.0 * doubt_m + 0.2) return std::nullopt;
+  if (now.appearance && views_[old].appearance) {
+    const auto seen = matching::verify(*now.appearance, *views_[old].appearance, {}, 1);
+    constexpr double kSameTurn_rad = 0.12;
+    if (!seen || std::abs(wrap_angle(seen->pose.motion.turn_rad + then_from_now.theta_rad)) > kSameTurn_rad)
+      return std::nullopt;
+  }
+  return PoseLink{then, static_cast<int>(views_.size()) - 1, then_from_now, 0.03, radians(0.6), true};
+}
+
+void Explorer::look_for_loop() {
+  const int newest = static_cast<int>(views_.size()) - 1;
+  // The nearest of the old ones, by what is known.
+  int then = -1;
+  double nearest_m = 1e9;
+  for (int i = 0; i + config_.loop_gap <= newest; ++i) {
+    const auto old = static_cast<std::size_t>(i);
+    const double apart_m = (position_m(poses_[old]) - position_m(poses_.back())).norm();
+    const double driven_m = views_.back().driven_m - views_[old].driven_m;
+    const double within_m = config_.loop_within_m + config_.loop_drift * driven_m;
+    if (apart_m > within_m || apart_m >= nearest_m) continue;
+    if (!floor_.in_sight(position_m(poses_[old]), position_m(poses_.back()))) continue;
+    nearest_m = apart_m;
+    then = i;
+  }
+  if (then < 0) return;
+  const auto link = loop_with(then);
+  if (!link) return;
+  links_.push_back(*link);
+  known_again_.push_back({newest, then, false});
+  // What fits already need not be laid out again.
+  constexpr double kFits = 1.5;
+  if (strain(poses_, *link) < kFits) return;
+  lay_out_again();
+}
+
+/// Settles the poses by all links and puts the floor together anew. A loop that the others contradict is taken back,
+/// and with it what it had covered.
+void Explorer::lay_out_again() {
+  settle(poses_, links_);
+  constexpr double kWrong = 8.0;  // spreads
+  bool taken_back = false;
+  std::size_t loop = 0;
+  std::erase_if(links_, [&](const PoseLink& link) {
+    if (!link.loop) return false;
+    while (known_again_[loop].taken_back) ++loop;
+    KnownAgain& known = known_again_[loop++];
+    if (strain(poses_, link) < kWrong) return false;
+    known.taken_back = taken_back = true;
+    return true;
+  });
+  if (taken_back) settle(poses_, links_);
+  aligned_ = poses_.back();
+  aligned_odometry_ = views_.back().odometry;
+  floor_.forget();
+  coverage_.forget();
+  for (std::size_t i = 0; i < views_.size(); ++i) floor_.see(views_[i].sweep, views_[i].surface, poses_[i]);
+  for (const Pose2& pose : poses_) coverage_.add(floor_, position_m(pose), config_.view);
+}
+
+}  // namespace homeward::exploration

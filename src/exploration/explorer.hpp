@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/pose2.hpp"
+#include "core/range_sweep.hpp"
+#include "exploration/explored_floor.hpp"
+#include "exploration/next_view.hpp"
+#include "exploration/pose_graph.hpp"
+#include "exploration/reach.hpp"
+#include "exploration/sweep_alignment.hpp"
+#include "features/appearance.hpp"
+
+namespace homeward::exploration {
+
+struct ExplorerConfig {
+  SweepFilter filter;
+  AlignmentConfig alignment;
+  FloorConfig floor;
+  ReachConfig reach;
+  ViewConfig view;
+  double picture_every_m = 0.38;    // driven on by so much, it takes the next picture
+  double aligned_every_m = 0.2;     // and puts its sweep onto those before,
+  double aligned_every_rad = 0.35;  // or turned by so much
+  int recent = 12;                  // so many key views before are what a sweep is put onto
+  double least_agreement = 0.35;    // with less the wheels are believed
+  // Of the wheels, for each metre or radian since the last time:
+  double odometry_spread = 0.03;
+  double odometry_spread_rad_per_m = 0.04;
+  double odometry_spread_rad_per_rad = 0.05;
+  // A loop is looked for where the robot may be near to where it was so many key views ago,
+  int loop_gap = 15;
+  double loop_within_m = 1.2;   // so near, by what it takes itself to be,
+  double loop_drift = 0.015;    // and for each metre driven between
+  double loop_agreement = 0.6;  // of its sweep with those, at least
+};
+
+/// A picture with what was known where it was taken: a vertex of the pose graph.
+struct KeyView {
+  Pose2 odometry;
+  RangeSweep sweep;
+  std::vector<SurfacePoint> surface;
+  std::shared_ptr<const features::Appearance> appearance;  // null: it was not looked at
+  double driven_m = 0.0;                                   // up to there
+};
+
+/// A place that is known already, seen again: a link of the pose graph. It may be wrong, and is taken back then.
+struct KnownAgain {
+  int now = 0;  // key views
+  int then = 0;
+  bool taken_back = false;
+};
+
+/// Explores a building: puts sweeps and pictures together, and says where to go next. Plain data, no clock.
+/// The whole is ours; what it grew from is Ferdaus 2008, chapter 4 (docs/experiments/exploration.md).
+class Explorer {
+ public:
+  explicit Explorer(const ExplorerConfig& config) : config_(config), floor_(config.floor) {}
+
+  /// A new sweep and the odometry of its moment.
+  void see(const RangeSweep& sweep, const Pose2& odometry);
+  /// Whether it is time for a picture.
+  [[nodiscard]] bool wants_picture(const Pose2& odometry) const;
+  /// From where the last picture was taken to here, as the crow flies; far where there is none.
+  [[nodiscard]] double since_picture_m(const Pose2& odometry) const;
+  /// The picture that was taken there, with a sweep of the same moment. `appearance` may be null: then no place is
+  /// known again by sight.
+  void take(const RangeSweep& sweep, const Pose2& odometry, std::shared_ptr<const features::Appearance> appearance);
+
+  /// Where the robot is now on the floor.
+  [[nodiscard]] Pose2 floor_from_robot(const Pose2& odometry) const;
+  /// What it reaches from there.
+  [[nodiscard]] Reach reach(const Pose2& odometry) const;
+  /// Where to take a picture next; nothing: all is explored. `driven_to_m`: where the robot drives now, if it does.
+  [[nodiscard]] std::optional<NextView> next(const Reach& reach,
+                                             const std::optional<Eigen::Vector2d>& driven_to_m) const;
+  /// That place cannot be got to: it is not wanted again.
+  void give_up(const Eigen::Vector2d& at_m);
+
+  [[nodiscard]] const ExploredFloor& floor() const { return floor_; }
+  [[nodiscard]] const Coverage& coverage() const { return coverage_; }
+  [[nodiscard]] const std::vector<KeyView>& views() const { return views_; }
+  [[nodiscard]] const std::vector<Pose2>& poses() const { return poses_; }
+  [[nodiscard]] const std::vector<KnownAgain>& known_again() const { return known_again_; }
+  [[nodiscard]] const ExplorerConfig& config() const { return config_; }
+
+ private:
+  [[nodiscard]] PosePrior prior(const Pose2& odometry) const;
+  void align_to_recent(std::span<const SurfacePoint> surface, const Pose2& odometry);
+  void look_for_loop();
+  [[nodiscard]] std::optional<PoseLink> loop_with(int then) const;
+  void lay_out_again();
+  [[nodiscard]] std::vector<std::uint8_t> given_up_cells() const;
+
+  ExplorerConfig config_;
+  ExploredFloor floor_;
+  Coverage coverage_;
+  std::vector<KeyView> views_;
+  std::vector<Pose2> poses_;  // of the key views
+  std::vector<PoseLink> links_;
+  std::vector<KnownAgain> known_again_;
+  std::vector<Eigen::Vector2d> given_up_m_;
+  // The latest alignment: where the robot was then, and its odometry.
+  Pose2 aligned_;
+  Pose2 aligned_odometry_;
+  bool begun_ = false;
+};
+
+}  // namespace homeward::exploration

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exploration/explorer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "unit/exploration/drawn_walls.hpp"
+
+namespace homeward::exploration {
+namespace {
+
+/// Two rooms with two doors between them: a way round.
+std::vector<DrawnWall> rooms_with_two_doors() {
+  std::vector<DrawnWall> walls;
+  add_box(walls, 0.0, 0.0, 10.0, 4.0);
+  walls.push_back({{5.0, 1.4}, {5.0, 2.6}});
+  add_box(walls, 1.9, 1.6, 3.1, 2.4);
+  add_box(walls, 6.8, 1.7, 8.2, 2.3);
+  return walls;
+}
+
+/// Drives along points with wheels that turn left by themselves, and takes pictures as the explorer wants them.
+class DrivenExplorer {
+ public:
+  explicit DrivenExplorer(std::vector<DrawnWall> walls, const Pose2& start, double drift_rad_per_m)
+      : walls_(std::move(walls)), start_(start), truth_(start), drift_rad_per_m_(drift_rad_per_m) {
+    explorer.take(sweep_of(walls_, truth_), odometry_, nullptr);
+  }
+
+  void drive_to(const Eigen::Vector2d& to_m) {
+    constexpr double kStep_m = 0.05;
+    const double heading_rad = std::atan2(to_m.y() - truth_.y_m, to_m.x() - truth_.x_m);
+    move({0.0, 0.0, wrap_angle(heading_rad - truth_.theta_rad)});
+    while ((position_m(truth_) - to_m).norm() > kStep_m) move({kStep_m, 0.0, 0.0});
+  }
+  [[nodiscard]] double error_m() const {
+    const Pose2 believed = start_ * explorer.floor_from_robot(odometry_);
+    return (position_m(believed) - position_m(truth_)).norm();
+  }
+  [[nodiscard]] double wheels_error_m() const { return (position_m(start_ * odometry_) - position_m(truth_)).norm(); }
+  [[nodiscard]] const Pose2& odometry() const { return odometry_; }
+
+  Explorer explorer{ExplorerConfig{}};
+
+ private:
+  void move(const Pose2& step) {
+    truth_ = truth_ * step;
+    const double driven_m = std::hypot(step.x_m, step.y_m);
+    odometry_ = odometry_ * Pose2{step.x_m * 1.01, step.y_m, step.theta_rad + drift_rad_per_m_ * driven_m};
+    const RangeSweep sweep = sweep_of(walls_, truth_);
+    explorer.see(sweep, odometry_);
+    if (explorer.wants_picture(odometry_)) explorer.take(sweep, odometry_, nullptr);
+  }
+
+  std::vector<DrawnWall> walls_;
+  Pose2 start_;
+  Pose2 truth_;
+  Pose2 odometry_;
+  double drift_rad_per_m_;
+};
+
+const std::vector<Eigen::Vector2d> kRound = {{1.0, 0.7}, {8.9, 0.7}, {8.9, 3.3}, {1.0, 3.3}, {1.0, 0.7}, {4.0, 0.7}};
+
+TEST(ExplorerTest, SweepsTakeTheDriftOfTheWheelsOut) {
+  DrivenExplorer driven(rooms_with_two_doors(), {1.0, 0.7, 0.0}, radians(1.0));
+  for (const Eigen::Vector2d& point : kRound) driven.drive_to(point);
+  EXPECT_GT(driven.wheels_error_m(), 0.5);
+  EXPECT_LT(driven.error_m(), 0.06);
+}
+
+TEST(ExplorerTest, APlaceIsKnownAgainAfterAWayRound) {
+  DrivenExplorer driven(rooms_with_two_doors(), {1.0, 0.7, 0.0}, radians(1.0));
+  for (const Eigen::Vector2d& point : kRound) driven.drive_to(point);
+  const auto& known = driven.explorer.known_again();
+  ASSERT_FALSE(known.empty());
+  for (const KnownAgain& again : known) {
+    EXPECT_GE(again.now - again.then, driven.explorer.config().loop_gap);
+    EXPECT_FALSE(again.taken_back);
+  }
+}
+
+TEST(ExplorerTest, PicturesAreWantedAsFarApartAsATourHasThem) {
+  DrivenExplorer driven(two_rooms(), {1.0, 2.0, 0.0}, 0.0);
+  driven.drive_to({9.0, 2.0});
+  EXPECT_NEAR(static_cast<double>(driven.explorer.views().size()), 8.0 / 0.4, 2.0);
+  EXPECT_FALSE(driven.explorer.wants_picture(driven.odometry()) &&
+               driven.explorer.since_picture_m(driven.odometry()) < 0.3);
+}
+
+TEST(ExplorerTest, WhatIsGivenUpIsNotWantedAgain) {
+  DrivenExplorer driven(two_rooms(), {1.0, 2.0, 0.0}, 0.0);
+  const Reach reach = driven.explorer.reach(driven.odometry());
+  const auto first = driven.explorer.next(reach, std::nullopt);
+  ASSERT_TRUE(first);
+  driven.explorer.give_up(first->at_m);
+  const auto second = driven.explorer.next(reach, std::nullopt);
+  ASSERT_TRUE(second);
+  EXPECT_GT((second->at_m - first->at_m).norm(), 0.25);
+}
+
+}  // namespace
+}  // namespace homeward::exploration

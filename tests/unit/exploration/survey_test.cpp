@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exploration/survey.hpp"
+
+#include <gtest/gtest.h>
+
+#include "unit/exploration/drawn_walls.hpp"
+
+namespace homeward::exploration {
+namespace {
+
+/// A robot of no size that goes straight to each goal, 0.05 m a cycle.
+struct Walker {
+  std::vector<DrawnWall> walls = two_rooms();
+  Pose2 start{1.0, 2.0, 0.3};
+  Pose2 truth = start;
+  Survey survey{ExplorerConfig{}, SurveyConfig{}};
+  std::vector<Pose2> pictures;
+  std::int64_t now_ms = 0;
+  double driven_m = 0.0;
+
+  /// False: the survey is complete.
+  bool cycle(bool blocked = false) {
+    constexpr double kStep_m = 0.05;
+    const RangeSweep sweep = sweep_of(walls, truth);
+    const Pose2 odometry = inverse(start) * truth;
+    const SurveyStep step = survey.go_on(sweep, odometry, blocked, now_ms);
+    if (step.takes_picture) {
+      survey.take(sweep, odometry, nullptr);
+      pictures.push_back(truth);
+    }
+    now_ms += 100;
+    if (step.complete) return false;
+    if (!step.goal_m || blocked) return true;
+    const Pose2 goal = start * Pose2{step.goal_m->x(), step.goal_m->y(), 0.0};
+    const Eigen::Vector2d way = position_m(goal) - position_m(truth);
+    const double length_m = std::min(kStep_m, way.norm());
+    if (length_m < 1e-6) return true;
+    truth = {truth.x_m + length_m * way.x() / way.norm(), truth.y_m + length_m * way.y() / way.norm(),
+             std::atan2(way.y(), way.x())};
+    driven_m += length_m;
+    return true;
+  }
+};
+
+TEST(SurveyTest, BothRoomsAreCoveredAndThenItIsComplete) {
+  Walker walker;
+  int cycles = 0;
+  while (walker.cycle() && cycles < 4000) ++cycles;
+  ASSERT_LT(cycles, 4000);
+  EXPECT_LT(walker.driven_m, 40.0);
+  const Explorer& explorer = walker.survey.explorer();
+  for (const Eigen::Vector2d& spot_m :
+       std::vector<Eigen::Vector2d>{{0.6, 0.6}, {4.5, 3.4}, {6.0, 0.7}, {9.3, 0.6}, {9.3, 3.4}}) {
+    const Pose2 there = inverse(walker.start) * Pose2{spot_m.x(), spot_m.y(), 0.0};
+    EXPECT_TRUE(explorer.coverage().covers(position_m(there))) << spot_m.transpose();
+  }
+  EXPECT_FALSE(walker.survey.target_m());
+}
+
+TEST(SurveyTest, ABlockedPlaceIsGivenUpAndAnotherOneIsDrivenTo) {
+  Walker walker;
+  while (!walker.survey.target_m()) ASSERT_TRUE(walker.cycle());
+  const Eigen::Vector2d first = *walker.survey.target_m();
+  ASSERT_TRUE(walker.cycle(true));
+  ASSERT_TRUE(walker.survey.target_m());
+  EXPECT_GT((*walker.survey.target_m() - first).norm(), 0.25);
+}
+
+TEST(SurveyTest, TheFirstThingThatItDoesIsTakeAPicture) {
+  Walker walker;
+  const SurveyStep step = walker.survey.go_on(sweep_of(walker.walls, walker.truth), {}, false, 0);
+  EXPECT_TRUE(step.takes_picture);
+  EXPECT_FALSE(step.goal_m);
+  EXPECT_FALSE(step.complete);
+}
+
+TEST(SurveyTest, WhereNothingIsSeenNothingIsDriven) {
+  Survey survey{ExplorerConfig{}, SurveyConfig{}};
+  RangeSweep nothing;
+  nothing.angle_step_rad = 0.1;
+  nothing.ranges_m.assign(62, std::numeric_limits<float>::infinity());
+  ASSERT_TRUE(survey.go_on(nothing, {}, false, 0).takes_picture);
+  survey.take(nothing, {}, nullptr);
+  const SurveyStep step = survey.go_on(nothing, {}, false, 100);
+  EXPECT_FALSE(step.goal_m);
+  EXPECT_TRUE(step.complete);
+}
+
+}  // namespace
+}  // namespace homeward::exploration

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exploration/sweep_alignment.hpp"
+
+#include <gtest/gtest.h>
+
+#include "unit/exploration/drawn_walls.hpp"
+
+namespace homeward::exploration {
+namespace {
+
+constexpr Pose2 kFirst{2.0, 2.0, 0.2};
+
+ReferenceSurface seen_from_first() {
+  ReferenceSurface reference;
+  reference.add(surface_of(sweep_of(two_rooms(), kFirst)), kFirst);
+  return reference;
+}
+
+TEST(SweepAlignmentTest, ASweepIsPutWhereItWasTaken) {
+  const Pose2 second{2.5, 2.3, 0.6};
+  const auto surface = surface_of(sweep_of(two_rooms(), second));
+  const PosePrior prior{{2.62, 2.2, 0.7}, 0.3, 0.2};
+  const auto aligned = align(seen_from_first(), surface, prior);
+  ASSERT_TRUE(aligned);
+  EXPECT_NEAR(aligned->reference_from_robot.x_m, second.x_m, 0.02);
+  EXPECT_NEAR(aligned->reference_from_robot.y_m, second.y_m, 0.02);
+  EXPECT_NEAR(aligned->reference_from_robot.theta_rad, second.theta_rad, 0.01);
+  EXPECT_GT(aligned->agreement, 0.8);
+}
+
+TEST(SweepAlignmentTest, AlongACorridorThePriorHolds) {
+  std::vector<DrawnWall> corridor = {{{-50.0, 0.0}, {50.0, 0.0}}, {{-50.0, 2.0}, {50.0, 2.0}}};
+  ReferenceSurface reference;
+  reference.add(surface_of(sweep_of(corridor, {0.0, 1.0, 0.0})), {0.0, 1.0, 0.0});
+  const auto surface = surface_of(sweep_of(corridor, {0.4, 1.2, 0.05}));
+  const auto aligned = align(reference, surface, {{0.5, 1.0, 0.0}, 0.05, 0.05});
+  ASSERT_TRUE(aligned);
+  EXPECT_NEAR(aligned->reference_from_robot.x_m, 0.5, 0.03) << "nothing says how far along it is";
+  EXPECT_NEAR(aligned->reference_from_robot.y_m, 1.2, 0.02);
+  EXPECT_NEAR(aligned->reference_from_robot.theta_rad, 0.05, 0.01);
+}
+
+TEST(SweepAlignmentTest, WhatHasNothingInCommonIsNotAligned) {
+  const auto surface = surface_of(sweep_of(two_rooms(), kFirst));
+  EXPECT_FALSE(align(seen_from_first(), surface, {{40.0, 2.0, 0.2}, 0.1, 0.1}));
+  EXPECT_FALSE(align(ReferenceSurface(), surface, {kFirst, 0.1, 0.1}));
+  EXPECT_FALSE(align(seen_from_first(), {}, {kFirst, 0.1, 0.1}));
+  EXPECT_EQ(agreement(ReferenceSurface(), surface, kFirst, 0.1), 0.0);
+}
+
+TEST(SweepAlignmentTest, TheOtherSideOfAWallIsAnotherSurface) {
+  std::vector<DrawnWall> wall = {{{1.0, -3.0}, {1.0, 3.0}}};
+  ReferenceSurface reference;
+  reference.add(surface_of(sweep_of(wall, {0.0, 0.0, 0.0})), {});
+  const auto behind = surface_of(sweep_of(wall, {2.0, 0.0, 0.0}));
+  EXPECT_EQ(agreement(reference, behind, {2.0, 0.0, 0.0}, 0.1), 0.0);
+}
+
+}  // namespace
+}  // namespace homeward::exploration
