@@ -6,10 +6,10 @@
 
 #include "core/angles.hpp"
 #include "driving/approach.hpp"
+#include "driving/drive_towards.hpp"
 #include "driving/end_mission.hpp"
 #include "driving/estimated_position.hpp"
 #include "driving/follow.hpp"
-#include "driving/pursuit.hpp"
 #include "driving/speed_limit.hpp"
 #include "driving/steering.hpp"
 
@@ -18,26 +18,10 @@ namespace {
 
 using wire::ReasonCode;
 
-/// What stands about the robot and what it knows of itself, at one step.
-struct Situation {
-  const Inputs& inputs;
-  const DrivingConfig& config;
-  const std::vector<Eigen::Vector2d>& points_m;
-  Milliseconds sensors_ms;
-};
-
 /// The robot has a reason to stand.
 Motion stand(DrivingState& state) {
   forget_standing(state.give_way);
   return {};
-}
-
-/// Straight or along an arc where the way is clear, else round what stands in it.
-Motion drive_towards(DrivingState& state, const Eigen::Vector2d& aim_m, double speed_mps, const Situation& now) {
-  const DrivingConfig& config = now.config;
-  if (const auto straight = pursue(config.body, now.points_m, aim_m, speed_mps, config.pursuit)) return *straight;
-  return steer_round(state.plan, config.body, now.points_m, aim_m, now.inputs.odometry, speed_mps, config.turn_gain,
-                     config.steering);
 }
 
 /// Heading at the end, by the latest answer and the turn made since.
@@ -69,22 +53,16 @@ void stop_looking(DrivingState& state) {
 
 /// Back, or a moment's wait, for somebody who cannot get past; nothing where the robot goes on.
 std::optional<Motion> make_room(DrivingState& state, const Situation& now) {
-  const DrivingConfig& config = now.config;
   if (state.near_since_ms) {
     forget_standing(state.give_way);
     return std::nullopt;
   }
-  const Milliseconds patience_ms =
-      is_round(config.body.outline) ? config.give_way.patience_ms : config.give_way.long_patience_ms;
-  const auto back_m = give_way(state.give_way, config.body, {now.points_m, state.moving_obstacle.seen_ms},
-                               now.inputs.odometry, now.sensors_ms, patience_ms, config.give_way);
-  if (!back_m) return std::nullopt;
+  const auto motion = give_way_motion(state, now);
+  if (!motion) return std::nullopt;
   // Whoever it makes room for stands before what it would recognise, and back it goes where it came along.
   state.last_answer_ms = now.sensors_ms;
   state.follow.blind_m = 0.0;
-  if (back_m->isZero()) return Motion{};
-  return steer_round(state.plan, config.body, now.points_m, *back_m, now.inputs.odometry, config.give_way.backing_mps,
-                     config.turn_gain, config.steering);
+  return motion;
 }
 
 /// Where to drive to the destination's own view. Right before it its bearing is known better than its distance, so that

@@ -13,6 +13,7 @@
 #include "driving/give_way.hpp"
 #include "driving/inputs.hpp"
 #include "driving/kept_estimate.hpp"
+#include "driving/leg_state.hpp"
 #include "driving/long_plan.hpp"
 #include "driving/look_around.hpp"
 #include "driving/milliseconds.hpp"
@@ -40,6 +41,7 @@ struct DrivingState {
   LongPlan plan;       // of a body that is not round
   TurnRate turning;    // of the body, as it moves now
   LookAround looking;  // for where it is
+  LegState leg;        // of an exploration
   Asking asking;       // people, whether this is the destination
   std::optional<Milliseconds> off_path_since_ms;
   std::optional<Milliseconds> off_belief_since_ms;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -38,6 +39,12 @@ struct JoystickReading {
   Motion wanted;
 };
 
+/// Where an exploration drives next: straight to a point that is near and in sight, round what stands in the way.
+struct Leg {
+  Eigen::Vector2d goal_m = Eigen::Vector2d::Zero();  // odometry's frame
+  double within_m = 0.1;                             // so near it is reached
+};
+
 /// What is new since the last step.
 struct Inputs {
   std::optional<SeenPicture> picture;
@@ -47,6 +54,7 @@ struct Inputs {
   bool link_up = false;
   std::optional<Milliseconds> sensors_now_ms;  // by the sensors' clock; nothing: it is the machine's own
   std::optional<JoystickReading> rider;        // the newest reading of the joystick, when there is one
+  std::optional<Leg> leg = {};                 // of an exploration; nothing: it stands and thinks
   bool robot_link_up = true;                   // false: the connection to the robot is lost or too slow for its sensors
 };
 

@@ -21,6 +21,7 @@ struct Mission {
   VisualPath path;
   bool dock = false;
   double speed_limit_mps = 0.0;
+  bool explores = false;  // drives to the legs that it is given (leg.hpp); it has no path and no map
 };
 
 /// A mission as `step` needs it, its views decoded. Errors: kFeatureConfigMismatch, kCorruptFile,

@@ -94,12 +94,13 @@ struct OrderHandler {
     // One report in between is none: whoever walks by may hide everything for a moment.
     if (now_ms - state.belief_changes_ms >= config.belief_lasts_ms) state.follow.belief_lost = belief.lost;
     state.belief_ms = now_ms;
-    if (!state.mission || belief.lost || !belief.place) return;
+    if (!state.mission || state.mission->explores || belief.lost || !belief.place) return;
     state.follow.belief = BelievedView{state.mission->path.view_of(*belief.place), belief.probability};
   }
 
   void operator()(const wire::Answer& answer) const {
-    if (state.drive != wire::DriveState::kDriving || answer.mission != state.mission->id) return;
+    if (state.drive != wire::DriveState::kDriving || state.mission->explores) return;
+    if (answer.mission != state.mission->id) return;
     if (!take_answer(state.asking, answer.question, answer.here)) return;
     const VisualPath& path = state.mission->path;
     const Pose2& there = path.pose(path.size() - 1);

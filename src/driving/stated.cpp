@@ -11,15 +11,17 @@ namespace {
 /// Sums of weights may be off by their last digits; what is stated is a probability.
 double as_probability(double value) { return std::clamp(value, 0.0, 1.0); }
 
+bool follows_path(const DrivingState& state) { return state.mission && !state.mission->explores; }
+
 }  // namespace
 
 std::optional<double> stated_arrival(const DrivingState& state, const DrivingConfig& config) {
-  if (!state.mission || state.mission->path.alone() || state.follow.hypotheses.empty()) return std::nullopt;
+  if (!follows_path(state) || state.mission->path.alone() || state.follow.hypotheses.empty()) return std::nullopt;
   return as_probability(arrival_probability(state.follow, state.mission->path, config.follow));
 }
 
 std::optional<wire::EstimateReport> stated_estimate(const DrivingState& state, const DrivingConfig& config) {
-  if (!state.mission || state.covered || state.follow.hypotheses.empty()) return std::nullopt;
+  if (!follows_path(state) || state.covered || state.follow.hypotheses.empty()) return std::nullopt;
   const auto place = estimated_place(state.follow, state.mission->path, config.follow);
   if (!place) return std::nullopt;
   constexpr double kAtOdds = 0.5;  // with a belief as sure as it
@@ -29,7 +31,7 @@ std::optional<wire::EstimateReport> stated_estimate(const DrivingState& state, c
 
 std::vector<wire::EstimateReport> stated_places(const DrivingState& state) {
   std::vector<wire::EstimateReport> stated;
-  if (!state.mission || state.covered) return stated;
+  if (!follows_path(state) || state.covered) return stated;
   for (const PossiblePlace& one : possible_places(state.follow, state.mission->path)) {
     stated.push_back({one.place, as_probability(one.probability)});
   }
@@ -38,7 +40,7 @@ std::vector<wire::EstimateReport> stated_places(const DrivingState& state) {
 
 std::optional<wire::QuestionReport> open_question(const DrivingState& state, const DrivingConfig& config,
                                                   Milliseconds now_ms) {
-  if (!state.mission || !state.asking.since_ms || state.asking.answer) return std::nullopt;
+  if (!follows_path(state) || !state.asking.since_ms || state.asking.answer) return std::nullopt;
   const VisualPath& path = state.mission->path;
   const Milliseconds left_ms = std::max<Milliseconds>(0, config.asks_ms - (now_ms - *state.asking.since_ms));
   return wire::QuestionReport{state.asking.number, path.place_of(path.size() - 1), state.mission->label,

@@ -7,6 +7,7 @@
 #include "driving/choose.hpp"
 #include "driving/end_mission.hpp"
 #include "driving/estimate.hpp"
+#include "driving/leg.hpp"
 #include "driving/orders.hpp"
 #include "driving/permitted.hpp"
 #include "driving/progress.hpp"
@@ -72,6 +73,8 @@ void judge(DrivingState& state, const Inputs& inputs, const DrivingConfig& confi
            Milliseconds sensors_ms) {
   if (const auto why = reason_to_stop(state, inputs, config, now_ms, sensors_ms)) {
     end_mission(state, wire::DriveState::kStopped, wire::Reason{*why});
+  } else if (state.mission->explores) {
+    judge_leg(state, inputs, config, sensors_ms);
   } else {
     judge_progress(state, config, sensors_ms);
   }
@@ -90,7 +93,8 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     outputs.motion = rider_motion(*inputs.rider, state.scan, points_m, state.turning.radps(), config, sensors_ms);
   if (is_driving(state)) judge(state, inputs, config, now_ms, sensors_ms);
   if (!is_driving(state)) return outputs;
-  const Motion wanted = choose_motion(state, inputs, config, points_m, sensors_ms);
+  const Motion wanted = state.mission->explores ? leg_motion(state, {inputs, config, points_m, sensors_ms})
+                                                : choose_motion(state, inputs, config, points_m, sensors_ms);
   // It has arrived where it took the destination's heading just now.
   if (is_driving(state)) outputs.motion = permitted_motion(wanted, state, config, points_m, now_ms, sensors_ms);
   return outputs;

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "driving/leg.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <memory>
+
+#include "driving/give_way.hpp"
+#include "driving/sense.hpp"
+
+namespace homeward::driving {
+namespace {
+
+constexpr double kBrakes_per_s = 1.5;  // speed for each metre that is left, so that it comes to rest at the goal
+constexpr double kLeast_mps = 0.1;
+
+/// Where the goal lies, robot frame.
+Eigen::Vector2d seen_from(const Pose2& odometry, const Eigen::Vector2d& goal_m) {
+  return position_m(inverse(odometry) * Pose2{goal_m.x(), goal_m.y(), 0.0});
+}
+
+}  // namespace
+
+void begin_exploration(DrivingState& state, const Exploration& exploration, const Inputs& inputs,
+                       const DrivingConfig& config, Milliseconds now_ms, Milliseconds sensors_ms) {
+  Mission mission;
+  mission.id = exploration.id;
+  mission.speed_limit_mps = exploration.speed_limit_mps;
+  mission.explores = true;
+  state.newest = exploration.order;
+  state.mission = std::make_shared<const Mission>(std::move(mission));
+  state.permit_ends_ms = now_ms + exploration.valid_for_ms;
+  state.drive = wire::DriveState::kDriving;
+  state.reason.reset();
+  state.follow = {};
+  state.kept.reset();
+  state.seen = {};
+  state.leg = {};
+  state.astray = state.at_odds = state.docking = state.covered = state.pictured = false;
+  state.near_since_ms.reset();
+  state.stays_since_ms.reset();
+  state.last_message_ms = now_ms;
+  state.last_gain_ms = state.last_picture_ms = state.picture_came_ms = sensors_ms;
+  state.gain_from = inputs.odometry;
+  state.plan = {};
+  begin_sensing(state, inputs, config);
+  begin_way(state.give_way, config.give_way);
+}
+
+void judge_leg(DrivingState& state, const Inputs& inputs, const DrivingConfig&, Milliseconds sensors_ms,
+               const LegConfig& leg) {
+  LegState& now = state.leg;
+  if (!inputs.leg) {
+    now = {};
+    return;
+  }
+  const double left_m = seen_from(inputs.odometry, inputs.leg->goal_m).norm();
+  // The goal runs ahead of the robot along its way.
+  const bool same = now.goal_m && (*now.goal_m - inputs.leg->goal_m).norm() <= leg.goal_moves_m;
+  const bool moved_on = same && (*now.goal_m - inputs.leg->goal_m).norm() > leg.nearer_m;
+  if (!same || moved_on || left_m < now.nearest_m - leg.nearer_m || left_m <= inputs.leg->within_m) {
+    now.goal_m = inputs.leg->goal_m;
+    now.nearest_m = left_m;
+    now.nearer_ms = sensors_ms;
+    now.blocked = false;
+  }
+  const bool obstacle_moves =
+      state.moving_obstacle.seen_ms && sensors_ms - *state.moving_obstacle.seen_ms < leg.blocked_ms;
+  now.blocked = sensors_ms - now.nearer_ms > (obstacle_moves ? leg.patience_ms : leg.blocked_ms);
+}
+
+Motion leg_motion(DrivingState& state, const Situation& now) {
+  const Eigen::Vector2d goal_m =
+      now.inputs.leg ? seen_from(now.inputs.odometry, now.inputs.leg->goal_m) : Eigen::Vector2d::Zero();
+  if (!now.inputs.leg || goal_m.norm() <= now.inputs.leg->within_m) {
+    forget_standing(state.give_way);
+    return {};
+  }
+  if (const auto making_room = give_way_motion(state, now)) return *making_room;
+  const double speed_mps = std::clamp(kBrakes_per_s * goal_m.norm(), kLeast_mps, state.mission->speed_limit_mps);
+  return drive_towards(state, goal_m, speed_mps, now);
+}
+
+}  // namespace homeward::driving

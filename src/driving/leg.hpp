@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "core/ids.hpp"
+#include "driving/drive_towards.hpp"
+#include "driving/driving_config.hpp"
+#include "driving/driving_state.hpp"
+#include "driving/inputs.hpp"
+#include "wire/link_messages.hpp"
+
+namespace homeward::driving {
+
+/// When a leg counts as blocked.
+struct LegConfig {
+  double nearer_m = 0.05;             // less is no way gained
+  Milliseconds blocked_ms = 8000;     // no nearer for so long: the leg is blocked,
+  Milliseconds patience_ms = 30'000;  // after so long where somebody moves about the robot
+  double goal_moves_m = 0.5;          // a goal farther off than that from the last one is another leg's
+};
+
+/// An order to explore.
+struct Exploration {
+  MissionId id;
+  wire::Order order;
+  std::int64_t valid_for_ms = 0;  // of the first permit, from now on
+  double speed_limit_mps = 0.0;
+};
+
+/// The robot explores from now on, as long as permits for it come: it drives to the legs that the inputs bring, and
+/// stands where they bring none. Whatever ends a mission ends it, too: silence of link, camera or scanner, the rider's
+/// hand, a stop.
+void begin_exploration(DrivingState& state, const Exploration& exploration, const Inputs& inputs,
+                       const DrivingConfig& config, Milliseconds now_ms, Milliseconds sensors_ms);
+
+/// Notes how the leg gets on. Precondition: it explores.
+void judge_leg(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds sensors_ms,
+               const LegConfig& leg = {});
+
+/// The motion towards the leg's goal; it makes room for somebody on the way. Precondition: it explores.
+Motion leg_motion(DrivingState& state, const Situation& now);
+
+}  // namespace homeward::driving
