@@ -16,6 +16,7 @@ void register_bench(CLI::App& program);
 void register_calibrate(CLI::App& program);
 void register_compare(CLI::App& program);
 void register_compass(CLI::App& program);
+void register_explore(CLI::App& program);
 void register_home(CLI::App& program);
 void register_localise(CLI::App& program);
 void register_loops(CLI::App& program);

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   CLI::App program("Homeward: maps from pictures, and the way home by sight", "homeward");
   program.require_subcommand(1);
   homeward::cli::register_map(program);
+  homeward::cli::register_explore(program);
   homeward::cli::register_home(program);
   homeward::cli::register_compass(program);
   homeward::cli::register_compare(program);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "core/pose2.hpp"
+#include "map/topological_map.hpp"
+#include "sim/scene.hpp"
+
+namespace homeward::scenario {
+
+/// What only the world knows of the map of an exploration.
+struct ExplorationFigures {
+  double reachable_m2 = 0.0;  // floor that the robot's middle can get to from its start
+  double covered = 0.0;       // share of it within 2 m and in sight of a place's prototype
+  int wrong_edges = 0;        // whose prototypes are more than 6 m apart
+  int mixed_places = 0;       // with pictures of two rooms, or more than 4 m apart
+};
+
+/// `taken`: where the map's pictures were truly taken.
+ExplorationFigures exploration_figures(const sim::World& world, const map::TopologicalMap& map,
+                                       const std::unordered_map<ImageId, Pose2>& taken);
+
+}  // namespace homeward::scenario

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario/exploration_run.hpp"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "driving/leg.hpp"
+#include "driving/step.hpp"
+#include "imageio/decode.hpp"
+#include "scenario/drive_loop.hpp"
+#include "wire/lease_durations.hpp"
+#include "wire/reason.hpp"
+
+namespace homeward::scenario {
+namespace {
+
+constexpr int kQuality = 92;
+
+/// The loop of one exploration: world, sensors, survey and driving step, cycle by cycle.
+class ExplorationLoop {
+ public:
+  ExplorationLoop(SimulatedRobot& robot, const driving::Body& body, const pipeline::Eye& eye,
+                  const ExplorationPlan& plan, const std::function<double()>& clock_ms)
+      : robot_(robot), eye_(eye), plan_(plan), clock_ms_(clock_ms), survey_(plan.explorer, plan.survey) {
+    config_.body = body;
+    config_.feature_config_id = features::feature_config_id(eye.feature_config());
+  }
+
+  /// False: it has ended.
+  Result<bool> cycle() {
+    driving::Inputs inputs;
+    inputs.odometry = robot_.odometry();
+    inputs.link_up = true;
+    inputs.scan = {now_ms_, robot_.sweep()};
+    // What the camera shows on the way is of no use before it is a picture of the tour: it is not rendered.
+    inputs.picture = driving::SeenPicture{now_ms_, nullptr, {}, inputs.odometry};
+    if (!begun_) {
+      driving::begin_exploration(state_,
+                                 {MissionId("exploration"), {1, 1}, wire::kPermitValid_ms, plan_.speed_limit_mps},
+                                 inputs, config_, now_ms_, now_ms_);
+      begun_ = true;
+    }
+    inputs.messages.emplace_back(wire::Permit{MissionId("exploration"), {1, ++permit_}, wire::kPermitValid_ms});
+    const double began_ms = clock_ms_();
+    const exploration::SurveyStep todo = survey_.go_on(inputs.scan->scan, inputs.odometry, state_.leg.blocked, now_ms_);
+    if (todo.takes_picture) {
+      const double rendering_ms = render_picture(inputs.scan->scan);
+      if (const Status looked = look(inputs); !looked) return pass_on(looked);
+      result_.step_ms.push_back(clock_ms_() - began_ms - rendering_ms);
+    }
+    if (todo.complete) return false;
+    if (todo.goal_m) inputs.leg = driving::Leg{*todo.goal_m, plan_.survey.there_m * 0.6};
+    const driving::Outputs outputs = driving::step(state_, inputs, config_, now_ms_);
+    robot_.command(outputs.motion);
+    move();
+    if (state_.drive != wire::DriveState::kDriving) {
+      result_.ended = ExplorationEnd::kStopped;
+      result_.reason = state_.reason ? wire::english(*state_.reason) : "";
+      return false;
+    }
+    if (robot_.vehicle().path_m() >= plan_.limit_m || now_s() >= plan_.limit_s) {
+      result_.ended = ExplorationEnd::kLimit;
+      return false;
+    }
+    return true;
+  }
+
+  ExplorationResult finish() {
+    result_.poses = survey_.explorer().poses();
+    result_.known_again = survey_.explorer().known_again();
+    result_.driven_m = robot_.vehicle().path_m();
+    result_.duration_s = now_s();
+    result_.collisions = robot_.vehicle().collisions();
+    result_.min_clearance_m = robot_.vehicle().min_clearance_m();
+    return std::move(result_);
+  }
+
+  [[nodiscard]] const exploration::Survey& survey() const { return survey_; }
+  [[nodiscard]] std::size_t pictures() const { return result_.pictures.size(); }
+
+ private:
+  [[nodiscard]] double now_s() const { return 0.001 * static_cast<double>(now_ms_); }
+
+  /// How long that took: a camera takes its pictures for nothing.
+  double render_picture(const RangeSweep& sweep) {
+    const double began_ms = clock_ms_();
+    ExploredPicture picture;
+    picture.jpeg = imageio::encode_jpeg(robot_.picture(), kQuality);
+    picture.sweep = sweep;
+    picture.t_s = now_s();
+    picture.truth = robot_.vehicle().pose();
+    result_.pictures.push_back(std::move(picture));
+    return clock_ms_() - began_ms;
+  }
+
+  Status look(const driving::Inputs& inputs) {
+    auto picture = imageio::decode(result_.pictures.back().jpeg, "picture");
+    if (!picture) return pass_on(picture);
+    auto appearance = eye_.look(*picture);
+    if (!appearance) return pass_on(appearance);
+    survey_.take(inputs.scan->scan, inputs.odometry,
+                 std::make_shared<const features::Appearance>(std::move(*appearance)));
+    return {};
+  }
+
+  void move() {
+    constexpr int kParts = 5;
+    for (int part = 0; part < kParts; ++part) robot_.advance(kScenarioCycle_s / kParts);
+    now_ms_ += static_cast<driving::Milliseconds>(1000.0 * kScenarioCycle_s);
+    result_.trail_m.push_back(position_m(robot_.vehicle().pose()));
+  }
+
+  SimulatedRobot& robot_;
+  const pipeline::Eye& eye_;
+  const ExplorationPlan& plan_;
+  const std::function<double()>& clock_ms_;
+  exploration::Survey survey_;
+  driving::DrivingConfig config_;
+  driving::DrivingState state_;
+  ExplorationResult result_;
+  driving::Milliseconds now_ms_ = 0;
+  std::int64_t permit_ = 1;
+  bool begun_ = false;
+};
+
+}  // namespace
+
+Result<ExplorationResult> explore(SimulatedRobot& robot, const driving::Body& body, const pipeline::Eye& eye,
+                                  const ExplorationPlan& plan,
+                                  const std::function<void(const exploration::Survey&)>& progress,
+                                  const std::function<double()>& clock_ms) {
+  ExplorationLoop loop(robot, body, eye, plan, clock_ms);
+  for (;;) {
+    const std::size_t before = loop.pictures();
+    const auto goes_on = loop.cycle();
+    if (!goes_on) return pass_on(goes_on);
+    if (progress && loop.pictures() > before) progress(loop.survey());
+    if (!*goes_on) return loop.finish();
+  }
+}
+
+}  // namespace homeward::scenario

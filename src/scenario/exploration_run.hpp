@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/pose2.hpp"
+#include "core/range_sweep.hpp"
+#include "core/result.hpp"
+#include "exploration/survey.hpp"
+#include "pipeline/eye.hpp"
+#include "scenario/simulated_robot.hpp"
+
+namespace homeward::scenario {
+
+struct ExplorationPlan {
+  double limit_m = 2000.0;  // driven; it ends there
+  double limit_s = 7200.0;  // simulated
+  double speed_limit_mps = 0.5;
+  exploration::ExplorerConfig explorer;
+  exploration::SurveyConfig survey;
+};
+
+/// A picture of the tour that an exploration is.
+struct ExploredPicture {
+  std::vector<std::uint8_t> jpeg;
+  RangeSweep sweep;
+  double t_s = 0.0;
+  Pose2 truth;  // for judging only
+};
+
+/// Why an exploration ended.
+enum class ExplorationEnd : std::uint8_t { kComplete, kLimit, kStopped };
+
+struct ExplorationResult {
+  std::vector<ExploredPicture> pictures;
+  std::vector<Pose2> poses;  // of the pictures by what the robot knows in the end; the first one is the origin
+  std::vector<exploration::KnownAgain> known_again;
+  std::vector<Eigen::Vector2d> trail_m;  // where it truly drove, for judging only
+  ExplorationEnd ended = ExplorationEnd::kComplete;
+  std::string reason;  // where it was stopped
+  double driven_m = 0.0;
+  double duration_s = 0.0;
+  int collisions = 0;
+  double min_clearance_m = 0.0;
+  std::vector<double> step_ms;  // what the machine took for each picture: features, loops, where to go next
+};
+
+/// Explores a world in simulated time by the agent's own driving step, under permits that never end, until nothing is
+/// left or a limit is reached. `progress`: called with each picture, may be empty. `clock_ms`: the machine's time, for
+/// step_ms alone. Errors: those of Eye::look.
+Result<ExplorationResult> explore(SimulatedRobot& robot, const driving::Body& body, const pipeline::Eye& eye,
+                                  const ExplorationPlan& plan,
+                                  const std::function<void(const exploration::Survey&)>& progress,
+                                  const std::function<double()>& clock_ms);
+
+}  // namespace homeward::scenario
