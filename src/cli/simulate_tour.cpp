@@ -44,7 +44,8 @@ Status make_tour(const SimulateTourOptions& options) {
 
 void add_stage_options(CLI::App& command, StageOptions& options) {
   command
-      .add_option("--world", options.world, "house:SEED, narrow_house:SEED, offices:SEED, wards:SEED or a world.json")
+      .add_option("--world", options.world,
+                  "house:SEED, narrow_house:SEED, offices:SEED, wards:SEED, laboratory:SEED or a world.json")
       ->required();
   command.add_option("--light", options.light, "day, night or half")->capture_default_str();
   command.add_option("--camera", options.camera, "hyperbolic_mirror, equirectangular, pinhole or a camera.json")

@@ -99,6 +99,9 @@ Result<sim::World> load_world(const std::string& name) {
   const auto wards = seed_after(name, "wards");
   if (!wards) return pass_on(wards);
   if (*wards) return sim::generate_wards(**wards);
+  const auto laboratory = seed_after(name, "laboratory");
+  if (!laboratory) return pass_on(laboratory);
+  if (*laboratory) return sim::generate_systems_laboratory(**laboratory);
   std::error_code error;
   return read_world(fs::is_directory(name, error) ? fs::path(name) / "world.json" : fs::path(name));
 }

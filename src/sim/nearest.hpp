@@ -15,4 +15,9 @@ namespace homeward::sim {
 float nearest_m(const RayScene& rays, const std::vector<Person>& people, const std::vector<Box>& boxes,
                 const Eigen::Vector3f& origin_m, const Eigen::Vector3f& direction, float far_m);
 
+/// The same of a ray that goes through panes of windows: where the world's first surface is one, its people and boxes
+/// alone are met. What stands behind a pane is not looked for: nothing does in generated worlds.
+float nearest_through_panes_m(const RayScene& rays, const std::vector<Person>& people, const std::vector<Box>& boxes,
+                              const Eigen::Vector3f& origin_m, const Eigen::Vector3f& direction, float far_m);
+
 }  // namespace homeward::sim

@@ -43,6 +43,10 @@ RayScene::RayScene(const Scene& scene) : embree_(std::make_unique<Embree>()) {
   rtcAttachGeometry(embree_->scene, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(embree_->scene);
+  panes_.reserve(scene.triangle_materials.size());
+  for (const int material : scene.triangle_materials) {
+    panes_.push_back(scene.materials[static_cast<std::size_t>(material)].role == MaterialRole::kWindow);
+  }
 }
 
 RayScene::~RayScene() = default;

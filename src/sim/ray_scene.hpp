@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "sim/scene.hpp"
 
@@ -46,10 +47,13 @@ class RayScene {
                                                              float far_m) const;
   /// Whether anything lies between `from_m` and `to_m`.
   [[nodiscard]] bool blocked(const Eigen::Vector3f& from_m, const Eigen::Vector3f& to_m) const;
+  /// Whether a triangle is the pane of a window (MaterialRole::kWindow).
+  [[nodiscard]] bool is_pane(std::uint32_t triangle) const { return triangle < panes_.size() && panes_[triangle]; }
 
  private:
   struct Embree;
   std::unique_ptr<Embree> embree_;
+  std::vector<bool> panes_;  // of each triangle
 };
 
 /// The same surface in triangles whose edges are at most `max_edge_m` long (longest edge halved again and again).

@@ -10,4 +10,7 @@ namespace homeward::sim {
 /// middle) and its outline, and starts in the first of them. False when a room cannot be reached.
 bool finish_world(World& world, const std::vector<Space>& spaces);
 
+/// Says of each piece of furniture in which of the world's rooms its middle lies.
+void name_rooms_of(World& world);
+
 }  // namespace homeward::sim

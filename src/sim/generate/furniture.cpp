@@ -247,6 +247,14 @@ void whiteboard(const Workshop& at) {
          {at.scene.add_material("steel", std::array<float, 3>{0.5F, 0.5F, 0.52F}), 0.0});
 }
 
+void file_cabinets(const Workshop& at) {
+  const double half = 0.5 * at.size.width_m;
+  const Rgb colour = varied(at.random, {150, 152, 148}, 35);
+  at.box(-half, half, 0.01, at.size.depth_m, 0, at.size.height_m,
+         {at.material("files", paint_cabinet(at.random, colour, 3, 4)), 0.0},
+         {at.material("enamel", paint_wood(at.random, colour)), 0.9});
+}
+
 }  // namespace
 
 PieceSize size_of(Piece piece) {
@@ -291,6 +299,8 @@ PieceSize size_of(Piece piece) {
       return {1.6, 1.5, 0.92};
     case Piece::kWhiteboard:
       return {1.4, 0.04, 1.9};
+    case Piece::kFileCabinets:
+      return {1.4, 0.5, 1.32};
   }
   return {};
 }
@@ -361,6 +371,8 @@ void build_piece(SceneBuilder& scene, Piece piece, const Pose2& frame, Random& r
       return table_with_chairs(at);
     case Piece::kWhiteboard:
       return whiteboard(at);
+    case Piece::kFileCabinets:
+      return file_cabinets(at);
   }
 }
 

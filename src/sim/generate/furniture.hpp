@@ -29,6 +29,7 @@ enum class Piece {
   kPiano,
   kTableWithChairs,
   kWhiteboard,
+  kFileCabinets,
 };
 
 /// Along its wall, out of the wall, and upwards, metres.

@@ -122,7 +122,7 @@ World generate_laboratory(std::uint64_t seed, const LaboratoryState& state) {
     Random things = part_of(seed, kCorridor);
     corridor.hang_pictures(3, things);
     world = World();
-    world.name = "laboratory:" + std::to_string(seed);
+    world.name = "rows_laboratory:" + std::to_string(seed);
     world.lamps = light(scene, state, seed);
     world.scene = scene.take();
     if (finish_world(world, spaces) && furnished && rows_are_free(world)) break;

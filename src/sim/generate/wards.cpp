@@ -7,7 +7,6 @@
 #include "sim/generate/ward_things.hpp"
 #include "sim/generate/wards_plan.hpp"
 #include "sim/generate/worlds.hpp"
-#include "sim/triangles.hpp"
 
 namespace homeward::sim {
 namespace {
@@ -172,22 +171,6 @@ std::vector<Lamp> light(SceneBuilder& scene, const WardsPlan& plan, std::uint64_
     }
   }
   return lamps;
-}
-
-void name_rooms_of(World& world) {
-  for (Furniture& piece : world.furniture) {
-    Eigen::Vector2d middle_m = Eigen::Vector2d::Zero();
-    for (Eigen::Index t = piece.first; t < piece.first + piece.count; ++t) {
-      middle_m += corners_m(world.scene, t)[0].head<2>();
-    }
-    middle_m /= static_cast<double>(piece.count);
-    for (const Room& room : world.rooms) {
-      const Eigen::Vector2d& least_m = room.outline_m[0];
-      const Eigen::Vector2d& most_m = room.outline_m[2];
-      if ((middle_m.array() > least_m.array()).all() && (middle_m.array() < most_m.array()).all())
-        piece.room = room.name;
-    }
-  }
 }
 
 }  // namespace

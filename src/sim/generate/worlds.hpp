@@ -23,4 +23,10 @@ World generate_offices(std::uint64_t seed);
 /// Few things are there once, and some of those stand a second time where they would be in the other half.
 World generate_wards(std::uint64_t seed);
 
+/// The laboratory that Ferdaus (2008, §5.2) explored, as his drawings have it, which give no measures: one room of 10 m
+/// by 12 m with tables, book shelves and file cabinets along its walls, chairs, and a study table in the middle that
+/// hides one half from the other. Its rooms are its four quarters, x to the right and y up; the points of `lower_left`,
+/// the start, and `lower_right` lie in free corners, where his runs began.
+World generate_systems_laboratory(std::uint64_t seed);
+
 }  // namespace homeward::sim

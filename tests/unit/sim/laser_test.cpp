@@ -85,5 +85,70 @@ TEST(Laser, ItsNoiseHasTheStatedSpreadAndComesFromTheSeed) {
   EXPECT_NEAR(std::sqrt(sum2 / static_cast<double>(exact.size())), 0.02, 0.003);
 }
 
+/// A room of the box world's size whose wall ahead is one pane.
+RayScene room_with_a_pane() {
+  SceneBuilder builder;
+  const Surface grey{builder.add_material("grey", std::array{0.5F, 0.5F, 0.5F}), 0.0};
+  const Surface pane{builder.add_material("window", std::array{0.5F, 0.5F, 0.5F}, MaterialRole::kWindow), 0.0};
+  builder.box({}, {2.0, -1.5, 0.0}, {2.1, 1.5, 2.5}, {pane, pane});
+  builder.box({}, {-2.1, -1.5, 0.0}, {-2.0, 1.5, 2.5}, {grey, grey});
+  builder.box({}, {-2.0, 1.5, 0.0}, {2.0, 1.6, 2.5}, {grey, grey});
+  builder.box({}, {-2.0, -1.6, 0.0}, {2.0, -1.5, 2.5}, {grey, grey});
+  return RayScene(builder.take());
+}
+
+TEST(Laser, GoesThroughTheStatedShareOfPanesAlone) {
+  const RayScene rays = room_with_a_pane();
+  LaserConfig config;
+  config.rays = 3600;
+  const auto solid = scan(rays, {}, {}, config, 1);
+  config.glass_share = 0.3;
+  const auto glass = scan(rays, {}, {}, config, 1);
+  EXPECT_EQ(glass, scan(rays, {}, {}, config, 1));
+  int at_pane = 0;
+  int through = 0;
+  for (std::size_t i = 0; i < solid.size(); ++i) {
+    ASSERT_TRUE(std::isfinite(solid[i]));
+    const double angle_rad = 2.0 * kPi * static_cast<double>(i) / 3600.0;
+    const bool pane = std::abs(std::tan(angle_rad)) < 0.749 && std::cos(angle_rad) > 0.0;
+    if (pane) ++at_pane;
+    if (pane && std::isinf(glass[i])) {
+      ++through;
+    } else {
+      EXPECT_EQ(glass[i], solid[i]) << i;  // the same noise too
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(through) / at_pane, 0.3, 0.05);  // of 738: 3 standard deviations
+  config.glass_share = 1.0;
+  EXPECT_TRUE(std::isinf(scan(rays, {}, {}, config, 1)[0]));
+  EXPECT_NEAR(scan(rays, {}, {{1.0, 0.0, 3}}, config, 1)[0], 1.0 - kPersonRadius_m, 0.05);  // before the pane
+}
+
+TEST(Laser, GivesTheStatedShareOfSpuriousRanges) {
+  const World world = homeward::testing::box_world();
+  const RayScene rays(world.scene);
+  LaserConfig config;
+  config.rays = 3600;
+  const auto clean = scan(rays, {}, {}, config, 1);
+  config.spurious_share = 0.05;
+  const auto bad = scan(rays, {}, {}, config, 1);
+  EXPECT_EQ(bad, scan(rays, {}, {}, config, 1));
+  EXPECT_NE(bad, scan(rays, {}, {}, config, 2));
+  int spurious = 0;
+  float least_m = 100.0F;
+  float most_m = 0.0F;
+  for (std::size_t i = 0; i < clean.size(); ++i) {
+    if (bad[i] == clean[i]) continue;
+    ++spurious;
+    least_m = std::min(least_m, bad[i]);
+    most_m = std::max(most_m, bad[i]);
+  }
+  EXPECT_NEAR(spurious, 180, 40);  // 3 standard deviations
+  EXPECT_GE(least_m, 0.02F);
+  EXPECT_LT(least_m, 3.0F);
+  EXPECT_LE(most_m, 32.0F);
+  EXPECT_GT(most_m, 29.0F);
+}
+
 }  // namespace
 }  // namespace homeward::sim::laser_test
