@@ -7,11 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/exploration_picture.hpp"
 #include "cli/map_output.hpp"
 #include "cli/simulate.hpp"
 #include "cli/tour_files.hpp"
 #include "db/map_file.hpp"
 #include "files/write_file.hpp"
+#include "imageio/decode.hpp"
 #include "pipeline/build_map.hpp"
 #include "scenario/exploration_figures.hpp"
 #include "scenario/exploration_run.hpp"
@@ -114,16 +116,9 @@ Result<scenario::ExplorationResult> explore_world(const ExploreOptions& options,
   config.light = *light;
   config.profile = *profile;
   config.seed = options.stage.seed;
-  auto robot = scenario::SimulatedRobot::create(world, config, *start);
-  if (!robot) return pass_on(robot);
-  const auto made = camera::Camera::create(camera);
-  if (!made) return pass_on(made);
-  const auto eye = pipeline::Eye::create(camera, pipeline::suited_feature_config(**made));
-  if (!eye) return pass_on(eye);
-  scenario::ExplorationPlan plan;
+  scenario::ExplorationPlan plan = scenario::exploration_plan_for(*profile);
   plan.limit_m = options.limit_m;
-  plan.explorer.reach.radius_m = profile->outline.radius_m + profile->outline.side_m;
-  return scenario::explore(*robot, scenario::body_of(*profile), *eye, plan, {}, now_ms);
+  return scenario::explore_world(world, config, *start, plan, {}, now_ms);
 }
 
 Status run(const ExploreOptions& options) {
@@ -147,6 +142,12 @@ Status run(const ExploreOptions& options) {
     char name[40];
     std::snprintf(name, sizeof name, "tour/%05zu.jpg", i);
     taken.emplace(ImageId(name), explored->pictures[i].truth);
+  }
+  const std::vector<std::uint8_t> plan =
+      imageio::encode_png(exploration_picture(world.world(), *map, taken, *explored));
+  if (Status written = files::write_file(out / "plan.png", {reinterpret_cast<const char*>(plan.data()), plan.size()});
+      !written) {
+    return written;
   }
   const scenario::ExplorationFigures figures = scenario::exploration_figures(world.world(), *map, taken);
   if (options.json) {

@@ -23,7 +23,6 @@ bool in_sight(const sim::World& world, const Eigen::Vector2d& from_m, const Eige
 }
 
 double covered_share(const sim::World& world, const std::vector<Eigen::Vector2d>& views_m, double& reachable_m2) {
-  constexpr double kWithin_m = 2.0;
   constexpr int kEvery = 2;  // cell is asked
   int asked = 0;
   int covered = 0;
@@ -33,9 +32,7 @@ double covered_share(const sim::World& world, const std::vector<Eigen::Vector2d>
       const Eigen::Vector2d at_m = sim::centre_of(grid, {column, row});
       if (!sim::is_set(grid, at_m)) continue;
       ++asked;
-      covered += std::ranges::any_of(views_m, [&](const Eigen::Vector2d& view) {
-        return (view - at_m).norm() <= kWithin_m && in_sight(world, view, at_m);
-      });
+      covered += is_covered(world, views_m, at_m);
     }
   }
   reachable_m2 = asked * kEvery * kEvery * grid.resolution_m * grid.resolution_m;
@@ -59,6 +56,13 @@ bool is_mixed(const sim::World& world, const map::Place& place, const std::unord
 }
 
 }  // namespace
+
+bool is_covered(const sim::World& world, const std::vector<Eigen::Vector2d>& views_m, const Eigen::Vector2d& at_m) {
+  constexpr double kWithin_m = 2.0;
+  return std::ranges::any_of(views_m, [&](const Eigen::Vector2d& view) {
+    return (view - at_m).norm() <= kWithin_m && in_sight(world, view, at_m);
+  });
+}
 
 ExplorationFigures exploration_figures(const sim::World& world, const map::TopologicalMap& map,
                                        const std::unordered_map<ImageId, Pose2>& taken) {

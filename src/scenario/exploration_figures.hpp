@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <unordered_map>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "sim/scene.hpp"
 
 namespace homeward::scenario {
+
+/// Whether a spot lies within 2 m and in sight of one of the views.
+bool is_covered(const sim::World& world, const std::vector<Eigen::Vector2d>& views_m, const Eigen::Vector2d& at_m);
 
 /// What only the world knows of the map of an exploration.
 struct ExplorationFigures {

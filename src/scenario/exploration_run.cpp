@@ -9,6 +9,8 @@
 #include "driving/step.hpp"
 #include "imageio/decode.hpp"
 #include "scenario/drive_loop.hpp"
+#include "sim/floor.hpp"
+#include "sim/tour_path.hpp"
 #include "wire/lease_durations.hpp"
 #include "wire/reason.hpp"
 
@@ -42,12 +44,12 @@ class ExplorationLoop {
       begun_ = true;
     }
     inputs.messages.emplace_back(wire::Permit{MissionId("exploration"), {1, ++permit_}, wire::kPermitValid_ms});
-    const double began_ms = clock_ms_();
+    const double began_ms = clock();
     const exploration::SurveyStep todo = survey_.go_on(inputs.scan->scan, inputs.odometry, state_.leg.blocked, now_ms_);
     if (todo.takes_picture) {
       const double rendering_ms = render_picture(inputs.scan->scan);
       if (const Status looked = look(inputs); !looked) return pass_on(looked);
-      result_.step_ms.push_back(clock_ms_() - began_ms - rendering_ms);
+      result_.step_ms.push_back(clock() - began_ms - rendering_ms);
     }
     if (todo.complete) return false;
     if (todo.goal_m) inputs.leg = driving::Leg{*todo.goal_m, plan_.survey.there_m * 0.6};
@@ -80,18 +82,19 @@ class ExplorationLoop {
   [[nodiscard]] std::size_t pictures() const { return result_.pictures.size(); }
 
  private:
+  [[nodiscard]] double clock() const { return clock_ms_ ? clock_ms_() : 0.0; }
   [[nodiscard]] double now_s() const { return 0.001 * static_cast<double>(now_ms_); }
 
   /// How long that took: a camera takes its pictures for nothing.
   double render_picture(const RangeSweep& sweep) {
-    const double began_ms = clock_ms_();
+    const double began_ms = clock();
     ExploredPicture picture;
     picture.jpeg = imageio::encode_jpeg(robot_.picture(), kQuality);
     picture.sweep = sweep;
     picture.t_s = now_s();
     picture.truth = robot_.vehicle().pose();
     result_.pictures.push_back(std::move(picture));
-    return clock_ms_() - began_ms;
+    return clock() - began_ms;
   }
 
   Status look(const driving::Inputs& inputs) {
@@ -138,6 +141,42 @@ Result<ExplorationResult> explore(SimulatedRobot& robot, const driving::Body& bo
     if (progress && loop.pictures() > before) progress(loop.survey());
     if (!*goes_on) return loop.finish();
   }
+}
+
+ExplorationPlan exploration_plan_for(const sim::RobotProfile& profile) {
+  ExplorationPlan plan;
+  plan.explorer.reach.radius_m = profile.outline.radius_m + profile.outline.side_m;
+  return plan;
+}
+
+Result<ExplorationResult> explore_world(sim::LitWorld& world, const SimulatedRobotConfig& config, const Pose2& start,
+                                        const ExplorationPlan& plan,
+                                        const std::function<void(const exploration::Survey&)>& progress,
+                                        const std::function<double()>& clock_ms) {
+  auto robot = SimulatedRobot::create(world, config, start);
+  if (!robot) return pass_on(robot);
+  const auto camera = camera::Camera::create(config.camera);
+  if (!camera) return pass_on(camera);
+  const auto eye = pipeline::Eye::create(config.camera, pipeline::suited_feature_config(**camera));
+  if (!eye) return pass_on(eye);
+  return explore(*robot, body_of(config.profile), *eye, plan, progress, clock_ms);
+}
+
+std::optional<std::size_t> picture_of_room(const sim::World& world, const std::string& room,
+                                           const ExplorationResult& explored) {
+  constexpr double kWithin_m = 1.5;
+  const auto point_m = sim::room_point(world, room);
+  if (!point_m) return std::nullopt;
+  std::optional<std::size_t> best;
+  double least_m = kWithin_m;
+  for (std::size_t i = 0; i < explored.pictures.size(); ++i) {
+    const Eigen::Vector2d at_m = position_m(explored.pictures[i].truth);
+    const auto in = sim::room_at(world, at_m);
+    if ((at_m - *point_m).norm() >= least_m || (in && *in != room)) continue;
+    least_m = (at_m - *point_m).norm();
+    best = i;
+  }
+  return best;
 }
 
 }  // namespace homeward::scenario

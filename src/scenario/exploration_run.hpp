@@ -57,4 +57,19 @@ Result<ExplorationResult> explore(SimulatedRobot& robot, const driving::Body& bo
                                   const std::function<void(const exploration::Survey&)>& progress,
                                   const std::function<double()>& clock_ms);
 
+/// The plan for a robot of this body.
+ExplorationPlan exploration_plan_for(const sim::RobotProfile& profile);
+
+/// The same with a robot of its own, from a pose on. Its light must have been prepared. Errors: also those of
+/// SimulatedRobot::create and Eye::create.
+Result<ExplorationResult> explore_world(sim::LitWorld& world, const SimulatedRobotConfig& config, const Pose2& start,
+                                        const ExplorationPlan& plan,
+                                        const std::function<void(const exploration::Survey&)>& progress = {},
+                                        const std::function<double()>& clock_ms = {});
+
+/// The picture that was taken nearest to a room's point, within 1.5 m, in the room where the world knows its outline;
+/// nothing where there is none.
+std::optional<std::size_t> picture_of_room(const sim::World& world, const std::string& room,
+                                           const ExplorationResult& explored);
+
 }  // namespace homeward::scenario

@@ -7,7 +7,11 @@
 #include "imageio/decode.hpp"
 #include "mapping/shortcut_edges.hpp"
 #include "pipeline/build_map.hpp"
+#include "scenario/check_scenario.hpp"
+#include "scenario/exploration_run.hpp"
+#include "scenario/kept_tour.hpp"
 #include "scenario/simulated_robot.hpp"
+#include "scenario/starting_pose.hpp"
 #include "scenario/usual_cameras.hpp"
 #include "scenario/world_folder.hpp"
 #include "sim/laser.hpp"
@@ -17,28 +21,6 @@
 namespace homeward::scenario {
 namespace {
 
-/// A tour kept in memory as JPEGs, as a camera would have delivered it.
-class RenderedTour final : public TourSource {
- public:
-  void add(std::vector<std::uint8_t> jpeg, const Pose2& odometry, RangeSweep sweep) {
-    const std::string name = std::to_string(100000 + jpegs_.size()).substr(1) + ".jpg";
-    images_.push_back({ImageId("tour/" + name), std::nullopt, odometry, std::move(sweep)});
-    jpegs_.push_back(std::move(jpeg));
-  }
-  [[nodiscard]] const ImageId& last() const { return images_.back().id; }
-  void mark_last(const std::string& label) { marks_.push_back({images_.back().id.str().substr(5), label}); }
-  [[nodiscard]] const std::vector<TourImage>& images() const override { return images_; }
-  [[nodiscard]] const std::vector<TourMark>& marks() const override { return marks_; }
-  [[nodiscard]] Result<Image> read(std::size_t index) const override {
-    return imageio::decode(jpegs_[index], images_[index].id.str());
-  }
-
- private:
-  std::vector<std::vector<std::uint8_t>> jpegs_;
-  std::vector<TourImage> images_;
-  std::vector<TourMark> marks_;
-};
-
 /// What the range sensor of the simulated chair sees at a pose.
 RangeSweep sweep_at(sim::LitWorld& world, const Pose2& pose, std::uint64_t seed) {
   static const sim::LaserConfig kLaser = safety_scanner();
@@ -47,6 +29,60 @@ RangeSweep sweep_at(sim::LitWorld& world, const Pose2& pose, std::uint64_t seed)
   sweep.angle_step_rad = 2.0 * kPi / kLaser.rays;
   sweep.range_max_m = kLaser.range_max_m;
   return sweep;
+}
+
+/// Leads a tour through the scenario's rooms.
+Status lead_tour(const wire::ScenarioFile& scenario, sim::LightPreset light, TaughtWorld& taught, KeptTour& tour) {
+  auto camera = camera::Camera::create(taught.camera);
+  if (!camera) return pass_on(camera);
+  const auto stops = sim::plan_tour(taught.world->world(), scenario.tour_rooms, scenario.tour_step_m);
+  if (!stops) return pass_on(stops);
+  const sim::Renderer renderer(*taught.world, light, *camera);
+  constexpr int kQuality = 92;
+  const auto seed = static_cast<std::uint64_t>(scenario.seed);
+  sim::WheelOdometry wheels(seed);
+  for (std::size_t i = 0; i < stops->size(); ++i) {
+    const sim::TourStop& stop = (*stops)[i];
+    if (i > 0) wheels.follow((*stops)[i - 1].pose, stop.pose);
+    const std::uint64_t noise_seed = seed * 1'000'003 + i;
+    tour.add(imageio::encode_jpeg(renderer.render(stop.pose, {}, noise_seed), kQuality), wheels.reading(),
+             sweep_at(*taught.world, stop.pose, noise_seed));
+    taught.picture_poses.emplace(tour.last(), stop.pose);
+    if (!stop.arrived) continue;
+    tour.mark_last(*stop.arrived);
+    taught.destination_poses.emplace(*stop.arrived, stop.pose);
+  }
+  return {};
+}
+
+/// Lets the robot explore by itself, from the first of the rooms on.
+Status explore_for(const wire::ScenarioFile& scenario, sim::LightPreset light, TaughtWorld& taught, KeptTour& tour) {
+  const sim::RobotProfile profile = profile_of(scenario);
+  const sim::World& world = taught.world->world();
+  const auto seed = static_cast<std::uint64_t>(scenario.seed);
+  const auto from_m = sim::room_point(world, scenario.tour_rooms.front());
+  if (!from_m) return pass_on(from_m);
+  const auto start = starting_pose(world, *from_m, profile, seed);
+  if (!start) return pass_on(start);
+  SimulatedRobotConfig config;
+  config.camera = taught.camera;
+  config.light = light;
+  config.profile = profile;
+  config.seed = seed;
+  const auto explored = explore_world(*taught.world, config, *start, exploration_plan_for(profile));
+  if (!explored) return pass_on(explored);
+  for (std::size_t i = 0; i < explored->pictures.size(); ++i) {
+    tour.add(explored->pictures[i].jpeg, explored->poses[i], explored->pictures[i].sweep);
+    taught.picture_poses.emplace(tour.last(), explored->pictures[i].truth);
+  }
+  for (const std::string& room : scenario.tour_rooms) {
+    if (taught.destination_poses.contains(room)) continue;
+    const auto picture = picture_of_room(world, room, *explored);
+    if (!picture) continue;
+    tour.mark(*picture, room);
+    taught.destination_poses.emplace(room, explored->pictures[*picture].truth);
+  }
+  return {};
 }
 
 }  // namespace
@@ -66,33 +102,17 @@ Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string&
     if (!read) return pass_on(read);
     taught.camera = *read;
   }
-  auto camera = camera::Camera::create(taught.camera);
-  if (!camera) return pass_on(camera);
   taught.world = std::make_unique<sim::LitWorld>(std::move(world));
   const auto light = light_named(scenario.tour_light);
   if (!light) return pass_on(light);
-  const auto stops = sim::plan_tour(taught.world->world(), scenario.tour_rooms, scenario.tour_step_m);
-  if (!stops) return pass_on(stops);
   prepare_light(*taught.world, *light);
-  const sim::Renderer renderer(*taught.world, *light, *camera);
-  constexpr int kQuality = 92;
-  const auto seed = static_cast<std::uint64_t>(scenario.seed);
-  sim::WheelOdometry wheels(seed);
-  RenderedTour tour;
-  for (std::size_t i = 0; i < stops->size(); ++i) {
-    const sim::TourStop& stop = (*stops)[i];
-    if (i > 0) wheels.follow((*stops)[i - 1].pose, stop.pose);
-    const std::uint64_t noise_seed = seed * 1'000'003 + i;
-    tour.add(imageio::encode_jpeg(renderer.render(stop.pose, {}, noise_seed), kQuality), wheels.reading(),
-             sweep_at(*taught.world, stop.pose, noise_seed));
-    taught.picture_poses.emplace(tour.last(), stop.pose);
-    if (!stop.arrived) continue;
-    tour.mark_last(*stop.arrived);
-    taught.destination_poses.emplace(*stop.arrived, stop.pose);
-  }
+  KeptTour tour;
+  const Status toured =
+      scenario.tour_explored ? explore_for(scenario, *light, taught, tour) : lead_tour(scenario, *light, taught, tour);
+  if (!toured) return pass_on(toured);
   pipeline::BuildOptions options;
   options.name = scenario.world;
-  options.seed = seed;
+  options.seed = static_cast<std::uint64_t>(scenario.seed);
   auto map = pipeline::build_map({&tour}, taught.camera, options);
   if (!map) return pass_on(map);
   if (scenario.tour_shortcuts) {

@@ -87,7 +87,7 @@ void read_rooms(ObjectReader& tour, std::vector<std::string>& rooms) {
 void read_tour(ObjectReader& outer, ScenarioFile& scenario) {
   ObjectReader reader(outer.value("tour"), outer.path_of("tour"));
   if (reader.value("rooms").is_string()) {
-    reader.choice("rooms", {"all"});
+    scenario.tour_explored = reader.choice("rooms", {"all", "explored"}) == "explored";
     scenario.tours_all_rooms = true;
   } else {
     read_rooms(reader, scenario.tour_rooms);

@@ -64,6 +64,7 @@ struct ScenarioFile {
   double speed_limit_mps = kSpeedLimit_mps;    // of its missions
   std::vector<std::string> tour_rooms;
   bool tours_all_rooms = false;  // in place of `tour_rooms`: every room of the world, the next always the nearest one
+  bool tour_explored = false;    // nobody leads: the robot explores by itself, and every room is a destination
   std::string tour_light = "day";
   double tour_step_m = 0.4;
   bool tour_shortcuts = false;  // all that are proposed after the tour are accepted

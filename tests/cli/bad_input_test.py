@@ -349,6 +349,19 @@ class WrongUse(CliTest):
         self.assert_refused(2, ["noon"], *tour, "--world", "offices:1", "--rooms", "corridor,office_1", "--light", "noon")
         self.assert_refused(2, ["step"], *tour, "--world", "offices:1", "--rooms", "corridor,office_1", "--step-m", "0")
 
+    def test_explorations_that_cannot_begin(self):
+        explore = ("explore", "--world", "offices:1")
+        self.assert_refused(3, ["cellar", "corridor"], *explore, "--start", "cellar", "--out", "new")
+        self.assert_refused(2, ["plane", "chair"], *explore, "--robot", "plane", "--out", "new")
+        self.assert_refused(3, ["none.json"], "explore", "--world", "none.json", "--out", "new")
+        self.assert_refused(2, ["noon"], *explore, "--light", "noon", "--out", "new")
+        self.assert_refused(2, ["limit-m"], *explore, "--limit-m", "0", "--out", "new")
+        self.assertFalse((self.folder / "new").exists())
+        (self.folder / "full").mkdir()
+        (self.folder / "full" / "mine.txt").write_text("kept")
+        self.assert_refused(4, ["full"], *explore, "--out", "full")
+        self.assertEqual((self.folder / "full" / "mine.txt").read_text(), "kept")
+
     def test_broken_scenario(self):
         (self.folder / "scenario.json").write_text('{"format": "homeward-scenario", "version": 1, "wrold": "house:1"}')
         self.assert_refused(2, ["scenario.json"], "simulate", "run", "--scenario", "scenario.json", "--json")
