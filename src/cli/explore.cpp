@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/command.hpp"
 #include "cli/exploration_picture.hpp"
@@ -32,6 +33,8 @@ struct ExploreOptions {
   std::string start;
   std::string robot = "disc";
   double limit_m = 2000.0;
+  std::optional<double> back_after_s;
+  std::vector<std::string> fences;
   bool json = false;
 };
 
@@ -55,10 +58,25 @@ Result<Pose2> start_of(const ExploreOptions& options, const sim::World& world, c
   return scenario::starting_pose(world, point_m, robot, options.stage.seed);
 }
 
+/// "x,y x,y x,y", metres of the world.
+Result<std::vector<Eigen::Vector2d>> corners_of(const std::string& fence) {
+  std::istringstream text(fence);
+  std::vector<Eigen::Vector2d> corners_m;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  char comma = 0;
+  while (text >> x_m >> comma >> y_m && comma == ',') corners_m.emplace_back(x_m, y_m);
+  constexpr std::size_t kLeastCorners = 3;
+  if (text.eof() && corners_m.size() >= kLeastCorners) return corners_m;
+  return fail(ErrorCode::kInvalidInput, "A fence has at least three corners, x,y in metres: \"1,2 3,2 3,4\".",
+              "--fence " + fence);
+}
+
 const char* name_of(scenario::ExplorationEnd end) {
   switch (end) {
     case scenario::ExplorationEnd::kComplete:
       return "complete";
+    case scenario::ExplorationEnd::kBack:
     case scenario::ExplorationEnd::kLimit:
       return "limit";
     case scenario::ExplorationEnd::kStopped:
@@ -118,6 +136,14 @@ Result<scenario::ExplorationResult> explore_world(const ExploreOptions& options,
   config.seed = options.stage.seed;
   scenario::ExplorationPlan plan = scenario::exploration_plan_for(*profile);
   plan.limit_m = options.limit_m;
+  plan.back_after_s = options.back_after_s;
+  for (const std::string& fence : options.fences) {
+    auto corners_m = corners_of(fence);
+    if (!corners_m) return pass_on(corners_m);
+    for (Eigen::Vector2d& corner_m : *corners_m)
+      corner_m = position_m(inverse(*start) * Pose2{corner_m.x(), corner_m.y(), 0.0});
+    plan.fences_m.push_back(std::move(*corners_m));
+  }
   return scenario::explore_world(world, config, *start, plan, {}, now_ms);
 }
 
@@ -188,6 +214,13 @@ void register_explore(CLI::App& program) {
   command->add_option("--limit-m", options->limit_m, "Way after which it ends")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command
+      ->add_option("--back-after-s", options->back_after_s,
+                   "Time after which it is back where it began: it turns home before")
+      ->check(CLI::PositiveNumber);
+  command->add_option(
+      "--fence", options->fences,
+      "Corners of floor that it does not drive on, in metres of the world: \"1,2 3,2 3,4\"; once for each");
   command->add_flag("--json", options->json, "Print one JSON object");
   run_on(*command, [options] { return run(*options); });
 }

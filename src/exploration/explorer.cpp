@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "core/angles.hpp"
@@ -81,7 +82,24 @@ void Explorer::take(const RangeSweep& sweep, const Pose2& odometry,
 }
 
 Reach Explorer::reach(const Pose2& odometry) const {
-  return Reach::from(floor_, position_m(floor_from_robot(odometry)), config_.reach);
+  const std::vector<std::uint8_t> fenced = fenced_cells();
+  return Reach::from(floor_, position_m(floor_from_robot(odometry)), config_.reach, &fenced);
+}
+
+std::vector<std::uint8_t> Explorer::fenced_cells() const {
+  const FloorFrame& frame = floor_.frame();
+  std::vector<std::uint8_t> cells(frame.size(), 0);
+  if (cells.empty()) return cells;
+  cv::Mat canvas(frame.rows, frame.columns, CV_8UC1, cells.data());
+  for (const std::vector<Eigen::Vector2d>& corners_m : fences_m_) {
+    std::vector<cv::Point> corners;
+    for (const Eigen::Vector2d& corner_m : corners_m) {
+      const FloorCell cell = frame.cell(corner_m);
+      corners.emplace_back(cell.column, cell.row);
+    }
+    cv::fillPoly(canvas, std::vector{corners}, cv::Scalar(1));
+  }
+  return cells;
 }
 
 std::vector<std::uint8_t> Explorer::given_up_cells() const {
@@ -89,11 +107,13 @@ std::vector<std::uint8_t> Explorer::given_up_cells() const {
   const FloorFrame& frame = floor_.frame();
   std::vector<std::uint8_t> cells(frame.size(), 0);
   const int around = static_cast<int>(kAround_m / frame.cell_m);
-  for (const Eigen::Vector2d& at_m : given_up_m_) {
-    const FloorCell middle = frame.cell(at_m);
-    for (int row = middle.row - around; row <= middle.row + around; ++row) {
-      for (int column = middle.column - around; column <= middle.column + around; ++column)
-        if (frame.holds({column, row})) cells[frame.index({column, row})] = 1;
+  for (const auto* places_m : {&given_up_m_, &put_off_m_}) {
+    for (const Eigen::Vector2d& at_m : *places_m) {
+      const FloorCell middle = frame.cell(at_m);
+      for (int row = middle.row - around; row <= middle.row + around; ++row) {
+        for (int column = middle.column - around; column <= middle.column + around; ++column)
+          if (frame.holds({column, row})) cells[frame.index({column, row})] = 1;
+      }
     }
   }
   return cells;
@@ -104,6 +124,19 @@ std::optional<NextView> Explorer::next(const Reach& reach, const std::optional<E
 }
 
 void Explorer::give_up(const Eigen::Vector2d& at_m) { given_up_m_.push_back(at_m); }
+
+void Explorer::put_off(const Eigen::Vector2d& at_m) { put_off_m_.push_back(at_m); }
+
+bool Explorer::try_blocked_again() {
+  const bool any = !put_off_m_.empty();
+  put_off_m_.clear();
+  return any;
+}
+
+void Explorer::fence_off(std::vector<Eigen::Vector2d> corners_m) {
+  constexpr std::size_t kLeastCorners = 3;
+  if (corners_m.size() >= kLeastCorners) fences_m_.push_back(std::move(corners_m));
+}
 
 /// How the newest key view lies to an old one, if their sweeps and their pictures agree on it.
 std::optional<PoseLink> Explorer::loop_with(int then) const {

@@ -79,8 +79,14 @@ class Explorer {
   /// Where to take a picture next; nothing: all is explored. `driven_to_m`: where the robot drives now, if it does.
   [[nodiscard]] std::optional<NextView> next(const Reach& reach,
                                              const std::optional<Eigen::Vector2d>& driven_to_m) const;
-  /// That place cannot be got to: it is not wanted again.
+  /// That place is not wanted again.
   void give_up(const Eigen::Vector2d& at_m);
+  /// The way to that place is blocked: it is not wanted until `try_blocked_again`.
+  void put_off(const Eigen::Vector2d& at_m);
+  /// Whoever stood in the way may have gone. False: no way was blocked.
+  bool try_blocked_again();
+  /// Nobody drives there: what lies in this polygon of the floor is fenced off. Fewer than three corners fence nothing.
+  void fence_off(std::vector<Eigen::Vector2d> corners_m);
 
   [[nodiscard]] const ExploredFloor& floor() const { return floor_; }
   [[nodiscard]] const Coverage& coverage() const { return coverage_; }
@@ -96,6 +102,7 @@ class Explorer {
   [[nodiscard]] std::optional<PoseLink> loop_with(int then) const;
   void lay_out_again();
   [[nodiscard]] std::vector<std::uint8_t> given_up_cells() const;
+  [[nodiscard]] std::vector<std::uint8_t> fenced_cells() const;
 
   ExplorerConfig config_;
   ExploredFloor floor_;
@@ -105,6 +112,8 @@ class Explorer {
   std::vector<PoseLink> links_;
   std::vector<KnownAgain> known_again_;
   std::vector<Eigen::Vector2d> given_up_m_;
+  std::vector<Eigen::Vector2d> put_off_m_;
+  std::vector<std::vector<Eigen::Vector2d>> fences_m_;
   // The latest alignment: where the robot was then, and its odometry.
   Pose2 aligned_;
   Pose2 aligned_odometry_;

@@ -25,9 +25,9 @@ std::vector<float> clearances(const ExploredFloor& floor) {
   return clearance;
 }
 
-/// The nearest cell to a point that can be driven on, within half a metre: the body stands where it stands.
-std::optional<std::size_t> nearest_drivable(const FloorFrame& frame, const std::vector<std::uint8_t>& drivable,
-                                            const Eigen::Vector2d& at_m) {
+/// The nearest cell to a point that fits, within half a metre.
+template <class Fits>
+std::optional<std::size_t> nearest_cell(const FloorFrame& frame, const Eigen::Vector2d& at_m, const Fits& fits) {
   constexpr double kWithin_m = 0.5;
   const int reach = static_cast<int>(kWithin_m / frame.cell_m);
   const FloorCell middle = frame.cell(at_m);
@@ -35,7 +35,7 @@ std::optional<std::size_t> nearest_drivable(const FloorFrame& frame, const std::
   double least_m = kWithin_m;
   for (int row = middle.row - reach; row <= middle.row + reach; ++row) {
     for (int column = middle.column - reach; column <= middle.column + reach; ++column) {
-      if (!frame.holds({column, row}) || drivable[frame.index({column, row})] == 0) continue;
+      if (!frame.holds({column, row}) || !fits(frame.index({column, row}))) continue;
       const double off_m = (frame.centre_m({column, row}) - at_m).norm();
       if (off_m >= least_m) continue;
       least_m = off_m;
@@ -60,7 +60,8 @@ Reach Reach::from(const ExploredFloor& floor, const Eigen::Vector2d& start_m, co
     drivable[i] = floor.is_free(i) && static_cast<double>(reach.clearance_m_[i]) > config.radius_m + config.margin_m &&
                   (barred == nullptr || (*barred)[i] == 0);
   }
-  const auto start = nearest_drivable(frame, drivable, start_m);
+  // The body stands where it stands, be that a little too near to something.
+  const auto start = nearest_cell(frame, start_m, [&](std::size_t cell) { return drivable[cell] != 0; });
   if (!start) return reach;
   using Entry = std::pair<float, std::int32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
@@ -88,6 +89,10 @@ Reach Reach::from(const ExploredFloor& floor, const Eigen::Vector2d& start_m, co
     }
   }
   return reach;
+}
+
+std::optional<std::size_t> Reach::nearest(const Eigen::Vector2d& at_m) const {
+  return nearest_cell(frame_, at_m, [&](std::size_t cell) { return reaches(cell); });
 }
 
 std::vector<Eigen::Vector2d> Reach::way_m(std::size_t cell) const {

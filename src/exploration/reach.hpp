@@ -28,6 +28,8 @@ class Reach {
   [[nodiscard]] double cost_m(std::size_t cell) const { return static_cast<double>(cost_m_[cell]); }
   /// To the nearest thing that was seen.
   [[nodiscard]] double clearance_m(std::size_t cell) const { return static_cast<double>(clearance_m_[cell]); }
+  /// The cell within half a metre of a point that it reaches, the nearest to it; nothing where there is none.
+  [[nodiscard]] std::optional<std::size_t> nearest(const Eigen::Vector2d& at_m) const;
   /// The way there, start first; empty where it does not reach.
   [[nodiscard]] std::vector<Eigen::Vector2d> way_m(std::size_t cell) const;
   [[nodiscard]] const FloorFrame& frame() const { return frame_; }

@@ -36,46 +36,87 @@ bool Survey::at_target(const Pose2& odometry) const {
   return target_m_ && (position_m(explorer_.floor_from_robot(odometry)) - *target_m_).norm() <= config_.there_m;
 }
 
+void Survey::fence_off(std::vector<Eigen::Vector2d> corners_m) {
+  explorer_.fence_off(std::move(corners_m));
+  target_m_.reset();
+  goal_m_.reset();
+  chosen_ms_.reset();
+}
+
+/// Along the way to a cell, as far as that is straight.
+void Survey::drive_on(const Reach& reach, std::size_t cell, const Pose2& odometry) {
+  const std::vector<Eigen::Vector2d> way_m = reach.way_m(cell);
+  if (way_m.empty()) return;
+  const Eigen::Vector2d from_m = position_m(explorer_.floor_from_robot(odometry));
+  goal_m_ = goal_on(reach, way_m, from_m, config_.ahead_m);
+}
+
+/// Whether it has to go home now, and the way there.
+void Survey::turn_home_in_time(const Reach& reach, const Pose2& odometry, std::int64_t now_ms) {
+  const auto home = reach.nearest(position_m(explorer_.poses().front()));
+  if (!home) return;
+  const double way_s = reach.cost_m(*home) / config_.home_mps;
+  const auto needs_ms = static_cast<std::int64_t>(1000.0 * way_s) + config_.home_spare_ms;
+  goes_home_ = goes_home_ || (back_by_ms_ && now_ms + needs_ms >= *back_by_ms_);
+  if (!goes_home_) return;
+  target_m_ = reach.frame().centre_m(reach.frame().cell_at(*home));
+  drive_on(reach, *home, odometry);
+}
+
 void Survey::choose(const Pose2& odometry, std::int64_t now_ms) {
   chosen_ms_ = now_ms;
   const Reach reach = explorer_.reach(odometry);
-  const auto next = explorer_.next(reach, target_m_);
-  complete_ = !next;
+  goal_m_.reset();
+  turn_home_in_time(reach, odometry, now_ms);
+  if (goes_home_) return;
+  auto next = explorer_.next(reach, target_m_);
+  if (!next && tried_ < config_.tries && explorer_.try_blocked_again()) {
+    ++tried_;
+    next = explorer_.next(reach, std::nullopt);
+  }
+  target_m_.reset();
+  if (!next) {
+    ended_ = SurveyEnd::kAllSeen;
+    return;
+  }
+  ended_.reset();
+  target_m_ = next->at_m;
+  drive_on(reach, next->cell, odometry);
+}
+
+/// The place is reached, or cannot be.
+void Survey::leave_target(bool blocked) {
+  if (goes_home_) {
+    if (!blocked) ended_ = SurveyEnd::kBack;
+    return;
+  }
+  // What it came for has been seen by now, or cannot be seen; a way may be free again later.
+  if (blocked) {
+    explorer_.put_off(*target_m_);
+  } else {
+    explorer_.give_up(*target_m_);
+  }
   target_m_.reset();
   goal_m_.reset();
-  if (!next) return;
-  target_m_ = next->at_m;
-  const std::vector<Eigen::Vector2d> way_m = reach.way_m(next->cell);
-  const Eigen::Vector2d from_m = position_m(explorer_.floor_from_robot(odometry));
-  goal_m_ = goal_on(reach, way_m, from_m, config_.ahead_m);
+  chosen_ms_.reset();
 }
 
 SurveyStep Survey::go_on(const RangeSweep& sweep, const Pose2& odometry, bool blocked, std::int64_t now_ms) {
   explorer_.see(sweep, odometry);
   SurveyStep step;
-  if (explorer_.wants_picture(odometry)) {
-    step.takes_picture = true;
-    chosen_ms_.reset();
-  }
-  if (at_target(odometry)) {
-    // What it came for has been seen by now, or cannot be seen.
-    step.takes_picture = step.takes_picture || explorer_.since_picture_m(odometry) >= config_.least_between_m;
-    explorer_.give_up(*target_m_);
-    target_m_.reset();
-    goal_m_.reset();
-    chosen_ms_.reset();
-  } else if (blocked && target_m_) {
-    explorer_.give_up(*target_m_);
-    target_m_.reset();
-    chosen_ms_.reset();
-  }
+  step.takes_picture = explorer_.wants_picture(odometry);
+  if (step.takes_picture) chosen_ms_.reset();
+  const bool reached = at_target(odometry);
+  if (reached && explorer_.since_picture_m(odometry) >= config_.least_between_m) step.takes_picture = true;
+  if (reached || (blocked && target_m_)) leave_target(!reached);
   if (step.takes_picture && explorer_.views().empty()) return step;
-  if (!chosen_ms_ || now_ms - *chosen_ms_ >= config_.chosen_every_ms) choose(odometry, now_ms);
-  if (goal_m_) {
+  if (ended_ != SurveyEnd::kBack && (!chosen_ms_ || now_ms - *chosen_ms_ >= config_.chosen_every_ms))
+    choose(odometry, now_ms);
+  if (!step.takes_picture) step.ended = ended_;
+  if (goal_m_ && !step.ended) {
     const Pose2 odometry_from_floor = odometry * inverse(explorer_.floor_from_robot(odometry));
     step.goal_m = position_m(odometry_from_floor * Pose2{goal_m_->x(), goal_m_->y(), 0.0});
   }
-  step.complete = complete_ && !step.takes_picture;
   return step;
 }
 

@@ -27,6 +27,8 @@ class ExplorationLoop {
       : robot_(robot), eye_(eye), plan_(plan), clock_ms_(clock_ms), survey_(plan.explorer, plan.survey) {
     config_.body = body;
     config_.feature_config_id = features::feature_config_id(eye.feature_config());
+    if (plan.back_after_s) survey_.be_back_by(static_cast<std::int64_t>(1000.0 * *plan.back_after_s));
+    for (const auto& corners_m : plan.fences_m) survey_.fence_off(corners_m);
   }
 
   /// False: it has ended.
@@ -51,7 +53,10 @@ class ExplorationLoop {
       if (const Status looked = look(inputs); !looked) return pass_on(looked);
       result_.step_ms.push_back(clock() - began_ms - rendering_ms);
     }
-    if (todo.complete) return false;
+    if (todo.ended) {
+      result_.ended = *todo.ended == exploration::SurveyEnd::kBack ? ExplorationEnd::kBack : ExplorationEnd::kComplete;
+      return false;
+    }
     if (todo.goal_m) inputs.leg = driving::Leg{*todo.goal_m, plan_.survey.there_m * 0.6};
     const driving::Outputs outputs = driving::step(state_, inputs, config_, now_ms_);
     robot_.command(outputs.motion);

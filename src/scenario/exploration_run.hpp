@@ -17,8 +17,10 @@
 namespace homeward::scenario {
 
 struct ExplorationPlan {
-  double limit_m = 2000.0;  // driven; it ends there
-  double limit_s = 7200.0;  // simulated
+  double limit_m = 2000.0;                             // driven; it ends there
+  double limit_s = 7200.0;                             // simulated
+  std::optional<double> back_after_s;                  // so long after it began, it is back where it began
+  std::vector<std::vector<Eigen::Vector2d>> fences_m;  // corners of what is not driven, by the robot's first pose
   double speed_limit_mps = 0.5;
   exploration::ExplorerConfig explorer;
   exploration::SurveyConfig survey;
@@ -33,7 +35,7 @@ struct ExploredPicture {
 };
 
 /// Why an exploration ended.
-enum class ExplorationEnd : std::uint8_t { kComplete, kLimit, kStopped };
+enum class ExplorationEnd : std::uint8_t { kComplete, kBack, kLimit, kStopped };
 
 struct ExplorationResult {
   std::vector<ExploredPicture> pictures;

@@ -356,6 +356,7 @@ class WrongUse(CliTest):
         self.assert_refused(3, ["none.json"], "explore", "--world", "none.json", "--out", "new")
         self.assert_refused(2, ["noon"], *explore, "--light", "noon", "--out", "new")
         self.assert_refused(2, ["limit-m"], *explore, "--limit-m", "0", "--out", "new")
+        self.assert_refused(2, ["fence", "1,2 3"], *explore, "--fence", "1,2 3", "--out", "new")
         self.assertFalse((self.folder / "new").exists())
         (self.folder / "full").mkdir()
         (self.folder / "full" / "mine.txt").write_text("kept")

@@ -8,15 +8,23 @@
 namespace homeward::exploration {
 namespace {
 
+/// Cells of 0.1 m are enough for what is drawn here.
+ExplorerConfig coarse() {
+  ExplorerConfig config;
+  config.floor.cell_m = 0.1;
+  return config;
+}
+
 /// A robot of no size that goes straight to each goal, 0.05 m a cycle.
 struct Walker {
   std::vector<DrawnWall> walls = two_rooms();
   Pose2 start{1.0, 2.0, 0.3};
   Pose2 truth = start;
-  Survey survey{ExplorerConfig{}, SurveyConfig{}};
+  Survey survey{coarse(), SurveyConfig{}};
   std::vector<Pose2> pictures;
   std::int64_t now_ms = 0;
   double driven_m = 0.0;
+  std::optional<SurveyEnd> ended;
 
   /// False: the survey is complete.
   bool cycle(bool blocked = false) {
@@ -29,7 +37,8 @@ struct Walker {
       pictures.push_back(truth);
     }
     now_ms += 100;
-    if (step.complete) return false;
+    ended = step.ended;
+    if (step.ended) return false;
     if (!step.goal_m || blocked) return true;
     const Pose2 goal = start * Pose2{step.goal_m->x(), step.goal_m->y(), 0.0};
     const Eigen::Vector2d way = position_m(goal) - position_m(truth);
@@ -55,6 +64,50 @@ TEST(SurveyTest, BothRoomsAreCoveredAndThenItIsComplete) {
     EXPECT_TRUE(explorer.coverage().covers(position_m(there))) << spot_m.transpose();
   }
   EXPECT_FALSE(walker.survey.target_m());
+  EXPECT_EQ(walker.ended, SurveyEnd::kAllSeen);
+}
+
+TEST(SurveyTest, ItIsBackWhereItBeganBeforeItsTimeIsOver) {
+  Walker walker;
+  constexpr std::int64_t kBackBy_ms = 40'000;
+  walker.survey.be_back_by(kBackBy_ms);
+  double farthest_m = 0.0;
+  while (walker.now_ms < 2 * kBackBy_ms && walker.cycle())
+    farthest_m = std::max(farthest_m, (position_m(walker.truth) - position_m(walker.start)).norm());
+  EXPECT_EQ(walker.ended, SurveyEnd::kBack);
+  EXPECT_LE(walker.now_ms, kBackBy_ms);
+  EXPECT_GT(farthest_m, 1.5) << "it has explored before";
+  EXPECT_LT((position_m(walker.truth) - position_m(walker.start)).norm(), 0.3);
+}
+
+TEST(SurveyTest, WhatIsFencedOffIsNotDriven) {
+  Walker walker;
+  // The second room, and a bit more than its door.
+  std::vector<Eigen::Vector2d> corners_m;
+  for (const Eigen::Vector2d& corner_m : std::vector<Eigen::Vector2d>{{4.8, 0.0}, {10.0, 0.0}, {10.0, 4.0}, {4.8, 4.0}})
+    corners_m.push_back(position_m(inverse(walker.start) * Pose2{corner_m.x(), corner_m.y(), 0.0}));
+  walker.survey.fence_off(corners_m);
+  int cycles = 0;
+  double farthest_m = 0.0;
+  while (walker.cycle() && ++cycles < 4000) farthest_m = std::max(farthest_m, walker.truth.x_m);
+  EXPECT_EQ(walker.ended, SurveyEnd::kAllSeen);
+  EXPECT_GT(farthest_m, 3.0);
+  EXPECT_LT(farthest_m, 4.8);
+}
+
+TEST(SurveyTest, WhatWasBlockedIsTriedAgainWhenNothingElseIsLeft) {
+  Walker walker;
+  int cycles = 0;
+  // Somebody stands in the door for a long while: whatever lies behind it is blocked.
+  const auto behind = [&] {
+    const auto& target_m = walker.survey.target_m();
+    return target_m && (walker.start * Pose2{target_m->x(), target_m->y(), 0.0}).x_m > 4.5;
+  };
+  int refused = 0;
+  while (walker.cycle(refused < 3 && behind()) && ++cycles < 4000) refused += behind() ? 1 : 0;
+  EXPECT_EQ(walker.ended, SurveyEnd::kAllSeen);
+  const Pose2 far = inverse(walker.start) * Pose2{9.3, 3.4, 0.0};
+  EXPECT_TRUE(walker.survey.explorer().coverage().covers(position_m(far)));
 }
 
 TEST(SurveyTest, ABlockedPlaceIsGivenUpAndAnotherOneIsDrivenTo) {
@@ -71,7 +124,7 @@ TEST(SurveyTest, TheFirstThingThatItDoesIsTakeAPicture) {
   const SurveyStep step = walker.survey.go_on(sweep_of(walker.walls, walker.truth), {}, false, 0);
   EXPECT_TRUE(step.takes_picture);
   EXPECT_FALSE(step.goal_m);
-  EXPECT_FALSE(step.complete);
+  EXPECT_FALSE(step.ended);
 }
 
 TEST(SurveyTest, WhereNothingIsSeenNothingIsDriven) {
@@ -83,7 +136,7 @@ TEST(SurveyTest, WhereNothingIsSeenNothingIsDriven) {
   survey.take(nothing, {}, nullptr);
   const SurveyStep step = survey.go_on(nothing, {}, false, 100);
   EXPECT_FALSE(step.goal_m);
-  EXPECT_TRUE(step.complete);
+  EXPECT_EQ(step.ended, SurveyEnd::kAllSeen);
 }
 
 }  // namespace
