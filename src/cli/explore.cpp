@@ -33,6 +33,7 @@ struct ExploreOptions {
   std::string start;
   std::string robot = "disc";
   double limit_m = 2000.0;
+  double limit_s = 7200.0;
   std::optional<double> back_after_s;
   std::vector<std::string> fences;
   bool json = false;
@@ -79,10 +80,25 @@ const char* name_of(scenario::ExplorationEnd end) {
     case scenario::ExplorationEnd::kBack:
     case scenario::ExplorationEnd::kLimit:
       return "limit";
+    case scenario::ExplorationEnd::kStuck:
     case scenario::ExplorationEnd::kStopped:
       return "stopped";
   }
   return "";
+}
+
+/// Why it did not see all, in words.
+std::string reason_of(const scenario::ExplorationResult& explored) {
+  switch (explored.ended) {
+    case scenario::ExplorationEnd::kBack:
+      return "Its time was over; it is back where it began.";
+    case scenario::ExplorationEnd::kLimit:
+      return "The limit of way or time was reached.";
+    case scenario::ExplorationEnd::kStuck:
+      return "It did not get away from where it was.";
+    default:
+      return explored.reason;
+  }
 }
 
 /// The pictures with what the robot took itself to be in the end, as a tour.
@@ -136,6 +152,7 @@ Result<scenario::ExplorationResult> explore_world(const ExploreOptions& options,
   config.seed = options.stage.seed;
   scenario::ExplorationPlan plan = scenario::exploration_plan_for(*profile);
   plan.limit_m = options.limit_m;
+  plan.limit_s = options.limit_s;
   plan.back_after_s = options.back_after_s;
   for (const std::string& fence : options.fences) {
     auto corners_m = corners_of(fence);
@@ -176,6 +193,7 @@ Status run(const ExploreOptions& options) {
     return written;
   }
   const scenario::ExplorationFigures figures = scenario::exploration_figures(world.world(), *map, taken);
+  const std::string reason = reason_of(*explored);
   if (options.json) {
     print_json({{"covered", figures.covered},
                 {"reachable_m2", figures.reachable_m2},
@@ -190,12 +208,12 @@ Status run(const ExploreOptions& options) {
                 {"duration_s", explored->duration_s},
                 {"step_ms_p50", median(explored->step_ms)},
                 {"ended", name_of(explored->ended)},
-                {"reason", explored->reason.empty() ? nlohmann::json() : nlohmann::json(explored->reason)}});
+                {"reason", reason.empty() ? nlohmann::json() : nlohmann::json(reason)}});
     return {};
   }
   std::printf("%s: %zu pictures, %.0f m driven in %.0f s, %d collisions\n", name_of(explored->ended),
               explored->pictures.size(), explored->driven_m, explored->duration_s, explored->collisions);
-  if (!explored->reason.empty()) std::printf("%s\n", explored->reason.c_str());
+  if (!reason.empty()) std::printf("%s\n", reason.c_str());
   std::printf("%s: %s\n", summary(*map).c_str(), (out / "map.hwmap").string().c_str());
   std::printf("%.1f %% of %.0f m2 lie within 2 m and in sight of a place; %d wrong edges\n", 100.0 * figures.covered,
               figures.reachable_m2, figures.wrong_edges);
@@ -212,6 +230,9 @@ void register_explore(CLI::App& program) {
   command->add_option("--start", options->start, "Room to begin in; without it where the world says");
   command->add_option("--robot", options->robot, "disc or chair")->capture_default_str();
   command->add_option("--limit-m", options->limit_m, "Way after which it ends")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--limit-s", options->limit_s, "Time after which it ends, wherever it is")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command

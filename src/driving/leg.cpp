@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "driving/give_way.hpp"
@@ -50,23 +51,24 @@ void begin_exploration(DrivingState& state, const Exploration& exploration, cons
 void judge_leg(DrivingState& state, const Inputs& inputs, const DrivingConfig&, Milliseconds sensors_ms,
                const LegConfig& leg) {
   LegState& now = state.leg;
-  if (!inputs.leg) {
-    now = {};
-    return;
+  const bool wanted = inputs.leg && seen_from(inputs.odometry, inputs.leg->goal_m).norm() > inputs.leg->within_m;
+  const Pose2 moved = inverse(now.got_on_at) * inputs.odometry;
+  const bool gets_on = position_m(moved).norm() > leg.gets_on_m || std::abs(moved.theta_rad) > leg.gets_on_rad;
+  // Another one may be free: it begins anew.
+  if (!wanted || !now.begun || now.blocked || gets_on) {
+    now.got_on_at = inputs.odometry;
+    now.got_on_ms = sensors_ms;
   }
-  const double left_m = seen_from(inputs.odometry, inputs.leg->goal_m).norm();
-  // The goal runs ahead of the robot along its way.
-  const bool same = now.goal_m && (*now.goal_m - inputs.leg->goal_m).norm() <= leg.goal_moves_m;
-  const bool moved_on = same && (*now.goal_m - inputs.leg->goal_m).norm() > leg.nearer_m;
-  if (!same || moved_on || left_m < now.nearest_m - leg.nearer_m || left_m <= inputs.leg->within_m) {
-    now.goal_m = inputs.leg->goal_m;
-    now.nearest_m = left_m;
-    now.nearer_ms = sensors_ms;
-    now.blocked = false;
+  const bool elsewhere = position_m(inverse(now.spot) * inputs.odometry).norm() > leg.spot_m;
+  if (!wanted || !now.begun || now.blocked || elsewhere) {
+    now.spot = inputs.odometry;
+    now.at_spot_since_ms = sensors_ms;
   }
+  now.begun = true;
   const bool obstacle_moves =
       state.moving_obstacle.seen_ms && sensors_ms - *state.moving_obstacle.seen_ms < leg.blocked_ms;
-  now.blocked = sensors_ms - now.nearer_ms > (obstacle_moves ? leg.patience_ms : leg.blocked_ms);
+  const Milliseconds patience_ms = obstacle_moves ? leg.patience_ms : leg.blocked_ms;
+  now.blocked = sensors_ms - now.got_on_ms > patience_ms || sensors_ms - now.at_spot_since_ms > leg.at_spot_ms;
 }
 
 Motion leg_motion(DrivingState& state, const Situation& now) {

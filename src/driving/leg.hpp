@@ -14,10 +14,12 @@ namespace homeward::driving {
 
 /// When a leg counts as blocked.
 struct LegConfig {
-  double nearer_m = 0.05;             // less is no way gained
-  Milliseconds blocked_ms = 8000;     // no nearer for so long: the leg is blocked,
+  double gets_on_m = 0.1;             // driven on by less,
+  double gets_on_rad = 0.3;           // and turned by less, it does not get on:
+  Milliseconds blocked_ms = 8000;     // after so long the leg is blocked,
   Milliseconds patience_ms = 30'000;  // after so long where somebody moves about the robot
-  double goal_moves_m = 0.5;          // a goal farther off than that from the last one is another leg's
+  double spot_m = 0.6;                // and where it stays so near to one spot,
+  Milliseconds at_spot_ms = 30'000;   // turning to and fro for so long
 };
 
 /// An order to explore.

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
-#include <optional>
+
+#include "core/pose2.hpp"
 
 namespace homeward::driving {
 
-/// How a robot gets on with the leg that it drives.
+/// How a robot gets on with the legs that it drives.
 struct LegState {
-  std::optional<Eigen::Vector2d> goal_m;  // of the leg; odometry's frame
-  double nearest_m = 0.0;                 // that it has come to it,
-  std::int64_t nearer_ms = 0;             // and when, by the sensors' clock
-  bool blocked = false;                   // it does not get any nearer: another leg is wanted
+  bool begun = false;
+  Pose2 got_on_at;                    // where it last got on, odometry's frame,
+  std::int64_t got_on_ms = 0;         // and when, by the sensors' clock
+  Pose2 spot;                         // about where it has been
+  std::int64_t at_spot_since_ms = 0;  // since then
+  bool blocked = false;               // it does not get on: another leg is wanted
 };
 
 }  // namespace homeward::driving

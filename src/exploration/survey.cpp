@@ -84,8 +84,17 @@ void Survey::choose(const Pose2& odometry, std::int64_t now_ms) {
   drive_on(reach, next->cell, odometry);
 }
 
+/// Whatever it tries, it stays where it is: to call that explored would be wrong.
+void Survey::note_blocked(const Pose2& odometry) {
+  const bool same_spot = position_m(inverse(blocked_at_) * odometry).norm() < config_.spot_m;
+  blocked_in_a_row_ = same_spot ? blocked_in_a_row_ + 1 : 1;
+  if (!same_spot) blocked_at_ = odometry;
+  if (blocked_in_a_row_ >= config_.stuck_after) ended_ = SurveyEnd::kStuck;
+}
+
 /// The place is reached, or cannot be.
-void Survey::leave_target(bool blocked) {
+void Survey::leave_target(bool blocked, const Pose2& odometry) {
+  if (blocked) note_blocked(odometry);
   if (goes_home_) {
     if (!blocked) ended_ = SurveyEnd::kBack;
     return;
@@ -108,10 +117,10 @@ SurveyStep Survey::go_on(const RangeSweep& sweep, const Pose2& odometry, bool bl
   if (step.takes_picture) chosen_ms_.reset();
   const bool reached = at_target(odometry);
   if (reached && explorer_.since_picture_m(odometry) >= config_.least_between_m) step.takes_picture = true;
-  if (reached || (blocked && target_m_)) leave_target(!reached);
+  if (reached || (blocked && target_m_)) leave_target(!reached, odometry);
   if (step.takes_picture && explorer_.views().empty()) return step;
-  if (ended_ != SurveyEnd::kBack && (!chosen_ms_ || now_ms - *chosen_ms_ >= config_.chosen_every_ms))
-    choose(odometry, now_ms);
+  const bool over = ended_ == SurveyEnd::kBack || ended_ == SurveyEnd::kStuck;
+  if (!over && (!chosen_ms_ || now_ms - *chosen_ms_ >= config_.chosen_every_ms)) choose(odometry, now_ms);
   if (!step.takes_picture) step.ended = ended_;
   if (goal_m_ && !step.ended) {
     const Pose2 odometry_from_floor = odometry * inverse(explorer_.floor_from_robot(odometry));

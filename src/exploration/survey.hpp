@@ -15,6 +15,8 @@ struct SurveyConfig {
   double ahead_m = 1.2;                 // the leg's goal lies so far ahead on the way, as far as that is straight
   double there_m = 0.15;                // so near, the place is reached
   double least_between_m = 0.15;        // of two pictures
+  int stuck_after = 5;                  // blocked so often in a row at one spot, it is stuck
+  double spot_m = 0.5;                  // and so large that is
   int tries = 2;                        // where ways were blocked, it tries so often again when nothing else is left
   double home_mps = 0.25;               // so fast it gets home at least, by the way's cost
   std::int64_t home_spare_ms = 15'000;  // and this it keeps in hand
@@ -24,6 +26,7 @@ struct SurveyConfig {
 enum class SurveyEnd : std::uint8_t {
   kAllSeen,  // nothing is left to explore
   kBack,     // its time is over, and it is where it began
+  kStuck,    // it does not get away from where it is
 };
 
 /// What the robot is to do now.
@@ -54,7 +57,8 @@ class Survey {
 
  private:
   void choose(const Pose2& odometry, std::int64_t now_ms);
-  void leave_target(bool blocked);
+  void leave_target(bool blocked, const Pose2& odometry);
+  void note_blocked(const Pose2& odometry);
   void turn_home_in_time(const Reach& reach, const Pose2& odometry, std::int64_t now_ms);
   void drive_on(const Reach& reach, std::size_t cell, const Pose2& odometry);
   [[nodiscard]] bool at_target(const Pose2& odometry) const;
@@ -67,6 +71,8 @@ class Survey {
   std::optional<std::int64_t> back_by_ms_;
   bool goes_home_ = false;
   int tried_ = 0;
+  int blocked_in_a_row_ = 0;
+  Pose2 blocked_at_;  // odometry
   std::optional<SurveyEnd> ended_;
 };
 

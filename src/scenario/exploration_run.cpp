@@ -19,6 +19,18 @@ namespace {
 
 constexpr int kQuality = 92;
 
+ExplorationEnd end_of(exploration::SurveyEnd end) {
+  switch (end) {
+    case exploration::SurveyEnd::kAllSeen:
+      return ExplorationEnd::kComplete;
+    case exploration::SurveyEnd::kBack:
+      return ExplorationEnd::kBack;
+    case exploration::SurveyEnd::kStuck:
+      return ExplorationEnd::kStuck;
+  }
+  return ExplorationEnd::kStopped;
+}
+
 /// The loop of one exploration: world, sensors, survey and driving step, cycle by cycle.
 class ExplorationLoop {
  public:
@@ -54,7 +66,7 @@ class ExplorationLoop {
       result_.step_ms.push_back(clock() - began_ms - rendering_ms);
     }
     if (todo.ended) {
-      result_.ended = *todo.ended == exploration::SurveyEnd::kBack ? ExplorationEnd::kBack : ExplorationEnd::kComplete;
+      result_.ended = end_of(*todo.ended);
       return false;
     }
     if (todo.goal_m) inputs.leg = driving::Leg{*todo.goal_m, plan_.survey.there_m * 0.6};

@@ -35,7 +35,7 @@ struct ExploredPicture {
 };
 
 /// Why an exploration ended.
-enum class ExplorationEnd : std::uint8_t { kComplete, kBack, kLimit, kStopped };
+enum class ExplorationEnd : std::uint8_t { kComplete, kBack, kLimit, kStuck, kStopped };
 
 struct ExplorationResult {
   std::vector<ExploredPicture> pictures;

@@ -54,6 +54,26 @@ TEST_F(LegTest, ALegThatAWallClosesIsBlockedAfterAWhileAndNothingIsTouched) {
   EXPECT_FALSE(state_.leg.blocked);
 }
 
+TEST_F(LegTest, GoalsThatChangeWithoutWayGainedAreBlockedToo) {
+  ranges_m_.assign(ranges_m_.size(), 0.42F);  // walled in all round
+  Milliseconds after_ms = 0;
+  for (int k = 0; k < 500 && !state_.leg.blocked; ++k) {
+    leg_ = Leg{{3.0, k % 2 == 0 ? 1.0 : -1.0}, 0.1};
+    on();
+    after_ms += kTick_ms;
+  }
+  EXPECT_TRUE(state_.leg.blocked);
+  EXPECT_LE(after_ms, 20'000);
+}
+
+TEST_F(LegTest, TurningToAndFroAtOneSpotIsBlocked) {
+  for (int k = 0; k < 1000 && !state_.leg.blocked; ++k) {
+    leg_ = Leg{{k % 40 < 20 ? 0.5 : -0.5, 0.0}, 0.1};
+    on();
+  }
+  EXPECT_TRUE(state_.leg.blocked);
+}
+
 TEST_F(LegTest, WhatStopsAMissionStopsAnExplorationToo) {
   leg_ = Leg{{3.0, 0.0}, 0.1};
   for (int k = 0; k < 10; ++k) on();

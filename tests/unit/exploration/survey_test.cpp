@@ -119,6 +119,15 @@ TEST(SurveyTest, ABlockedPlaceIsGivenUpAndAnotherOneIsDrivenTo) {
   EXPECT_GT((*walker.survey.target_m() - first).norm(), 0.25);
 }
 
+TEST(SurveyTest, WhoDoesNotGetAwayIsStuckAndHasNotSeenAll) {
+  Walker walker;
+  while (!walker.survey.target_m()) ASSERT_TRUE(walker.cycle());
+  int cycles = 0;
+  while (walker.cycle(true) && ++cycles < 100) {
+  }
+  EXPECT_EQ(walker.ended, SurveyEnd::kStuck);
+}
+
 TEST(SurveyTest, TheFirstThingThatItDoesIsTakeAPicture) {
   Walker walker;
   const SurveyStep step = walker.survey.go_on(sweep_of(walker.walls, walker.truth), {}, false, 0);
