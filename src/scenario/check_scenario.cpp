@@ -10,6 +10,7 @@
 #include "scenario/bystander.hpp"
 #include "scenario/look_alike_spot.hpp"
 #include "scenario/mission_plan.hpp"
+#include "scenario/scenario_robot.hpp"
 #include "scenario/starting_pose.hpp"
 #include "scenario/world_folder.hpp"
 #include "sim/floor.hpp"
@@ -177,12 +178,6 @@ Error error_of(const std::vector<ScenarioProblem>& problems) {
     message += (i > 0 ? " " : "") + problems[i].where + ": " + problems[i].message + ".";
   if (problems.size() > kMost) message += " And " + std::to_string(problems.size() - kMost) + " more.";
   return {ErrorCode::kInvalidInput, message, {}};
-}
-
-sim::RobotProfile profile_of(const wire::ScenarioFile& scenario) {
-  sim::RobotProfile profile = scenario.robot == "chair" ? sim::chair_profile() : sim::disc_profile();
-  if (scenario.ranges == "ultrasound") profile.ranges = sim::RangeSensor::kUltrasound;
-  return profile;
 }
 
 }  // namespace homeward::scenario

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "sim/motion.hpp"
 #include "sim/scene.hpp"
 #include "wire/scenario_json.hpp"
 
@@ -26,8 +25,5 @@ std::vector<ScenarioProblem> check_scenario(const wire::ScenarioFile& scenario, 
 
 /// The problems as one error that names each with its place. Precondition: there is one.
 Error error_of(const std::vector<ScenarioProblem>& problems);
-
-/// The robot that a scenario names.
-sim::RobotProfile profile_of(const wire::ScenarioFile& scenario);
 
 }  // namespace homeward::scenario

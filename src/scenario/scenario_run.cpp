@@ -6,6 +6,7 @@
 
 #include "scenario/check_scenario.hpp"
 #include "scenario/mission_run.hpp"
+#include "scenario/scenario_robot.hpp"
 #include "scenario/taught_world.hpp"
 #include "scenario/true_ways.hpp"
 #include "sim/tour_path.hpp"
