@@ -18,6 +18,7 @@
 #include "pipeline/build_map.hpp"
 #include "scenario/exploration_figures.hpp"
 #include "scenario/exploration_run.hpp"
+#include "scenario/known_plan.hpp"
 #include "scenario/starting_pose.hpp"
 #include "scenario/world_folder.hpp"
 #include "sim/floor.hpp"
@@ -203,6 +204,8 @@ Status run(const ExploreOptions& options) {
                 {"mixed_places", figures.mixed_places},
                 {"pictures", explored->pictures.size()},
                 {"driven_m", explored->driven_m},
+                {"known_plan_m", scenario::known_plan_m(world.world(), position_m(explored->pictures.front().truth),
+                                                        exploration::ViewConfig{}.covers_m)},
                 {"collisions", explored->collisions},
                 {"min_clearance_m", explored->min_clearance_m},
                 {"duration_s", explored->duration_s},
