@@ -210,6 +210,7 @@ Status run(const ExploreOptions& options) {
                 {"min_clearance_m", explored->min_clearance_m},
                 {"duration_s", explored->duration_s},
                 {"step_ms_p50", median(explored->step_ms)},
+                {"step_ms_max", explored->step_ms.empty() ? 0.0 : std::ranges::max(explored->step_ms)},
                 {"ended", name_of(explored->ended)},
                 {"reason", reason.empty() ? nlohmann::json() : nlohmann::json(reason)}});
     return {};

@@ -215,6 +215,7 @@ void Explorer::look_for_loop() {
 /// Settles the poses by all links and puts the floor together anew. A loop that the others contradict is taken back,
 /// and with it what it had covered.
 void Explorer::lay_out_again() {
+  const std::vector<Pose2> before = poses_;
   settle(poses_, links_);
   constexpr double kWrong = 8.0;  // spreads
   bool taken_back = false;
@@ -230,6 +231,11 @@ void Explorer::lay_out_again() {
   if (taken_back) settle(poses_, links_);
   aligned_ = poses_.back();
   aligned_odometry_ = views_.back().odometry;
+  // The floor of cells does not show less than about a cell.
+  double moved_m = 0.0;
+  for (std::size_t i = 0; i < poses_.size(); ++i)
+    moved_m = std::max(moved_m, (position_m(poses_[i]) - position_m(before[i])).norm());
+  if (!taken_back && moved_m < config_.floor.cell_m) return;
   floor_.forget();
   coverage_.forget();
   for (std::size_t i = 0; i < views_.size(); ++i) floor_.see(views_[i].sweep, views_[i].surface, poses_[i]);
