@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/explore.hpp"
 #include "cli/map_output.hpp"
-#include "cli/simulate.hpp"
 #include "cli/tour_files.hpp"
 #include "db/map_file.hpp"
 #include "files/write_file.hpp"
@@ -24,14 +24,6 @@ namespace homeward::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct ExploreOptions {
-  StageOptions stage;
-  std::string start;
-  std::string robot = "disc";
-  double limit_m = 2000.0;
-  bool json = false;
-};
 
 double now_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -51,18 +43,6 @@ Result<Pose2> start_of(const ExploreOptions& options, const sim::World& world, c
     point_m = *room_m;
   }
   return scenario::starting_pose(world, point_m, robot, options.stage.seed);
-}
-
-const char* name_of(scenario::ExplorationEnd end) {
-  switch (end) {
-    case scenario::ExplorationEnd::kComplete:
-      return "complete";
-    case scenario::ExplorationEnd::kLimit:
-      return "limit";
-    case scenario::ExplorationEnd::kStopped:
-      return "stopped";
-  }
-  return "";
 }
 
 /// The pictures with what the robot took itself to be in the end, as a tour.
@@ -100,47 +80,21 @@ Result<map::TopologicalMap> build_map_of(const fs::path& tour, const fs::path& o
   return map;
 }
 
-Result<scenario::ExplorationResult> explore_world(const ExploreOptions& options, sim::LitWorld& world,
-                                                  const camera::CameraConfig& camera) {
-  const auto light = scenario::light_named(options.stage.light);
-  if (!light) return pass_on(light);
-  const auto profile = robot_named(options.robot);
-  if (!profile) return pass_on(profile);
-  const auto start = start_of(options, world.world(), *profile);
-  if (!start) return pass_on(start);
-  scenario::prepare_light(world, *light);
-  scenario::SimulatedRobotConfig config;
-  config.camera = camera;
-  config.light = *light;
-  config.profile = *profile;
-  config.seed = options.stage.seed;
-  auto robot = scenario::SimulatedRobot::create(world, config, *start);
-  if (!robot) return pass_on(robot);
-  const auto made = camera::Camera::create(camera);
-  if (!made) return pass_on(made);
-  const auto eye = pipeline::Eye::create(camera, pipeline::suited_feature_config(**made));
-  if (!eye) return pass_on(eye);
+Result<scenario::ExplorationResult> explore_world(const ExploreOptions& options, ExploringRobot& explorer) {
   scenario::ExplorationPlan plan;
   plan.limit_m = options.limit_m;
-  plan.explorer.reach.radius_m = profile->outline.radius_m + profile->outline.side_m;
-  return scenario::explore(*robot, scenario::body_of(*profile), *eye, plan, {}, now_ms);
+  plan.explorer.reach.radius_m = explorer.profile.outline.radius_m + explorer.profile.outline.side_m;
+  return scenario::explore(explorer.robot, scenario::body_of(explorer.profile), explorer.eye, plan, {}, now_ms);
 }
 
-Status run(const ExploreOptions& options) {
-  const auto camera = camera_named(options.stage.camera);
-  if (!camera) return pass_on(camera);
-  auto loaded = scenario::load_world(options.stage.world);
-  if (!loaded) return pass_on(loaded);
+/// The survey's pictures as a tour, the map of it, and what both are worth.
+Status explore_by_survey(const ExploreOptions& options, const sim::World& world, const camera::CameraConfig& camera,
+                         ExploringRobot& explorer) {
   const fs::path out(options.stage.out);
-  std::error_code ignored;
-  if (fs::exists(out, ignored) && !fs::is_empty(out, ignored)) {
-    return fail(ErrorCode::kConflict, "The folder holds something already; name a new or empty one.", out.string());
-  }
-  sim::LitWorld world(std::move(*loaded));
-  const auto explored = explore_world(options, world, *camera);
+  const auto explored = explore_world(options, explorer);
   if (!explored) return pass_on(explored);
-  if (Status written = write_tour(out / "tour", *camera, world.world(), *explored); !written) return written;
-  const auto map = build_map_of(out / "tour", out / "map.hwmap", *camera, options);
+  if (Status written = write_tour(out / "tour", camera, world, *explored); !written) return written;
+  const auto map = build_map_of(out / "tour", out / "map.hwmap", camera, options);
   if (!map) return pass_on(map);
   std::unordered_map<ImageId, Pose2> taken;
   for (std::size_t i = 0; i < explored->pictures.size(); ++i) {
@@ -148,7 +102,7 @@ Status run(const ExploreOptions& options) {
     std::snprintf(name, sizeof name, "tour/%05zu.jpg", i);
     taken.emplace(ImageId(name), explored->pictures[i].truth);
   }
-  const scenario::ExplorationFigures figures = scenario::exploration_figures(world.world(), *map, taken);
+  const scenario::ExplorationFigures figures = scenario::exploration_figures(world, *map, taken);
   if (options.json) {
     print_json({{"covered", figures.covered},
                 {"reachable_m2", figures.reachable_m2},
@@ -175,13 +129,79 @@ Status run(const ExploreOptions& options) {
   return {};
 }
 
+Result<camera::CameraConfig> camera_of(const ExploreOptions& options) {
+  auto camera = camera_named(options.stage.camera);
+  if (camera && options.camera_height_m) camera->robot_from_camera_translation_m.z() = *options.camera_height_m;
+  return camera;
+}
+
+Status run(const ExploreOptions& options) {
+  const auto camera = camera_of(options);
+  if (!camera) return pass_on(camera);
+  auto loaded = scenario::load_world(options.stage.world);
+  if (!loaded) return pass_on(loaded);
+  const fs::path out(options.stage.out);
+  std::error_code ignored;
+  if (fs::exists(out, ignored) && !fs::is_empty(out, ignored)) {
+    return fail(ErrorCode::kConflict, "The folder holds something already; name a new or empty one.", out.string());
+  }
+  sim::LitWorld world(std::move(*loaded));
+  auto explorer = exploring_robot(options, world, *camera);
+  if (!explorer) return pass_on(explorer);
+  if (options.method == "thesis") return explore_by_thesis(options, *explorer);
+  return explore_by_survey(options, world.world(), *camera, *explorer);
+}
+
 }  // namespace
+
+const char* name_of(scenario::ExplorationEnd end) {
+  switch (end) {
+    case scenario::ExplorationEnd::kComplete:
+      return "complete";
+    case scenario::ExplorationEnd::kLimit:
+      return "limit";
+    case scenario::ExplorationEnd::kStopped:
+      return "stopped";
+  }
+  return "";
+}
+
+Result<ExploringRobot> exploring_robot(const ExploreOptions& options, sim::LitWorld& world,
+                                       const camera::CameraConfig& camera) {
+  const auto light = scenario::light_named(options.stage.light);
+  if (!light) return pass_on(light);
+  const auto profile = robot_named(options.robot);
+  if (!profile) return pass_on(profile);
+  const auto start = start_of(options, world.world(), *profile);
+  if (!start) return pass_on(start);
+  scenario::prepare_light(world, *light);
+  scenario::SimulatedRobotConfig config;
+  config.camera = camera;
+  config.light = *light;
+  config.profile = *profile;
+  config.seed = options.stage.seed;
+  auto robot = scenario::SimulatedRobot::create(world, config, *start);
+  if (!robot) return pass_on(robot);
+  const auto made = camera::Camera::create(camera);
+  if (!made) return pass_on(made);
+  auto eye = pipeline::Eye::create(camera, pipeline::suited_feature_config(**made));
+  if (!eye) return pass_on(eye);
+  return ExploringRobot{std::move(*robot), std::move(*eye), *profile};
+}
 
 void register_explore(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("explore", "Let a simulated robot map a world by itself, and build the map of it");
   const auto options = std::make_shared<ExploreOptions>();
   add_stage_options(*command, options->stage);
+  command
+      ->add_option("--method", options->method,
+                   "survey (pictures of all that can be seen, and a map of them) or thesis (Ferdaus 2008)")
+      ->check(CLI::IsMember({"survey", "thesis"}))
+      ->capture_default_str();
+  add_thesis_options(*command, options->thesis);
+  command->add_option("--camera-height-m", options->camera_height_m, "Of the camera above the floor; else its own")
+      ->check(CLI::PositiveNumber);
   command->add_option("--start", options->start, "Room to begin in; without it where the world says");
   command->add_option("--robot", options->robot, "disc or chair")->capture_default_str();
   command->add_option("--limit-m", options->limit_m, "Way after which it ends")
