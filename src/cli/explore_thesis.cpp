@@ -78,7 +78,8 @@ json homings_json(const scenario::ThesisExploration& explored) {
                    {"end", name_of_end(homing.end)},
                    {"steps", homing.steps},
                    {"began_off_m", homing.began_off_m},
-                   {"off_m", homing.off_m}});
+                   {"off_m", homing.off_m},
+                   {"turn_off_rad", homing.turn_off_rad}});
   }
   return all;
 }

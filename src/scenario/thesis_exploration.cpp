@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/angles.hpp"
 #include "features/global.hpp"
 #include "homing/scale_space.hpp"
 #include "homing/visual_compass.hpp"
@@ -135,6 +136,8 @@ class Explorer {
     }
     at_ = node;
     homing.off_m = off_m(node);
+    homing.turn_off_rad = wrap_angle(robot_.vehicle().pose().theta_rad + turn_to_node_rad_ -
+                                     result_.nodes[static_cast<std::size_t>(node)].truth.theta_rad);
     result_.homings.push_back(homing);
     return {};
   }

@@ -68,8 +68,9 @@ struct ThesisHoming {
   int node = 0;
   ThesisHomingEnd end = ThesisHomingEnd::kArrived;
   int steps = 0;
-  double began_off_m = 0.0;  // true distance from the node, for judging only
-  double off_m = 0.0;        // the same in the end
+  double began_off_m = 0.0;   // true distance from the node, for judging only
+  double off_m = 0.0;         // the same in the end
+  double turn_off_rad = 0.0;  // of the compass's turn to the node's heading from the true one, (-pi, pi]
 };
 
 struct ThesisExploration {
