@@ -1,48 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <chrono>
 #include <filesystem>
-#include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "cli/command.hpp"
-#include "cli/exploration_picture.hpp"
-#include "cli/map_output.hpp"
-#include "cli/simulate.hpp"
-#include "cli/tour_files.hpp"
-#include "db/map_file.hpp"
-#include "files/write_file.hpp"
-#include "imageio/decode.hpp"
-#include "pipeline/build_map.hpp"
-#include "scenario/exploration_figures.hpp"
-#include "scenario/exploration_run.hpp"
-#include "scenario/known_plan.hpp"
+#include "cli/explore.hpp"
 #include "scenario/starting_pose.hpp"
 #include "scenario/world_folder.hpp"
-#include "sim/floor.hpp"
 #include "sim/tour_path.hpp"
 
 namespace homeward::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct ExploreOptions {
-  StageOptions stage;
-  std::string start;
-  std::string robot = "disc";
-  double limit_m = 2000.0;
-  double limit_s = 7200.0;
-  std::optional<double> back_after_s;
-  std::vector<std::string> fences;
-  bool json = false;
-};
-
-double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 Result<sim::RobotProfile> robot_named(const std::string& name) {
   if (name == "disc") return sim::disc_profile();
@@ -60,19 +29,30 @@ Result<Pose2> start_of(const ExploreOptions& options, const sim::World& world, c
   return scenario::starting_pose(world, point_m, robot, options.stage.seed);
 }
 
-/// "x,y x,y x,y", metres of the world.
-Result<std::vector<Eigen::Vector2d>> corners_of(const std::string& fence) {
-  std::istringstream text(fence);
-  std::vector<Eigen::Vector2d> corners_m;
-  double x_m = 0.0;
-  double y_m = 0.0;
-  char comma = 0;
-  while (text >> x_m >> comma >> y_m && comma == ',') corners_m.emplace_back(x_m, y_m);
-  constexpr std::size_t kLeastCorners = 3;
-  if (text.eof() && corners_m.size() >= kLeastCorners) return corners_m;
-  return fail(ErrorCode::kInvalidInput, "A fence has at least three corners, x,y in metres: \"1,2 3,2 3,4\".",
-              "--fence " + fence);
+Result<camera::CameraConfig> camera_of(const ExploreOptions& options) {
+  auto camera = camera_named(options.stage.camera);
+  if (camera && options.camera_height_m) camera->robot_from_camera_translation_m.z() = *options.camera_height_m;
+  return camera;
 }
+
+Status run(const ExploreOptions& options) {
+  const auto camera = camera_of(options);
+  if (!camera) return pass_on(camera);
+  auto loaded = scenario::load_world(options.stage.world);
+  if (!loaded) return pass_on(loaded);
+  const fs::path out(options.stage.out);
+  std::error_code ignored;
+  if (fs::exists(out, ignored) && !fs::is_empty(out, ignored)) {
+    return fail(ErrorCode::kConflict, "The folder holds something already; name a new or empty one.", out.string());
+  }
+  sim::LitWorld world(std::move(*loaded));
+  auto explorer = exploring_robot(options, world, *camera);
+  if (!explorer) return pass_on(explorer);
+  if (options.method == "thesis") return explore_by_thesis(options, *explorer);
+  return explore_by_survey(options, world.world(), *camera, *explorer);
+}
+
+}  // namespace
 
 const char* name_of(scenario::ExplorationEnd end) {
   switch (end) {
@@ -88,57 +68,8 @@ const char* name_of(scenario::ExplorationEnd end) {
   return "";
 }
 
-/// Why it did not see all, in words.
-std::string reason_of(const scenario::ExplorationResult& explored) {
-  switch (explored.ended) {
-    case scenario::ExplorationEnd::kBack:
-      return "Its time was over; it is back where it began.";
-    case scenario::ExplorationEnd::kLimit:
-      return "The limit of way or time was reached.";
-    case scenario::ExplorationEnd::kStuck:
-      return "It did not get away from where it was.";
-    default:
-      return explored.reason;
-  }
-}
-
-/// The pictures with what the robot took itself to be in the end, as a tour.
-Status write_tour(const fs::path& folder, const camera::CameraConfig& camera, const sim::World& world,
-                  const scenario::ExplorationResult& explored) {
-  auto files = TourFiles::open(folder, camera);
-  if (!files) return pass_on(files);
-  for (std::size_t i = 0; i < explored.pictures.size(); ++i) {
-    const scenario::ExploredPicture& taken = explored.pictures[i];
-    SimulatedPicture picture{taken.jpeg, taken.truth, {}, explored.poses[i], taken.sweep, kTourBegins_us};
-    picture.room = sim::room_at(world, position_m(taken.truth)).value_or("");
-    picture.t_us += static_cast<TimeUs>(1e6 * taken.t_s);
-    if (Status added = files->add(picture); !added) return added;
-  }
-  return files->finish({});
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
-
-Result<map::TopologicalMap> build_map_of(const fs::path& tour, const fs::path& out, const camera::CameraConfig& camera,
-                                         const ExploreOptions& options) {
-  const auto tours = TourFolders::open({tour.string()});
-  if (!tours) return pass_on(tours);
-  ProgressBar bar;
-  auto map = pipeline::build_map(tours->sources(), camera, {options.stage.world, 0, options.stage.seed}, nullptr,
-                                 [&](const pipeline::BuildProgress& at) { bar.show(at.stage, at.share); });
-  if (!map) return pass_on(map);
-  db::Thumbnails thumbnails;
-  if (const Status made = add_thumbnails(*map, *tours, thumbnails); !made) return pass_on(made);
-  if (const Status saved = db::save_map(out.string(), *map, thumbnails); !saved) return pass_on(saved);
-  return map;
-}
-
-Result<scenario::ExplorationResult> explore_world(const ExploreOptions& options, sim::LitWorld& world,
-                                                  const camera::CameraConfig& camera) {
+Result<ExploringRobot> exploring_robot(const ExploreOptions& options, sim::LitWorld& world,
+                                       const camera::CameraConfig& camera) {
   const auto light = scenario::light_named(options.stage.light);
   if (!light) return pass_on(light);
   const auto profile = robot_named(options.robot);
@@ -151,86 +82,28 @@ Result<scenario::ExplorationResult> explore_world(const ExploreOptions& options,
   config.light = *light;
   config.profile = *profile;
   config.seed = options.stage.seed;
-  scenario::ExplorationPlan plan = scenario::exploration_plan_for(*profile);
-  plan.limit_m = options.limit_m;
-  plan.limit_s = options.limit_s;
-  plan.back_after_s = options.back_after_s;
-  for (const std::string& fence : options.fences) {
-    auto corners_m = corners_of(fence);
-    if (!corners_m) return pass_on(corners_m);
-    for (Eigen::Vector2d& corner_m : *corners_m)
-      corner_m = position_m(inverse(*start) * Pose2{corner_m.x(), corner_m.y(), 0.0});
-    plan.fences_m.push_back(std::move(*corners_m));
-  }
-  return scenario::explore_world(world, config, *start, plan, {}, now_ms);
+  auto robot = scenario::SimulatedRobot::create(world, config, *start);
+  if (!robot) return pass_on(robot);
+  const auto made = camera::Camera::create(camera);
+  if (!made) return pass_on(made);
+  auto eye = pipeline::Eye::create(camera, pipeline::suited_feature_config(**made));
+  if (!eye) return pass_on(eye);
+  return ExploringRobot{std::move(*robot), std::move(*eye), *profile};
 }
-
-Status run(const ExploreOptions& options) {
-  const auto camera = camera_named(options.stage.camera);
-  if (!camera) return pass_on(camera);
-  auto loaded = scenario::load_world(options.stage.world);
-  if (!loaded) return pass_on(loaded);
-  const fs::path out(options.stage.out);
-  std::error_code ignored;
-  if (fs::exists(out, ignored) && !fs::is_empty(out, ignored)) {
-    return fail(ErrorCode::kConflict, "The folder holds something already; name a new or empty one.", out.string());
-  }
-  sim::LitWorld world(std::move(*loaded));
-  const auto explored = explore_world(options, world, *camera);
-  if (!explored) return pass_on(explored);
-  if (Status written = write_tour(out / "tour", *camera, world.world(), *explored); !written) return written;
-  const auto map = build_map_of(out / "tour", out / "map.hwmap", *camera, options);
-  if (!map) return pass_on(map);
-  std::unordered_map<ImageId, Pose2> taken;
-  for (std::size_t i = 0; i < explored->pictures.size(); ++i) {
-    char name[40];
-    std::snprintf(name, sizeof name, "tour/%05zu.jpg", i);
-    taken.emplace(ImageId(name), explored->pictures[i].truth);
-  }
-  const std::vector<std::uint8_t> plan =
-      imageio::encode_png(exploration_picture(world.world(), *map, taken, *explored));
-  if (Status written = files::write_file(out / "plan.png", {reinterpret_cast<const char*>(plan.data()), plan.size()});
-      !written) {
-    return written;
-  }
-  const scenario::ExplorationFigures figures = scenario::exploration_figures(world.world(), *map, taken);
-  const std::string reason = reason_of(*explored);
-  if (options.json) {
-    print_json({{"covered", figures.covered},
-                {"reachable_m2", figures.reachable_m2},
-                {"nodes", map->places.size()},
-                {"edges", map->edges.size()},
-                {"wrong_edges", figures.wrong_edges},
-                {"mixed_places", figures.mixed_places},
-                {"pictures", explored->pictures.size()},
-                {"driven_m", explored->driven_m},
-                {"known_plan_m", scenario::known_plan_m(world.world(), position_m(explored->pictures.front().truth),
-                                                        exploration::ViewConfig{}.covers_m)},
-                {"collisions", explored->collisions},
-                {"min_clearance_m", explored->min_clearance_m},
-                {"duration_s", explored->duration_s},
-                {"step_ms_p50", median(explored->step_ms)},
-                {"step_ms_max", explored->step_ms.empty() ? 0.0 : std::ranges::max(explored->step_ms)},
-                {"ended", name_of(explored->ended)},
-                {"reason", reason.empty() ? nlohmann::json() : nlohmann::json(reason)}});
-    return {};
-  }
-  std::printf("%s: %zu pictures, %.0f m driven in %.0f s, %d collisions\n", name_of(explored->ended),
-              explored->pictures.size(), explored->driven_m, explored->duration_s, explored->collisions);
-  if (!reason.empty()) std::printf("%s\n", reason.c_str());
-  std::printf("%s: %s\n", summary(*map).c_str(), (out / "map.hwmap").string().c_str());
-  std::printf("%.1f %% of %.0f m2 lie within 2 m and in sight of a place; %d wrong edges\n", 100.0 * figures.covered,
-              figures.reachable_m2, figures.wrong_edges);
-  return {};
-}
-
-}  // namespace
 
 void register_explore(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("explore", "Let a simulated robot map a world by itself, and build the map of it");
   const auto options = std::make_shared<ExploreOptions>();
   add_stage_options(*command, options->stage);
+  command
+      ->add_option("--method", options->method,
+                   "survey (pictures of all that can be seen, and a map of them) or thesis (Ferdaus 2008)")
+      ->check(CLI::IsMember({"survey", "thesis"}))
+      ->capture_default_str();
+  add_thesis_options(*command, options->thesis);
+  command->add_option("--camera-height-m", options->camera_height_m, "Of the camera above the floor; else its own")
+      ->check(CLI::PositiveNumber);
   command->add_option("--start", options->start, "Room to begin in; without it where the world says");
   command->add_option("--robot", options->robot, "disc or chair")->capture_default_str();
   command->add_option("--limit-m", options->limit_m, "Way after which it ends")

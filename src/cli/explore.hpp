@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camera/camera_config.hpp"
+#include "cli/simulate.hpp"
+#include "core/result.hpp"
+#include "pipeline/eye.hpp"
+#include "scenario/exploration_run.hpp"
+#include "scenario/simulated_robot.hpp"
+
+namespace homeward::cli {
+
+// The methods of `homeward explore`, one file each.
+
+/// What the method of the thesis is given on the command line.
+struct ThesisOptions {
+  double forward_m = 2.0;
+  double hist_threshold = 600.0;
+  std::string measure = "grey";
+};
+
+struct ExploreOptions {
+  StageOptions stage;
+  std::string method = "survey";
+  ThesisOptions thesis;
+  std::string start;
+  std::string robot = "disc";
+  std::optional<double> camera_height_m;  // nothing: the camera's own
+  double limit_m = 2000.0;
+  double limit_s = 7200.0;             // simulated
+  std::optional<double> back_after_s;  // of the survey; nothing: it need not be back
+  std::vector<std::string> fences;     // of the survey: corners "x,y x,y x,y", metres of the world
+  bool json = false;
+};
+
+/// A robot at the start of an exploration, and its eye.
+struct ExploringRobot {
+  scenario::SimulatedRobot robot;
+  pipeline::Eye eye;
+  sim::RobotProfile profile;
+};
+
+void add_thesis_options(CLI::App& command, ThesisOptions& options);
+
+/// `world` must outlive it. Errors: kInvalidInput (a name on the command line, no room to start).
+Result<ExploringRobot> exploring_robot(const ExploreOptions& options, sim::LitWorld& world,
+                                       const camera::CameraConfig& camera);
+
+/// "complete", "limit" or "stopped".
+const char* name_of(scenario::ExplorationEnd end);
+
+/// `homeward explore --method survey`: writes a tour, the map of it and a picture of what that covers into the folder
+/// `--out`.
+Status explore_by_survey(const ExploreOptions& options, const sim::World& world, const camera::CameraConfig& camera,
+                         ExploringRobot& explorer);
+
+/// `homeward explore --method thesis`: writes states.csv and dissimilarities.csv into the folder `--out`.
+Status explore_by_thesis(const ExploreOptions& options, ExploringRobot& explorer);
+
+}  // namespace homeward::cli

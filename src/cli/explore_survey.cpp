@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <unordered_map>
+
+#include "cli/command.hpp"
+#include "cli/exploration_picture.hpp"
+#include "cli/explore.hpp"
+#include "cli/map_output.hpp"
+#include "cli/tour_files.hpp"
+#include "db/map_file.hpp"
+#include "files/write_file.hpp"
+#include "imageio/decode.hpp"
+#include "pipeline/build_map.hpp"
+#include "scenario/exploration_figures.hpp"
+#include "scenario/exploration_run.hpp"
+#include "scenario/known_plan.hpp"
+#include "sim/floor.hpp"
+
+namespace homeward::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+double now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// "x,y x,y x,y", metres of the world.
+Result<std::vector<Eigen::Vector2d>> corners_of(const std::string& fence) {
+  std::istringstream text(fence);
+  std::vector<Eigen::Vector2d> corners_m;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  char comma = 0;
+  while (text >> x_m >> comma >> y_m && comma == ',') corners_m.emplace_back(x_m, y_m);
+  constexpr std::size_t kLeastCorners = 3;
+  if (text.eof() && corners_m.size() >= kLeastCorners) return corners_m;
+  return fail(ErrorCode::kInvalidInput, "A fence has at least three corners, x,y in metres: \"1,2 3,2 3,4\".",
+              "--fence " + fence);
+}
+
+/// Why it did not see all, in words.
+std::string reason_of(const scenario::ExplorationResult& explored) {
+  switch (explored.ended) {
+    case scenario::ExplorationEnd::kBack:
+      return "Its time was over; it is back where it began.";
+    case scenario::ExplorationEnd::kLimit:
+      return "The limit of way or time was reached.";
+    case scenario::ExplorationEnd::kStuck:
+      return "It did not get away from where it was.";
+    default:
+      return explored.reason;
+  }
+}
+
+/// The pictures with what the robot took itself to be in the end, as a tour.
+Status write_tour(const fs::path& folder, const camera::CameraConfig& camera, const sim::World& world,
+                  const scenario::ExplorationResult& explored) {
+  auto files = TourFiles::open(folder, camera);
+  if (!files) return pass_on(files);
+  for (std::size_t i = 0; i < explored.pictures.size(); ++i) {
+    const scenario::ExploredPicture& taken = explored.pictures[i];
+    SimulatedPicture picture{taken.jpeg, taken.truth, {}, explored.poses[i], taken.sweep, kTourBegins_us};
+    picture.room = sim::room_at(world, position_m(taken.truth)).value_or("");
+    picture.t_us += static_cast<TimeUs>(1e6 * taken.t_s);
+    if (Status added = files->add(picture); !added) return added;
+  }
+  return files->finish({});
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+Result<map::TopologicalMap> build_map_of(const fs::path& tour, const fs::path& out, const camera::CameraConfig& camera,
+                                         const ExploreOptions& options) {
+  const auto tours = TourFolders::open({tour.string()});
+  if (!tours) return pass_on(tours);
+  ProgressBar bar;
+  auto map = pipeline::build_map(tours->sources(), camera, {options.stage.world, 0, options.stage.seed}, nullptr,
+                                 [&](const pipeline::BuildProgress& at) { bar.show(at.stage, at.share); });
+  if (!map) return pass_on(map);
+  db::Thumbnails thumbnails;
+  if (const Status made = add_thumbnails(*map, *tours, thumbnails); !made) return pass_on(made);
+  if (const Status saved = db::save_map(out.string(), *map, thumbnails); !saved) return pass_on(saved);
+  return map;
+}
+
+Result<scenario::ExplorationPlan> plan_of(const ExploreOptions& options, const ExploringRobot& explorer) {
+  scenario::ExplorationPlan plan = scenario::exploration_plan_for(explorer.profile);
+  plan.limit_m = options.limit_m;
+  plan.limit_s = options.limit_s;
+  plan.back_after_s = options.back_after_s;
+  const Pose2 start_from_world = inverse(explorer.robot.vehicle().pose());
+  for (const std::string& fence : options.fences) {
+    auto corners_m = corners_of(fence);
+    if (!corners_m) return pass_on(corners_m);
+    for (Eigen::Vector2d& corner_m : *corners_m)
+      corner_m = position_m(start_from_world * Pose2{corner_m.x(), corner_m.y(), 0.0});
+    plan.fences_m.push_back(std::move(*corners_m));
+  }
+  return plan;
+}
+
+}  // namespace
+
+Status explore_by_survey(const ExploreOptions& options, const sim::World& world, const camera::CameraConfig& camera,
+                         ExploringRobot& explorer) {
+  const fs::path out(options.stage.out);
+  const auto plan_of_robot = plan_of(options, explorer);
+  if (!plan_of_robot) return pass_on(plan_of_robot);
+  const auto explored =
+      scenario::explore(explorer.robot, scenario::body_of(explorer.profile), explorer.eye, *plan_of_robot, {}, now_ms);
+  if (!explored) return pass_on(explored);
+  if (Status written = write_tour(out / "tour", camera, world, *explored); !written) return written;
+  const auto map = build_map_of(out / "tour", out / "map.hwmap", camera, options);
+  if (!map) return pass_on(map);
+  std::unordered_map<ImageId, Pose2> taken;
+  for (std::size_t i = 0; i < explored->pictures.size(); ++i) {
+    char name[40];
+    std::snprintf(name, sizeof name, "tour/%05zu.jpg", i);
+    taken.emplace(ImageId(name), explored->pictures[i].truth);
+  }
+  const std::vector<std::uint8_t> plan = imageio::encode_png(exploration_picture(world, *map, taken, *explored));
+  if (Status written = files::write_file(out / "plan.png", {reinterpret_cast<const char*>(plan.data()), plan.size()});
+      !written) {
+    return written;
+  }
+  const scenario::ExplorationFigures figures = scenario::exploration_figures(world, *map, taken);
+  const std::string reason = reason_of(*explored);
+  if (options.json) {
+    print_json({{"covered", figures.covered},
+                {"reachable_m2", figures.reachable_m2},
+                {"nodes", map->places.size()},
+                {"edges", map->edges.size()},
+                {"wrong_edges", figures.wrong_edges},
+                {"mixed_places", figures.mixed_places},
+                {"pictures", explored->pictures.size()},
+                {"driven_m", explored->driven_m},
+                {"known_plan_m", scenario::known_plan_m(world, position_m(explored->pictures.front().truth),
+                                                        exploration::ViewConfig{}.covers_m)},
+                {"collisions", explored->collisions},
+                {"min_clearance_m", explored->min_clearance_m},
+                {"duration_s", explored->duration_s},
+                {"step_ms_p50", median(explored->step_ms)},
+                {"step_ms_max", explored->step_ms.empty() ? 0.0 : std::ranges::max(explored->step_ms)},
+                {"ended", name_of(explored->ended)},
+                {"reason", reason.empty() ? nlohmann::json() : nlohmann::json(reason)}});
+    return {};
+  }
+  std::printf("%s: %zu pictures, %.0f m driven in %.0f s, %d collisions\n", name_of(explored->ended),
+              explored->pictures.size(), explored->driven_m, explored->duration_s, explored->collisions);
+  if (!reason.empty()) std::printf("%s\n", reason.c_str());
+  std::printf("%s: %s\n", summary(*map).c_str(), (out / "map.hwmap").string().c_str());
+  std::printf("%.1f %% of %.0f m2 lie within 2 m and in sight of a place; %d wrong edges\n", 100.0 * figures.covered,
+              figures.reachable_m2, figures.wrong_edges);
+  return {};
+}
+
+}  // namespace homeward::cli

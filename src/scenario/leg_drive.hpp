@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+
+#include "driving/step.hpp"
+#include "scenario/simulated_robot.hpp"
+
+namespace homeward::scenario {
+
+/// How a leg ended.
+enum class LegEnd : std::uint8_t {
+  kReached,
+  kBlocked,  // it got no nearer for as long as `driving::LegConfig` waits; the robot stands where it is
+  kLimit,    // the way of the whole drive is used up
+  kStopped,  // the driving step refuses to go on
+};
+
+/// Drives a simulated robot leg by leg, in simulated time and by the agent's own driving step under permits that never
+/// end: its avoidance has priority, and goes round what stands in the way.
+class LegDrive {
+ public:
+  /// `robot` must outlive it. `limit_m`: of everything driven.
+  LegDrive(SimulatedRobot& robot, const driving::Body& body, const std::string& feature_config_id,
+           double speed_limit_mps, double limit_m);
+
+  /// Drives to a point given in the robot's present frame, turning to it first.
+  LegEnd drive(const Eigen::Vector2d& goal_in_robot_m, double within_m);
+  /// Why the driving step refused to go on; empty where it did not.
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+  [[nodiscard]] double seconds() const { return 0.001 * static_cast<double>(now_ms_); }
+
+ private:
+  /// One cycle. Without a leg the robot comes to rest.
+  void cycle(const std::optional<driving::Leg>& leg);
+  [[nodiscard]] bool stopped() const { return begun_ && state_.drive != wire::DriveState::kDriving; }
+
+  SimulatedRobot& robot_;
+  driving::DrivingConfig config_;
+  driving::DrivingState state_;
+  double speed_limit_mps_;
+  double limit_m_;
+  driving::Milliseconds now_ms_ = 0;
+  std::int64_t permit_ = 1;
+  bool begun_ = false;
+  std::string reason_;
+};
+
+}  // namespace homeward::scenario
