@@ -35,7 +35,16 @@ Result<camera::CameraConfig> camera_of(const ExploreOptions& options) {
   return camera;
 }
 
+/// What one method knows nothing of must not be dropped in silence: a fence least of all.
+Status refuse_of_survey_alone(const ExploreOptions& options) {
+  if (options.method == "survey") return {};
+  const char* option = !options.fences.empty() ? "--fence" : options.back_after_s ? "--back-after-s" : nullptr;
+  if (option == nullptr) return {};
+  return fail(ErrorCode::kInvalidInput, "Only --method survey knows this option.", option);
+}
+
 Status run(const ExploreOptions& options) {
+  if (Status fitting = refuse_of_survey_alone(options); !fitting) return fitting;
   const auto camera = camera_of(options);
   if (!camera) return pass_on(camera);
   auto loaded = scenario::load_world(options.stage.world);
@@ -109,16 +118,16 @@ void register_explore(CLI::App& program) {
   command->add_option("--limit-m", options->limit_m, "Way after which it ends")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--limit-s", options->limit_s, "Time after which it ends, wherever it is")
-      ->check(CLI::PositiveNumber)
+  command->add_option("--limit-s", options->limit_s, "Simulated time after which it ends, wherever it is (survey)")
+      ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();
   command
       ->add_option("--back-after-s", options->back_after_s,
-                   "Time after which it is back where it began: it turns home before")
-      ->check(CLI::PositiveNumber);
+                   "Time after which it is to be back where it began: it turns home before (survey)")
+      ->check(CLI::Range(1.0, 1e6));
   command->add_option(
       "--fence", options->fences,
-      "Corners of floor that it does not drive on, in metres of the world: \"1,2 3,2 3,4\"; once for each");
+      "Corners of floor that no way leads over, in metres of the world: \"1,2 3,2 3,4\"; once for each (survey)");
   command->add_flag("--json", options->json, "Print one JSON object");
   run_on(*command, [options] { return run(*options); });
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
+#include <string>
 #include <unordered_map>
 
 #include "cli/command.hpp"
@@ -30,16 +33,33 @@ double now_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// "x,y x,y x,y", metres of the world.
-Result<std::vector<Eigen::Vector2d>> corners_of(const std::string& fence) {
-  std::istringstream text(fence);
-  std::vector<Eigen::Vector2d> corners_m;
+/// "x,y": metres of the world; nothing where it is anything else.
+std::optional<Eigen::Vector2d> corner_of(const std::string& text) {
+  constexpr double kFarthest_m = 10'000.0;
+  std::istringstream words(text);
   double x_m = 0.0;
   double y_m = 0.0;
   char comma = 0;
-  while (text >> x_m >> comma >> y_m && comma == ',') corners_m.emplace_back(x_m, y_m);
+  words >> x_m >> comma >> y_m;
+  const bool whole = !words.fail() && words.peek() == std::istringstream::traits_type::eof();
+  if (!whole || comma != ',' || !(std::abs(x_m) < kFarthest_m) || !(std::abs(y_m) < kFarthest_m)) return std::nullopt;
+  return Eigen::Vector2d(x_m, y_m);
+}
+
+/// "x,y x,y x,y", metres of the world.
+Result<std::vector<Eigen::Vector2d>> corners_of(const std::string& fence) {
+  std::istringstream words(fence);
+  std::vector<Eigen::Vector2d> corners_m;
+  for (std::string word; words >> word;) {
+    const auto corner_m = corner_of(word);
+    if (!corner_m) {
+      return fail(ErrorCode::kInvalidInput, "'" + word + "' is no corner of a fence: x,y in metres of the world.",
+                  "--fence " + fence);
+    }
+    corners_m.push_back(*corner_m);
+  }
   constexpr std::size_t kLeastCorners = 3;
-  if (text.eof() && corners_m.size() >= kLeastCorners) return corners_m;
+  if (corners_m.size() >= kLeastCorners) return corners_m;
   return fail(ErrorCode::kInvalidInput, "A fence has at least three corners, x,y in metres: \"1,2 3,2 3,4\".",
               "--fence " + fence);
 }
@@ -52,10 +72,12 @@ std::string reason_of(const scenario::ExplorationResult& explored) {
     case scenario::ExplorationEnd::kLimit:
       return "The limit of way or time was reached.";
     case scenario::ExplorationEnd::kStuck:
-      return "It did not get away from where it was.";
-    default:
-      return explored.reason;
+      return "It did not get away from where it was, or knew no way home.";
+    case scenario::ExplorationEnd::kComplete:
+    case scenario::ExplorationEnd::kStopped:
+      break;
   }
+  return explored.reason;
 }
 
 /// The pictures with what the robot took itself to be in the end, as a tour.
@@ -151,6 +173,7 @@ Status explore_by_survey(const ExploreOptions& options, const sim::World& world,
                 {"duration_s", explored->duration_s},
                 {"step_ms_p50", median(explored->step_ms)},
                 {"step_ms_max", explored->step_ms.empty() ? 0.0 : std::ranges::max(explored->step_ms)},
+                {"unreached", explored->unreached},
                 {"ended", name_of(explored->ended)},
                 {"reason", reason.empty() ? nlohmann::json() : nlohmann::json(reason)}});
     return {};

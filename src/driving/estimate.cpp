@@ -51,6 +51,10 @@ void note_gain(DrivingState& state, const SeenPicture& picture, int furthest_bef
   state.gain_from = picture.odometry;
 }
 
+bool shows_next_to_nothing(const features::Appearance& appearance, const DrivingConfig& config) {
+  return static_cast<int>(appearance.size()) < config.covered_below_features;
+}
+
 void take_picture(DrivingState& state, const SeenPicture& picture, const DrivingConfig& config,
                   Milliseconds sensors_ms) {
   ++state.pictures;
@@ -61,7 +65,10 @@ void take_picture(DrivingState& state, const SeenPicture& picture, const Driving
   state.picture_came_ms = std::min(sensors_ms, state.last_picture_ms + config.reaction_ms);
   const int furthest_before = state.follow.furthest;
   state.pictured = true;
-  if (state.mission->explores) return note_gain(state, picture, furthest_before, config, sensors_ms);
+  if (state.mission->explores) {
+    if (picture.appearance) state.covered = shows_next_to_nothing(*picture.appearance, config);
+    return;
+  }
   state.seen = picture.appearance ? follow(state.follow, state.mission->path, *picture.appearance, picture.frame,
                                            picture.odometry, config.follow, state.pictures)
                                   : track(state.follow, state.mission->path, picture.frame, picture.odometry,
@@ -75,7 +82,7 @@ void take_picture(DrivingState& state, const SeenPicture& picture, const Driving
     state.last_answer_ms = sensors_ms;
     state.answers_ms.push_back(sensors_ms);
   }
-  if (picture.appearance) state.covered = static_cast<int>(picture.appearance->size()) < config.covered_below_features;
+  if (picture.appearance) state.covered = shows_next_to_nothing(*picture.appearance, config);
   // A covered lens: memory must not carry the robot on.
   if (state.covered) state.seen = {};
   note_gain(state, picture, furthest_before, config, sensors_ms);

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <memory>
 
+#include "driving/asking.hpp"
 #include "driving/give_way.hpp"
+#include "driving/rider.hpp"
 #include "driving/sense.hpp"
 
 namespace homeward::driving {
@@ -22,13 +24,15 @@ Eigen::Vector2d seen_from(const Pose2& odometry, const Eigen::Vector2d& goal_m) 
 
 }  // namespace
 
-void begin_exploration(DrivingState& state, const Exploration& exploration, const Inputs& inputs,
+bool begin_exploration(DrivingState& state, const Exploration& exploration, const Inputs& inputs,
                        const DrivingConfig& config, Milliseconds now_ms, Milliseconds sensors_ms) {
+  if (exploration.order <= state.newest || exploration.order.epoch < state.least_epoch) return false;
+  state.newest = exploration.order;
+  if (rider_steers(inputs, config, sensors_ms) || now_ms < state.refuses_until_ms) return false;
   Mission mission;
   mission.id = exploration.id;
   mission.speed_limit_mps = exploration.speed_limit_mps;
   mission.explores = true;
-  state.newest = exploration.order;
   state.mission = std::make_shared<const Mission>(std::move(mission));
   state.permit_ends_ms = now_ms + exploration.valid_for_ms;
   state.drive = wire::DriveState::kDriving;
@@ -46,10 +50,11 @@ void begin_exploration(DrivingState& state, const Exploration& exploration, cons
   state.plan = {};
   begin_sensing(state, inputs, config);
   begin_way(state.give_way, config.give_way);
+  withdraw(state.asking);
+  return true;
 }
 
-void judge_leg(DrivingState& state, const Inputs& inputs, const DrivingConfig&, Milliseconds sensors_ms,
-               const LegConfig& leg) {
+void judge_leg(DrivingState& state, const Inputs& inputs, Milliseconds sensors_ms, const LegConfig& leg) {
   LegState& now = state.leg;
   const bool wanted = inputs.leg && seen_from(inputs.odometry, inputs.leg->goal_m).norm() > inputs.leg->within_m;
   const Pose2 moved = inverse(now.got_on_at) * inputs.odometry;
@@ -74,12 +79,15 @@ void judge_leg(DrivingState& state, const Inputs& inputs, const DrivingConfig&, 
 Motion leg_motion(DrivingState& state, const Situation& now) {
   const Eigen::Vector2d goal_m =
       now.inputs.leg ? seen_from(now.inputs.odometry, now.inputs.leg->goal_m) : Eigen::Vector2d::Zero();
-  if (!now.inputs.leg || goal_m.norm() <= now.inputs.leg->within_m) {
+  // It stands until the camera shows something, and where that is next to nothing.
+  const bool blind = !state.pictured || state.covered;
+  if (blind || !now.inputs.leg || goal_m.norm() <= now.inputs.leg->within_m) {
     forget_standing(state.give_way);
     return {};
   }
   if (const auto making_room = give_way_motion(state, now)) return *making_room;
-  const double speed_mps = std::clamp(kBrakes_per_s * goal_m.norm(), kLeast_mps, state.mission->speed_limit_mps);
+  const double speed_mps =
+      std::min(state.mission->speed_limit_mps, std::max(kLeast_mps, kBrakes_per_s * goal_m.norm()));
   return drive_towards(state, goal_m, speed_mps, now);
 }
 

@@ -32,13 +32,13 @@ struct Exploration {
 
 /// The robot explores from now on, as long as permits for it come: it drives to the legs that the inputs bring, and
 /// stands where they bring none. Whatever ends a mission ends it, too: silence of link, camera or scanner, the rider's
-/// hand, a stop.
-void begin_exploration(DrivingState& state, const Exploration& exploration, const Inputs& inputs,
+/// hand, a stop. False: it is refused, as a mission would be: something newer was obeyed already, the rider steers, or
+/// the order waited while no step was made.
+bool begin_exploration(DrivingState& state, const Exploration& exploration, const Inputs& inputs,
                        const DrivingConfig& config, Milliseconds now_ms, Milliseconds sensors_ms);
 
 /// Notes how the leg gets on. Precondition: it explores.
-void judge_leg(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds sensors_ms,
-               const LegConfig& leg = {});
+void judge_leg(DrivingState& state, const Inputs& inputs, Milliseconds sensors_ms, const LegConfig& leg = {});
 
 /// The motion towards the leg's goal; it makes room for somebody on the way. Precondition: it explores.
 Motion leg_motion(DrivingState& state, const Situation& now);

@@ -74,7 +74,7 @@ void judge(DrivingState& state, const Inputs& inputs, const DrivingConfig& confi
   if (const auto why = reason_to_stop(state, inputs, config, now_ms, sensors_ms)) {
     end_mission(state, wire::DriveState::kStopped, wire::Reason{*why});
   } else if (state.mission->explores) {
-    judge_leg(state, inputs, config, sensors_ms);
+    judge_leg(state, inputs, sensors_ms);
   } else {
     judge_progress(state, config, sensors_ms);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -28,7 +29,7 @@ PosePrior Explorer::prior(const Pose2& odometry) const {
               config_.odometry_spread_rad_per_rad * std::abs(moved.theta_rad)};
 }
 
-void Explorer::align_to_recent(std::span<const SurfacePoint> surface, const Pose2& odometry) {
+bool Explorer::align_to_recent(std::span<const SurfacePoint> surface, const Pose2& odometry) {
   const PosePrior before = prior(odometry);
   ReferenceSurface reference;
   const std::size_t first = views_.size() > static_cast<std::size_t>(config_.recent)
@@ -36,9 +37,10 @@ void Explorer::align_to_recent(std::span<const SurfacePoint> surface, const Pose
                                 : 0;
   for (std::size_t i = first; i < views_.size(); ++i) reference.add(views_[i].surface, poses_[i]);
   const auto aligned = align(reference, surface, before, config_.alignment);
-  aligned_ = aligned && aligned->agreement >= config_.least_agreement ? aligned->reference_from_robot
-                                                                      : before.reference_from_robot;
+  const bool agrees = aligned && aligned->agreement >= config_.least_agreement;
+  aligned_ = agrees ? aligned->reference_from_robot : before.reference_from_robot;
   aligned_odometry_ = odometry;
+  return agrees;
 }
 
 void Explorer::see(const RangeSweep& sweep, const Pose2& odometry) {
@@ -46,7 +48,8 @@ void Explorer::see(const RangeSweep& sweep, const Pose2& odometry) {
   const Pose2 moved = inverse(aligned_odometry_) * odometry;
   const bool is_due =
       length_m(moved) >= config_.aligned_every_m || std::abs(moved.theta_rad) >= config_.aligned_every_rad;
-  if (!is_due) return;
+  if (!is_due && ++standing_sweeps_ < config_.standing_every) return;
+  standing_sweeps_ = 0;
   const std::vector<SurfacePoint> surface = surface_of(sweep, config_.filter);
   align_to_recent(surface, odometry);
   floor_.see(sweep, surface, aligned_);
@@ -65,28 +68,53 @@ double Explorer::since_picture_m(const Pose2& odometry) const {
 void Explorer::take(const RangeSweep& sweep, const Pose2& odometry,
                     std::shared_ptr<const features::Appearance> appearance) {
   KeyView view{odometry, sweep, surface_of(sweep, config_.filter), std::move(appearance), 0.0};
-  if (!begun_) {
-    begun_ = true;
+  if (views_.empty()) {
     aligned_odometry_ = odometry;
   } else {
-    align_to_recent(view.surface, odometry);
+    const PosePrior wheels = prior(odometry);
+    const bool agrees = align_to_recent(view.surface, odometry);
     view.driven_m = views_.back().driven_m + length_m(inverse(views_.back().odometry) * odometry);
     const int last = static_cast<int>(views_.size()) - 1;
-    links_.push_back({last, last + 1, inverse(poses_.back()) * aligned_, 0.01, radians(0.3), false});
+    links_.push_back({last, last + 1, inverse(poses_.back()) * aligned_, agrees ? 0.01 : wheels.spread_m,
+                      agrees ? radians(0.3) : wheels.spread_rad, false});
   }
   views_.push_back(std::move(view));
   poses_.push_back(aligned_);
+  laid_out_.push_back(aligned_);
   floor_.see(sweep, views_.back().surface, aligned_);
   coverage_.add(floor_, position_m(aligned_), config_.view);
   look_for_loop();
 }
 
 Reach Explorer::reach(const Pose2& odometry) const {
-  const std::vector<std::uint8_t> fenced = fenced_cells();
-  return Reach::from(floor_, position_m(floor_from_robot(odometry)), config_.reach, &fenced);
+  const std::vector<std::uint8_t> barred = barred_cells();
+  return Reach::from(floor_, position_m(floor_from_robot(odometry)), config_.reach, &barred);
 }
 
-std::vector<std::uint8_t> Explorer::fenced_cells() const {
+Explorer::Spot Explorer::spot_at(const Eigen::Vector2d& at_m) const {
+  if (views_.empty()) return {0, at_m};
+  const std::size_t view = views_.size() - 1;
+  return {view, position_m(inverse(poses_[view]) * Pose2{at_m.x(), at_m.y(), 0.0})};
+}
+
+Eigen::Vector2d Explorer::position_of(const Spot& spot) const {
+  if (spot.view >= poses_.size()) return spot.seen_from_view_m;
+  return position_m(poses_[spot.view] * Pose2{spot.seen_from_view_m.x(), spot.seen_from_view_m.y(), 0.0});
+}
+
+void Explorer::mark_around(const Spot& spot, double within_m, std::vector<std::uint8_t>& cells) const {
+  const FloorFrame& frame = floor_.frame();
+  const int around = static_cast<int>(within_m / frame.cell_m);
+  const FloorCell middle = frame.cell(position_of(spot));
+  for (int row = middle.row - around; row <= middle.row + around; ++row) {
+    for (int column = middle.column - around; column <= middle.column + around; ++column)
+      if (frame.holds({column, row})) cells[frame.index({column, row})] = 1;
+  }
+}
+
+/// Fences, as much wider as the body wants, and where ways were blocked.
+std::vector<std::uint8_t> Explorer::barred_cells() const {
+  constexpr double kAroundBlocked_m = 0.2;
   const FloorFrame& frame = floor_.frame();
   std::vector<std::uint8_t> cells(frame.size(), 0);
   if (cells.empty()) return cells;
@@ -99,22 +127,20 @@ std::vector<std::uint8_t> Explorer::fenced_cells() const {
     }
     cv::fillPoly(canvas, std::vector{corners}, cv::Scalar(1));
   }
+  if (!fences_m_.empty()) {
+    const int wider = static_cast<int>(std::ceil((config_.reach.radius_m + config_.reach.margin_m) / frame.cell_m));
+    const cv::Size size(2 * wider + 1, 2 * wider + 1);
+    cv::dilate(canvas, canvas, cv::getStructuringElement(cv::MORPH_ELLIPSE, size));
+  }
+  for (const Spot& spot : blocked_) mark_around(spot, kAroundBlocked_m, cells);
   return cells;
 }
 
 std::vector<std::uint8_t> Explorer::given_up_cells() const {
   constexpr double kAround_m = 0.3;
-  const FloorFrame& frame = floor_.frame();
-  std::vector<std::uint8_t> cells(frame.size(), 0);
-  const int around = static_cast<int>(kAround_m / frame.cell_m);
-  for (const auto* places_m : {&given_up_m_, &put_off_m_}) {
-    for (const Eigen::Vector2d& at_m : *places_m) {
-      const FloorCell middle = frame.cell(at_m);
-      for (int row = middle.row - around; row <= middle.row + around; ++row) {
-        for (int column = middle.column - around; column <= middle.column + around; ++column)
-          if (frame.holds({column, row})) cells[frame.index({column, row})] = 1;
-      }
-    }
+  std::vector<std::uint8_t> cells(floor_.frame().size(), 0);
+  for (const auto* spots : {&given_up_, &put_off_}) {
+    for (const Spot& spot : *spots) mark_around(spot, kAround_m, cells);
   }
   return cells;
 }
@@ -123,13 +149,17 @@ std::optional<NextView> Explorer::next(const Reach& reach, const std::optional<E
   return next_view(floor_, reach, coverage_, given_up_cells(), driven_to_m, config_.view);
 }
 
-void Explorer::give_up(const Eigen::Vector2d& at_m) { given_up_m_.push_back(at_m); }
+void Explorer::give_up(const Eigen::Vector2d& at_m) { given_up_.push_back(spot_at(at_m)); }
 
-void Explorer::put_off(const Eigen::Vector2d& at_m) { put_off_m_.push_back(at_m); }
+void Explorer::put_off(const Eigen::Vector2d& at_m, const Eigen::Vector2d& blocked_at_m) {
+  put_off_.push_back(spot_at(at_m));
+  blocked_.push_back(spot_at(blocked_at_m));
+}
 
 bool Explorer::try_blocked_again() {
-  const bool any = !put_off_m_.empty();
-  put_off_m_.clear();
+  const bool any = !put_off_.empty();
+  put_off_.clear();
+  blocked_.clear();
   return any;
 }
 
@@ -213,29 +243,34 @@ void Explorer::look_for_loop() {
 }
 
 /// Settles the poses by all links and puts the floor together anew. A loop that the others contradict is taken back,
-/// and with it what it had covered.
+/// and with it the places that were given up since.
 void Explorer::lay_out_again() {
-  const std::vector<Pose2> before = poses_;
   settle(poses_, links_);
   constexpr double kWrong = 8.0;  // spreads
-  bool taken_back = false;
+  std::optional<int> taken_back;  // the first key view since which a wrong loop was believed
   std::size_t loop = 0;
   std::erase_if(links_, [&](const PoseLink& link) {
     if (!link.loop) return false;
     while (known_again_[loop].taken_back) ++loop;
     KnownAgain& known = known_again_[loop++];
     if (strain(poses_, link) < kWrong) return false;
-    known.taken_back = taken_back = true;
+    known.taken_back = true;
+    taken_back = std::min(taken_back.value_or(known.now), known.now);
     return true;
   });
-  if (taken_back) settle(poses_, links_);
+  if (taken_back) {
+    settle(poses_, links_);
+    std::erase_if(given_up_, [&](const Spot& spot) { return spot.view >= static_cast<std::size_t>(*taken_back); });
+  }
   aligned_ = poses_.back();
   aligned_odometry_ = views_.back().odometry;
   // The floor of cells does not show less than about a cell.
   double moved_m = 0.0;
   for (std::size_t i = 0; i < poses_.size(); ++i)
-    moved_m = std::max(moved_m, (position_m(poses_[i]) - position_m(before[i])).norm());
+    moved_m = std::max(moved_m, (position_m(poses_[i]) - position_m(laid_out_[i])).norm());
   if (!taken_back && moved_m < config_.floor.cell_m) return;
+  ++layouts_;
+  laid_out_ = poses_;
   floor_.forget();
   coverage_.forget();
   for (std::size_t i = 0; i < views_.size(); ++i) floor_.see(views_[i].sweep, views_[i].surface, poses_[i]);

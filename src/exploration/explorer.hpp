@@ -27,6 +27,7 @@ struct ExplorerConfig {
   double picture_every_m = 0.38;    // driven on by so much, it takes the next picture
   double aligned_every_m = 0.2;     // and puts its sweep onto those before,
   double aligned_every_rad = 0.35;  // or turned by so much
+  int standing_every = 10;          // where it stands, every so many sweeps count: who stood in the way may have gone
   int recent = 12;                  // so many key views before are what a sweep is put onto
   double least_agreement = 0.35;    // with less the wheels are believed
   // Of the wheels, for each metre or radian since the last time:
@@ -79,14 +80,21 @@ class Explorer {
   /// Where to take a picture next; nothing: all is explored. `driven_to_m`: where the robot drives now, if it does.
   [[nodiscard]] std::optional<NextView> next(const Reach& reach,
                                              const std::optional<Eigen::Vector2d>& driven_to_m) const;
-  /// That place is not wanted again.
+  /// That place is not wanted again, as long as the loops stand by which it was placed.
   void give_up(const Eigen::Vector2d& at_m);
-  /// The way to that place is blocked: it is not wanted until `try_blocked_again`.
-  void put_off(const Eigen::Vector2d& at_m);
+  /// The way to that place is blocked at a point: the place is not wanted, and no way leads past that point, until
+  /// `try_blocked_again`.
+  void put_off(const Eigen::Vector2d& at_m, const Eigen::Vector2d& blocked_at_m);
   /// Whoever stood in the way may have gone. False: no way was blocked.
   bool try_blocked_again();
-  /// Nobody drives there: what lies in this polygon of the floor is fenced off. Fewer than three corners fence nothing.
+  /// So many places are put off.
+  [[nodiscard]] std::size_t put_off() const { return put_off_.size(); }
+  /// No way leads over this polygon of the floor, nor so near to it that the body would be over it. Fewer than three
+  /// corners fence nothing. What drives the way keeps to it as far as nothing stands there: it goes round things, and
+  /// makes room for people.
   void fence_off(std::vector<Eigen::Vector2d> corners_m);
+  /// How often poses, floor and coverage were put together anew: points of the floor given before that have moved.
+  [[nodiscard]] int layouts() const { return layouts_; }
 
   [[nodiscard]] const ExploredFloor& floor() const { return floor_; }
   [[nodiscard]] const Coverage& coverage() const { return coverage_; }
@@ -97,12 +105,13 @@ class Explorer {
 
  private:
   [[nodiscard]] PosePrior prior(const Pose2& odometry) const;
-  void align_to_recent(std::span<const SurfacePoint> surface, const Pose2& odometry);
+  /// Whether the sweeps agree; else the wheels are believed.
+  bool align_to_recent(std::span<const SurfacePoint> surface, const Pose2& odometry);
   void look_for_loop();
   [[nodiscard]] std::optional<PoseLink> loop_with(int then) const;
   void lay_out_again();
   [[nodiscard]] std::vector<std::uint8_t> given_up_cells() const;
-  [[nodiscard]] std::vector<std::uint8_t> fenced_cells() const;
+  [[nodiscard]] std::vector<std::uint8_t> barred_cells() const;
 
   ExplorerConfig config_;
   ExploredFloor floor_;
@@ -111,13 +120,25 @@ class Explorer {
   std::vector<Pose2> poses_;  // of the key views
   std::vector<PoseLink> links_;
   std::vector<KnownAgain> known_again_;
-  std::vector<Eigen::Vector2d> given_up_m_;
-  std::vector<Eigen::Vector2d> put_off_m_;
+  /// A point of the floor that moves with the key view beside which it was given.
+  struct Spot {
+    std::size_t view = 0;
+    Eigen::Vector2d seen_from_view_m = Eigen::Vector2d::Zero();
+  };
+  [[nodiscard]] Spot spot_at(const Eigen::Vector2d& at_m) const;
+  [[nodiscard]] Eigen::Vector2d position_of(const Spot& spot) const;
+  void mark_around(const Spot& spot, double within_m, std::vector<std::uint8_t>& cells) const;
+
+  std::vector<Spot> given_up_;
+  std::vector<Spot> put_off_;
+  std::vector<Spot> blocked_;
   std::vector<std::vector<Eigen::Vector2d>> fences_m_;
+  std::vector<Pose2> laid_out_;  // the poses that the floor was put together with
+  int layouts_ = 0;
+  int standing_sweeps_ = 0;
   // The latest alignment: where the robot was then, and its odometry.
   Pose2 aligned_;
   Pose2 aligned_odometry_;
-  bool begun_ = false;
 };
 
 }  // namespace homeward::exploration

@@ -94,12 +94,6 @@ bool Coverage::covers(const Eigen::Vector2d& at_m) const {
   return frame_.holds(cell) && covers(frame_.index(cell));
 }
 
-double gain_m2(const ExploredFloor& floor, const Reach& reach, const Coverage& coverage, const Eigen::Vector2d& at_m,
-               const ViewConfig& config) {
-  const std::vector<std::uint8_t> none(floor.frame().size(), 0);
-  return gain_of(floor, wanted_on(floor, reach, coverage, none), at_m, config);
-}
-
 std::optional<NextView> next_view(const ExploredFloor& floor, const Reach& reach, const Coverage& coverage,
                                   const std::vector<std::uint8_t>& given_up,
                                   const std::optional<Eigen::Vector2d>& driven_to_m, const ViewConfig& config) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -49,13 +50,10 @@ struct NextView {
   double gain_m2 = 0.0;  // floor that it would cover, and that it may find
 };
 
-/// What a picture taken there would gain: floor that the body reaches and no picture covers yet, and floor that may lie
-/// beyond the edge of what is known, where the body would fit through.
-double gain_m2(const ExploredFloor& floor, const Reach& reach, const Coverage& coverage, const Eigen::Vector2d& at_m,
-               const ViewConfig& config);
-
 /// The place from which most is gained for the way there; nothing where no gain is worth a way. `given_up`: cells that
 /// could not be got to, or that nobody wants to be driven to.
+/// What a picture there gains: floor that the body reaches and no picture covers yet, and floor that may lie beyond the
+/// edge of what is known, where the body would fit through.
 /// Gain over cost: González-Baños & Latombe, Navigation strategies for exploring indoor environments (IJRR 2002); that
 /// floor counts by being covered, and the edge by the floor behind it, is ours.
 std::optional<NextView> next_view(const ExploredFloor& floor, const Reach& reach, const Coverage& coverage,

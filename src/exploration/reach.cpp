@@ -52,17 +52,18 @@ Reach Reach::from(const ExploredFloor& floor, const Eigen::Vector2d& start_m, co
   Reach reach;
   reach.frame_ = floor.frame();
   const FloorFrame& frame = reach.frame_;
-  reach.clearance_m_ = clearances(floor);
+  const std::vector<float> clearance_m = clearances(floor);
   reach.cost_m_.assign(frame.size(), kNever);
   reach.before_.assign(frame.size(), -1);
   std::vector<std::uint8_t> drivable(frame.size());
   for (std::size_t i = 0; i < drivable.size(); ++i) {
-    drivable[i] = floor.is_free(i) && static_cast<double>(reach.clearance_m_[i]) > config.radius_m + config.margin_m &&
+    drivable[i] = floor.is_free(i) && static_cast<double>(clearance_m[i]) > config.radius_m + config.margin_m &&
                   (barred == nullptr || (*barred)[i] == 0);
   }
   // The body stands where it stands, be that a little too near to something.
   const auto start = nearest_cell(frame, start_m, [&](std::size_t cell) { return drivable[cell] != 0; });
   if (!start) return reach;
+  reach.anywhere_ = true;
   using Entry = std::pair<float, std::int32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   reach.cost_m_[*start] = 0.0F;
@@ -78,8 +79,7 @@ Reach Reach::from(const ExploredFloor& floor, const Eigen::Vector2d& start_m, co
       const FloorCell next{cell.column + right, cell.row + up};
       if (!frame.holds(next) || drivable[frame.index(next)] == 0) continue;
       const std::size_t to = frame.index(next);
-      const double narrow =
-          std::max(0.0, config.comfort_m - static_cast<double>(reach.clearance_m_[to])) / config.comfort_m;
+      const double narrow = std::max(0.0, config.comfort_m - static_cast<double>(clearance_m[to])) / config.comfort_m;
       const double step_m = frame.cell_m * std::hypot(right, up) * (1.0 + config.closeness_cost * narrow);
       const float further = cost + static_cast<float>(step_m);
       if (further >= reach.cost_m_[to]) continue;

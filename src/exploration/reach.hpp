@@ -26,8 +26,8 @@ class Reach {
   [[nodiscard]] bool reaches(std::size_t cell) const { return cost_m_[cell] < kNever; }
   /// What the way costs: its length, more where it is narrow.
   [[nodiscard]] double cost_m(std::size_t cell) const { return static_cast<double>(cost_m_[cell]); }
-  /// To the nearest thing that was seen.
-  [[nodiscard]] double clearance_m(std::size_t cell) const { return static_cast<double>(clearance_m_[cell]); }
+  /// Whether it gets anywhere at all.
+  [[nodiscard]] bool anywhere() const { return anywhere_; }
   /// The cell within half a metre of a point that it reaches, the nearest to it; nothing where there is none.
   [[nodiscard]] std::optional<std::size_t> nearest(const Eigen::Vector2d& at_m) const;
   /// The way there, start first; empty where it does not reach.
@@ -38,7 +38,7 @@ class Reach {
   static constexpr float kNever = 1e9F;
   FloorFrame frame_;
   std::vector<float> cost_m_;
-  std::vector<float> clearance_m_;
+  bool anywhere_ = false;
   std::vector<std::int32_t> before_;  // the cell before on the way, -1: none
 };
 

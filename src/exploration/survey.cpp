@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exploration/survey.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -19,13 +20,17 @@ bool straight(const Reach& reach, const Eigen::Vector2d& from_m, const Eigen::Ve
   return true;
 }
 
-/// The farthest point of a way that lies straight ahead, but not too far.
+/// The farthest point of a way that lies straight ahead, but not too far; nearer points than `least_m` are no goals.
 Eigen::Vector2d goal_on(const Reach& reach, const std::vector<Eigen::Vector2d>& way_m, const Eigen::Vector2d& from_m,
-                        double ahead_m) {
-  Eigen::Vector2d goal_m = way_m.front();
+                        double least_m, double ahead_m) {
+  Eigen::Vector2d goal_m = way_m.back();
+  bool found = false;
   for (const Eigen::Vector2d& point_m : way_m) {
-    if ((point_m - from_m).norm() > ahead_m || !straight(reach, from_m, point_m)) break;
+    const double distance_m = (point_m - from_m).norm();
+    if (distance_m < least_m) continue;
+    if (found && (distance_m > ahead_m || !straight(reach, from_m, point_m))) break;
     goal_m = point_m;
+    found = true;
   }
   return goal_m;
 }
@@ -36,52 +41,60 @@ bool Survey::at_target(const Pose2& odometry) const {
   return target_m_ && (position_m(explorer_.floor_from_robot(odometry)) - *target_m_).norm() <= config_.there_m;
 }
 
-void Survey::fence_off(std::vector<Eigen::Vector2d> corners_m) {
-  explorer_.fence_off(std::move(corners_m));
+void Survey::forget_target() {
   target_m_.reset();
   goal_m_.reset();
   chosen_ms_.reset();
 }
 
+void Survey::fence_off(std::vector<Eigen::Vector2d> corners_m) {
+  explorer_.fence_off(std::move(corners_m));
+  forget_target();
+}
+
 /// Along the way to a cell, as far as that is straight.
 void Survey::drive_on(const Reach& reach, std::size_t cell, const Pose2& odometry) {
+  target_m_ = reach.frame().centre_m(reach.frame().cell_at(cell));
   const std::vector<Eigen::Vector2d> way_m = reach.way_m(cell);
   if (way_m.empty()) return;
   const Eigen::Vector2d from_m = position_m(explorer_.floor_from_robot(odometry));
-  goal_m_ = goal_on(reach, way_m, from_m, config_.ahead_m);
+  goal_m_ = goal_on(reach, way_m, from_m, config_.there_m, config_.ahead_m);
 }
 
-/// Whether it has to go home now, and the way there.
-void Survey::turn_home_in_time(const Reach& reach, const Pose2& odometry, std::int64_t now_ms) {
+/// Whether it has to go home now. Where no way home is known, it goes on until its time is over.
+bool Survey::is_time_to_go_home(const Reach& reach, std::int64_t now_ms) const {
+  if (!back_by_ms_) return false;
   const auto home = reach.nearest(position_m(explorer_.poses().front()));
-  if (!home) return;
-  const double way_s = reach.cost_m(*home) / config_.home_mps;
-  const auto needs_ms = static_cast<std::int64_t>(1000.0 * way_s) + config_.home_spare_ms;
-  goes_home_ = goes_home_ || (back_by_ms_ && now_ms + needs_ms >= *back_by_ms_);
-  if (!goes_home_) return;
-  target_m_ = reach.frame().centre_m(reach.frame().cell_at(*home));
-  drive_on(reach, *home, odometry);
+  const double way_s = home ? reach.cost_m(*home) / config_.home_mps : 0.0;
+  return now_ms + static_cast<std::int64_t>(1000.0 * way_s) + config_.home_spare_ms >= *back_by_ms_;
+}
+
+void Survey::go_home(const Reach& reach, const Pose2& odometry) {
+  goes_home_ = true;
+  target_m_.reset();
+  if (const auto home = reach.nearest(position_m(explorer_.poses().front()))) return drive_on(reach, *home, odometry);
+  explorer_.try_blocked_again();
 }
 
 void Survey::choose(const Pose2& odometry, std::int64_t now_ms) {
   chosen_ms_ = now_ms;
-  const Reach reach = explorer_.reach(odometry);
   goal_m_.reset();
-  turn_home_in_time(reach, odometry, now_ms);
-  if (goes_home_) return;
-  auto next = explorer_.next(reach, target_m_);
-  if (!next && tried_ < config_.tries && explorer_.try_blocked_again()) {
-    ++tried_;
-    next = explorer_.next(reach, std::nullopt);
-  }
+  if (layouts_ != explorer_.layouts()) target_m_.reset();
+  layouts_ = explorer_.layouts();
+  const Reach reach = explorer_.reach(odometry);
+  if (goes_home_ || is_time_to_go_home(reach, now_ms)) return go_home(reach, odometry);
+  if (!reach.anywhere()) return;
+  const auto next = explorer_.next(reach, target_m_);
   target_m_.reset();
-  if (!next) {
-    ended_ = SurveyEnd::kAllSeen;
+  if (next) return drive_on(reach, next->cell, odometry);
+  if (tried_ < config_.tries && explorer_.try_blocked_again()) {
+    ++tried_;
+    chosen_ms_.reset();
     return;
   }
-  ended_.reset();
-  target_m_ = next->at_m;
-  drive_on(reach, next->cell, odometry);
+  all_seen_ = true;
+  if (back_by_ms_) return go_home(reach, odometry);
+  ended_ = SurveyEnd::kAllSeen;
 }
 
 /// Whatever it tries, it stays where it is: to call that explored would be wrong.
@@ -93,35 +106,50 @@ void Survey::note_blocked(const Pose2& odometry) {
 }
 
 /// The place is reached, or cannot be.
-void Survey::leave_target(bool blocked, const Pose2& odometry) {
-  if (blocked) note_blocked(odometry);
-  if (goes_home_) {
-    if (!blocked) ended_ = SurveyEnd::kBack;
+void Survey::leave_target(bool reached, const Pose2& odometry) {
+  if (reached) blocked_in_a_row_ = 0;
+  if (reached && goes_home_) {
+    ended_ = all_seen_ ? SurveyEnd::kAllSeen : SurveyEnd::kBack;
     return;
   }
   // What it came for has been seen by now, or cannot be seen; a way may be free again later.
-  if (blocked) {
-    explorer_.put_off(*target_m_);
-  } else {
+  if (reached) {
     explorer_.give_up(*target_m_);
+  } else {
+    explorer_.put_off(*target_m_, goal_m_.value_or(*target_m_));
+    note_blocked(odometry);
   }
-  target_m_.reset();
-  goal_m_.reset();
-  chosen_ms_.reset();
+  forget_target();
+}
+
+/// Without anywhere to drive to it waits a while, for whoever stands around it to go.
+void Survey::note_waiting(std::int64_t now_ms) {
+  if (ended_ || goal_m_) return waiting_since_ms_.reset();
+  waiting_since_ms_ = waiting_since_ms_.value_or(now_ms);
+  if (now_ms - *waiting_since_ms_ > config_.waits_ms) ended_ = SurveyEnd::kStuck;
 }
 
 SurveyStep Survey::go_on(const RangeSweep& sweep, const Pose2& odometry, bool blocked, std::int64_t now_ms) {
   explorer_.see(sweep, odometry);
   SurveyStep step;
+  if (ended_) {
+    step.ended = ended_;
+    return step;
+  }
   step.takes_picture = explorer_.wants_picture(odometry);
   if (step.takes_picture) chosen_ms_.reset();
   const bool reached = at_target(odometry);
   if (reached && explorer_.since_picture_m(odometry) >= config_.least_between_m) step.takes_picture = true;
-  if (reached || (blocked && target_m_)) leave_target(!reached, odometry);
-  if (step.takes_picture && explorer_.views().empty()) return step;
-  const bool over = ended_ == SurveyEnd::kBack || ended_ == SurveyEnd::kStuck;
-  if (!over && (!chosen_ms_ || now_ms - *chosen_ms_ >= config_.chosen_every_ms)) choose(odometry, now_ms);
-  if (!step.takes_picture) step.ended = ended_;
+  if (reached || (blocked && target_m_)) leave_target(reached, odometry);
+  if (explorer_.views().empty()) return step;
+  if (!ended_ && (!chosen_ms_ || now_ms - *chosen_ms_ >= config_.chosen_every_ms)) choose(odometry, now_ms);
+  note_waiting(now_ms);
+  if (step.takes_picture) {
+    // What it shows may open more.
+    if (ended_ == SurveyEnd::kAllSeen && !goes_home_) ended_.reset();
+  } else {
+    step.ended = ended_;
+  }
   if (goal_m_ && !step.ended) {
     const Pose2 odometry_from_floor = odometry * inverse(explorer_.floor_from_robot(odometry));
     step.goal_m = position_m(odometry_from_floor * Pose2{goal_m_->x(), goal_m_->y(), 0.0});

@@ -18,15 +18,16 @@ struct SurveyConfig {
   int stuck_after = 5;                  // blocked so often in a row at one spot, it is stuck
   double spot_m = 0.5;                  // and so large that is
   int tries = 2;                        // where ways were blocked, it tries so often again when nothing else is left
+  std::int64_t waits_ms = 20'000;       // so long it waits where it can drive nowhere
   double home_mps = 0.25;               // so fast it gets home at least, by the way's cost
   std::int64_t home_spare_ms = 15'000;  // and this it keeps in hand
 };
 
 /// Why a survey has ended.
 enum class SurveyEnd : std::uint8_t {
-  kAllSeen,  // nothing is left to explore
-  kBack,     // its time is over, and it is where it began
-  kStuck,    // it does not get away from where it is
+  kAllSeen,  // nothing is left to explore but what could not be got to (Explorer::put_off); it is back if it has to be
+  kBack,     // it is where it began, as its time is nearly over
+  kStuck,    // it does not get away from where it is, or knows no way home
 };
 
 /// What the robot is to do now.
@@ -42,9 +43,10 @@ class Survey {
  public:
   Survey(const ExplorerConfig& explorer, const SurveyConfig& config) : explorer_(explorer), config_(config) {}
 
-  /// To be called with each sweep. `blocked`: the leg's goal cannot be got nearer to.
+  /// To be called with each sweep. `blocked`: it does not get on to the leg's goal.
   SurveyStep go_on(const RangeSweep& sweep, const Pose2& odometry, bool blocked, std::int64_t now_ms);
-  /// It has to be back where it began by then, by the clock of `go_on`: it turns home in time.
+  /// It has to be back where it began by then, by the clock of `go_on`: it turns home in time, as far as ways stay
+  /// free, and goes home when it has seen all before.
   void be_back_by(std::int64_t at_ms) { back_by_ms_ = at_ms; }
   /// See Explorer::fence_off.
   void fence_off(std::vector<Eigen::Vector2d> corners_m);
@@ -57,10 +59,13 @@ class Survey {
 
  private:
   void choose(const Pose2& odometry, std::int64_t now_ms);
-  void leave_target(bool blocked, const Pose2& odometry);
-  void note_blocked(const Pose2& odometry);
-  void turn_home_in_time(const Reach& reach, const Pose2& odometry, std::int64_t now_ms);
+  [[nodiscard]] bool is_time_to_go_home(const Reach& reach, std::int64_t now_ms) const;
+  void go_home(const Reach& reach, const Pose2& odometry);
   void drive_on(const Reach& reach, std::size_t cell, const Pose2& odometry);
+  void leave_target(bool reached, const Pose2& odometry);
+  void forget_target();
+  void note_blocked(const Pose2& odometry);
+  void note_waiting(std::int64_t now_ms);
   [[nodiscard]] bool at_target(const Pose2& odometry) const;
 
   Explorer explorer_;
@@ -70,6 +75,9 @@ class Survey {
   std::optional<std::int64_t> chosen_ms_;
   std::optional<std::int64_t> back_by_ms_;
   bool goes_home_ = false;
+  bool all_seen_ = false;
+  std::optional<std::int64_t> waiting_since_ms_;
+  int layouts_ = 0;
   int tried_ = 0;
   int blocked_in_a_row_ = 0;
   Pose2 blocked_at_;  // odometry

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -19,7 +20,6 @@ class ReferenceSurface {
   void add(std::span<const SurfacePoint> surface, const Pose2& reference_from_robot);
   /// The nearest point within `most_m` that faces about the same way; null where there is none.
   [[nodiscard]] const SurfacePoint* nearest(const SurfacePoint& seen, double most_m) const;
-  [[nodiscard]] bool empty() const { return cells_.empty(); }
 
  private:
   std::unordered_map<std::int64_t, std::vector<SurfacePoint>> cells_;

@@ -68,6 +68,8 @@ class Checker {
       }
     }
     check_light("tour.light", scenario_.tour_light);
+    if (scenario_.tour_explored && scenario_.ranges == "ultrasound")
+      add("tour.rooms", "exploring takes a laser: arcs of ultrasound are no surfaces to find one's way by");
   }
 
   /// A way begins and ends at the floor nearest to the rooms' points, which may be that of another room.

@@ -13,15 +13,6 @@
 namespace homeward::scenario {
 namespace {
 
-bool in_sight(const sim::World& world, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) {
-  const double step_m = world.occupied.resolution_m;
-  const int steps = std::max(1, static_cast<int>((to_m - from_m).norm() / step_m));
-  for (int i = 0; i <= steps; ++i) {
-    if (sim::is_set(world.occupied, from_m + (to_m - from_m) * i / steps)) return false;
-  }
-  return true;
-}
-
 double covered_share(const sim::World& world, const std::vector<Eigen::Vector2d>& views_m, double& reachable_m2) {
   constexpr int kEvery = 2;  // cell is asked
   int asked = 0;
@@ -56,6 +47,15 @@ bool is_mixed(const sim::World& world, const map::Place& place, const std::unord
 }
 
 }  // namespace
+
+bool in_sight(const sim::World& world, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) {
+  const double step_m = world.occupied.resolution_m;
+  const int steps = std::max(1, static_cast<int>((to_m - from_m).norm() / step_m));
+  for (int i = 0; i <= steps; ++i) {
+    if (sim::is_set(world.occupied, from_m + (to_m - from_m) * i / steps)) return false;
+  }
+  return true;
+}
 
 bool is_covered(const sim::World& world, const std::vector<Eigen::Vector2d>& views_m, const Eigen::Vector2d& at_m) {
   constexpr double kWithin_m = 2.0;

@@ -12,6 +12,9 @@
 
 namespace homeward::scenario {
 
+/// Whether nothing of the world stands between two spots, by its grid of the floor.
+bool in_sight(const sim::World& world, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m);
+
 /// Whether a spot lies within 2 m and in sight of one of the views.
 bool is_covered(const sim::World& world, const std::vector<Eigen::Vector2d>& views_m, const Eigen::Vector2d& at_m);
 

@@ -52,10 +52,9 @@ class ExplorationLoop {
     // What the camera shows on the way is of no use before it is a picture of the tour: it is not rendered.
     inputs.picture = driving::SeenPicture{now_ms_, nullptr, {}, inputs.odometry};
     if (!begun_) {
-      driving::begin_exploration(state_,
-                                 {MissionId("exploration"), {1, 1}, wire::kPermitValid_ms, plan_.speed_limit_mps},
-                                 inputs, config_, now_ms_, now_ms_);
-      begun_ = true;
+      begun_ = driving::begin_exploration(
+          state_, {MissionId("exploration"), {1, 1}, wire::kPermitValid_ms, plan_.speed_limit_mps}, inputs, config_,
+          now_ms_, now_ms_);
     }
     inputs.messages.emplace_back(wire::Permit{MissionId("exploration"), {1, ++permit_}, wire::kPermitValid_ms});
     const double began_ms = clock();
@@ -87,7 +86,7 @@ class ExplorationLoop {
 
   ExplorationResult finish() {
     result_.poses = survey_.explorer().poses();
-    result_.known_again = survey_.explorer().known_again();
+    result_.unreached = survey_.explorer().put_off();
     result_.driven_m = robot_.vehicle().path_m();
     result_.duration_s = now_s();
     result_.collisions = robot_.vehicle().collisions();

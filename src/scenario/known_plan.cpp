@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenario/exploration_figures.hpp"
 #include "sim/floor.hpp"
 
 namespace homeward::scenario {
@@ -17,14 +18,6 @@ namespace {
 
 constexpr int kCellEvery = 2;  // cell is looked at,
 constexpr int kViewEvery = 4;  // and every so many may be a view
-
-bool in_sight(const sim::World& world, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) {
-  const int steps = std::max(1, static_cast<int>((to_m - from_m).norm() / world.occupied.resolution_m));
-  for (int i = 0; i <= steps; ++i) {
-    if (sim::is_set(world.occupied, from_m + (to_m - from_m) * i / steps)) return false;
-  }
-  return true;
-}
 
 std::vector<Eigen::Vector2d> drivable_points(const sim::FloorGrid& grid, int every) {
   std::vector<Eigen::Vector2d> points_m;
@@ -52,7 +45,7 @@ std::vector<Eigen::Vector2d> covering_views(const sim::World& world, double cove
   std::vector<char> covered(cells_m.size(), 0);
   std::size_t left = cells_m.size();
   std::vector<Eigen::Vector2d> chosen_m;
-  while (static_cast<double>(left) > kLeft * static_cast<double>(cells_m.size())) {
+  while (!sees.empty() && static_cast<double>(left) > kLeft * static_cast<double>(cells_m.size())) {
     const auto gain = [&](const std::vector<std::size_t>& cells) {
       return std::ranges::count_if(cells, [&](std::size_t cell) { return covered[cell] == 0; });
     };

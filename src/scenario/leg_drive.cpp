@@ -27,9 +27,9 @@ void LegDrive::cycle(const std::optional<driving::Leg>& leg) {
   inputs.picture = driving::SeenPicture{now_ms_, nullptr, {}, inputs.odometry};
   inputs.leg = leg;
   if (!begun_) {
-    driving::begin_exploration(state_, {MissionId("exploration"), {1, 1}, wire::kPermitValid_ms, speed_limit_mps_},
-                               inputs, config_, now_ms_, now_ms_);
-    begun_ = true;
+    begun_ =
+        driving::begin_exploration(state_, {MissionId("exploration"), {1, 1}, wire::kPermitValid_ms, speed_limit_mps_},
+                                   inputs, config_, now_ms_, now_ms_);
   }
   inputs.messages.emplace_back(wire::Permit{MissionId("exploration"), {1, ++permit_}, wire::kPermitValid_ms});
   const driving::Outputs outputs = driving::step(state_, inputs, config_, now_ms_);

@@ -13,7 +13,7 @@ namespace homeward::scenario {
 /// How a leg ended.
 enum class LegEnd : std::uint8_t {
   kReached,
-  kBlocked,  // it got no nearer for as long as `driving::LegConfig` waits; the robot stands where it is
+  kBlocked,  // it did not get on for as long as `driving::LegConfig` waits; the robot stands where it is
   kLimit,    // the way of the whole drive is used up
   kStopped,  // the driving step refuses to go on
 };

@@ -71,6 +71,12 @@ Status explore_for(const wire::ScenarioFile& scenario, sim::LightPreset light, T
   config.seed = seed;
   const auto explored = explore_world(*taught.world, config, *start, exploration_plan_for(profile));
   if (!explored) return pass_on(explored);
+  if (explored->ended != ExplorationEnd::kComplete) {
+    return fail(ErrorCode::kInvalidInput,
+                "The robot did not see all that it could get to" +
+                    (explored->reason.empty() ? std::string(".") : ": " + explored->reason),
+                "tour.rooms");
+  }
   for (std::size_t i = 0; i < explored->pictures.size(); ++i) {
     tour.add(explored->pictures[i].jpeg, explored->poses[i], explored->pictures[i].sweep);
     taught.picture_poses.emplace(tour.last(), explored->pictures[i].truth);

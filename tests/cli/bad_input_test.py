@@ -356,7 +356,10 @@ class WrongUse(CliTest):
         self.assert_refused(3, ["none.json"], "explore", "--world", "none.json", "--out", "new")
         self.assert_refused(2, ["noon"], *explore, "--light", "noon", "--out", "new")
         self.assert_refused(2, ["limit-m"], *explore, "--limit-m", "0", "--out", "new")
-        self.assert_refused(2, ["fence", "1,2 3"], *explore, "--fence", "1,2 3", "--out", "new")
+        for fence in ("1,2 3", "1,2 3,4", "1,2 3,2 3,4 5", "1,2 3,2 3,4 5,", "1,2 3,2 3,4x", "1,2 3,2 1e300,4"):
+            self.assert_refused(2, ["fence"], *explore, "--fence", fence, "--out", "new")
+        self.assert_refused(2, ["fence", "survey"], *explore, "--method", "thesis", "--fence", "1,2 3,2 3,4", "--out", "new")
+        self.assert_refused(2, ["back-after-s"], *explore, "--back-after-s", "1e300", "--out", "new")
         self.assertFalse((self.folder / "new").exists())
         (self.folder / "full").mkdir()
         (self.folder / "full" / "mine.txt").write_text("kept")

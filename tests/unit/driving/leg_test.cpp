@@ -68,7 +68,7 @@ TEST_F(LegTest, GoalsThatChangeWithoutWayGainedAreBlockedToo) {
 
 TEST_F(LegTest, TurningToAndFroAtOneSpotIsBlocked) {
   for (int k = 0; k < 1000 && !state_.leg.blocked; ++k) {
-    leg_ = Leg{{k % 40 < 20 ? 0.5 : -0.5, 0.0}, 0.1};
+    leg_ = Leg{{k % 40 < 20 ? 0.25 : -0.25, 0.0}, 0.02};
     on();
   }
   EXPECT_TRUE(state_.leg.blocked);
@@ -97,6 +97,48 @@ TEST_F(LegTest, WithoutPicturesItStops) {
   pictures_ = false;
   EXPECT_GT(until_stopped(true), 0);
   EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kCameraSilent});
+}
+
+TEST_F(LegTest, ItStandsUntilTheCameraShowsSomethingAndWhereThatIsNothing) {
+  leg_ = Leg{{3.0, 0.0}, 0.1};
+  pictures_ = false;
+  for (int k = 0; k < 10; ++k) EXPECT_TRUE(stands(on()));
+  pictures_ = true;
+  for (int k = 0; k < 4; ++k) on();
+  EXPECT_FALSE(stands(on()));
+  covered_ = true;
+  for (int k = 0; k < 3; ++k) on();
+  EXPECT_TRUE(stands(on()));
+}
+
+TEST_F(LegTest, AStopOrderEndsItAndNoPermitBeginsItAgain) {
+  leg_ = Leg{{3.0, 0.0}, 0.1};
+  for (int k = 0; k < 10; ++k) on();
+  EXPECT_TRUE(stands(tick({wire::StopOrder{"s1", 1, std::nullopt, "test"}})));
+  EXPECT_EQ(state_.drive, DriveState::kStopped);
+  for (int k = 0; k < 10; ++k) EXPECT_TRUE(stands(on()));
+}
+
+TEST_F(LegTest, WhatAStopHasOvertakenDoesNotBegin) {
+  tick({wire::StopOrder{"s1", 9, std::nullopt, "test"}});
+  Inputs inputs;
+  inputs.odometry = pose_;
+  EXPECT_FALSE(begin_exploration(state_, {MissionId("m2"), {1, 5}, 1500, 0.4}, inputs, config_, now_ms_, now_ms_));
+  EXPECT_NE(state_.drive, DriveState::kDriving);
+  inputs.rider = JoystickReading{now_ms_, true, {}};
+  EXPECT_FALSE(begin_exploration(state_, {MissionId("m2"), {10, 1}, 1500, 0.4}, inputs, config_, now_ms_, now_ms_));
+  inputs.rider.reset();
+  EXPECT_TRUE(begin_exploration(state_, {MissionId("m2"), {10, 2}, 1500, 0.4}, inputs, config_, now_ms_, now_ms_));
+}
+
+TEST_F(LegTest, AnOrdinaryMissionDrivesAfterAnExploration) {
+  leg_ = Leg{{-1.0, 0.0}, 0.1};
+  for (int k = 0; k < 40; ++k) on();
+  leg_.reset();
+  pose_ = {};
+  set_off(2, 1);
+  for (int k = 0; k < 400 && state_.drive == DriveState::kDriving; ++k) tick({permit("m1", 2, ++seq_)});
+  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
 }
 
 TEST_F(LegTest, TheRidersHandWins) {

@@ -84,8 +84,10 @@ TEST(ExplorerTest, PicturesAreWantedAsFarApartAsATourHasThem) {
   DrivenExplorer driven(two_rooms(), {1.0, 2.0, 0.0}, 0.0);
   driven.drive_to({9.0, 2.0});
   EXPECT_NEAR(static_cast<double>(driven.explorer.views().size()), 8.0 / 0.4, 2.0);
-  EXPECT_FALSE(driven.explorer.wants_picture(driven.odometry()) &&
-               driven.explorer.since_picture_m(driven.odometry()) < 0.3);
+  for (std::size_t i = 1; i < driven.explorer.poses().size(); ++i) {
+    const double apart_m = (position_m(driven.explorer.poses()[i]) - position_m(driven.explorer.poses()[i - 1])).norm();
+    EXPECT_NEAR(apart_m, 0.4, 0.06);
+  }
 }
 
 TEST(ExplorerTest, WhatIsGivenUpIsNotWantedAgain) {
@@ -97,6 +99,38 @@ TEST(ExplorerTest, WhatIsGivenUpIsNotWantedAgain) {
   const auto second = driven.explorer.next(reach, std::nullopt);
   ASSERT_TRUE(second);
   EXPECT_GT((second->at_m - first->at_m).norm(), 0.25);
+}
+
+TEST(ExplorerTest, NoWayLeadsPastWhereOneWasBlockedUntilItIsTriedAgain) {
+  DrivenExplorer driven(two_rooms(), {4.0, 2.0, 0.0}, 0.0);
+  driven.drive_to({4.4, 2.0});
+  const auto reaches_next_room = [&] {
+    const Reach reach = driven.explorer.reach(driven.odometry());
+    const FloorCell cell = reach.frame().cell({2.0, 0.0});  // 6 m, 2 m of the drawing
+    return reach.frame().holds(cell) && reach.reaches(reach.frame().index(cell));
+  };
+  ASSERT_TRUE(reaches_next_room());
+  for (double aside_m = -0.4; aside_m <= 0.4; aside_m += 0.2) driven.explorer.put_off({2.0, 0.0}, {1.0, aside_m});
+  EXPECT_FALSE(reaches_next_room());
+  EXPECT_TRUE(driven.explorer.try_blocked_again());
+  EXPECT_TRUE(reaches_next_room());
+  EXPECT_FALSE(driven.explorer.try_blocked_again());
+}
+
+TEST(ExplorerTest, AFenceKeepsTheWholeBodyOff) {
+  DrivenExplorer driven(two_rooms(), {1.0, 2.0, 0.0}, 0.0);
+  driven.drive_to({3.0, 2.0});
+  const auto reaches = [&](double x_m) {
+    const Reach reach = driven.explorer.reach(driven.odometry());
+    const FloorCell cell = reach.frame().cell({x_m, 0.0});
+    return reach.reaches(reach.frame().index(cell));
+  };
+  ASSERT_TRUE(reaches(0.2));
+  driven.explorer.fence_off({{-1.0, -2.0}, {0.0, -2.0}, {0.0, 2.0}, {-1.0, 2.0}});
+  EXPECT_FALSE(reaches(0.2)) << "its side would be over the fence";
+  EXPECT_TRUE(reaches(0.6));
+  driven.explorer.fence_off({{0.0, 0.0}, {5.0, 5.0}});
+  EXPECT_TRUE(reaches(0.6)) << "two corners fence nothing";
 }
 
 }  // namespace

@@ -97,17 +97,57 @@ TEST(SurveyTest, WhatIsFencedOffIsNotDriven) {
 
 TEST(SurveyTest, WhatWasBlockedIsTriedAgainWhenNothingElseIsLeft) {
   Walker walker;
-  int cycles = 0;
-  // Somebody stands in the door for a long while: whatever lies behind it is blocked.
-  const auto behind = [&] {
+  const auto behind_door = [&] {
     const auto& target_m = walker.survey.target_m();
     return target_m && (walker.start * Pose2{target_m->x(), target_m->y(), 0.0}).x_m > 4.5;
   };
-  int refused = 0;
-  while (walker.cycle(refused < 3 && behind()) && ++cycles < 4000) refused += behind() ? 1 : 0;
+  // Somebody stands in the door the first time that the robot wants to go through it.
+  int cycles = 0;
+  while (!behind_door() && ++cycles < 4000) ASSERT_TRUE(walker.cycle());
+  ASSERT_TRUE(walker.cycle(true));
+  while (walker.cycle() && ++cycles < 4000) {
+  }
   EXPECT_EQ(walker.ended, SurveyEnd::kAllSeen);
+  EXPECT_EQ(walker.survey.explorer().put_off(), 0U);
   const Pose2 far = inverse(walker.start) * Pose2{9.3, 3.4, 0.0};
   EXPECT_TRUE(walker.survey.explorer().coverage().covers(position_m(far)));
+}
+
+TEST(SurveyTest, ARoomThatStaysShutDoesNotKeepItFromTheRest) {
+  Walker walker;
+  int cycles = 0;
+  const auto beyond = [&] {
+    const auto& target_m = walker.survey.target_m();
+    return target_m && (walker.start * Pose2{target_m->x(), target_m->y(), 0.0}).x_m > 4.4;
+  };
+  while (walker.cycle(beyond()) && ++cycles < 6000) {
+  }
+  const Pose2 near = inverse(walker.start) * Pose2{0.6, 3.4, 0.0};
+  EXPECT_TRUE(walker.survey.explorer().coverage().covers(position_m(near)));
+  EXPECT_TRUE(walker.ended);
+  EXPECT_GT(walker.survey.explorer().put_off(), 0U) << "it knows that it has not seen all";
+}
+
+TEST(SurveyTest, WhoHasSeenAllGoesBackWhereThatIsWanted) {
+  Walker walker;
+  walker.survey.be_back_by(1'000'000);
+  int cycles = 0;
+  while (walker.cycle() && ++cycles < 6000) {
+  }
+  EXPECT_EQ(walker.ended, SurveyEnd::kAllSeen);
+  EXPECT_LT((position_m(walker.truth) - position_m(walker.start)).norm(), 0.3);
+}
+
+TEST(SurveyTest, WithoutAWayHomeItSaysThatItIsStuck) {
+  Walker walker;
+  walker.survey.be_back_by(40'000);
+  while (walker.now_ms < 12'000) ASSERT_TRUE(walker.cycle());
+  // Its start is fenced off.
+  std::vector<Eigen::Vector2d> corners_m = {{-0.4, -0.4}, {0.4, -0.4}, {0.4, 0.4}, {-0.4, 0.4}};
+  walker.survey.fence_off(corners_m);
+  while (walker.now_ms < 90'000 && walker.cycle()) {
+  }
+  EXPECT_EQ(walker.ended, SurveyEnd::kStuck);
 }
 
 TEST(SurveyTest, ABlockedPlaceIsGivenUpAndAnotherOneIsDrivenTo) {
@@ -143,9 +183,13 @@ TEST(SurveyTest, WhereNothingIsSeenNothingIsDriven) {
   nothing.ranges_m.assign(62, std::numeric_limits<float>::infinity());
   ASSERT_TRUE(survey.go_on(nothing, {}, false, 0).takes_picture);
   survey.take(nothing, {}, nullptr);
-  const SurveyStep step = survey.go_on(nothing, {}, false, 100);
-  EXPECT_FALSE(step.goal_m);
-  EXPECT_EQ(step.ended, SurveyEnd::kAllSeen);
+  for (std::int64_t now_ms = 100; now_ms < 20'000; now_ms += 100) {
+    const SurveyStep step = survey.go_on(nothing, {}, false, now_ms);
+    ASSERT_FALSE(step.goal_m);
+    ASSERT_FALSE(step.ended) << "it waits";
+  }
+  EXPECT_EQ(survey.go_on(nothing, {}, false, 21'000).ended, SurveyEnd::kStuck)
+      << "to call that explored would be wrong";
 }
 
 }  // namespace
