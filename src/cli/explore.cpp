@@ -38,7 +38,10 @@ Result<camera::CameraConfig> camera_of(const ExploreOptions& options) {
 /// What one method knows nothing of must not be dropped in silence: a fence least of all.
 Status refuse_of_survey_alone(const ExploreOptions& options) {
   if (options.method == "survey") return {};
-  const char* option = !options.fences.empty() ? "--fence" : options.back_after_s ? "--back-after-s" : nullptr;
+  const char* option = nullptr;
+  if (options.limit_s) option = "--limit-s";
+  if (options.back_after_s) option = "--back-after-s";
+  if (!options.fences.empty()) option = "--fence";
   if (option == nullptr) return {};
   return fail(ErrorCode::kInvalidInput, "Only --method survey knows this option.", option);
 }
@@ -118,9 +121,10 @@ void register_explore(CLI::App& program) {
   command->add_option("--limit-m", options->limit_m, "Way after which it ends")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--limit-s", options->limit_s, "Simulated time after which it ends, wherever it is (survey)")
-      ->check(CLI::Range(1.0, 1e6))
-      ->capture_default_str();
+  command
+      ->add_option("--limit-s", options->limit_s,
+                   "Simulated time after which it ends, wherever it is; else two hours (survey)")
+      ->check(CLI::Range(1.0, 1e6));
   command
       ->add_option("--back-after-s", options->back_after_s,
                    "Time after which it is to be back where it began: it turns home before (survey)")

@@ -32,7 +32,7 @@ struct ExploreOptions {
   std::string robot = "disc";
   std::optional<double> camera_height_m;  // nothing: the camera's own
   double limit_m = 2000.0;
-  double limit_s = 7200.0;             // simulated
+  std::optional<double> limit_s;       // simulated, of the survey; nothing: two hours
   std::optional<double> back_after_s;  // of the survey; nothing: it need not be back
   std::vector<std::string> fences;     // of the survey: corners "x,y x,y x,y", metres of the world
   bool json = false;

@@ -74,10 +74,31 @@ std::string reason_of(const scenario::ExplorationResult& explored) {
     case scenario::ExplorationEnd::kStuck:
       return "It did not get away from where it was, or knew no way home.";
     case scenario::ExplorationEnd::kComplete:
+      if (explored.unreached == 0) return {};
+      return std::to_string(explored.unreached) + " places could not be got to: the ways there stayed blocked.";
     case scenario::ExplorationEnd::kStopped:
       break;
   }
   return explored.reason;
+}
+
+/// How much of the floor that it has seen so far pictures cover.
+double covered_share(const exploration::Explorer& explorer) {
+  std::size_t seen = 0;
+  std::size_t covered = 0;
+  for (std::size_t cell = 0; cell < explorer.floor().frame().size(); ++cell) {
+    if (!explorer.floor().is_free(cell)) continue;
+    ++seen;
+    covered += explorer.coverage().covers(cell) ? 1 : 0;
+  }
+  return seen > 0 ? static_cast<double>(covered) / static_cast<double>(seen) : 0.0;
+}
+
+Result<scenario::ExplorationResult> explore(const scenario::ExplorationPlan& plan, ExploringRobot& explorer) {
+  ProgressBar bar;
+  return scenario::explore(
+      explorer.robot, scenario::body_of(explorer.profile), explorer.eye, plan,
+      [&](const exploration::Survey& survey) { bar.show("exploring", covered_share(survey.explorer())); }, now_ms);
 }
 
 /// The pictures with what the robot took itself to be in the end, as a tour.
@@ -118,7 +139,7 @@ Result<map::TopologicalMap> build_map_of(const fs::path& tour, const fs::path& o
 Result<scenario::ExplorationPlan> plan_of(const ExploreOptions& options, const ExploringRobot& explorer) {
   scenario::ExplorationPlan plan = scenario::exploration_plan_for(explorer.profile);
   plan.limit_m = options.limit_m;
-  plan.limit_s = options.limit_s;
+  plan.limit_s = options.limit_s.value_or(plan.limit_s);
   plan.back_after_s = options.back_after_s;
   const Pose2 start_from_world = inverse(explorer.robot.vehicle().pose());
   for (const std::string& fence : options.fences) {
@@ -138,8 +159,7 @@ Status explore_by_survey(const ExploreOptions& options, const sim::World& world,
   const fs::path out(options.stage.out);
   const auto plan_of_robot = plan_of(options, explorer);
   if (!plan_of_robot) return pass_on(plan_of_robot);
-  const auto explored =
-      scenario::explore(explorer.robot, scenario::body_of(explorer.profile), explorer.eye, *plan_of_robot, {}, now_ms);
+  const auto explored = explore(*plan_of_robot, explorer);
   if (!explored) return pass_on(explored);
   if (Status written = write_tour(out / "tour", camera, world, *explored); !written) return written;
   const auto map = build_map_of(out / "tour", out / "map.hwmap", camera, options);

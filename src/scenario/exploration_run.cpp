@@ -18,6 +18,7 @@ namespace homeward::scenario {
 namespace {
 
 constexpr int kQuality = 92;
+constexpr double kLegShare = 0.6;  // of the distance at which the survey calls a place reached: the leg goes on to that
 
 ExplorationEnd end_of(exploration::SurveyEnd end) {
   switch (end) {
@@ -58,17 +59,17 @@ class ExplorationLoop {
     }
     inputs.messages.emplace_back(wire::Permit{MissionId("exploration"), {1, ++permit_}, wire::kPermitValid_ms});
     const double began_ms = clock();
-    const exploration::SurveyStep todo = survey_.go_on(inputs.scan->scan, inputs.odometry, state_.leg.blocked, now_ms_);
-    if (todo.takes_picture) {
+    const exploration::SurveyStep next = survey_.go_on(inputs.scan->scan, inputs.odometry, state_.leg.blocked, now_ms_);
+    if (next.takes_picture) {
       const double rendering_ms = render_picture(inputs.scan->scan);
       if (const Status looked = look(inputs); !looked) return pass_on(looked);
       result_.step_ms.push_back(clock() - began_ms - rendering_ms);
     }
-    if (todo.ended) {
-      result_.ended = end_of(*todo.ended);
+    if (next.ended) {
+      result_.ended = end_of(*next.ended);
       return false;
     }
-    if (todo.goal_m) inputs.leg = driving::Leg{*todo.goal_m, plan_.survey.there_m * 0.6};
+    if (next.goal_m) inputs.leg = driving::Leg{*next.goal_m, kLegShare * plan_.survey.there_m};
     const driving::Outputs outputs = driving::step(state_, inputs, config_, now_ms_);
     robot_.command(outputs.motion);
     move();

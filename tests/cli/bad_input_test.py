@@ -359,6 +359,7 @@ class WrongUse(CliTest):
         for fence in ("1,2 3", "1,2 3,4", "1,2 3,2 3,4 5", "1,2 3,2 3,4 5,", "1,2 3,2 3,4x", "1,2 3,2 1e300,4"):
             self.assert_refused(2, ["fence"], *explore, "--fence", fence, "--out", "new")
         self.assert_refused(2, ["fence", "survey"], *explore, "--method", "thesis", "--fence", "1,2 3,2 3,4", "--out", "new")
+        self.assert_refused(2, ["limit-s", "survey"], *explore, "--method", "thesis", "--limit-s", "60", "--out", "new")
         self.assert_refused(2, ["back-after-s"], *explore, "--back-after-s", "1e300", "--out", "new")
         self.assertFalse((self.folder / "new").exists())
         (self.folder / "full").mkdir()
