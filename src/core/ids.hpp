@@ -29,6 +29,7 @@ using MapId = Id<struct MapTag>;
 using TourId = Id<struct TourTag>;
 using RobotId = Id<struct RobotTag>;
 using MissionId = Id<struct MissionTag>;
+using ExplorationId = Id<struct ExplorationTag>;
 using JobId = Id<struct JobTag>;
 using UserId = Id<struct UserTag>;
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "wire/draft_json.hpp"
+#include "wire/exploration_json.hpp"
 #include "wire/job_json.hpp"
 #include "wire/map_info_json.hpp"
 #include "wire/mission_json.hpp"
@@ -25,10 +26,17 @@ struct Snapshot {
   std::vector<MapInfoView> maps;
 };
 
+/// How far a robot's exploration is.
+struct ExplorationView {
+  RobotId robot;
+  ExplorationReport exploration;
+};
+
 /// Says that the server lives, where nothing else is to be said.
 struct Heartbeat {};
 
-using Event = std::variant<Snapshot, RobotView, JobView, MapInfoView, MissionView, DraftView, DraftGone, Heartbeat>;
+using Event = std::variant<Snapshot, RobotView, JobView, MapInfoView, MissionView, DraftView, DraftGone,
+                           ExplorationView, Heartbeat>;
 
 /// One message to dashboards (proto/schemas/event.schema.json): {type, v, seq, ...}. `seq` rises by one with each
 /// message of a running server.

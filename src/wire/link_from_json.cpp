@@ -73,6 +73,7 @@ Hello read_hello(ObjectReader& reader) {
   m.camera = reader.take(camera_from_json(reader.value("camera"), reader.path_of("camera")));
   m.radius_m = reader.number("radius_m", 0.05, kMostRadius_m);
   m.max_speed_mps = reader.number("max_speed_mps", 0.0, 5.0);
+  if (reader.has("explores")) m.explores = reader.boolean("explores");
   return m;
 }
 
@@ -256,6 +257,36 @@ BeliefReport read_belief(ObjectReader& reader) {
   return m;
 }
 
+/// An id that must not be empty.
+std::string read_id(ObjectReader& reader, const std::string& key) {
+  std::string id = reader.text(key, 100);
+  if (id.empty()) reader.problem(key, "'" + key + "' must not be empty.");
+  return id;
+}
+
+std::optional<double> limit_or_null(ObjectReader& reader, const std::string& key, double least, double most) {
+  return reader.value(key).is_null() ? std::nullopt : std::optional(reader.number(key, least, most));
+}
+
+ExploreOrder read_explore(ObjectReader& reader) {
+  ExploreOrder m;
+  m.mission = MissionId(read_id(reader, "mission"));
+  m.order = read_order(reader);
+  m.valid_for_ms = reader.integer("valid_for_ms", 1, 60'000);
+  m.speed_limit_mps = reader.number("speed_limit_mps", 0.0, 5.0);
+  m.exploration = ExplorationId(read_id(reader, "exploration"));
+  m.goes_on = reader.boolean("goes_on");
+  m.limit_m = limit_or_null(reader, "limit_m", 1.0, 1e5);
+  m.limit_s = limit_or_null(reader, "limit_s", 10.0, 1e6);
+  m.back_after_s = limit_or_null(reader, "back_after_s", 10.0, 1e6);
+  return m;
+}
+
+Fences read_fences(ObjectReader& reader) {
+  return {ExplorationId(read_id(reader, "exploration")),
+          reader.take(fences_from_json(reader.value("fences"), reader.path_of("fences")))};
+}
+
 Welcome read_welcome(ObjectReader& reader) {
   Welcome m;
   m.server = reader.text("server", 100);
@@ -287,42 +318,6 @@ Result<Message> read_message(const json& value, const Read& read) {
   return std::move(*message);
 }
 
-/// Listens to a parser only to stop it when values lie too deep in each other: the parser calls itself for each level,
-/// and two million nested lists fit into a message.
-class DepthGuard : public json::json_sax_t {
- public:
-  bool null() override { return true; }
-  bool boolean(bool /*value*/) override { return true; }
-  bool number_integer(number_integer_t /*value*/) override { return true; }
-  bool number_unsigned(number_unsigned_t /*value*/) override { return true; }
-  bool number_float(number_float_t /*value*/, const string_t& /*text*/) override { return true; }
-  bool string(string_t& /*value*/) override { return true; }
-  bool binary(binary_t& /*value*/) override { return true; }
-  bool start_object(std::size_t /*size*/) override { return ++depth_ <= kMaxDepth; }
-  bool key(string_t& /*key*/) override { return true; }
-  bool end_object() override { return --depth_ >= 0; }
-  bool start_array(std::size_t /*size*/) override { return ++depth_ <= kMaxDepth; }
-  bool end_array() override { return --depth_ >= 0; }
-  bool parse_error(std::size_t /*at*/, const std::string& /*token*/, const json::exception& /*why*/) override {
-    return false;
-  }
-
- private:
-  static constexpr int kMaxDepth = 16;
-  int depth_ = 0;
-};
-
-Result<json> parse_cbor(std::span<const std::uint8_t> cbor) {
-  if (cbor.size() > kMaxLinkMessageBytes) {
-    return fail(ErrorCode::kTooLarge, "A link message may have at most 32 MiB.", "message");
-  }
-  DepthGuard guard;
-  const bool readable = json::sax_parse(cbor.begin(), cbor.end(), &guard, json::input_format_t::cbor);
-  json value = readable ? json::from_cbor(cbor.begin(), cbor.end(), true, false) : json(json::value_t::discarded);
-  if (value.is_discarded()) return fail(ErrorCode::kInvalidInput, "The message is no valid CBOR.", "message");
-  return value;
-}
-
 }  // namespace
 
 Result<AgentMessage> agent_message_from_json(const json& value) {
@@ -333,6 +328,9 @@ Result<AgentMessage> agent_message_from_json(const json& value) {
     if (type == "stopped") return Stopped{r.text("stop_id", 100), r.integer("t_us", 0, kMost)};
     if (type == "mission_refused") {
       return MissionRefused{MissionId(r.text("mission", 100)), read_order(r), read_refusal(r)};
+    }
+    if (type == "explored") {
+      return Explored{r.take(exploration_from_json(r.value("exploration"), r.path_of("exploration")))};
     }
     return std::nullopt;
   });
@@ -354,19 +352,12 @@ Result<ServerMessage> server_message_from_json(const json& value) {
         if (type == "answer") {
           return Answer{MissionId(r.text("mission", 100)), r.integer("question", 1, kMost), r.boolean("here")};
         }
+        if (type == "explore") return read_explore(r);
+        if (type == "fences") return read_fences(r);
+        if (type == "finish") return Finish{ExplorationId(read_id(r, "exploration"))};
         if (type == "error") return LinkError{r.text("code", 100), r.text("message")};
         return std::nullopt;
       });
-}
-
-Result<AgentMessage> decode_agent_message(std::span<const std::uint8_t> cbor) {
-  const Result<json> value = parse_cbor(cbor);
-  return value ? agent_message_from_json(*value) : pass_on(value);
-}
-
-Result<ServerMessage> decode_server_message(std::span<const std::uint8_t> cbor) {
-  const Result<json> value = parse_cbor(cbor);
-  return value ? server_message_from_json(*value) : pass_on(value);
 }
 
 }  // namespace homeward::wire

@@ -15,6 +15,7 @@
 #include "core/pose2.hpp"
 #include "core/result.hpp"
 #include "core/time.hpp"
+#include "wire/exploration_json.hpp"
 #include "wire/lease_durations.hpp"
 #include "wire/reason.hpp"
 
@@ -22,8 +23,8 @@ namespace homeward::wire {
 
 /// The agent link (proto/asyncapi.yaml): each message one CBOR map in one binary WebSocket message, with "type" and
 /// "v".
-inline constexpr int kLinkVersion = 2;
-/// Version 1, which older recordings hold, has words instead of reasons.
+inline constexpr int kLinkVersion = 3;
+/// Version 1, which older recordings hold, has words instead of reasons; version 2 knows no explorations.
 inline constexpr int kOldestLinkVersion = 1;
 inline constexpr std::size_t kMaxLinkMessageBytes = 32UL * 1024 * 1024;
 
@@ -46,6 +47,7 @@ struct Hello {
   camera::CameraConfig camera;
   double radius_m = 0.35;  // of the circle about its turning point that holds the whole body
   double max_speed_mps = 0.8;
+  bool explores = false;  // it can map a building by itself
 };
 
 struct Frame {
@@ -113,6 +115,11 @@ struct MissionRefused {
   MissionId mission;
   Order order;
   Reason reason;
+};
+
+/// How far an exploration is.
+struct Explored {
+  ExplorationReport exploration;
 };
 
 // From the server.
@@ -204,13 +211,38 @@ struct Answer {
   bool here = false;          // whether the robot is where it asks about
 };
 
+/// An order to map what is around the robot; a permit as well.
+struct ExploreOrder {
+  MissionId mission;
+  Order order;
+  std::int64_t valid_for_ms = 0;
+  double speed_limit_mps = 0.0;
+  ExplorationId exploration;
+  bool goes_on = false;                // with the exploration of that id that the robot has
+  std::optional<double> limit_m;       // driven altogether
+  std::optional<double> limit_s;       // explored altogether
+  std::optional<double> back_after_s;  // from now on, until it is back where it began
+};
+
+/// All that an exploration keeps off from now on.
+struct Fences {
+  ExplorationId exploration;
+  std::vector<Fence> fences_m;
+};
+
+/// A paused exploration ends with what it has.
+struct Finish {
+  ExplorationId exploration;
+};
+
 struct LinkError {
   std::string code;
   std::string message;
 };
 
-using AgentMessage = std::variant<Hello, Frame, AgentStatus, Stopped, MissionRefused>;
-using ServerMessage = std::variant<Welcome, MissionOrder, Permit, StopOrder, BeliefReport, Answer, LinkError>;
+using AgentMessage = std::variant<Hello, Frame, AgentStatus, Stopped, MissionRefused, Explored>;
+using ServerMessage = std::variant<Welcome, MissionOrder, Permit, StopOrder, BeliefReport, Answer, ExploreOrder, Fences,
+                                   Finish, LinkError>;
 
 std::vector<std::uint8_t> encode(const AgentMessage& message);
 std::vector<std::uint8_t> encode(const ServerMessage& message);

@@ -22,6 +22,7 @@ json write(const Hello& m) {
   value["camera"] = camera_to_json(m.camera);
   value["radius_m"] = m.radius_m;
   value["max_speed_mps"] = m.max_speed_mps;
+  if (m.explores) value["explores"] = true;
   return value;
 }
 
@@ -184,6 +185,39 @@ json write(const Answer& m) {
   return value;
 }
 
+json write(const Explored& m) {
+  json value = start("explored");
+  value["exploration"] = exploration_to_json(m.exploration);
+  return value;
+}
+
+json write(const ExploreOrder& m) {
+  json value = start("explore");
+  value["mission"] = m.mission.str();
+  add_order(value, m.order);
+  value["valid_for_ms"] = m.valid_for_ms;
+  value["speed_limit_mps"] = m.speed_limit_mps;
+  value["exploration"] = m.exploration.str();
+  value["goes_on"] = m.goes_on;
+  value["limit_m"] = or_null(m.limit_m);
+  value["limit_s"] = or_null(m.limit_s);
+  value["back_after_s"] = or_null(m.back_after_s);
+  return value;
+}
+
+json write(const Fences& m) {
+  json value = start("fences");
+  value["exploration"] = m.exploration.str();
+  value["fences"] = fences_to_json(m.fences_m);
+  return value;
+}
+
+json write(const Finish& m) {
+  json value = start("finish");
+  value["exploration"] = m.exploration.str();
+  return value;
+}
+
 json write(const LinkError& m) {
   json value = start("error");
   value["code"] = m.code;
@@ -212,8 +246,5 @@ json to_json(const AgentMessage& message) {
 json to_json(const ServerMessage& message) {
   return std::visit([](const auto& m) { return write(m); }, message);
 }
-
-std::vector<std::uint8_t> encode(const AgentMessage& message) { return json::to_cbor(to_json(message)); }
-std::vector<std::uint8_t> encode(const ServerMessage& message) { return json::to_cbor(to_json(message)); }
 
 }  // namespace homeward::wire

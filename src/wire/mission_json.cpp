@@ -15,6 +15,7 @@ using nlohmann::json;
 
 constexpr std::array<std::string_view, 6> kMissionStates = {"accepted", "driving", "arrived",
                                                             "refused",  "stopped", "failed"};
+constexpr EnumNames<MissionKind, 2> kKinds({"drive", "explore"});
 constexpr int kMissionVersion = 2;  // version 1 had words instead of reasons
 constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
 
@@ -38,15 +39,21 @@ std::optional<MissionState> mission_state(std::string_view name) {
   return std::nullopt;
 }
 
+std::string_view mission_kind_name(MissionKind kind) { return kKinds.name(kind); }
+
+std::optional<MissionKind> mission_kind(std::string_view name) { return kKinds.find(name); }
+
 json mission_to_json(const MissionView& mission) {
   return {{"format", "homeward-mission"},
           {"version", kMissionVersion},
           {"id", mission.id.str()},
           {"robot", mission.robot.str()},
-          {"map", mission.map.str()},
+          {"kind", mission_kind_name(mission.kind)},
+          {"exploration", or_null(mission.exploration)},
+          {"map", mission.map.empty() ? json() : json(mission.map.str())},
           {"revision", mission.revision},
           {"destination", or_null(mission.destination)},
-          {"place", mission.place.str()},
+          {"place", mission.place.empty() ? json() : json(mission.place.str())},
           {"state", mission_state_name(mission.state)},
           {"reason", reason_to_json(mission.reason)},
           {"epoch", mission.epoch},
@@ -65,10 +72,12 @@ Result<MissionView> mission_from_json(const json& value, const std::string& path
   MissionView mission;
   mission.id = MissionId(reader.text("id", 100));
   mission.robot = RobotId(reader.text("robot", 100));
-  mission.map = MapId(reader.text("map", 100));
+  mission.kind = reader.choice("kind", kKinds);
+  if (!reader.value("exploration").is_null()) mission.exploration = ExplorationId(reader.text("exploration", 100));
+  if (!reader.value("map").is_null()) mission.map = MapId(reader.text("map", 100));
   mission.revision = reader.integer("revision", 0, kLargest);
   if (!reader.value("destination").is_null()) mission.destination = DestinationId(reader.text("destination", 100));
-  mission.place = PlaceId(reader.text("place", 100));
+  if (!reader.value("place").is_null()) mission.place = PlaceId(reader.text("place", 100));
   const std::string state = reader.choice("state", {kMissionStates.begin(), kMissionStates.end()});
   mission.state = mission_state(state).value_or(MissionState::kFailed);
   if (const json& reason = reader.value("reason"); !reason.is_null())

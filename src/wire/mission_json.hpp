@@ -21,10 +21,18 @@ enum class MissionState { kAccepted, kDriving, kArrived, kRefused, kStopped, kFa
 std::string_view mission_state_name(MissionState state);
 std::optional<MissionState> mission_state(std::string_view name);
 
-/// One drive of a robot to a place (proto/schemas/mission.schema.json).
+/// "drive": to a place of a map; "explore": through a building that the robot maps by itself.
+enum class MissionKind { kDrive, kExplore };
+
+std::string_view mission_kind_name(MissionKind kind);
+std::optional<MissionKind> mission_kind(std::string_view name);
+
+/// One drive of a robot (proto/schemas/mission.schema.json). One that explores has neither map, place nor path.
 struct MissionView {
   MissionId id;
   RobotId robot;
+  MissionKind kind = MissionKind::kDrive;
+  std::optional<ExplorationId> exploration = std::nullopt;
   MapId map;
   std::int64_t revision = 0;                 // of the map that the path was planned on
   std::optional<DestinationId> destination;  // nothing when a place was asked for

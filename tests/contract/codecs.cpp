@@ -3,6 +3,7 @@
 
 #include "wire/camera_json.hpp"
 #include "wire/edit_json.hpp"
+#include "wire/exploration_json.hpp"
 #include "wire/link_messages.hpp"
 #include "wire/mission_json.hpp"
 #include "wire/problem_json.hpp"
@@ -77,6 +78,8 @@ std::map<std::string, Recode> all_codecs() {
   codecs["scans"] = recode([](const json& v) { return wire::scans_from_json(v); }, wire::scans_to_json);
   codecs["sweep"] = recode([](const json& v) { return wire::sweep_from_json(v); }, wire::sweep_to_json);
   codecs["edits"] = recode([](const json& v) { return wire::edits_from_json(v); }, wire::edits_to_json);
+  codecs["exploration"] =
+      recode([](const json& v) { return wire::exploration_from_json(v); }, wire::exploration_to_json);
   codecs["mission"] = recode([](const json& v) { return wire::mission_from_json(v); }, wire::mission_to_json);
   codecs["reason"] = recode([](const json& v) { return wire::reason_from_json(v); },
                             [](const wire::Reason& reason) { return wire::reason_to_json(reason); });
@@ -87,7 +90,7 @@ std::map<std::string, Recode> all_codecs() {
     return scenario ? Result<json>(value) : pass_on(scenario);
   };
   // The link speaks CBOR: there and back through the bytes.
-  for (const char* name : {"hello", "frame", "status", "stopped", "mission_refused"}) {
+  for (const char* name : {"hello", "frame", "status", "stopped", "mission_refused", "explored"}) {
     codecs[std::string("link_") + name] = [](const json& value) -> Result<json> {
       const auto message = wire::decode_agent_message(json::to_cbor(with_bytes(value)));
       if (!message) return pass_on(message);
@@ -96,7 +99,8 @@ std::map<std::string, Recode> all_codecs() {
       return with_base64(wire::to_json(*again));
     };
   }
-  for (const char* name : {"welcome", "mission", "permit", "stop", "belief", "answer", "error"}) {
+  for (const char* name :
+       {"welcome", "mission", "permit", "stop", "belief", "answer", "explore", "fences", "finish", "error"}) {
     codecs[std::string("link_") + name] = [](const json& value) -> Result<json> {
       const auto message = wire::decode_server_message(json::to_cbor(with_bytes(value)));
       if (!message) return pass_on(message);

@@ -107,10 +107,11 @@ TEST(OpenApi, EveryReferenceNamesSomething) {
 
 TEST(OpenApi, RepeatsTheSchemasOfFilesAndMessages) {
   const std::map<std::string, std::string> pairs = {
-      {"Camera", "camera"},     {"Belief", "belief"}, {"Mission", "mission"}, {"Problem", "problem"},
-      {"Graph", "graph"},       {"Job", "job"},       {"Robot", "robot"},     {"MapInfo", "map_info"},
-      {"Tour", "tour_info"},    {"Marks", "tour"},    {"Lease", "lease"},     {"EditBatch", "edits"},
-      {"ServerEvent", "event"}, {"Sweep", "sweep"}};
+      {"Camera", "camera"},     {"Belief", "belief"},    {"Mission", "mission"},
+      {"Problem", "problem"},   {"Graph", "graph"},      {"Job", "job"},
+      {"Robot", "robot"},       {"MapInfo", "map_info"}, {"Tour", "tour_info"},
+      {"Marks", "tour"},        {"Lease", "lease"},      {"EditBatch", "edits"},
+      {"ServerEvent", "event"}, {"Sweep", "sweep"},      {"Exploration", "exploration"}};
   for (const auto& [component, schema] : pairs) {
     ASSERT_TRUE(openapi()["components"]["schemas"].contains(component)) << component;
     const json differences =
