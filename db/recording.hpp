@@ -56,6 +56,13 @@ struct RecordedRider {
   double turn_radps = 0.0;
 };
 
+/// Where an exploration drove next, odometry's frame.
+struct RecordedLeg {
+  double goal_x_m = 0.0;
+  double goal_y_m = 0.0;
+  double within_m = 0.0;
+};
+
 struct RecordedVector {
   double bearing_rad = 0.0;
   double turn_rad = 0.0;
@@ -87,6 +94,8 @@ struct RecordedStep {
   std::optional<RecordedPicture> picture;
   std::optional<RecordedRider> rider = {};
   bool robot_link_up = true;  // as all older recordings have it
+  std::optional<RecordedLeg> leg = {};
+  bool exploration_over = false;  // by itself; how and why is the outcome of the step
   // Out.
   double speed_mps = 0.0;
   double turn_radps = 0.0;

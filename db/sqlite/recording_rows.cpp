@@ -13,6 +13,8 @@ constexpr std::uint8_t kHasMinRange = 2;
 constexpr std::uint8_t kHasNearness = 4;
 constexpr std::uint8_t kHasRider = 8;
 constexpr std::uint8_t kRobotLinkDown = 16;
+constexpr std::uint8_t kHasLeg = 32;
+constexpr std::uint8_t kExplorationOver = 64;
 
 bool get_rider(ByteReader& reader, RecordedRider& rider) {
   std::uint8_t deflected = 0;
@@ -22,6 +24,10 @@ bool get_rider(ByteReader& reader, RecordedRider& rider) {
   }
   rider.deflected = deflected == 1;
   return true;
+}
+
+bool get_leg(ByteReader& reader, RecordedLeg& leg) {
+  return reader.get(&leg.goal_x_m) && reader.get(&leg.goal_y_m) && reader.get(&leg.within_m);
 }
 
 }  // namespace
@@ -42,7 +48,8 @@ std::vector<std::uint8_t> pack_step(const RecordedStep& step) {
   ByteWriter writer;
   writer.put(static_cast<std::uint8_t>((step.vector ? kHasVector : 0) | (step.min_range_m ? kHasMinRange : 0) |
                                        (vector.nearness ? kHasNearness : 0) | (step.rider ? kHasRider : 0) |
-                                       (step.robot_link_up ? 0 : kRobotLinkDown)));
+                                       (step.robot_link_up ? 0 : kRobotLinkDown) | (step.leg ? kHasLeg : 0) |
+                                       (step.exploration_over ? kExplorationOver : 0)));
   writer.put(numbers.data(), numbers.size());
   writer.put(vector.matches);
   writer.put(vector.inliers);
@@ -51,6 +58,11 @@ std::vector<std::uint8_t> pack_step(const RecordedStep& step) {
     writer.put(static_cast<std::uint8_t>(step.rider->deflected ? 1 : 0));
     writer.put(step.rider->speed_mps);
     writer.put(step.rider->turn_radps);
+  }
+  if (step.leg) {
+    writer.put(step.leg->goal_x_m);
+    writer.put(step.leg->goal_y_m);
+    writer.put(step.leg->within_m);
   }
   return writer.take();
 }
@@ -69,6 +81,8 @@ bool unpack_step(std::span<const std::uint8_t> bytes, RecordedStep& step) {
     if (!get_rider(reader, rider)) return false;
     step.rider = rider;
   }
+  if ((flags & kHasLeg) != 0 && !get_leg(reader, step.leg.emplace())) return false;
+  step.exploration_over = (flags & kExplorationOver) != 0;
   if (reader.left() != 0) return false;
   step.odometry = {n[0], n[1], n[2]};
   step.speed_mps = n[3];
@@ -122,14 +136,15 @@ bool unpack_sweep(std::span<const std::uint8_t> bytes, RecordedSweep& sweep) {
 }
 
 std::string_view message_type(const wire::ServerMessage& message) {
-  constexpr std::array<std::string_view, 7> kNames = {"welcome", "mission", "permit", "stop",
-                                                      "belief",  "answer",  "error"};
+  constexpr std::array<std::string_view, 10> kNames = {"welcome", "mission", "permit", "stop",   "belief",
+                                                       "answer",  "explore", "fences", "finish", "error"};
   static_assert(std::variant_size_v<wire::ServerMessage> == kNames.size());
   return kNames[message.index()];
 }
 
 std::string_view message_type(const wire::AgentMessage& message) {
-  constexpr std::array<std::string_view, 5> kNames = {"hello", "frame", "status", "stopped", "mission_refused"};
+  constexpr std::array<std::string_view, 6> kNames = {"hello",   "frame",           "status",
+                                                      "stopped", "mission_refused", "explored"};
   static_assert(std::variant_size_v<wire::AgentMessage> == kNames.size());
   return kNames[message.index()];
 }

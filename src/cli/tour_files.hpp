@@ -12,6 +12,7 @@
 #include "core/range_sweep.hpp"
 #include "core/result.hpp"
 #include "core/time.hpp"
+#include "files/tour_tables.hpp"
 
 namespace homeward::cli {
 
@@ -50,10 +51,7 @@ class TourFiles {
   int count_ = 0;
   std::string last_name_;
   std::string poses_ = "filename,x_m,y_m,theta_rad,room\n";
-  std::string odometry_ = "t_us,x_m,y_m,theta_rad\n";
-  std::string times_ = "filename,t_us\n";
-  std::string scans_;
-  RangeSweep scanner_;  // how its sweeps are to be read
+  files::TourTables tables_;
 };
 
 }  // namespace homeward::cli

@@ -45,6 +45,12 @@ struct Leg {
   double within_m = 0.1;                             // so near it is reached
 };
 
+/// That an exploration is over by itself: it has seen all or kept to its limits, or (`failed`) it does not get on.
+struct ExplorationOver {
+  bool failed = false;
+  std::optional<wire::Reason> reason;
+};
+
 /// What is new since the last step.
 struct Inputs {
   std::optional<SeenPicture> picture;
@@ -55,7 +61,9 @@ struct Inputs {
   std::optional<Milliseconds> sensors_now_ms;  // by the sensors' clock; nothing: it is the machine's own
   std::optional<JoystickReading> rider;        // the newest reading of the joystick, when there is one
   std::optional<Leg> leg = {};                 // of an exploration; nothing: it stands and thinks
-  bool robot_link_up = true;                   // false: the connection to the robot is lost or too slow for its sensors
+  std::optional<ExplorationOver> exploration_over = {};
+  std::optional<wire::Reason> why_not_exploring = {};  // orders to explore are refused for that; nothing: they are not
+  bool robot_link_up = true;  // false: the connection to the robot is lost or too slow for its sensors
 };
 
 }  // namespace homeward::driving

@@ -4,12 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
-#include "driving/asking.hpp"
 #include "driving/give_way.hpp"
-#include "driving/rider.hpp"
-#include "driving/sense.hpp"
 
 namespace homeward::driving {
 namespace {
@@ -23,36 +19,6 @@ Eigen::Vector2d seen_from(const Pose2& odometry, const Eigen::Vector2d& goal_m) 
 }
 
 }  // namespace
-
-bool begin_exploration(DrivingState& state, const Exploration& exploration, const Inputs& inputs,
-                       const DrivingConfig& config, Milliseconds now_ms, Milliseconds sensors_ms) {
-  if (exploration.order <= state.newest || exploration.order.epoch < state.least_epoch) return false;
-  state.newest = exploration.order;
-  if (rider_steers(inputs, config, sensors_ms) || now_ms < state.refuses_until_ms) return false;
-  Mission mission;
-  mission.id = exploration.id;
-  mission.speed_limit_mps = exploration.speed_limit_mps;
-  mission.explores = true;
-  state.mission = std::make_shared<const Mission>(std::move(mission));
-  state.permit_ends_ms = now_ms + exploration.valid_for_ms;
-  state.drive = wire::DriveState::kDriving;
-  state.reason.reset();
-  state.follow = {};
-  state.kept.reset();
-  state.seen = {};
-  state.leg = {};
-  state.astray = state.at_odds = state.docking = state.covered = state.pictured = false;
-  state.near_since_ms.reset();
-  state.stays_since_ms.reset();
-  state.last_message_ms = now_ms;
-  state.last_gain_ms = state.last_picture_ms = state.picture_came_ms = sensors_ms;
-  state.gain_from = inputs.odometry;
-  state.plan = {};
-  begin_sensing(state, inputs, config);
-  begin_way(state.give_way, config.give_way);
-  withdraw(state.asking);
-  return true;
-}
 
 void judge_leg(DrivingState& state, const Inputs& inputs, Milliseconds sensors_ms, const LegConfig& leg) {
   LegState& now = state.leg;

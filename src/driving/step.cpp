@@ -50,6 +50,10 @@ void forget_where_odometry_jumped(DrivingState& state, const Pose2& odometry, co
 void begin_mission(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds sensors_ms) {
   state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = state.last_picture_ms = sensors_ms;
   state.gain_from = inputs.odometry;
+  if (state.mission->explores) {
+    state.picture_came_ms = sensors_ms;
+    state.leg = {};
+  }
   state.stays_since_ms.reset();
   state.plan = {};
   begin_sensing(state, inputs, config);
@@ -63,7 +67,7 @@ void take_orders(DrivingState& state, const Inputs& inputs, bool rider, const Dr
   const std::shared_ptr<const Mission> before = state.mission;
   notice_gap(state, config, now_ms);
   if (rider) yield_to_rider(state);
-  obey(state, inputs.messages, rider, config, now_ms, outputs);
+  obey(state, inputs, rider, config, now_ms, outputs);
   forget_old_belief(state, config, now_ms);
   if (state.mission != before) begin_mission(state, inputs, config, sensors_ms);
 }
@@ -73,6 +77,10 @@ void judge(DrivingState& state, const Inputs& inputs, const DrivingConfig& confi
            Milliseconds sensors_ms) {
   if (const auto why = reason_to_stop(state, inputs, config, now_ms, sensors_ms)) {
     end_mission(state, wire::DriveState::kStopped, wire::Reason{*why});
+  } else if (state.mission->explores && inputs.exploration_over) {
+    const bool failed = inputs.exploration_over->failed;
+    end_mission(state, failed ? wire::DriveState::kFailed : wire::DriveState::kArrived,
+                inputs.exploration_over->reason);
   } else if (state.mission->explores) {
     judge_leg(state, inputs, sensors_ms);
   } else {

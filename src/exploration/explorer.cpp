@@ -119,7 +119,9 @@ std::vector<std::uint8_t> Explorer::barred_cells() const {
   std::vector<std::uint8_t> cells(frame.size(), 0);
   if (cells.empty()) return cells;
   cv::Mat canvas(frame.rows, frame.columns, CV_8UC1, cells.data());
+  constexpr std::size_t kLeastCorners = 3;
   for (const std::vector<Eigen::Vector2d>& corners_m : fences_m_) {
+    if (corners_m.size() < kLeastCorners) continue;
     std::vector<cv::Point> corners;
     for (const Eigen::Vector2d& corner_m : corners_m) {
       const FloorCell cell = frame.cell(corner_m);
@@ -163,9 +165,9 @@ bool Explorer::try_blocked_again() {
   return any;
 }
 
-void Explorer::fence_off(std::vector<Eigen::Vector2d> corners_m) {
-  constexpr std::size_t kLeastCorners = 3;
-  if (corners_m.size() >= kLeastCorners) fences_m_.push_back(std::move(corners_m));
+void Explorer::move_odometry(const Pose2& now_from_before) {
+  for (KeyView& view : views_) view.odometry = now_from_before * view.odometry;
+  aligned_odometry_ = now_from_before * aligned_odometry_;
 }
 
 /// How the newest key view lies to an old one, if their sweeps and their pictures agree on it.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/pose2.hpp"
@@ -89,10 +90,13 @@ class Explorer {
   bool try_blocked_again();
   /// So many places are put off.
   [[nodiscard]] std::size_t put_off() const { return put_off_.size(); }
-  /// No way leads over this polygon of the floor, nor so near to it that the body would be over it. Fewer than three
-  /// corners fence nothing. What drives the way keeps to it as far as nothing stands there: it goes round things, and
-  /// makes room for people.
-  void fence_off(std::vector<Eigen::Vector2d> corners_m);
+  /// No way leads over these polygons of the floor, nor so near to one that the body would be over it, in place of
+  /// those before. Fewer than three corners fence nothing. What drives the way keeps to it as far as nothing stands
+  /// there: it goes round things, and makes room for people.
+  void set_fences(std::vector<std::vector<Eigen::Vector2d>> fences_m) { fences_m_ = std::move(fences_m); }
+  /// The robot's odometry has begun anew, or the robot was moved without it: `now_from_before` takes what it said
+  /// before to what it would say of the same place now.
+  void move_odometry(const Pose2& now_from_before);
   /// How often poses, floor and coverage were put together anew: points of the floor given before that have moved.
   [[nodiscard]] int layouts() const { return layouts_; }
 

@@ -47,9 +47,19 @@ void Survey::forget_target() {
   chosen_ms_.reset();
 }
 
-void Survey::fence_off(std::vector<Eigen::Vector2d> corners_m) {
-  explorer_.fence_off(std::move(corners_m));
+void Survey::set_fences(std::vector<std::vector<Eigen::Vector2d>> fences_m) {
+  explorer_.set_fences(std::move(fences_m));
   forget_target();
+}
+
+void Survey::go_on_anew(const std::optional<Pose2>& odometry_moved) {
+  if (odometry_moved) explorer_.move_odometry(*odometry_moved);
+  explorer_.try_blocked_again();
+  forget_target();
+  goes_home_ = all_seen_ = false;
+  waiting_since_ms_.reset();
+  tried_ = blocked_in_a_row_ = 0;
+  ended_.reset();
 }
 
 /// Along the way to a cell, as far as that is straight.

@@ -48,8 +48,13 @@ class Survey {
   /// It has to be back where it began by then, by the clock of `go_on`: it turns home in time, as far as ways stay
   /// free, and goes home when it has seen all before.
   void be_back_by(std::int64_t at_ms) { back_by_ms_ = at_ms; }
-  /// See Explorer::fence_off.
-  void fence_off(std::vector<Eigen::Vector2d> corners_m);
+  /// Or need not be.
+  void need_not_be_back() { back_by_ms_.reset(); }
+  /// See Explorer::set_fences.
+  void set_fences(std::vector<std::vector<Eigen::Vector2d>> fences_m);
+  /// It goes on after a pause, or after it has ended: what was blocked may be free. `odometry_moved`: see
+  /// Explorer::move_odometry.
+  void go_on_anew(const std::optional<Pose2>& odometry_moved);
   /// The picture that the last step asked for, with the sweep and the odometry of the same moment.
   void take(const RangeSweep& sweep, const Pose2& odometry, std::shared_ptr<const features::Appearance> appearance);
 

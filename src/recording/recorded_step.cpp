@@ -54,6 +54,8 @@ db::RecordedStep to_recorded(std::int64_t seq, const driving::Inputs& inputs, co
     step.rider = db::RecordedRider{inputs.rider->said_ms, inputs.rider->deflected, inputs.rider->wanted.speed_mps,
                                    inputs.rider->wanted.turn_radps};
   }
+  if (inputs.leg) step.leg = db::RecordedLeg{inputs.leg->goal_m.x(), inputs.leg->goal_m.y(), inputs.leg->within_m};
+  step.exploration_over = inputs.exploration_over.has_value();
   put_outcome(step, state, outputs);
   return step;
 }
@@ -70,6 +72,9 @@ driving::Inputs inputs_of(const db::RecordedStep& step) {
     inputs.rider = driving::JoystickReading{
         step.rider->said_ms, step.rider->deflected, {step.rider->speed_mps, step.rider->turn_radps}};
   }
+  if (step.leg) inputs.leg = driving::Leg{{step.leg->goal_x_m, step.leg->goal_y_m}, step.leg->within_m};
+  if (step.exploration_over)
+    inputs.exploration_over = driving::ExplorationOver{step.state == wire::DriveState::kFailed, step.reason};
   return inputs;
 }
 

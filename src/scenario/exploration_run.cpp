@@ -5,10 +5,10 @@
 #include <memory>
 #include <utility>
 
-#include "driving/leg.hpp"
 #include "driving/step.hpp"
 #include "imageio/decode.hpp"
 #include "scenario/drive_loop.hpp"
+#include "scenario/order_to_explore.hpp"
 #include "sim/floor.hpp"
 #include "sim/tour_path.hpp"
 #include "wire/lease_durations.hpp"
@@ -41,7 +41,7 @@ class ExplorationLoop {
     config_.body = body;
     config_.feature_config_id = features::feature_config_id(eye.feature_config());
     if (plan.back_after_s) survey_.be_back_by(static_cast<std::int64_t>(1000.0 * *plan.back_after_s));
-    for (const auto& corners_m : plan.fences_m) survey_.fence_off(corners_m);
+    survey_.set_fences(plan.fences_m);
   }
 
   /// False: it has ended.
@@ -52,11 +52,7 @@ class ExplorationLoop {
     inputs.scan = {now_ms_, robot_.sweep()};
     // What the camera shows on the way is of no use before it is a picture of the tour: it is not rendered.
     inputs.picture = driving::SeenPicture{now_ms_, nullptr, {}, inputs.odometry};
-    if (!begun_) {
-      begun_ = driving::begin_exploration(
-          state_, {MissionId("exploration"), {1, 1}, wire::kPermitValid_ms, plan_.speed_limit_mps}, inputs, config_,
-          now_ms_, now_ms_);
-    }
+    if (!std::exchange(begun_, true)) inputs.messages.emplace_back(order_to_explore(plan_.speed_limit_mps));
     inputs.messages.emplace_back(wire::Permit{MissionId("exploration"), {1, ++permit_}, wire::kPermitValid_ms});
     const double began_ms = clock();
     const exploration::SurveyStep next = survey_.go_on(inputs.scan->scan, inputs.odometry, state_.leg.blocked, now_ms_);

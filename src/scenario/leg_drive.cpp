@@ -3,9 +3,10 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
-#include "driving/leg.hpp"
 #include "scenario/drive_loop.hpp"
+#include "scenario/order_to_explore.hpp"
 #include "wire/lease_durations.hpp"
 #include "wire/reason.hpp"
 
@@ -26,11 +27,7 @@ void LegDrive::cycle(const std::optional<driving::Leg>& leg) {
   // What the camera shows on the way is of no use: it is not rendered.
   inputs.picture = driving::SeenPicture{now_ms_, nullptr, {}, inputs.odometry};
   inputs.leg = leg;
-  if (!begun_) {
-    begun_ =
-        driving::begin_exploration(state_, {MissionId("exploration"), {1, 1}, wire::kPermitValid_ms, speed_limit_mps_},
-                                   inputs, config_, now_ms_, now_ms_);
-  }
+  if (!std::exchange(begun_, true)) inputs.messages.emplace_back(order_to_explore(speed_limit_mps_));
   inputs.messages.emplace_back(wire::Permit{MissionId("exploration"), {1, ++permit_}, wire::kPermitValid_ms});
   const driving::Outputs outputs = driving::step(state_, inputs, config_, now_ms_);
   robot_.command(outputs.motion);

@@ -4,6 +4,7 @@
 #include "wire/camera_json.hpp"
 #include "wire/edit_json.hpp"
 #include "wire/exploration_json.hpp"
+#include "wire/kept_exploration_json.hpp"
 #include "wire/link_messages.hpp"
 #include "wire/mission_json.hpp"
 #include "wire/problem_json.hpp"
@@ -80,6 +81,9 @@ std::map<std::string, Recode> all_codecs() {
   codecs["edits"] = recode([](const json& v) { return wire::edits_from_json(v); }, wire::edits_to_json);
   codecs["exploration"] =
       recode([](const json& v) { return wire::exploration_from_json(v); }, wire::exploration_to_json);
+  codecs["kept_exploration"] =
+      recode([](const json& v) { return wire::kept_exploration_from_json(v); }, wire::kept_exploration_to_json);
+  codecs["kept_view"] = recode([](const json& v) { return wire::kept_view_from_json(v); }, wire::kept_view_to_json);
   codecs["mission"] = recode([](const json& v) { return wire::mission_from_json(v); }, wire::mission_to_json);
   codecs["reason"] = recode([](const json& v) { return wire::reason_from_json(v); },
                             [](const wire::Reason& reason) { return wire::reason_to_json(reason); });

@@ -11,9 +11,11 @@
 #include <utility>
 
 #include "agent/drivers/joystick.hpp"
+#include "agent/explore/exploring.hpp"
 #include "agent/link/link_client.hpp"
 #include "agent/run/looker.hpp"
 #include "agent/run/real_time.hpp"
+#include "agent/upload/upload.hpp"
 #include "core/version.hpp"
 #include "driving/follow.hpp"
 #include "driving/stated.hpp"
@@ -132,6 +134,25 @@ Result<std::unique_ptr<recording::Recorder>> open_recorder(const AgentOptions& o
                                      options.log);
 }
 
+/// What explores; nothing if the options name no folder for that.
+Result<std::unique_ptr<Exploring>> open_exploring(const AgentOptions& options, const camera::CameraConfig& camera,
+                                                  const pipeline::Eye& eye, const driving::Body& body) {
+  if (!options.explorations) return std::unique_ptr<Exploring>();
+  ThinkerOptions thinker;
+  thinker.folder = *options.explorations;
+  thinker.explorer.reach.radius_m = body.outline.radius_m + body.outline.side_m;
+  thinker.log = options.log;
+  thinker.upload = [server = options.server, token = options.token](
+                       const std::filesystem::path& tour, const std::string& name,
+                       const std::function<void(double)>& progress) -> Result<TourId> {
+    RestClient client(server, token);
+    const auto uploaded = upload_tour(client, {tour.string(), tour.parent_path() / "camera.json", name}, progress);
+    if (!uploaded) return pass_on(uploaded);
+    return TourId(uploaded->id);
+  };
+  return Exploring::create(std::move(thinker), camera, eye);
+}
+
 wire::Hello hello_of(const AgentOptions& options, const camera::CameraConfig& camera, const driving::Body& body) {
   wire::Hello hello;
   hello.agent = name_with_version(kProgram);
@@ -140,7 +161,27 @@ wire::Hello hello_of(const AgentOptions& options, const camera::CameraConfig& ca
   hello.camera = camera;
   hello.radius_m = std::min(wire::kMostRadius_m, swept_radius_m(body.outline));
   hello.max_speed_mps = body.max_speed_mps;
+  hello.explores = options.explorations.has_value();
   return hello;
+}
+
+/// What leads an exploration has its say before a step.
+void lead(const Exploring* exploring, driving::Inputs& inputs, const driving::DrivingState& state) {
+  if (exploring != nullptr) return exploring->prepare(inputs, state);
+  inputs.why_not_exploring = wire::Reason{wire::ReasonCode::kDoesNotExplore};
+}
+
+/// And hears what came of it after the step. Whether features of pictures are wanted.
+bool follow(Exploring* exploring, const driving::Inputs& inputs, const recording::PictureBytes& picture,
+            const driving::DrivingState& state, LinkClient& link) {
+  if (exploring != nullptr) {
+    exploring->follow(inputs, picture, state);
+    if (link.up()) {
+      if (auto report = exploring->take_report()) link.send(std::move(*report));
+    }
+  }
+  if (state.mission && state.mission->explores) return exploring != nullptr && exploring->wants_features();
+  return driving::wants_features(state.follow);
 }
 
 /// Says in the log and to the server how the robot fares: at each change, and every so often.
@@ -186,6 +227,8 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
 
   const auto joystick = open_joystick(options);
   if (!joystick) return pass_on(joystick);
+  const auto exploring = open_exploring(options, driver.camera(), *eye, config.body);
+  if (!exploring) return pass_on(exploring);
 
   const StandStill at_the_end(driver);
   LinkClient link(options.server, options.robot, options.token, hello_of(options, driver.camera(), config.body),
@@ -217,6 +260,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
     for (const wire::ServerMessage& message : inputs.messages) {
       if (const auto* welcome = std::get_if<wire::Welcome>(&message)) looker.set_show_period(welcome->frame_period_ms);
     }
+    lead(exploring->get(), inputs, state);
     const driving::Outputs outputs =
         *recorder ? (*recorder)->step(state, inputs, picture, now) : driving::step(state, inputs, config, now);
     // Frozen while it thought, it must not do what it thought before; the next step says why it stopped.
@@ -224,7 +268,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
     driver.command(held_up ? driving::Motion{} : outputs.motion);
     send(link, outputs.messages);
     looker.set_looking(state.drive == wire::DriveState::kDriving);
-    looker.set_features_wanted(driving::wants_features(state.follow));
+    looker.set_features_wanted(follow(exploring->get(), inputs, picture, state, link));
     reporting.report(state, config, reading, now);
     if (Clock::now() >= next_cycle) next_cycle = std::max(next_cycle + kCycle, Clock::now());
     // What is received is obeyed at once, and its silence counts from when it came.

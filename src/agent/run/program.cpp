@@ -11,7 +11,7 @@
 
 #include "agent/run/agent_loop.hpp"
 #include "agent/run/driver_choice.hpp"
-#include "agent/run/upload.hpp"
+#include "agent/upload/upload.hpp"
 #include "files/read_file.hpp"
 #include "wire/error_table.hpp"
 
@@ -42,6 +42,7 @@ struct RunOptions {
   std::string robot_name = "Homeward robot";
   DriverOptions driver;
   std::string joystick;
+  std::string explorations;
   std::string record;
   std::int64_t record_limit_mb = 512;
   std::int64_t record_folder_limit_mb = 4096;
@@ -93,6 +94,7 @@ Status run(const RunOptions& options, const std::vector<FurtherDriver>& further)
                              [](const std::string& what) { spdlog::info("{}", what); },
                              std::nullopt,
                              options.joystick};
+  if (!options.explorations.empty()) agent_options.explorations = options.explorations;
   if (!options.record.empty()) {
     recording::RecordingOptions& record = agent_options.record.emplace();
     record.folder = options.record;
@@ -147,6 +149,9 @@ void register_run(CLI::App& program, const std::vector<FurtherDriver>& further) 
   add_driver_options(*command, options->driver, further);
   command->add_option("--joystick", options->joystick,
                       "The rider's joystick at this machine (/dev/input/js0): deflected, it ends a mission and drives");
+  command->add_option(
+      "--explorations", options->explorations,
+      "Map buildings by itself when told to; what it explores is kept in this folder until the server has it");
   command->add_option("--record", options->record, "Record each mission as a file in this folder (homeward replay)");
   command
       ->add_option("--record-limit-mb", options->record_limit_mb,

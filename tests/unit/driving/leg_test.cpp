@@ -14,10 +14,11 @@ using wire::ReasonCode;
 class LegTest : public StepTest {
  protected:
   void SetUp() override {
-    Inputs inputs;
-    inputs.odometry = pose_;
-    begin_exploration(state_, {MissionId("m1"), {1, 1}, 1500, 0.4}, inputs, config_, now_ms_, now_ms_);
+    tick({explore("m1", {1, 1})});
     seq_ = 1;
+  }
+  static wire::ExploreOrder explore(const std::string& mission, const wire::Order& order) {
+    return {MissionId(mission), order, 1500, 0.4, ExplorationId("x1"), false, {}, {}, {}};
   }
   Outputs on() { return tick({permit("m1", 1, ++seq_)}); }
   [[nodiscard]] double off_m() const { return (position_m(pose_) - leg_->goal_m).norm(); }
@@ -120,15 +121,42 @@ TEST_F(LegTest, AStopOrderEndsItAndNoPermitBeginsItAgain) {
 }
 
 TEST_F(LegTest, WhatAStopHasOvertakenDoesNotBegin) {
-  tick({wire::StopOrder{"s1", 9, std::nullopt, "test"}});
-  Inputs inputs;
-  inputs.odometry = pose_;
-  EXPECT_FALSE(begin_exploration(state_, {MissionId("m2"), {1, 5}, 1500, 0.4}, inputs, config_, now_ms_, now_ms_));
+  tick({wire::StopOrder{"s1", 1, std::nullopt, "test", 9}});
+  tick({explore("m2", {1, 5})});
   EXPECT_NE(state_.drive, DriveState::kDriving);
-  inputs.rider = JoystickReading{now_ms_, true, {}};
-  EXPECT_FALSE(begin_exploration(state_, {MissionId("m2"), {10, 1}, 1500, 0.4}, inputs, config_, now_ms_, now_ms_));
-  inputs.rider.reset();
-  EXPECT_TRUE(begin_exploration(state_, {MissionId("m2"), {10, 2}, 1500, 0.4}, inputs, config_, now_ms_, now_ms_));
+  EXPECT_EQ(state_.mission->id, MissionId("m1"));
+  tick({explore("m2", {1, 10})});
+  EXPECT_EQ(state_.drive, DriveState::kDriving);
+  EXPECT_EQ(state_.mission->id, MissionId("m2"));
+}
+
+TEST_F(LegTest, WhileTheRiderSteersAnOrderToExploreIsRefused) {
+  hand_ = Motion{0.0, 0.5};
+  const Outputs outputs = tick({explore("m2", {1, 5})});
+  ASSERT_EQ(outputs.messages.size(), 1U);
+  EXPECT_EQ(std::get<wire::MissionRefused>(outputs.messages[0]).reason, wire::Reason{ReasonCode::kRiderSteers});
+  EXPECT_EQ(state_.mission->id, MissionId("m1"));
+}
+
+TEST_F(LegTest, ARobotThatDoesNotExploreRefusesAndSaysWhy) {
+  why_not_exploring_ = wire::Reason{ReasonCode::kDoesNotExplore};
+  const Outputs outputs = tick({explore("m2", {1, 5})});
+  ASSERT_EQ(outputs.messages.size(), 1U);
+  EXPECT_EQ(std::get<wire::MissionRefused>(outputs.messages[0]).mission, MissionId("m2"));
+  EXPECT_EQ(std::get<wire::MissionRefused>(outputs.messages[0]).reason, wire::Reason{ReasonCode::kDoesNotExplore});
+  EXPECT_EQ(state_.drive, DriveState::kStopped) << "nor does it go on with what it did before";
+}
+
+TEST_F(LegTest, AnExplorationThatIsOverHasArrivedAndOneThatDoesNotGetOnHasFailed) {
+  leg_ = Leg{{3.0, 0.0}, 0.1};
+  for (int k = 0; k < 10; ++k) on();
+  over_ = ExplorationOver{false, wire::Reason{ReasonCode::kExplorationLimit}};
+  EXPECT_TRUE(stands(on()));
+  EXPECT_EQ(state_.drive, DriveState::kArrived);
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kExplorationLimit});
+  over_ = ExplorationOver{true, wire::Reason{ReasonCode::kExplorationStuck}};
+  EXPECT_TRUE(stands(tick({explore("m2", {1, 1000})})));
+  EXPECT_EQ(state_.drive, DriveState::kFailed);
 }
 
 TEST_F(LegTest, AnOrdinaryMissionDrivesAfterAnExploration) {

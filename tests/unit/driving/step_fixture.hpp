@@ -64,6 +64,8 @@ class StepTest : public ::testing::Test {
     inputs.robot_link_up = robot_link_up_;
     inputs.odometry = pose_;
     inputs.leg = leg_;
+    inputs.exploration_over = over_;
+    inputs.why_not_exploring = why_not_exploring_;
     inputs.messages = std::move(messages);
     if (server_talks_) inputs.messages.emplace_back(belief_);
     if (pictures_ && ticks_ % ticks_per_picture_ == 0) {
@@ -174,7 +176,9 @@ class StepTest : public ::testing::Test {
   int ticks_per_picture_ = 2;  // of a camera with ten pictures a second
   std::int64_t seq_ = 1;
   Pose2 pose_;
-  std::optional<Leg> leg_;      // of an exploration
+  std::optional<Leg> leg_;  // of an exploration
+  std::optional<ExplorationOver> over_;
+  std::optional<wire::Reason> why_not_exploring_;
   std::optional<Motion> hand_;  // the rider's, on a joystick; zero: it is at rest
   Milliseconds hand_age_ms_ = 0;
   Milliseconds picture_age_ms_ = 0;  // when it is given

@@ -126,10 +126,10 @@ TEST(ExplorerTest, AFenceKeepsTheWholeBodyOff) {
     return reach.reaches(reach.frame().index(cell));
   };
   ASSERT_TRUE(reaches(0.2));
-  driven.explorer.fence_off({{-1.0, -2.0}, {0.0, -2.0}, {0.0, 2.0}, {-1.0, 2.0}});
+  driven.explorer.set_fences({{{-1.0, -2.0}, {0.0, -2.0}, {0.0, 2.0}, {-1.0, 2.0}}});
   EXPECT_FALSE(reaches(0.2)) << "its side would be over the fence";
   EXPECT_TRUE(reaches(0.6));
-  driven.explorer.fence_off({{0.0, 0.0}, {5.0, 5.0}});
+  driven.explorer.set_fences({{{0.0, 0.0}, {5.0, 5.0}}});
   EXPECT_TRUE(reaches(0.6)) << "two corners fence nothing";
 }
 

@@ -86,7 +86,7 @@ TEST(SurveyTest, WhatIsFencedOffIsNotDriven) {
   std::vector<Eigen::Vector2d> corners_m;
   for (const Eigen::Vector2d& corner_m : std::vector<Eigen::Vector2d>{{4.8, 0.0}, {10.0, 0.0}, {10.0, 4.0}, {4.8, 4.0}})
     corners_m.push_back(position_m(inverse(walker.start) * Pose2{corner_m.x(), corner_m.y(), 0.0}));
-  walker.survey.fence_off(corners_m);
+  walker.survey.set_fences({corners_m});
   int cycles = 0;
   double farthest_m = 0.0;
   while (walker.cycle() && ++cycles < 4000) farthest_m = std::max(farthest_m, walker.truth.x_m);
@@ -144,7 +144,7 @@ TEST(SurveyTest, WithoutAWayHomeItSaysThatItIsStuck) {
   while (walker.now_ms < 12'000) ASSERT_TRUE(walker.cycle());
   // Its start is fenced off.
   std::vector<Eigen::Vector2d> corners_m = {{-0.4, -0.4}, {0.4, -0.4}, {0.4, 0.4}, {-0.4, 0.4}};
-  walker.survey.fence_off(corners_m);
+  walker.survey.set_fences({corners_m});
   while (walker.now_ms < 90'000 && walker.cycle()) {
   }
   EXPECT_EQ(walker.ended, SurveyEnd::kStuck);

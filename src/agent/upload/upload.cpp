@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "agent/run/upload.hpp"
+#include "agent/upload/upload.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/explore/exploring.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "files/write_file.hpp"
+
+namespace homeward::agent {
+namespace {
+
+using wire::ReasonCode;
+
+constexpr std::size_t kSweepsKept = 12;
+constexpr driving::Milliseconds kOdometryKept_ms = 1000;
+
+bool explores(const driving::DrivingState& state) {
+  return state.mission && state.mission->explores && state.drive == wire::DriveState::kDriving;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Exploring>> Exploring::create(ThinkerOptions options, const camera::CameraConfig& camera,
+                                                     const pipeline::Eye& eye) {
+  if (const Status made = files::make_folder(options.folder); !made) return pass_on(made);
+  return std::unique_ptr<Exploring>(new Exploring(std::move(options), camera, eye));
+}
+
+Exploring::Exploring(ThinkerOptions options, const camera::CameraConfig& camera, const pipeline::Eye& eye)
+    : thinker_(std::move(options), camera, eye), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+Exploring::~Exploring() {
+  thread_.request_stop();
+  thread_.join();
+}
+
+std::optional<wire::Reason> Exploring::why_not(const wire::ExploreOrder& order) const {
+  if (order.goes_on && from_.exploration != order.exploration) return wire::Reason{ReasonCode::kExplorationUnknown};
+  if (!from_.uploads) return std::nullopt;
+  return wire::reason_with(ReasonCode::kExplorationNotUploaded, "because", wire::in_words("They are on their way."));
+}
+
+void Exploring::prepare(driving::Inputs& inputs, const driving::DrivingState& state) const {
+  const std::lock_guard lock(mutex_);
+  for (const wire::ServerMessage& message : inputs.messages) {
+    if (const auto* order = std::get_if<wire::ExploreOrder>(&message)) inputs.why_not_exploring = why_not(*order);
+  }
+  if (!explores(state) || state.mission->id != from_.mission) return;
+  inputs.leg = from_.leg;
+  inputs.exploration_over = from_.over;
+}
+
+/// With the mails locked.
+void Exploring::note_orders(const driving::Inputs& inputs, const driving::DrivingState& state) {
+  const bool follows = explores(state);
+  if (followed_ && (!follows || state.mission->id != *followed_)) {
+    followed_.reset();
+    to_.commands.emplace_back(OrderEnded{state.reason});
+  }
+  for (const wire::ServerMessage& message : inputs.messages) {
+    if (const auto* order = std::get_if<wire::ExploreOrder>(&message)) {
+      if (!follows || order->mission != state.mission->id || followed_) continue;
+      followed_ = order->mission;
+      to_.commands.emplace_back(OrderObeyed{*order, state.displaced});
+    } else if (const auto* fences = std::get_if<wire::Fences>(&message)) {
+      to_.commands.emplace_back(*fences);
+    } else if (const auto* finish = std::get_if<wire::Finish>(&message)) {
+      to_.commands.emplace_back(*finish);
+    } else if (std::holds_alternative<wire::Welcome>(message)) {
+      to_.welcomed = true;
+    }
+  }
+}
+
+void Exploring::follow(const driving::Inputs& inputs, const recording::PictureBytes& picture,
+                       const driving::DrivingState& state) {
+  const std::lock_guard lock(mutex_);
+  const std::size_t commands = to_.commands.size();
+  note_orders(inputs, state);
+  to_.link_up = inputs.link_up;
+  const driving::Milliseconds now_ms = inputs.sensors_now_ms.value_or(0);
+  odometry_.emplace_back(now_ms, inputs.odometry);
+  while (now_ms - odometry_.front().first > kOdometryKept_ms) odometry_.pop_front();
+  if (inputs.scan && followed_) {
+    // A sweep is a moment old when it comes; it is of where the robot was then.
+    const auto then = std::ranges::min_element(
+        odometry_, {}, [&](const auto& at) { return std::abs(at.first - inputs.scan->taken_ms); });
+    to_.sweeps.push_back({inputs.scan->taken_ms, inputs.scan->scan, then->second, state.leg.blocked});
+    if (to_.sweeps.size() > kSweepsKept) to_.sweeps.pop_front();
+    new_sweep_ = true;
+  }
+  if (inputs.picture && inputs.picture->appearance && picture && followed_)
+    to_.picture = SeenByCamera{*inputs.picture, picture};
+  if (new_sweep_ || to_.commands.size() != commands) came_.notify_one();
+}
+
+bool Exploring::wants_features() const {
+  const std::lock_guard lock(mutex_);
+  return from_.wants_features;
+}
+
+std::optional<wire::Explored> Exploring::take_report() {
+  const std::lock_guard lock(mutex_);
+  const bool again = std::exchange(to_.welcomed, false);
+  if (from_.report) {
+    told_ = std::exchange(from_.report, std::nullopt);
+  } else if (!again || !told_) {
+    return std::nullopt;
+  }
+  return wire::Explored{*told_};
+}
+
+void Exploring::run(const std::stop_token& stop) {
+  const auto tell = [this](const FromThinker& said) {
+    const std::lock_guard lock(mutex_);
+    auto report = said.report ? said.report : std::exchange(from_.report, std::nullopt);
+    from_ = said;
+    from_.report = std::move(report);
+  };
+  thinker_.take_up_kept(tell, stop);
+  while (!stop.stop_requested()) {
+    ToThinker mail;
+    {
+      std::unique_lock lock(mutex_);
+      constexpr auto kLooksUpEvery = std::chrono::milliseconds(500);
+      came_.wait_for(lock, stop, kLooksUpEvery, [this] { return new_sweep_ || !to_.commands.empty(); });
+      mail.commands = std::exchange(to_.commands, {});
+      mail.picture = std::exchange(to_.picture, std::nullopt);
+      mail.link_up = to_.link_up;
+      mail.sweeps = to_.sweeps;
+      if (!mail.commands.empty()) to_.sweeps.clear();  // odometry may have moved between orders
+      new_sweep_ = false;
+    }
+    thinker_.think(mail, tell, stop);
+  }
+}
+
+}  // namespace homeward::agent

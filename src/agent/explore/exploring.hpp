@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "agent/explore/exploring_mail.hpp"
+#include "agent/explore/thinker.hpp"
+#include "driving/driving_state.hpp"
+#include "driving/inputs.hpp"
+#include "recording/look.hpp"
+#include "wire/link_messages.hpp"
+
+namespace homeward::agent {
+
+/// Leads a robot through explorations for the loop that drives it. It thinks, and writes to disk, in a thread of its
+/// own (Thinker): the loop never waits for it. All but the destructor are called by the loop.
+class Exploring {
+ public:
+  /// `eye` has to outlive it. Errors: kIo (the folder cannot be made).
+  static Result<std::unique_ptr<Exploring>> create(ThinkerOptions options, const camera::CameraConfig& camera,
+                                                   const pipeline::Eye& eye);
+  ~Exploring();
+  Exploring(const Exploring&) = delete;
+  Exploring& operator=(const Exploring&) = delete;
+
+  /// Before a step: adds where to drive, that it is over, and why an order to explore is refused.
+  void prepare(driving::Inputs& inputs, const driving::DrivingState& state) const;
+  /// After it: what was ordered and obeyed, and what the sensors said. `picture`: the bytes of the inputs' picture.
+  void follow(const driving::Inputs& inputs, const recording::PictureBytes& picture,
+              const driving::DrivingState& state);
+  /// Whether a picture with its features is of use now.
+  [[nodiscard]] bool wants_features() const;
+  /// How far it is, where that is new or the server has welcomed the robot since.
+  std::optional<wire::Explored> take_report();
+
+ private:
+  Exploring(ThinkerOptions options, const camera::CameraConfig& camera, const pipeline::Eye& eye);
+  void run(const std::stop_token& stop);
+  void note_orders(const driving::Inputs& inputs, const driving::DrivingState& state);
+  [[nodiscard]] std::optional<wire::Reason> why_not(const wire::ExploreOrder& order) const;
+
+  Thinker thinker_;  // the thread's
+  // The loop's own:
+  std::optional<MissionId> followed_;
+  std::deque<std::pair<driving::Milliseconds, Pose2>> odometry_;  // of the last second
+
+  mutable std::mutex mutex_;  // of the mails
+  std::condition_variable_any came_;
+  ToThinker to_;
+  bool new_sweep_ = false;
+  FromThinker from_;
+  std::optional<wire::ExplorationReport> told_;  // the latest that was sent, for who is welcomed anew
+  std::jthread thread_;                          // last: it uses all of the above
+};
+
+}  // namespace homeward::agent

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "agent/explore/kept_survey.hpp"
+#include "driving/inputs.hpp"
+#include "recording/look.hpp"
+#include "wire/link_messages.hpp"
+
+namespace homeward::agent {
+
+/// An order was obeyed. `displaced`: how often the robot has noticed by then that it was moved without its wheels.
+struct OrderObeyed {
+  wire::ExploreOrder order;
+  int displaced = 0;
+};
+/// What was ordered has ended.
+struct OrderEnded {
+  std::optional<wire::Reason> reason;
+};
+
+using ExploringCommand = std::variant<OrderObeyed, OrderEnded, wire::Fences, wire::Finish>;
+
+/// A picture that was looked at.
+struct SeenByCamera {
+  driving::SeenPicture seen;
+  recording::PictureBytes bytes;
+};
+
+/// What the loop that drives tells the one that thinks.
+struct ToThinker {
+  std::vector<ExploringCommand> commands;
+  std::deque<Sensed> sweeps;  // the latest, the newest last
+  std::optional<SeenByCamera> picture;
+  bool link_up = false;
+  bool welcomed = false;  // since it was asked last
+};
+
+/// And what that one answers. Leg and end are of one mission.
+struct FromThinker {
+  MissionId mission;
+  std::optional<driving::Leg> leg;
+  std::optional<driving::ExplorationOver> over;
+  bool wants_features = false;
+  std::optional<wire::ExplorationReport> report;  // that was not sent
+  // Of the exploration that it can go on with.
+  std::optional<ExplorationId> exploration;
+  bool uploads = false;
+};
+
+/// The sweep that was taken nearest in time to a picture, as from where that was taken. Nothing: none is near enough.
+std::optional<RangeSweep> sweep_of_picture(const std::deque<Sensed>& sweeps, const driving::SeenPicture& picture);
+
+}  // namespace homeward::agent

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/explore/kept_survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "agent/explore/exploration_report.hpp"
+#include "files/read_file.hpp"
+#include "wire/scans_json.hpp"
+
+namespace homeward::agent {
+namespace {
+
+using wire::ExplorationPhase;
+using wire::ReasonCode;
+
+/// As it is kept, in whole millimetres: what is explored with now is what it is after a restart.
+RangeSweep as_kept(const RangeSweep& sweep) {
+  return wire::sweep_from_json(wire::sweep_to_json(sweep)).value_or(sweep);
+}
+
+}  // namespace
+
+Result<KeptSurvey> KeptSurvey::begin(const std::filesystem::path& root, const wire::KeptExploration& kept,
+                                     const camera::CameraConfig& camera, const exploration::ExplorerConfig& config) {
+  auto files = KeptFiles::create(root, kept, camera);
+  if (!files) return pass_on(files);
+  return KeptSurvey(std::move(*files), config);
+}
+
+Result<KeptSurvey> KeptSurvey::restore(KeptFiles files, const pipeline::Eye& eye,
+                                       const exploration::ExplorerConfig& config,
+                                       const std::function<bool(double)>& progress) {
+  KeptSurvey kept(std::move(files), config);
+  const std::size_t pictures = kept.files_.size();
+  for (std::size_t i = 0; i < pictures; ++i) {
+    if (progress && !progress(static_cast<double>(i) / static_cast<double>(pictures))) {
+      return fail(ErrorCode::kConflict, "The program ends.", kept.files_.picture(i).string());
+    }
+    const auto view = kept.files_.view(i);
+    if (!view) return pass_on(view);
+    const auto picture = files::read_picture(kept.files_.picture(i));
+    if (!picture) return pass_on(picture);
+    auto appearance = eye.look(*picture);
+    if (!appearance) return pass_on(appearance);
+    if (view->odometry_moved) kept.survey_.go_on_anew(view->odometry_moved);
+    kept.survey_.take(view->sweep, view->odometry,
+                      std::make_shared<const features::Appearance>(std::move(*appearance)));
+    kept.driven_m_ = view->driven_m;
+    kept.explored_s_ = view->explored_s;
+  }
+  kept.survey_.set_fences(kept.files_.kept().fences_m);
+  kept.phase_ = kept.files_.kept().ended ? ExplorationPhase::kEnded : ExplorationPhase::kPaused;
+  kept.reason_ = kept.files_.kept().reason;
+  return kept;
+}
+
+void KeptSurvey::take_up(const wire::ExploreOrder& order, driving::Milliseconds sensors_ms,
+                         const std::optional<Pose2>& odometry_moved) {
+  survey_.go_on_anew(odometry_moved);
+  if (odometry_moved) odometry_moved_ = odometry_moved_ ? *odometry_moved * *odometry_moved_ : *odometry_moved;
+  survey_.need_not_be_back();
+  if (order.back_after_s) survey_.be_back_by(sensors_ms + std::llround(1000.0 * *order.back_after_s));
+  limit_m_ = order.limit_m;
+  limit_s_ = order.limit_s;
+  phase_ = ExplorationPhase::kExploring;
+  reason_.reset();
+  odometry_.reset();
+  seen_ms_.reset();
+}
+
+std::optional<driving::ExplorationOver> KeptSurvey::over_by(const exploration::SurveyStep& step) const {
+  if ((limit_m_ && driven_m_ >= *limit_m_) || (limit_s_ && explored_s_ >= *limit_s_))
+    return driving::ExplorationOver{false, wire::Reason{ReasonCode::kExplorationLimit}};
+  if (!step.ended) return std::nullopt;
+  switch (*step.ended) {
+    case exploration::SurveyEnd::kBack:
+      return driving::ExplorationOver{false, wire::Reason{ReasonCode::kExplorationBack}};
+    case exploration::SurveyEnd::kStuck:
+      return driving::ExplorationOver{true, wire::Reason{ReasonCode::kExplorationStuck}};
+    case exploration::SurveyEnd::kAllSeen:
+      break;
+  }
+  const auto unreached = static_cast<std::int64_t>(survey_.explorer().put_off());
+  if (unreached == 0) return driving::ExplorationOver{};
+  return driving::ExplorationOver{false, wire::Reason{ReasonCode::kExplorationUnreached, {{"places", unreached}}}};
+}
+
+KeptSurvey::Next KeptSurvey::see(const Sensed& sensed) {
+  if (odometry_) driven_m_ += position_m(inverse(*odometry_) * sensed.odometry).norm();
+  if (seen_ms_) explored_s_ += 0.001 * static_cast<double>(std::max<std::int64_t>(0, sensed.sensors_ms - *seen_ms_));
+  odometry_ = sensed.odometry;
+  seen_ms_ = sensed.sensors_ms;
+  const exploration::SurveyStep step = survey_.go_on(sensed.sweep, sensed.odometry, sensed.blocked, sensed.sensors_ms);
+  Next next{step.goal_m, step.takes_picture, over_by(step)};
+  if (next.over) next.goal_m.reset();
+  return next;
+}
+
+Status KeptSurvey::take(const SensedPicture& picture) {
+  wire::KeptView view;
+  view.t_us = picture.t_us;
+  view.odometry = picture.odometry;
+  view.odometry_moved = odometry_moved_;
+  view.sweep = as_kept(picture.sweep);
+  view.driven_m = driven_m_;
+  view.explored_s = explored_s_;
+  if (Status added = files_.add(*picture.jpeg, view); !added) return added;
+  odometry_moved_.reset();
+  survey_.take(view.sweep, picture.odometry, picture.appearance);
+  return {};
+}
+
+void KeptSurvey::pause(const std::optional<wire::Reason>& reason) {
+  if (phase_ != ExplorationPhase::kExploring) return;
+  phase_ = ExplorationPhase::kPaused;
+  reason_ = reason;
+}
+
+Status KeptSurvey::end(const std::optional<wire::Reason>& reason) {
+  if (Status written = files_.write_tables(survey_.explorer().poses()); !written) return written;
+  wire::KeptExploration kept = files_.kept();
+  kept.ended = true;
+  kept.reason = reason;
+  if (Status written = files_.keep(kept); !written) return written;
+  phase_ = ExplorationPhase::kEnded;
+  reason_ = reason;
+  return {};
+}
+
+Status KeptSurvey::set_fences(const std::vector<wire::Fence>& fences_m) {
+  wire::KeptExploration kept = files_.kept();
+  kept.fences_m = fences_m;
+  if (Status written = files_.keep(kept); !written) return written;
+  survey_.set_fences(fences_m);
+  return {};
+}
+
+Status KeptSurvey::uploaded(const TourId& tour) {
+  wire::KeptExploration kept = files_.kept();
+  kept.tour = tour;
+  if (Status written = files_.keep(kept); !written) return written;
+  phase_ = ExplorationPhase::kUploaded;
+  return {};
+}
+
+bool KeptSurvey::soon_wants_picture() const {
+  constexpr double kSoon = 0.6;  // of the way from picture to picture
+  return !odometry_ || survey_.explorer().views().empty() ||
+         survey_.explorer().since_picture_m(*odometry_) >= kSoon * survey_.explorer().config().picture_every_m;
+}
+
+wire::ExplorationReport KeptSurvey::report() const {
+  wire::ExplorationReport report;
+  report.id = files_.kept().id;
+  report.phase = phase_;
+  report.reason = reason_;
+  report.pictures = static_cast<std::int64_t>(files_.size());
+  report.driven_m = driven_m_;
+  report.explored_s = explored_s_;
+  report.fences_m = files_.kept().fences_m;
+  report.tour = files_.kept().tour;
+  report.uploaded = report.tour ? 1.0 : 0.0;
+  describe(survey_.explorer(), report);
+  if (odometry_ && !survey_.explorer().views().empty()) report.pose = survey_.explorer().floor_from_robot(*odometry_);
+  if (phase_ == ExplorationPhase::kExploring) report.target_m = survey_.target_m();
+  return report;
+}
+
+}  // namespace homeward::agent

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "agent/explore/kept_files.hpp"
+#include "driving/inputs.hpp"
+#include "exploration/survey.hpp"
+#include "features/appearance.hpp"
+#include "pipeline/eye.hpp"
+#include "wire/link_messages.hpp"
+
+namespace homeward::agent {
+
+/// What the sensors say at one moment of an exploration.
+struct Sensed {
+  driving::Milliseconds sensors_ms = 0;
+  RangeSweep sweep;
+  Pose2 odometry;
+  bool blocked = false;  // the robot does not get on to the leg's goal
+};
+
+/// A picture with a sweep of the same moment.
+struct SensedPicture {
+  RangeSweep sweep;  // as from where the picture was taken
+  Pose2 odometry;
+  std::shared_ptr<const features::Appearance> appearance;
+  std::shared_ptr<const std::vector<std::uint8_t>> jpeg;
+  TimeUs t_us = 0;
+};
+
+/// An exploration whose every picture is on disk before it counts: a survey, its files, its limits, and how far it is.
+/// Used by one thread.
+class KeptSurvey {
+ public:
+  /// A new one. Errors: those of KeptFiles::create.
+  static Result<KeptSurvey> begin(const std::filesystem::path& root, const wire::KeptExploration& kept,
+                                  const camera::CameraConfig& camera, const exploration::ExplorerConfig& config);
+  /// As it was kept, picture by picture; `progress` hears the share that was read, and false ends it (kConflict).
+  /// Errors: those of KeptFiles::view, of files::read_picture and of Eye::look.
+  static Result<KeptSurvey> restore(KeptFiles files, const pipeline::Eye& eye,
+                                    const exploration::ExplorerConfig& config,
+                                    const std::function<bool(double)>& progress);
+
+  /// Takes up an order, at `sensors_ms`. `odometry_moved`: Explorer::move_odometry, where odometry says no more where
+  /// it stands.
+  void take_up(const wire::ExploreOrder& order, driving::Milliseconds sensors_ms,
+               const std::optional<Pose2>& odometry_moved);
+  /// What is to be done now; while an order is followed.
+  struct Next {
+    std::optional<Eigen::Vector2d> goal_m;  // odometry's frame
+    bool takes_picture = false;
+    std::optional<driving::ExplorationOver> over;
+  };
+  Next see(const Sensed& sensed);
+  /// The picture that was asked for. Errors: kIo; then it is as if there had been none.
+  Status take(const SensedPicture& picture);
+  /// It stands, and may go on later.
+  void pause(const std::optional<wire::Reason>& reason);
+  /// Nothing more is explored: its tables are written, and its pictures may go to the server. Errors: kIo.
+  Status end(const std::optional<wire::Reason>& reason);
+  /// Errors: kIo; then nothing is changed.
+  Status set_fences(const std::vector<wire::Fence>& fences_m);
+  /// Its pictures are on the server. Errors: kIo.
+  Status uploaded(const TourId& tour);
+
+  [[nodiscard]] const KeptFiles& files() const { return files_; }
+  [[nodiscard]] const exploration::Survey& survey() const { return survey_; }
+  [[nodiscard]] wire::ExplorationReport report() const;
+  /// Whether a picture will be wanted before long: it may take a moment to be ready.
+  [[nodiscard]] bool soon_wants_picture() const;
+
+ private:
+  KeptSurvey(KeptFiles files, const exploration::ExplorerConfig& config)
+      : files_(std::move(files)), survey_(config, {}) {}
+  [[nodiscard]] std::optional<driving::ExplorationOver> over_by(const exploration::SurveyStep& step) const;
+
+  KeptFiles files_;
+  exploration::Survey survey_;
+  wire::ExplorationPhase phase_ = wire::ExplorationPhase::kPaused;
+  std::optional<wire::Reason> reason_;
+  std::optional<double> limit_m_;
+  std::optional<double> limit_s_;
+  std::optional<Pose2> odometry_moved_;  // since the last picture
+  std::optional<Pose2> odometry_;        // the latest
+  std::optional<driving::Milliseconds> seen_ms_;
+  double driven_m_ = 0.0;
+  double explored_s_ = 0.0;
+};
+
+}  // namespace homeward::agent

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "agent/explore/exploring_mail.hpp"
+#include "agent/explore/kept_survey.hpp"
+#include "camera/camera_config.hpp"
+#include "core/result.hpp"
+#include "exploration/explorer.hpp"
+#include "pipeline/eye.hpp"
+
+namespace homeward::agent {
+
+struct ThinkerOptions {
+  std::filesystem::path folder;  // of all explorations
+  exploration::ExplorerConfig explorer;
+  /// Brings a folder with a tour to the server under a name; hears the share that is there. It is tried again after a
+  /// while where it fails.
+  std::function<Result<TourId>(const std::filesystem::path& tour, const std::string& name,
+                               const std::function<void(double)>& progress)>
+      upload;
+  std::function<void(const std::string&)> log;
+};
+
+/// Explores as it is ordered, and brings what was explored to the server: everything about explorations but driving. It
+/// is used by one thread, and may think for a while. What it kept and the server has not got is taken up where it was;
+/// nothing drives before an order comes.
+class Thinker {
+ public:
+  using Tell = std::function<void(const FromThinker&)>;
+
+  /// `eye` has to outlive it.
+  Thinker(ThinkerOptions options, camera::CameraConfig camera, const pipeline::Eye& eye)
+      : options_(std::move(options)), camera_(std::move(camera)), eye_(eye) {}
+
+  /// At first: what is on disk. It tells what it does while it does so.
+  void take_up_kept(const Tell& tell, const std::stop_token& stop);
+  /// What came, one after the other.
+  void think(const ToThinker& mail, const Tell& tell, const std::stop_token& stop);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void obey(const OrderObeyed& obeyed);
+  void obey(const OrderEnded& ended);
+  void obey(const wire::Fences& fences);
+  void obey(const wire::Finish& finish);
+  void explore(const ToThinker& mail);
+  void take_up(const ToThinker& mail);
+  void end_by(const driving::ExplorationOver& over);
+  void broken(const Error& error);
+  void upload(const Tell& tell, const std::stop_token& stop);
+  void tell_now(const Tell& tell, bool forced);
+
+  ThinkerOptions options_;
+  camera::CameraConfig camera_;
+  const pipeline::Eye& eye_;
+  std::optional<KeptSurvey> current_;
+  std::deque<KeptFiles> to_upload_;
+  std::optional<wire::ExploreOrder> order_;  // that is followed
+  bool taken_up_ = false;          // the survey follows it; else it is still looked for where the robot stands
+  int looked_ = 0;                 // pictures by which that was tried
+  bool odometry_goes_on_ = false;  // since the latest picture of `current_`
+  int displaced_ = 0;
+  std::optional<driving::Milliseconds> wants_picture_since_ms_;
+  FromThinker said_;
+  bool changed_ = true;
+  Clock::time_point told_at_;
+  Clock::time_point tried_upload_at_;
+};
+
+}  // namespace homeward::agent

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/kept_exploration_json.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "wire/json_reader.hpp"
+#include "wire/json_write.hpp"
+#include "wire/reason_json.hpp"
+#include "wire/scans_json.hpp"
+
+namespace homeward::wire {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kVersion = 1;
+constexpr std::size_t kLongestId = 100;
+
+json odometry_to_json(const Pose2& pose) {
+  return {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"theta_rad", pose.theta_rad}};
+}
+
+Pose2 read_odometry(ObjectReader& outer, const std::string& key) {
+  constexpr double kFarthest_m = 1e6;
+  constexpr double kMostHeading_rad = 3.2;
+  ObjectReader reader(outer.value(key), outer.path_of(key));
+  const Pose2 pose{reader.number("x_m", -kFarthest_m, kFarthest_m), reader.number("y_m", -kFarthest_m, kFarthest_m),
+                   reader.number("theta_rad", -kMostHeading_rad, kMostHeading_rad)};
+  outer.close(reader);
+  return pose;
+}
+
+}  // namespace
+
+bool can_name_folder(const ExplorationId& id) {
+  const auto fits = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  return !id.empty() && id.str().size() <= kLongestId && std::ranges::all_of(id.str(), fits);
+}
+
+json kept_exploration_to_json(const KeptExploration& kept) {
+  return {{"format", "homeward-kept-exploration"},
+          {"version", kVersion},
+          {"id", kept.id.str()},
+          {"begun_us", kept.begun_us},
+          {"fences", fences_to_json(kept.fences_m)},
+          {"ended", kept.ended},
+          {"reason", reason_to_json(kept.reason)},
+          {"tour", or_null(kept.tour)}};
+}
+
+json kept_view_to_json(const KeptView& view) {
+  return {{"format", "homeward-kept-view"},
+          {"version", kVersion},
+          {"t_us", view.t_us},
+          {"odometry", odometry_to_json(view.odometry)},
+          {"odometry_moved", view.odometry_moved ? odometry_to_json(*view.odometry_moved) : json()},
+          {"sweep", sweep_to_json(view.sweep)},
+          {"driven_m", view.driven_m},
+          {"explored_s", view.explored_s}};
+}
+
+Result<KeptExploration> kept_exploration_from_json(const json& value, const std::string& path) {
+  ObjectReader reader(value, path);
+  reader.format("homeward-kept-exploration", kVersion);
+  KeptExploration kept;
+  kept.id = ExplorationId(reader.text("id", kLongestId));
+  if (!can_name_folder(kept.id)) reader.problem("id", "'id' must be of letters, digits, '_' and '-'.");
+  kept.begun_us = reader.integer("begun_us", 0, std::numeric_limits<std::int64_t>::max());
+  kept.fences_m = reader.take(fences_from_json(reader.value("fences"), reader.path_of("fences")));
+  kept.ended = reader.boolean("ended");
+  if (const json& reason = reader.value("reason"); !reason.is_null())
+    kept.reason = reader.take(reason_from_json(reason, reader.path_of("reason")));
+  if (!reader.value("tour").is_null()) kept.tour = TourId(reader.text("tour", 100));
+  if (const Status status = reader.finish(); !status) return pass_on(status);
+  return kept;
+}
+
+Result<KeptView> kept_view_from_json(const json& value, const std::string& path) {
+  ObjectReader reader(value, path);
+  reader.format("homeward-kept-view", kVersion);
+  KeptView view;
+  view.t_us = reader.integer("t_us", 0, std::numeric_limits<std::int64_t>::max());
+  view.odometry = read_odometry(reader, "odometry");
+  if (!reader.value("odometry_moved").is_null()) view.odometry_moved = read_odometry(reader, "odometry_moved");
+  view.sweep = reader.take(sweep_from_json(reader.value("sweep"), reader.path_of("sweep")));
+  view.driven_m = reader.number("driven_m", 0.0, 1e6);
+  view.explored_s = reader.number("explored_s", 0.0, 1e7);
+  if (const Status status = reader.finish(); !status) return pass_on(status);
+  return view;
+}
+
+}  // namespace homeward::wire
