@@ -14,7 +14,6 @@ using wire::ExplorationPhase;
 using wire::ReasonCode;
 
 constexpr auto kReportEvery = std::chrono::seconds(1);
-constexpr auto kUploadAgainAfter = std::chrono::seconds(10);
 constexpr int kLooksToStandAgain = 5;  // pictures
 constexpr double kLegShare = 0.6;      // of the distance at which a place counts as reached: the leg goes on to that
 
@@ -72,7 +71,7 @@ void Thinker::think(const ToThinker& mail, const Tell& tell, const std::stop_tok
   if (order_ && !said_.over && mail.commands.empty()) explore(mail);
   tell_now(tell, !mail.commands.empty());
   const bool idle = !order_ || said_.over;
-  if (idle && mail.link_up && !to_upload_.empty() && Clock::now() - tried_upload_at_ >= kUploadAgainAfter)
+  if (idle && mail.link_up && !to_upload_.empty() && Clock::now() - tried_upload_at_ >= options_.upload_again_after)
     upload(tell, stop);
 }
 

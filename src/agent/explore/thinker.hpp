@@ -27,6 +27,7 @@ struct ThinkerOptions {
                                const std::function<void(double)>& progress)>
       upload;
   std::function<void(const std::string&)> log;
+  std::chrono::milliseconds upload_again_after{10'000};
 };
 
 /// Explores as it is ordered, and brings what was explored to the server: everything about explorations but driving. It
