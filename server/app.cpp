@@ -14,6 +14,7 @@
 #include "server/routes/account_routes.hpp"
 #include "server/routes/draft_routes.hpp"
 #include "server/routes/evidence_routes.hpp"
+#include "server/routes/exploration_routes.hpp"
 #include "server/routes/inspection_routes.hpp"
 #include "server/routes/job_routes.hpp"
 #include "server/routes/map_routes.hpp"
@@ -117,6 +118,7 @@ struct App::Parts {
     add_inspection_routes(router, inspection);
     add_job_routes(router, jobs);
     add_robot_routes(router, driving, authenticator, *store);
+    add_exploration_routes(router, driving);
     add_socket_routes(router, driving, events, [this] { return snapshot(); });
     add_operation_routes(router, metrics, *store);
     metrics.gauge("homeward_robots_online", "Robots with a link", [this] { return double(driving.online()); });

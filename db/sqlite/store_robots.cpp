@@ -49,6 +49,10 @@ wire::MissionView mission_of(SQLite::Statement& row) {
   mission.by = text(row, 13);
   mission.arrival_probability = optional_number(row, 14);
   mission.ended_us = optional_integer(row, 15);
+  const std::optional<wire::MissionKind> kind = wire::mission_kind(text(row, 16));
+  if (!kind) refuse(ErrorCode::kCorruptFile, "The database holds an unknown kind.", "missions/" + mission.id.str());
+  mission.kind = *kind;
+  if (const auto exploration = optional_text(row, 17)) mission.exploration = ExplorationId(*exploration);
   return mission;
 }
 
@@ -58,10 +62,11 @@ std::optional<std::string> reason_column(const wire::MissionView& mission) {
 
 constexpr const char* kOneMission =
     "SELECT id, robot, map, revision, destination, place, state, reason, epoch, seq, path, path_index, created_us, by, "
-    "arrival_probability, ended_us FROM missions WHERE id = ?";
+    "arrival_probability, ended_us, kind, exploration FROM missions WHERE id = ?";
 constexpr const char* kMissionsOfRobot =
     "SELECT id, robot, map, revision, destination, place, state, reason, epoch, seq, path, path_index, created_us, by, "
-    "arrival_probability, ended_us FROM missions WHERE robot = ? ORDER BY created_us DESC, rowid DESC LIMIT ?";
+    "arrival_probability, ended_us, kind, exploration FROM missions WHERE robot = ? ORDER BY created_us DESC, rowid "
+    "DESC LIMIT ?";
 
 [[noreturn]] void no_such_mission(const MissionId& id) {
   refuse(ErrorCode::kNotFound, "There is no mission with this id.", "missions/" + id.str());
@@ -139,11 +144,11 @@ Result<wire::MissionView> SqliteStore::add_mission(wire::MissionView mission) {
     if (mission.id.empty()) mission.id = MissionId(random_id());
     json path = json::array();
     for (const PlaceId& place : mission.path) path.push_back(place.str());
-    execute(database, "INSERT INTO missions VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", mission.id,
+    execute(database, "INSERT INTO missions VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", mission.id,
             mission.robot, mission.map, mission.revision, mission.destination, mission.place,
             std::string(wire::mission_state_name(mission.state)), reason_column(mission), mission.epoch, mission.seq,
             path.dump(), mission.path_index, mission.created_us, mission.by, mission.arrival_probability,
-            mission.ended_us);
+            mission.ended_us, std::string(wire::mission_kind_name(mission.kind)), mission.exploration);
     return mission;
   });
 }

@@ -52,7 +52,8 @@ bool same_places(const map::TopologicalMap& a, const map::TopologicalMap& b) {
 
 void Driving::begin_looking(const Unit& unit) {
   if (unit->looking || !unit->waiting_frame) return;
-  if (!unit->map) {
+  // One that explores drives by what it sees itself; where it is on its map is looked for when it is done.
+  if (!unit->map || unit->explores()) {
     unit->waiting_frame.reset();
     return;
   }

@@ -89,6 +89,25 @@ class Driving : public LinkListener {
   /// Passes it on; the first answer counts. Errors: kNotFound, kLeaseHeld, kRobotOffline, kConflict (nothing is asked,
   /// another question, or somebody has answered).
   Result<wire::MissionView> answer(const RobotId& id, const MissionId& mission, const GivenAnswer& given);
+  // Explorations: missions of a robot that maps a building by itself.
+  struct ExplorationRequest {
+    std::string lease_id;
+    std::optional<ExplorationId> exploration;  // to go on with; nothing: a new one
+    std::optional<double> limit_m;             // driven altogether
+    std::optional<double> limit_s;             // explored altogether
+    std::optional<double> back_after_s;        // from now on, until it is back where it began
+    std::string by;
+  };
+  /// Errors: kNotFound, kLeaseHeld, kRobotOffline, kConflict (it does not explore, or has no exploration of that id
+  /// that could go on).
+  Result<wire::MissionView> start_exploration(const RobotId& id, const ExplorationRequest& request);
+  /// How far it is, as the robot told last. Errors: kNotFound (also: it told of none since it connected).
+  Result<std::shared_ptr<const wire::ExplorationReport>> exploration(const RobotId& id);
+  /// What it keeps off from now on, in place of all fences before. Errors: kNotFound, kLeaseHeld, kRobotOffline.
+  Status set_fences(const RobotId& id, const std::string& lease_id, const std::vector<wire::Fence>& fences_m);
+  /// Ends a paused one with what it has. Errors: kNotFound, kLeaseHeld, kRobotOffline, kConflict (it explores just
+  /// now).
+  Status finish_exploration(const RobotId& id, const std::string& lease_id);
   /// Anyone may stop, and say why in `words` or not (empty). Does not wait for the disk. Returns the stop's id.
   Result<std::string> stop(const RobotId& id, const std::string& by, const std::string& words);
 
@@ -115,11 +134,15 @@ class Driving : public LinkListener {
   bool lease_lives(const RobotUnit& unit, SteadyTime now) const;
   void tell(const RobotUnit& unit);
   void end_mission(RobotUnit& unit, wire::MissionState state, std::optional<wire::Reason> reason);
+  // A mission of the robot's takes the place of the one that is under way; gives the number that its order goes by.
+  wire::Order set_off(RobotUnit& unit, wire::MissionView& mission, SteadyTime ends);
   void stop_robot(RobotUnit& unit, const std::string& stop_id, const wire::Reason& reason, const std::string& by);
   void begin_looking(const Unit& unit);
 
   void received_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello);
   void received_status(const Unit& unit, wire::AgentStatus status);
+  // With the unit locked: its mission failed, as it told just now; what may be tried after that, or the end.
+  void received_failure(const Unit& unit, const wire::Reason& why, bool lifted);
   // After one more picture of a robot that was lifted, or is not known where after a drive that failed; with the unit
   // locked: sends it on from where it stands, once that has shown.
   void go_on_after_looking(const Unit& unit);
@@ -143,6 +166,8 @@ class Driving : public LinkListener {
   // Tells the robot how probable its start is. Errors: kLost where it is unsure and could not find out.
   static Status set_start(const Start& start, wire::MissionOrder& order);
   void keep(const wire::MissionView& mission);
+  // One that was added, and that something forbids by now.
+  void keep_refused(wire::MissionView mission, const Error& error);
   // Of way_counts.cpp. Counts the way to the place that it leaves behind, where it has come from the one before:
   // whoever finds itself elsewhere on its path has not driven what lies between. With the unit locked, before it moves
   // on.

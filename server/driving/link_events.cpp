@@ -59,6 +59,9 @@ void Driving::received(const std::shared_ptr<AgentLink>& link, wire::AgentMessag
     received_status(*found, std::move(*status));
   } else if (auto* refusal = std::get_if<wire::MissionRefused>(&message)) {
     received_refusal(unit, *refusal);
+  } else if (auto* explored = std::get_if<wire::Explored>(&message)) {
+    unit.exploration = std::make_shared<const wire::ExplorationReport>(std::move(explored->exploration));
+    events_.publish(wire::ExplorationView{unit.id, *unit.exploration});
   } else if (auto* stopped = std::get_if<wire::Stopped>(&message)) {
     spdlog::info("robot {} has stopped for stop {}", unit.id.str(), stopped->stop_id);
   }
@@ -83,6 +86,7 @@ void Driving::received_hello(const Unit& unit, const std::shared_ptr<AgentLink>&
     unit->welcomed = false;
     unit->hello = std::move(hello);
     unit->status.reset();
+    unit->exploration.reset();
     unit->belief.reset();
     unit->waiting_frame.reset();
   }
@@ -147,23 +151,7 @@ void Driving::received_status(const Unit& found, wire::AgentStatus status) {
         end_mission(unit, wire::MissionState::kArrived, std::nullopt);
         break;
       case wire::DriveState::kFailed:
-        if (lifted && unit.online() && unit.lease) {
-          unit.lifted = true;
-          unit.looks_since = unit.status_at;
-          unit.failed_because = why_failed(now);
-          mission.reason = now.reason;
-          keep(mission);
-        } else if (count_way(mission, index, false); !begin_detour(found, why_failed(now))) {
-          if (unit.online() && unit.lease && !unit.known_start(*unit.status_at)) {
-            unit.looks_since = unit.status_at;  // whoever stands before the camera may go on
-            unit.looks = 0;
-            unit.failed_because = why_failed(now);
-            mission.reason = wire::reason_with(ReasonCode::kPlaceLookedFor, "because", unit.failed_because);
-            keep(mission);
-          } else {
-            end_mission(unit, wire::MissionState::kFailed, why_failed(now));
-          }
-        }
+        received_failure(found, why_failed(now), lifted);
         break;
       case wire::DriveState::kStopped:
         end_mission(unit, wire::MissionState::kStopped, now.reason.value_or(wire::Reason{ReasonCode::kRobotStopped}));
@@ -186,6 +174,32 @@ void Driving::received_status(const Unit& found, wire::AgentStatus status) {
   tell(unit);
 }
 
+void Driving::received_failure(const Unit& found, const wire::Reason& why, bool lifted) {
+  RobotUnit& unit = *found;
+  wire::MissionView& mission = *unit.mission;
+  // One that explores chooses its ways by itself, and has tried all that it knows.
+  if (unit.explores()) return end_mission(unit, wire::MissionState::kFailed, why);
+  if (lifted && unit.online() && unit.lease) {
+    unit.lifted = true;
+    unit.looks_since = unit.status_at;
+    unit.failed_because = why;
+    mission.reason = unit.status->reason;
+    keep(mission);
+    return;
+  }
+  count_way(mission, mission.path_index, false);
+  if (begin_detour(found, why)) return;
+  if (unit.online() && unit.lease && !unit.known_start(*unit.status_at)) {
+    unit.looks_since = unit.status_at;  // whoever stands before the camera may go on
+    unit.looks = 0;
+    unit.failed_because = why;
+    mission.reason = wire::reason_with(ReasonCode::kPlaceLookedFor, "because", unit.failed_because);
+    keep(mission);
+  } else {
+    end_mission(unit, wire::MissionState::kFailed, why);
+  }
+}
+
 void Driving::received_refusal(RobotUnit& unit, const wire::MissionRefused& refusal) {
   if (!unit.under_way || unit.mission->id != refusal.mission) return;
   end_mission(unit, wire::MissionState::kRefused, refusal.reason);
@@ -203,6 +217,7 @@ void Driving::closed(const std::shared_ptr<AgentLink>& link) {
   unit.welcomed = false;
   if (unit.under_way) end_mission(unit, wire::MissionState::kStopped, wire::Reason{ReasonCode::kRobotGone});
   unit.status.reset();
+  unit.exploration.reset();
   unit.belief.reset();
   unit.waiting_frame.reset();
   unit.gone_at = clock_.steady();

@@ -21,7 +21,8 @@ using wire::ReasonCode;
 constexpr std::chrono::milliseconds kHeardWithin{wire::kHeardWithin_ms};
 constexpr std::chrono::milliseconds kSilentTooLong{wire::kLinkSilence_ms};
 constexpr std::chrono::seconds kTakeUpWithin{10};
-constexpr std::chrono::seconds kLooksWithin{15};  // where a robot stands that was lifted, or lost
+constexpr std::chrono::seconds kExplorationTakeUpWithin{180};  // it may have to read first what it saw before
+constexpr std::chrono::seconds kLooksWithin{15};               // where a robot stands that was lifted, or lost
 
 std::string where_of(const RobotUnit& unit) { return "robots/" + unit.id.str(); }
 
@@ -128,39 +129,32 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
     status = fail(ErrorCode::kConflict, "The robot was given another map just now.", where_of(unit));
   }
   if (!status) {
-    mission.state = wire::MissionState::kRefused;
-    mission.ended_us = clock_.wall_us();
-    mission.reason = wire::reason_of(status.error());
-    keep(mission);
+    keep_refused(std::move(mission), status.error());
     return pass_on(status);
   }
-  if (unit.under_way) end_mission(unit, wire::MissionState::kStopped, wire::Reason{ReasonCode::kAnotherMission});
-  mission.epoch = unit.epoch;
-  mission.seq = ++unit.seq;
-  planned->order.order = {unit.epoch, unit.seq};
+  planned->order.order = set_off(unit, mission, end_of(planned->length_m, now));
   planned->order.speed_limit_mps = std::min(wire::kSpeedLimit_mps, unit.hello.max_speed_mps);
-  unit.mission = mission;
-  unit.under_way = true;
-  unit.closed.clear();
-  unit.detours = 0;
-  unit.restarts = 0;
-  unit.unsure_restarts = 0;
-  unit.fails_again = false;
-  unit.looking_for_detour = false;
-  unit.looks_since.reset();
-  unit.lifted = false;
-  unit.sights.clear();
-  unit.answered.reset();
-  unit.counted_to = 0;
-  unit.stepped_to = 0;
-  unit.mission_at = now;
-  unit.mission_ends = end_of(planned->length_m, now);
   unit.link->send(planned->order);
   spdlog::info("robot {} mission {} to {} over {} places, by {}", id.str(), mission.id.str(), mission.place.str(),
                mission.path.size(), mission.by);
   keep(mission);
   tell(unit);
   return mission;
+}
+
+wire::Order Driving::set_off(RobotUnit& unit, wire::MissionView& mission, SteadyTime ends) {
+  if (unit.under_way) end_mission(unit, wire::MissionState::kStopped, wire::Reason{ReasonCode::kAnotherMission});
+  mission.epoch = unit.epoch;
+  mission.seq = ++unit.seq;
+  unit.set_off(mission, clock_.steady(), ends);
+  return {unit.epoch, unit.seq};
+}
+
+void Driving::keep_refused(wire::MissionView mission, const Error& error) {
+  mission.state = wire::MissionState::kRefused;
+  mission.ended_us = clock_.wall_us();
+  mission.reason = wire::reason_of(error);
+  keep(mission);
 }
 
 Result<wire::MissionView> Driving::mission(const RobotId& id, const MissionId& mission) {
@@ -188,7 +182,7 @@ void Driving::end_mission(RobotUnit& unit, wire::MissionState state, std::option
                reason ? ": " : "", reason ? wire::english(*reason) : "");
   if (reason) unit.mission->reason = std::move(reason);
   keep(*unit.mission);
-  if (state == wire::MissionState::kArrived) hand_over_sights(unit);
+  if (state == wire::MissionState::kArrived && !unit.sent_to_explore()) hand_over_sights(unit);
   unit.sights.clear();
 }
 
@@ -242,7 +236,8 @@ void Driving::tick(SteadyTime now) {
       tell(unit);
       continue;
     }
-    if (unit.mission->state == wire::MissionState::kAccepted && now - unit.mission_at > kTakeUpWithin) {
+    const auto take_up_within = unit.explores() ? kExplorationTakeUpWithin : kTakeUpWithin;
+    if (unit.mission->state == wire::MissionState::kAccepted && now - unit.mission_at > take_up_within) {
       stop_robot(unit, "", {ReasonCode::kNotTakenUp}, "server");
       tell(unit);
       continue;

@@ -58,7 +58,8 @@ struct RobotUnit {
   wire::Hello hello;
   std::optional<wire::AgentStatus> status;
   std::optional<SteadyTime> status_at;
-  std::shared_ptr<const wire::Frame> frame;  // the newest one, for people
+  std::shared_ptr<const wire::Frame> frame;                    // the newest one, for people
+  std::shared_ptr<const wire::ExplorationReport> exploration;  // how far it is, as the robot told since it connected
 
   bool looking = false;                              // a worker has a frame of this robot in hand
   std::shared_ptr<const wire::Frame> waiting_frame;  // the newest one that was not looked at
@@ -106,6 +107,28 @@ struct RobotUnit {
     restart_tracking = true;
     said_places.clear();
   }
+  /// A mission begins that ends at `ends` at the latest; nothing of the one before counts for it.
+  void set_off(wire::MissionView begun, SteadyTime now, SteadyTime ends) {
+    mission = std::move(begun);
+    under_way = true;
+    closed.clear();
+    detours = 0;
+    restarts = 0;
+    unsure_restarts = 0;
+    fails_again = false;
+    looking_for_detour = false;
+    looks_since.reset();
+    lifted = false;
+    sights.clear();
+    answered.reset();
+    counted_to = 0;
+    stepped_to = 0;
+    mission_at = now;
+    mission_ends = ends;
+  }
+  /// Its mission, under way or over, is one that maps the building.
+  [[nodiscard]] bool sent_to_explore() const { return mission && mission->kind == wire::MissionKind::kExplore; }
+  [[nodiscard]] bool explores() const { return under_way && sent_to_explore(); }
   [[nodiscard]] bool online() const { return link != nullptr && welcomed; }
   /// Whether this lease is the one that lives. Errors: kLeaseHeld.
   [[nodiscard]] Status holds_lease(const std::string& lease_id, SteadyTime now) const {
@@ -115,10 +138,13 @@ struct RobotUnit {
                 lives ? lease->holder + " is driving." : "Take the lease first; this one is over.",
                 "robots/" + id.str() + "/lease");
   }
+  /// What it told last is of its mission, and that is a drive.
+  [[nodiscard]] bool tells_of_drive() const {
+    return status && mission && !sent_to_explore() && status->mission == mission->id;
+  }
   /// What the robot asks on its mission. Nothing: it asks nothing, or somebody has answered.
   [[nodiscard]] std::optional<wire::QuestionReport> open_question() const {
-    if (!under_way || !status || status->state != wire::DriveState::kDriving || status->mission != mission->id)
-      return std::nullopt;
+    if (!under_way || !tells_of_drive() || status->state != wire::DriveState::kDriving) return std::nullopt;
     return status->question && status->question->number != answered ? status->question : std::nullopt;
   }
   /// The belief is of now, lost or not.
@@ -135,7 +161,7 @@ struct RobotUnit {
     if (belief) {
       for (const wire::PlaceShare& share : belief->top) places.push_back(share.place);
     }
-    if (status && mission && status->mission == mission->id) {
+    if (tells_of_drive()) {
       if (status->estimate) places.push_back(status->estimate->place);
       for (const wire::EstimateReport& possible : status->possible_places) places.push_back(possible.place);
     }
@@ -143,8 +169,8 @@ struct RobotUnit {
   }
   /// Where a robot takes itself to be that is under way.
   [[nodiscard]] std::optional<wire::EstimateReport> driving_estimate(SteadyTime now) const {
-    const bool drives = under_way && status && status_at && now - *status_at <= kBeliefFresh &&
-                        status->mission == mission->id && status->state == wire::DriveState::kDriving;
+    const bool drives = under_way && tells_of_drive() && status_at && now - *status_at <= kBeliefFresh &&
+                        status->state == wire::DriveState::kDriving;
     return drives ? status->estimate : std::nullopt;
   }
   /// Where a robot may be sent on from by itself after a drive that failed: its own estimate as it stopped, which it
@@ -153,8 +179,7 @@ struct RobotUnit {
   /// of one that was lifted, the belief's.
   [[nodiscard]] std::optional<Start> known_start(SteadyTime now) const {
     constexpr double kEven = 0.5;  // a robot at odds with the belief says no more of its estimate
-    const bool fresh =
-        status && status_at && now - *status_at <= kBeliefFresh && mission && status->mission == mission->id;
+    const bool fresh = tells_of_drive() && status_at && now - *status_at <= kBeliefFresh;
     const bool tells = fresh && status->estimate;
     const bool at_odds = tells && status->estimate->probability <= kEven;
     const bool believes = believes_now(now) && !belief->lost;

@@ -113,6 +113,7 @@ Status Driving::remove(const RobotId& id) {
     units_.erase(id);
   }
   const std::scoped_lock lock((*unit)->mutex);
+  (*unit)->exploration.reset();
   if ((*unit)->under_way) stop_robot(**unit, "", {wire::ReasonCode::kRobotGone}, "server");  // it was sent off just now
   if ((*unit)->link) (*unit)->link->close(kClosePolicy, "this robot was removed");
   return {};

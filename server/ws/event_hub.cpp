@@ -18,6 +18,7 @@ std::string key_of(const wire::Event& event) {
     // One key, so that a draft that goes is told last.
     std::string operator()(const wire::DraftView& draft) const { return "draft/" + draft.id.str(); }
     std::string operator()(const wire::DraftGone& gone) const { return "draft/" + gone.draft.str(); }
+    std::string operator()(const wire::ExplorationView& view) const { return "exploration/" + view.robot.str(); }
     std::string operator()(const wire::Heartbeat&) const { return "heartbeat"; }
   };
   return std::visit(Key{}, event);

@@ -29,6 +29,7 @@ class FakeAgent {
     hello.robot_name = "chair";
     hello.session = session;
     hello.camera = small_panorama_camera();
+    hello.explores = explores;
     say(hello);
     latest = idle();
   }
@@ -137,6 +138,7 @@ class FakeAgent {
 
   SocketClient socket;
   std::optional<wire::AgentStatus> latest;  // told again while it waits
+  bool explores = false;                    // as its hello says
   // What it states in each status from now on.
   std::optional<double> arrival_probability;
   std::optional<wire::EstimateReport> estimate;

@@ -59,6 +59,28 @@ TEST_F(StoreDurability, ASecondProcessIsRefused) {
   EXPECT_EQ(open_sqlite_store(folder()).error().code, ErrorCode::kConflict);
 }
 
+TEST_F(StoreDurability, AnExplorationComesBackAsItWentIn) {
+  wire::MissionView mission;
+  mission.robot = new_robot();
+  mission.kind = wire::MissionKind::kExplore;
+  mission.exploration = ExplorationId("e1");
+  mission.created_us = 1;
+  mission.by = "ines";
+  mission = store().add_mission(mission).value();
+  mission.state = wire::MissionState::kFailed;
+  mission.reason = wire::Reason{wire::ReasonCode::kExplorationStuck};
+  mission.ended_us = 9;
+  ASSERT_TRUE(store().update_mission(mission));
+  open();
+  const wire::MissionView found = store().mission(mission.id).value();
+  EXPECT_EQ(wire::mission_to_json(found), wire::mission_to_json(mission));
+  EXPECT_EQ(found.kind, wire::MissionKind::kExplore);
+  EXPECT_EQ(found.exploration, ExplorationId("e1"));
+  EXPECT_TRUE(found.map.empty());
+  EXPECT_TRUE(found.place.empty());
+  EXPECT_EQ(store().missions(mission.robot)->front().exploration, ExplorationId("e1"));
+}
+
 TEST_F(StoreDurability, MissionsUnderWayAreStoppedByARestart) {
   wire::MissionView mission;
   mission.robot = new_robot();
@@ -100,7 +122,7 @@ TEST_F(StoreDurability, AnEmptyFileBecomesADatabaseAndANewerOneIsRefused) {
   close();
   {
     SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
-    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 12);
+    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 13);
     EXPECT_EQ(database.execAndGet("PRAGMA journal_mode").getString(), "wal");
     database.exec("PRAGMA user_version = 999");
   }
@@ -170,6 +192,8 @@ TEST_F(StoreDurability, AnOlderDatabaseKeepsItsMissionsAndToursAndKnowsNotHowSur
   EXPECT_EQ(mission.state, wire::MissionState::kArrived);
   EXPECT_EQ(mission.by, "anna");
   EXPECT_EQ(mission.arrival_probability, std::nullopt);
+  EXPECT_EQ(mission.kind, wire::MissionKind::kDrive);
+  EXPECT_EQ(mission.exploration, std::nullopt);
   mission.arrival_probability = 0.5;
   ASSERT_TRUE(store().update_mission(mission));
   EXPECT_EQ(store().mission(MissionId("x"))->arrival_probability, 0.5);
