@@ -147,7 +147,9 @@ Result<std::unique_ptr<driving::Driver>> make_simulator_driver(const SimulatorDr
   if (!loaded) return pass_on(loaded);
   auto world = std::make_unique<sim::LitWorld>(std::move(*loaded));
   Pose2 start = world->world().start;
-  if (!config.start_room.empty()) {
+  if (config.start) {
+    start = *config.start;
+  } else if (!config.start_room.empty()) {
     const auto point = sim::room_point(world->world(), config.start_room);
     if (!point) return pass_on(point);
     start = {point->x(), point->y(), 0.0};

@@ -17,6 +17,7 @@ struct SimulatorDriverConfig {
   std::string robot = "disc";    // or "chair"
   std::string ranges = "laser";  // or "ultrasound"
   std::string start_room;        // empty: the world's start
+  std::optional<Pose2> start;    // where it stands at first, in place of both
   std::string camera = "hyperbolic_mirror";
   std::string truth_file;  // empty: none. Else JSON lines with the true pose, the command, collisions so far
   int people = 0;

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "agent/run/program.hpp"
 #include "scenario/simulator_driver.hpp"
@@ -23,6 +24,13 @@ void add_simulator_options(CLI::App& command, scenario::SimulatorDriverConfig& s
       ->check(CLI::IsMember({"laser", "ultrasound"}))
       ->capture_default_str();
   command.add_option("--start-room", simulator.start_room, "Simulator: room to start in");
+  command
+      .add_option_function<std::vector<double>>(
+          "--start-pose",
+          [&simulator](const std::vector<double>& pose) { simulator.start = Pose2{pose[0], pose[1], pose[2]}; },
+          "Simulator: x and y in metres of the world and heading in radians to start at, in place of a room")
+      ->expected(3)
+      ->excludes("--start-room");
   command.add_option("--people", simulator.people, "Simulator: people who walk about")->check(CLI::Range(0, 50));
   command.add_option("--seed", simulator.seed, "Simulator: seed of noise and people");
   command.add_option("--truth-file", simulator.truth_file, "Simulator: append true poses to this file");
