@@ -2,7 +2,7 @@
 import type { Exploration, Robot } from '../../api/types';
 import { count } from '../../lib/words';
 import { reasonSentence } from '../../words/reasons';
-import { exploresNow } from '../go/journey';
+import { exploresNow, isActive } from '../go/journey';
 
 export type Tone = 'good' | 'warn' | 'bad';
 
@@ -82,4 +82,13 @@ export function planWords(exploration: Exploration | null, stage: Stage, name: s
   if (!floor) parts.push('Nothing of the floor was seen yet.');
   if (!pose) parts.push('Where the robot is, is not known.');
   return `Plan of the building. ${parts.join(' ')}`;
+}
+
+/** Why the robot cannot be told anything just now; null when it can. */
+export function barrierOf(robot: Robot, connected: boolean): string | null {
+  if (!connected) return 'The house server is out of reach, so the robot cannot be told anything.';
+  if (!robot.online) return `${robot.name} is not connected, so it cannot be told anything.`;
+  if (robot.mission?.kind === 'drive' && isActive(robot.mission.state))
+    return `${robot.name} is on its way to a place. Stop it first.`;
+  return null;
 }

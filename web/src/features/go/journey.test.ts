@@ -127,7 +127,9 @@ describe('a robot that maps the building by itself', () => {
     const journey = journeyOf(away, undefined);
     expect(journey).toMatchObject({ explores: true, phase: 'driving', place: null });
     expect(wishOf(journey, target)).toBe('diversion');
-    expect(hindrance(away, true, true)).toBe('Chair maps the building by itself. Stop it before you send it.');
+    expect(hindrance(away, true, true)).toBe(
+      'Chair maps the building by itself. Stop it before you send it.',
+    );
     expect(hindrance({ ...away, mission: { ...exploring, state: 'stopped' } }, true, true)).toBeNull();
   });
 });
