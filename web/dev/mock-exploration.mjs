@@ -9,7 +9,7 @@ const kCorner = [-2.5, -4]; // of the house, in the frame in which the robot beg
 const kSize = [140, 100]; // cells
 const kReach_m = 3.2; // of the laser
 const kCover_m = 1.1; // around a picture
-const kStands = 12; // pictures after which a robot that waits for its test goes no further
+const kStands = 12; // pictures after which a robot that waits for its test goes no further; tests may set `stands` of the house
 
 /** Walls and furniture in metres: left, bottom, right, top. */
 const kThings = [
@@ -93,7 +93,7 @@ function look(cells, [x, y]) {
       const at = [x + far * dx, y + far * dy];
       const [column, row] = cellOf(at);
       const cell = row * kSize[0] + column;
-      const thing = isThing(...at);
+      const thing = isThing(...[column, row].map((n, axis) => kCorner[axis] + (n + 0.5) * kCell_m));
       cells[cell] = thing ? 2 : far < kCover_m ? 3 : Math.max(cells[cell], 1);
       if (thing) break;
     }
@@ -159,7 +159,7 @@ function step(house, robot, one) {
     Object.assign(report, { phase: 'paused', reason: robot.mission.reason, target: null });
   else if (!(robot.lease?.until_ms > Date.now()))
     house.halt(robot, { code: 'nobody_watching', parameters: {} });
-  else if (house.goes_on || report.pictures < kStands) drive(house, robot, one);
+  else if (house.goes_on || report.pictures < (house.stands ?? kStands)) drive(house, robot, one);
   tell(house, robot, one);
 }
 

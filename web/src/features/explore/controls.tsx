@@ -125,7 +125,7 @@ function Paused({ robot, exploration, barrier }: PausedProps) {
           about="now"
           question={`Make a tour of ${count(exploration.pictures, 'picture')}? It cannot go on after that.`}
           disabled={off}
-          plain
+          leave="Not yet"
           onSure={() => orders.give((lease_id) => calls.finishExploration(robot.id, lease_id))}
         />
       </div>

@@ -45,7 +45,7 @@ function OfRobot({ robot }: { robot: Robot }) {
   const stage = stageOf(robot, exploration);
   return (
     <>
-      <h1>{robot.name} maps a building</h1>
+      <h1>{stage === 'none' ? `Let ${robot.name} map a building` : `${robot.name} maps a building`}</h1>
       <p class="hidden-text" role="status">
         {stage !== 'none' && stageWords(stage, robot.name).title}
       </p>
@@ -63,7 +63,7 @@ function OfRobot({ robot }: { robot: Robot }) {
         />
       )}
       {stage === 'uploaded' && mayOrder && (
-        <Section title="Let it map a building once more">
+        <Section title="Let it map a building once more" heading={false}>
           <Intro robot={robot} barrier={barrier} mayOrder />
         </Section>
       )}
@@ -106,7 +106,7 @@ function Watching({ robot, exploration, stage, barrier, mayOrder }: WatchingProp
           words={planWords(exploration, stage, robot.name)}
           onTap={drawing ? handle.add : null}
         />
-        <PlanLegend />
+        {!drawing && <PlanLegend />}
       </section>
       {fenced && (mayOrder || handle.fences.length > 0) && (
         <FencesCard

@@ -75,10 +75,12 @@ export function FencesCard({ robot, exploration, handle, barrier, mayOrder }: Pr
   return (
     <section class="card stack explore-fences" aria-labelledby="explore-fences">
       <h2 id="explore-fences">Fences</h2>
-      <p class="soft">
-        {robot.name} chooses no way over a fence: put one around stairs and tables. Going round things may
-        lead over it for a moment, so block stairs too.
-      </p>
+      {drawn === null && (
+        <p class="soft">
+          {robot.name} chooses no way over a fence: put one around stairs and tables. Going round things may
+          lead over it for a moment, so block stairs too.
+        </p>
+      )}
       {fences.length > 0 && (
         <ol class="list">
           {fences.map((fence, n) => (
@@ -160,20 +162,6 @@ function Drawing({ drawn, exploration, handle, off }: DrawingProps) {
       <div class="row">
         <button
           type="button"
-          class="button"
-          disabled={!pose}
-          onClick={() => {
-            if (pose) add([pose.x_m, pose.y_m]);
-          }}
-        >
-          Corner where the robot stands
-        </button>
-        {!pose && <span class="soft small">Where it stands is not known.</span>}
-      </div>
-      <TypedCorner onAdd={add} />
-      <div class="row">
-        <button
-          type="button"
           class="button main"
           disabled={off || left > 0}
           onClick={() => set([...fences, drawn])}
@@ -192,6 +180,20 @@ function Drawing({ drawn, exploration, handle, off }: DrawingProps) {
           Cancel
         </button>
       </div>
+      <div class="row">
+        <button
+          type="button"
+          class="button"
+          disabled={!pose}
+          onClick={() => {
+            if (pose) add([pose.x_m, pose.y_m]);
+          }}
+        >
+          Corner where the robot stands
+        </button>
+        {!pose && <span class="soft small">Where it stands is not known.</span>}
+      </div>
+      <TypedCorner onAdd={add} />
     </div>
   );
 }

@@ -53,6 +53,8 @@ describe('words of an exploration', () => {
     const moved = { code: 'robot_moved_since', parameters: {} };
     expect(whyWords(robot(mission('failed', moved)), paused)).toHaveLength(2);
     expect(whyWords(robot(mission('driving')), exploration)).toEqual([]);
+    const over: Exploration = { ...exploration, phase: 'uploaded' };
+    expect(whyWords(robot(mission('stopped', stopped)), over)).toEqual([]);
     const limit = { code: 'exploration_limit', parameters: {} };
     expect(whyWords(robot(null), { ...exploration, reason: limit })).toEqual([
       'The limit of way or time is reached.',

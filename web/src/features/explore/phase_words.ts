@@ -43,7 +43,9 @@ export function stageWords(stage: Exclude<Stage, 'none'>, name: string): Words {
 /** Why it is so, as sentences, each once: what the exploration says, and how the drive ended that was to go on with it. */
 export function whyWords(robot: Robot, exploration: Exploration | null): string[] {
   const { mission } = robot;
-  const ended = mission?.kind === 'explore' && !exploresNow(robot) ? mission : null;
+  // What is over says itself why; how its last drive ended is no news then.
+  const over = exploration?.phase === 'ended' || exploration?.phase === 'uploaded';
+  const ended = mission?.kind === 'explore' && !exploresNow(robot) && !over ? mission : null;
   const own = ended && (exploration === null || ended.exploration === exploration.id) ? ended.reason : null;
   const said = [exploration?.reason ?? null, own].flatMap((one) => (one ? [reasonSentence(one)] : []));
   return [...new Set(said)];

@@ -66,10 +66,20 @@ export function Plan({ exploration, fences, drawn, words, onTap }: Props) {
   });
   return (
     <div class="stack tight">
-      <div class={onTap ? 'plan-box drawing' : 'plan-box'} ref={box} data-testid="plan">
-        <canvas ref={canvas} role="img" aria-label={words} />
+      <div class="plan-frame">
+        <div class={onTap ? 'plan-box drawing' : 'plan-box'} ref={box} data-testid="plan">
+          <canvas ref={canvas} role="img" aria-label={words} />
+        </div>
+        <div class="plan-zoom" role="group" aria-label="Size of the plan">
+          <button type="button" class="button" aria-label="Enlarge" onClick={() => grow(kZoom)}>
+            +
+          </button>
+          <button type="button" class="button" aria-label="Make smaller" onClick={() => grow(1 / kZoom)}>
+            −
+          </button>
+        </div>
       </div>
-      <PlanButtons grow={grow} shift={shift} fit={() => setOwn(null)} fits={own === null} />
+      <PlanButtons shift={shift} fit={() => setOwn(null)} fits={own === null} />
     </div>
   );
 }
@@ -90,7 +100,6 @@ function usePalette(canvas: { current: HTMLCanvasElement | null }): Palette | nu
 }
 
 interface ButtonsProps {
-  grow: (factor: number) => void;
   shift: (x: number, y: number) => void;
   fit: () => void;
   fits: boolean;
@@ -103,15 +112,9 @@ const kArrows = [
   ['↓', 'down', 0, -1],
 ] as const;
 
-function PlanButtons({ grow, shift, fit, fits }: ButtonsProps) {
+function PlanButtons({ shift, fit, fits }: ButtonsProps) {
   return (
-    <div class="plan-buttons" role="group" aria-label="View of the plan">
-      <button type="button" class="button" aria-label="Enlarge" onClick={() => grow(kZoom)}>
-        +
-      </button>
-      <button type="button" class="button" aria-label="Make smaller" onClick={() => grow(1 / kZoom)}>
-        −
-      </button>
+    <div class="plan-buttons" role="group" aria-label="Part of the plan">
       {kArrows.map(([sign, word, x, y]) => (
         <button
           key={word}

@@ -149,7 +149,7 @@ function Destinations({ robot, graph, disabled, journey, onGo }: DestinationsPro
   const { belief } = robot;
   // Of the place alone: next to it is not there.
   const share = belief?.top.find((one) => one.place === belief.place)?.probability ?? 0;
-  const sure = belief && !belief.lost && share > kHereProbability;
+  const sure = belief && !exploresNow(robot) && !belief.lost && share > kHereProbability;
   return (
     <ul class="destinations">
       {goals.map((goal) => (

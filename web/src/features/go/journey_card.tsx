@@ -62,9 +62,11 @@ export function JourneyCard({ robot, journey, graph, onAgain, onDismiss }: Props
       )}
       {isActive(phase) && graph && <Way journey={journey} graph={graph} />}
       {journey.explores && (
-        <a class="button" href={explorePath(robot.id)} onClick={follow}>
-          {active ? 'Watch it' : 'See how far it came'}
-        </a>
+        <div class="row">
+          <a class="button" href={explorePath(robot.id)} onClick={follow}>
+            {active ? 'Watch it' : 'See how far it came'}
+          </a>
+        </div>
       )}
       {record !== null && <p class="soft small">{record}</p>}
       {!active && (
