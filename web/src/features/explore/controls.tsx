@@ -8,6 +8,7 @@ import { connected } from '../../lib/chosen';
 import { follow } from '../../lib/router';
 import { count, percent } from '../../lib/words';
 import { forgetCommand } from '../go/driving';
+import { exploresNow } from '../go/journey';
 import { stop } from '../go/stop';
 import { LimitFields, useLimits } from './limits';
 import { OrderNotice, useOrders } from './ordering';
@@ -25,7 +26,7 @@ interface Props {
 export function StatusCard({ robot, exploration, stage, barrier, mayOrder }: Props) {
   const { title, pill, tone } = stageWords(stage, robot.name);
   const current = connected.value && robot.online;
-  const moves = stage === 'starting' || stage === 'waiting' || stage === 'exploring';
+  const moves = stage === 'starting' || stage === 'exploring' || (stage === 'waiting' && exploresNow(robot));
   return (
     <section
       class="card stack explore-status"

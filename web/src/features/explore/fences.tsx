@@ -132,7 +132,6 @@ interface DrawingProps {
 
 function Drawing({ drawn, exploration, handle, off }: DrawingProps) {
   const { draw, add, set, fences } = handle;
-  const { pose } = exploration;
   const heading = useRef<HTMLHeadingElement>(null);
   useEffect(() => {
     heading.current?.focus({ preventScroll: true });
@@ -180,20 +179,28 @@ function Drawing({ drawn, exploration, handle, off }: DrawingProps) {
           Cancel
         </button>
       </div>
-      <div class="row">
-        <button
-          type="button"
-          class="button"
-          disabled={!pose}
-          onClick={() => {
-            if (pose) add([pose.x_m, pose.y_m]);
-          }}
-        >
-          Corner where the robot stands
-        </button>
-        {!pose && <span class="soft small">Where it stands is not known.</span>}
-      </div>
+      <CornerHere exploration={exploration} onAdd={add} />
       <TypedCorner onAdd={add} />
+    </div>
+  );
+}
+
+/** A corner where the robot stands, which somebody has driven there. */
+function CornerHere({ exploration, onAdd }: { exploration: Exploration; onAdd: (at: Point) => void }) {
+  const { pose } = exploration;
+  return (
+    <div class="row">
+      <button
+        type="button"
+        class="button"
+        disabled={!pose}
+        onClick={() => {
+          if (pose) onAdd([pose.x_m, pose.y_m]);
+        }}
+      >
+        Corner where the robot stands
+      </button>
+      {!pose && <span class="soft small">Where it stands is not known.</span>}
     </div>
   );
 }

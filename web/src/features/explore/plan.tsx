@@ -21,8 +21,8 @@ interface Props {
 export function Plan({ exploration, fences, drawn, words, onTap }: Props) {
   const box = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLCanvasElement>(null);
-  const [size, setSize] = useState<Size>({ width: 0, height: 0 });
   const [own, setOwn] = useState<PlanView | null>(null); // null: all that is known
+  const size = useSize(box);
   const palette = usePalette(canvas);
   const floor = exploration?.floor ?? null;
   const raster = useMemo(() => floor && rasterOf(floor), [floor]);
@@ -40,19 +40,7 @@ export function Plan({ exploration, fences, drawn, words, onTap }: Props) {
   };
   const latest = useRef(hands);
   latest.current = hands;
-  useLayoutEffect(() => {
-    const element = box.current;
-    if (!element) return;
-    const end = watchHands(element, () => latest.current);
-    const sizes = new ResizeObserver(() =>
-      setSize({ width: element.clientWidth, height: element.clientHeight }),
-    );
-    sizes.observe(element);
-    return () => {
-      end();
-      sizes.disconnect();
-    };
-  }, []);
+  useLayoutEffect(() => (box.current ? watchHands(box.current, () => latest.current) : undefined), []);
   useLayoutEffect(() => {
     const context = canvas.current?.getContext('2d');
     if (!canvas.current || !context || !palette || size.width === 0) return;
@@ -82,6 +70,20 @@ export function Plan({ exploration, fences, drawn, words, onTap }: Props) {
       <PlanButtons shift={shift} fit={() => setOwn(null)} fits={own === null} />
     </div>
   );
+}
+
+function useSize(box: { current: HTMLElement | null }): Size {
+  const [size, setSize] = useState<Size>({ width: 0, height: 0 });
+  useLayoutEffect(() => {
+    const element = box.current;
+    if (!element) return;
+    const sizes = new ResizeObserver(() =>
+      setSize({ width: element.clientWidth, height: element.clientHeight }),
+    );
+    sizes.observe(element);
+    return () => sizes.disconnect();
+  }, [box]);
+  return size;
 }
 
 /** The colours, read again when the page turns light or dark. */

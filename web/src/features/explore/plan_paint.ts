@@ -133,45 +133,93 @@ function paintGrid({ context, view, size, palette }: Brush): void {
 
 function trace({ context, view, size }: Brush, points: readonly (readonly number[])[], close = false): void {
   context.beginPath();
+  addLine(context, view, size, points);
+  if (close) context.closePath();
+}
+
+const kLeastStep_px = 1; // points that are closer on the screen are not drawn by themselves
+
+function addLine(
+  context: CanvasRenderingContext2D,
+  view: PlanView,
+  size: Size,
+  points: readonly (readonly number[])[],
+): void {
+  let [from_x, from_y] = [Infinity, Infinity];
   points.forEach(([x = 0, y = 0], n) => {
     const [at_x, at_y] = onScreen(view, size, [x, y]);
+    const near = Math.abs(at_x - from_x) + Math.abs(at_y - from_y) < kLeastStep_px;
+    if (near && n < points.length - 1) return;
     if (n === 0) context.moveTo(at_x, at_y);
     else context.lineTo(at_x, at_y);
+    [from_x, from_y] = [at_x, at_y];
   });
-  if (close) context.closePath();
 }
 
 function paintWay(brush: Brush, { nodes, loops }: Exploration): void {
   const { context, view, size, palette } = brush;
-  const loose = Math.max(1.5, Math.min(3, view.scale / 16));
+  const width = Math.max(1.5, Math.min(3, view.scale / 16));
   context.strokeStyle = palette.way;
-  context.lineWidth = loose;
+  context.lineWidth = width;
   trace(brush, nodes);
   context.stroke();
   context.strokeStyle = palette.loop;
-  context.lineWidth = loose + 1;
+  context.lineWidth = width + 1;
   context.setLineDash([5, 5]);
+  context.beginPath();
   for (const [later = 0, earlier = 0] of loops) {
-    const ends = [nodes[later], nodes[earlier]];
-    if (!ends[0] || !ends[1]) continue;
-    trace(brush, ends as number[][]);
-    context.stroke();
+    const [a, b] = [nodes[later], nodes[earlier]];
+    if (a && b) addLine(context, view, size, [a, b]);
   }
+  context.stroke();
   context.setLineDash([]);
   const again = new Set(loops.flat());
+  paintNodes(
+    brush,
+    nodes.filter((_, n) => !again.has(n)),
+    palette.node,
+  );
+  paintNodes(
+    brush,
+    nodes.filter((_, n) => again.has(n)),
+    palette.loop,
+  );
+  const [first] = nodes;
+  if (first) paintBeginning(brush, first);
+}
+
+/** All in one path: there may be thousands. Where they are too close for dots of their own, one stands for several. */
+function paintNodes({ context, view, size }: Brush, nodes: readonly number[][], colour: string): void {
   const radius = Math.max(1.5, Math.min(5.5, view.scale / 9));
-  nodes.forEach(([x = 0, y = 0], n) => {
+  const taken = new Set<number>();
+  context.fillStyle = colour;
+  context.beginPath();
+  for (const [x = 0, y = 0] of nodes) {
     const [at_x, at_y] = onScreen(view, size, [x, y]);
-    if (at_x < -9 || at_y < -9 || at_x > size.width + 9 || at_y > size.height + 9) return;
-    context.fillStyle = again.has(n) ? palette.loop : palette.node;
-    context.beginPath();
-    context.arc(at_x, at_y, n === 0 ? radius + 1.5 : radius, 0, 2 * Math.PI);
-    context.fill();
-    if (n > 0) return;
-    context.strokeStyle = palette.robot_edge; // where it began
-    context.lineWidth = 2;
-    context.stroke();
-  });
+    if (at_x < -radius || at_y < -radius || at_x > size.width + radius || at_y > size.height + radius)
+      continue;
+    const spot = Math.round(at_x) * 16_384 + Math.round(at_y);
+    if (taken.has(spot)) continue;
+    taken.add(spot);
+    if (radius < 2) context.rect(at_x - radius, at_y - radius, 2 * radius, 2 * radius);
+    else {
+      context.moveTo(at_x + radius, at_y);
+      context.arc(at_x, at_y, radius, 0, 2 * Math.PI);
+    }
+  }
+  context.fill();
+}
+
+/** Where it began. */
+function paintBeginning({ context, view, size, palette }: Brush, [x = 0, y = 0]: readonly number[]): void {
+  const [at_x, at_y] = onScreen(view, size, [x, y]);
+  context.fillStyle = palette.node;
+  context.strokeStyle = palette.robot_edge;
+  context.lineWidth = 2;
+  context.beginPath();
+  context.arc(at_x, at_y, Math.max(4, Math.min(7, view.scale / 8)), 0, 2 * Math.PI);
+  context.fill();
+  context.stroke();
 }
 
 function paintTarget({ context, view, size, palette }: Brush, { target, pose }: Exploration): void {

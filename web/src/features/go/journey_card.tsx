@@ -61,13 +61,7 @@ export function JourneyCard({ robot, journey, graph, onAgain, onDismiss }: Props
         </div>
       )}
       {isActive(phase) && graph && <Way journey={journey} graph={graph} />}
-      {journey.explores && (
-        <div class="row">
-          <a class="button" href={explorePath(robot.id)} onClick={follow}>
-            {active ? 'Watch it' : 'See how far it came'}
-          </a>
-        </div>
-      )}
+      {journey.explores && <ToExploration robot={robot} active={active} />}
       {record !== null && <p class="soft small">{record}</p>}
       {!active && (
         <div class="row">
@@ -82,6 +76,16 @@ export function JourneyCard({ robot, journey, graph, onAgain, onDismiss }: Props
         </div>
       )}
     </section>
+  );
+}
+
+function ToExploration({ robot, active }: { robot: Robot; active: boolean }) {
+  return (
+    <div class="row">
+      <a class="button" href={explorePath(robot.id)} onClick={follow}>
+        {active ? 'Watch it' : 'See how far it came'}
+      </a>
+    </div>
   );
 }
 
