@@ -164,7 +164,7 @@ function paintWay(brush: Brush, { nodes, loops }: Exploration): void {
   trace(brush, nodes);
   context.stroke();
   context.strokeStyle = palette.loop;
-  context.lineWidth = width + 1;
+  context.lineWidth = Math.min(width + 1, Math.max(1, view.scale / 8));
   context.setLineDash([5, 5]);
   context.beginPath();
   for (const [later = 0, earlier = 0] of loops) {
