@@ -28,7 +28,9 @@ const ask = async (method, path, body, headers = {}) => {
   return {
     status: answer.status,
     headers: answer.headers,
-    body: answer.status === 204 ? null : await answer.json(),
+    body: answer.headers.get('content-type')?.includes('json')
+      ? JSON.parse((await answer.text()) || 'null')
+      : null,
   };
 };
 
@@ -155,6 +157,32 @@ describe('the mock server', () => {
     const { body: difference } = await ask('GET', `${root}/history/0/difference?to=${number}`);
     expect([problemsOf('difference', difference), difference.edges.length]).toEqual([[], 1]);
     expect((await ask('GET', `${root}/history/77/graph`)).body.code).toBe('not_found');
+  });
+
+  it('answers of explorations as the schemas say', async () => {
+    const root = `robots/${(await ask('GET', 'robots')).body.robots[0].id}`;
+    expect((await ask('GET', `${root}/exploration`)).status).toBe(404);
+    const { body: taken } = await ask('POST', `${root}/lease`, { take_over: true });
+    const order = { lease_id: taken.lease.id };
+    expect((await ask('POST', `${root}/explorations`, { lease_id: 'none' })).body.code).toBe('lease_held');
+    const wrong = await ask('POST', `${root}/explorations`, { ...order, exploration: 'none' });
+    expect([wrong.status, wrong.body.code]).toEqual([409, 'conflict']);
+    const begun = await ask('POST', `${root}/explorations`, order);
+    expect([begun.status, problemsOf('mission', begun.body)]).toEqual([201, []]);
+    const now = async () => (await ask('GET', `${root}/exploration`)).body;
+    await expect.poll(async () => (await now()).pictures).toBeGreaterThan(3);
+    expect(problemsOf('exploration', await now())).toEqual([]);
+    expect((await ask('POST', `${root}/exploration/finish`, order)).body.code).toBe('conflict');
+    await ask('POST', `${root}/stop`, {});
+    await expect.poll(async () => (await now()).phase).toBe('paused');
+    const fences = [[[1, 1], [2, 1], [2, 2]]]; // prettier-ignore
+    expect((await ask('PUT', `${root}/exploration/fences`, { ...order, fences })).status).toBe(202);
+    expect([(await now()).fences, problemsOf('exploration', await now())]).toEqual([fences, []]);
+    const on = await ask('POST', `${root}/explorations`, { ...order, exploration: begun.body.exploration });
+    expect([on.status, on.body.exploration]).toEqual([201, begun.body.exploration]);
+    await expect.poll(async () => (await now()).phase, { timeout: 9000 }).toBe('uploaded');
+    expect(problemsOf('exploration', await now())).toEqual([]);
+    expect((await ask('GET', `tours/${(await now()).tour}`)).body.state).toBe('complete');
   });
 
   it('answers a report as a page of its own', async () => {

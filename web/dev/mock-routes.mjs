@@ -2,6 +2,7 @@
 // The routes of the mock server: [method and path, least role, handler(house, {user, body, headers, args})].
 import { kDoubtRoutes } from './mock-doubts.mjs';
 import { kDraftRoutes } from './mock-drafts.mjs';
+import { kExplorationRoutes } from './mock-exploration.mjs';
 import { kFormerRoutes } from './mock-former.mjs';
 import { edit, redo, undo } from './mock-edits.mjs';
 import { kitchenNote, noWayText, wayBetween } from './mock-house.mjs';
@@ -18,7 +19,7 @@ function leaseOf(robot) {
 const ofLease = (robot) => `robots/${robot.id}/lease`;
 
 /** What is asked of a robot needs its lease. */
-function needLease(robot, lease_id) {
+export function needLease(robot, lease_id) {
   const lease = leaseOf(robot);
   if (lease?.id === lease_id) return lease;
   const words = lease ? `${lease.holder} is driving.` : 'Take the lease first; this one is over.';
@@ -88,6 +89,8 @@ function startMission(house, { user, body, args }) {
     version: 2,
     id: house.newId('x'),
     robot: robot.id,
+    kind: 'drive',
+    exploration: null,
     map: robot.map,
     revision: house.graph.revision,
     destination: destination?.id ?? null,
@@ -341,6 +344,7 @@ export const kRoutes = [
   [/^POST maps\/([^/]+)\/edits$/, 'installer', edit],
   [/^POST maps\/([^/]+)\/undo$/, 'installer', undo],
   [/^POST maps\/([^/]+)\/redo$/, 'installer', redo],
+  ...kExplorationRoutes,
   ...kDraftRoutes,
   ...kDoubtRoutes,
   ...kFormerRoutes,

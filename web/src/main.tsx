@@ -16,6 +16,7 @@ import './styles/map.css';
 import './styles/evidence.css';
 import './styles/similarity.css';
 import './styles/pages.css';
+import './styles/explore.css';
 
 startServerConnection();
 const root = document.getElementById('app');

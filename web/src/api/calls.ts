@@ -5,6 +5,8 @@ import type {
   Doubts,
   Draft,
   Edit,
+  Exploration,
+  Fences,
   Graph,
   Job,
   Lease,
@@ -132,6 +134,20 @@ export const stopRobot = (robot: string, key: string) =>
     headers: { 'Idempotency-Key': key },
     signal: AbortSignal.timeout(2500),
   });
+export const exploration = (robot: string) => call<Exploration>(`/robots/${id(robot)}/exploration`);
+/** How far and how long a robot may explore; what is not said has no end. */
+export interface Limits {
+  limit_m?: number;
+  limit_s?: number;
+  back_after_s?: number;
+}
+/** With `exploration` it goes on with the one that it has. */
+export const explore = (robot: string, body: Limits & { lease_id: string; exploration?: string }) =>
+  call<Mission>(`/robots/${id(robot)}/explorations`, { method: 'POST', body });
+export const setFences = (robot: string, body: { lease_id: string; fences: Fences }) =>
+  call<unknown>(`/robots/${id(robot)}/exploration/fences`, { method: 'PUT', body });
+export const finishExploration = (robot: string, lease_id: string) =>
+  call<unknown>(`/robots/${id(robot)}/exploration/finish`, { method: 'POST', body: { lease_id } });
 export const robots = () => call<{ robots: Robot[] }>('/robots');
 export const frameUrl = (robot: string, n: number) => `${kRoot}/robots/${id(robot)}/frame?n=${n}`;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
 import { applyEvent, statusAgeMs, type ServerState } from './server_state';
-import type { Mission, Robot } from './types';
+import type { Mission, Robot, ServerEvent } from './types';
 
 const robot: Robot = {
   id: 'r1',
@@ -19,6 +19,8 @@ const mission: Mission = {
   version: 2,
   id: 'a',
   robot: 'r1',
+  kind: 'drive',
+  exploration: null,
   map: 'm1',
   revision: 1,
   destination: 'd1',
@@ -53,6 +55,15 @@ describe('applyEvent', () => {
       2000,
     );
     expect(next).toMatchObject({ seq: 8, robots: [{ id: 'r1', state: 'driving' }], heard_ms: { r1: 2000 } });
+  });
+
+  it('keeps the newest exploration of each robot until the next snapshot', () => {
+    const told = (seq: number, id: string) =>
+      ({ type: 'exploration', v: 1, seq, robot: 'r1', exploration: { id } }) as ServerEvent;
+    const once = applyEvent(started(), told(8, 'x1'), 2000);
+    const twice = once === 'gap' ? once : applyEvent(once, told(9, 'x2'), 3000);
+    expect(twice).toMatchObject({ seq: 9, explorations: { r1: { id: 'x2' } } });
+    expect(started().explorations).toEqual({});
   });
 
   it('adds a robot that it did not know', () => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Draft, ServerEvent, Job, MapInfo, Robot } from './types';
+import type { Draft, Exploration, ServerEvent, Job, MapInfo, Robot } from './types';
 
 /** Everything that the events tell, with when each robot was last heard of (this browser's clock). */
 export interface ServerState {
@@ -11,6 +11,7 @@ export interface ServerState {
   readonly heard_ms: Readonly<Record<string, number>>;
   readonly since: number; // the number of the snapshot
   readonly drafts: Readonly<Record<string, Draft | null>>; // those that changed since the snapshot; null: gone
+  readonly explorations: Readonly<Record<string, Exploration>>; // of each robot the newest since the snapshot
 }
 
 /**
@@ -32,6 +33,7 @@ export function applyEvent(
       heard_ms: Object.fromEntries(event.robots.map((robot) => [robot.id, now_ms])),
       since: event.seq,
       drafts: {},
+      explorations: {},
     };
   }
   if (state === null) return 'gap';
@@ -54,6 +56,8 @@ export function applyEvent(
       return { ...next, drafts: { ...state.drafts, [event.draft.id]: event.draft } };
     case 'draft_gone':
       return { ...next, drafts: { ...state.drafts, [event.draft]: null } };
+    case 'exploration':
+      return { ...next, explorations: { ...state.explorations, [event.robot]: event.exploration } };
     case 'heartbeat':
       return next;
     default:

@@ -40,4 +40,7 @@ export type Doubts = Schemas['Doubts'];
 export type WayDrives = Schemas['WayDrives'];
 export type Similarity = Schemas['Similarity'];
 export type Pair = Schemas['Pair'];
+export type Exploration = Schemas['Exploration'];
+export type Floor = NonNullable<Exploration['floor']>;
+export type Fences = Schemas['Fences'];
 export type ServerEvent = Schemas['ServerEvent'] | own.DraftEvent;

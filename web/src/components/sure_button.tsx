@@ -5,13 +5,14 @@ interface Props {
   label: string; // what the button does
   about: string; // to what, for those who do not see what it stands beside
   question: string;
+  leave?: string; // the button that changes nothing
   disabled?: boolean;
   plain?: boolean; // nothing to be feared: it only takes effect at once
   onSure: () => void;
 }
 
 /** A button for what cannot be taken back, or takes effect at once: asks once, in place. */
-export function SureButton({ label, about, question, disabled, plain, onSure }: Props) {
+export function SureButton({ label, about, question, leave = 'Keep', disabled, plain, onSure }: Props) {
   const look = plain ? 'button main' : 'button danger';
   const [asking, setAsking] = useState(false);
   const keep = useRef<HTMLButtonElement>(null);
@@ -43,7 +44,7 @@ export function SureButton({ label, about, question, disabled, plain, onSure }: 
         {label}
       </button>
       <button type="button" class="button" onClick={() => setAsking(false)} ref={keep}>
-        Keep
+        {leave}
       </button>
     </span>
   );

@@ -56,16 +56,29 @@ export async function send(robot: string, target: Target, sure: Sure = {}): Prom
 async function begin(robot: string, target: Target, take_over: boolean): Promise<void> {
   tell(robot, { kind: 'asking', target });
   try {
-    const lease_id = await ensureLease(robot, take_over);
-    tell(robot, { kind: 'sent', target, mission: await start(robot, lease_id, target) });
+    const mission = await withLease(robot, (lease_id) => start(robot, lease_id, target), take_over);
+    tell(robot, { kind: 'sent', target, mission });
   } catch (thrown) {
     const problem = asProblem(thrown);
+    if (problem.code === 'lease_held') tell(robot, { kind: 'held', target, holder: holderOf(robot) });
+    else tell(robot, { kind: 'refused', target, reason: problem.message });
+  }
+}
+
+/** Does what needs the lease, and takes it when need be; from somebody else only with `take_over`. */
+export async function withLease<T>(
+  robot: string,
+  work: (lease_id: string) => Promise<T>,
+  take_over = false,
+): Promise<T> {
+  try {
+    return await work(await ensureLease(robot, take_over));
+  } catch (thrown) {
     const holder = holderOf(robot);
     // Another window of the same person gives way without a question.
-    if (problem.code === 'lease_held' && !take_over && holder !== null && holder === me.peek()?.name)
-      await begin(robot, target, true);
-    else if (problem.code === 'lease_held') tell(robot, { kind: 'held', target, holder });
-    else tell(robot, { kind: 'refused', target, reason: problem.message });
+    const own = holder !== null && holder === me.peek()?.name;
+    if (asProblem(thrown).code === 'lease_held' && !take_over && own) return withLease(robot, work, true);
+    throw thrown;
   }
 }
 

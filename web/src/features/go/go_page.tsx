@@ -13,7 +13,7 @@ import { DiversionPrompt } from './diversion_prompt';
 import { commands, forgetCommand, send, type Sure } from './driving';
 import { goalsOf, leadsTo, targetOf } from './goals';
 import { FirstSteps } from './first_steps';
-import { hindrance, journeyOf, type Journey, type Target } from './journey';
+import { exploresNow, hindrance, journeyOf, type Journey, type Target } from './journey';
 import { JourneyCard } from './journey_card';
 import { announcement } from './journey_words';
 import { LeasePrompt, WhoDrives } from './lease_prompt';
@@ -58,15 +58,15 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
     // What becomes of it, or what is asked first, is told at the top; on a phone that may be out of sight.
     requestAnimationFrame(() => document.getElementById('go-top')?.scrollIntoView({ block: 'nearest' }));
   };
-  const again = journey && againTarget(journey.destination, journey.place, graph);
+  const again = journey && !journey.explores && againTarget(journey.destination, journey.place, graph);
   return (
     <>
       <div class="row apart">
         <h1>Where to?</h1>
         <RobotPicker />
       </div>
-      {robot.map === null && <FirstSteps />}
-      {barrier !== null && robot.map !== null && (
+      {robot.map === null && !exploresNow(robot) && <FirstSteps />}
+      {barrier !== null && (robot.map !== null || exploresNow(robot)) && (
         <Notice tone="warn" still>
           {barrier}
         </Notice>
@@ -99,6 +99,7 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
         <WhereaboutsCard robot={robot} graph={graph} />
         {journey && (
           <JourneyCard
+            robot={robot}
             journey={journey}
             graph={graph}
             onAgain={again && barrier === null && journey.phase !== 'arrived' ? () => go(again) : null}
@@ -148,7 +149,7 @@ function Destinations({ robot, graph, disabled, journey, onGo }: DestinationsPro
   const { belief } = robot;
   // Of the place alone: next to it is not there.
   const share = belief?.top.find((one) => one.place === belief.place)?.probability ?? 0;
-  const sure = belief && !belief.lost && share > kHereProbability;
+  const sure = belief && !exploresNow(robot) && !belief.lost && share > kHereProbability;
   return (
     <ul class="destinations">
       {goals.map((goal) => (

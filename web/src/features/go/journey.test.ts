@@ -8,6 +8,8 @@ const mission: Mission = {
   version: 2,
   id: 'one',
   robot: 'r',
+  kind: 'drive',
+  exploration: null,
   map: 'm',
   revision: 1,
   destination: 'kitchen',
@@ -33,6 +35,15 @@ const robot: Robot = {
   mission,
   lease: null,
   status_age_ms: 0,
+};
+const exploring: Mission = {
+  ...mission,
+  kind: 'explore',
+  exploration: 'x1',
+  map: null,
+  destination: null,
+  place: null,
+  path: [],
 };
 const target = { destination: 'bedroom', label: 'Bedroom' };
 
@@ -107,5 +118,18 @@ describe('hindrance', () => {
     expect(hindrance(robot, false, true)).toContain('server');
     expect(hindrance({ ...robot, online: false }, true, true)).toContain('not connected');
     expect(hindrance({ ...robot, map: null }, true, true)).toContain('map');
+  });
+});
+
+describe('a robot that maps the building by itself', () => {
+  it('is under way to nowhere, and is not sent anywhere meanwhile', () => {
+    const away = { ...robot, mission: exploring };
+    const journey = journeyOf(away, undefined);
+    expect(journey).toMatchObject({ explores: true, phase: 'driving', place: null });
+    expect(wishOf(journey, target)).toBe('diversion');
+    expect(hindrance(away, true, true)).toBe(
+      'Chair maps the building by itself. Stop it before you send it.',
+    );
+    expect(hindrance({ ...away, mission: { ...exploring, state: 'stopped' } }, true, true)).toBeNull();
   });
 });

@@ -21,6 +21,7 @@ export type Phase = 'asking' | 'accepted' | 'driving' | 'arrived' | 'refused' | 
 export interface Journey {
   id: string | null; // the mission's; null before there is one
   phase: Phase;
+  explores: boolean; // it leads nowhere: the robot maps the building by itself
   destination: string | null;
   place: string | null;
   reason: Reason | null; // as the mission tells it
@@ -42,6 +43,7 @@ export function journeyOf(robot: Robot, command: Command | undefined): Journey |
     return {
       id: null,
       phase: command.kind,
+      explores: false,
       destination: command.target.destination ?? null,
       place: command.target.place ?? null,
       reason: null,
@@ -59,6 +61,7 @@ export function journeyOf(robot: Robot, command: Command | undefined): Journey |
   return {
     id: mission.id,
     phase: mission.state,
+    explores: mission.kind === 'explore',
     destination: mission.destination,
     place: mission.place,
     reason: mission.reason,
@@ -107,11 +110,17 @@ export function progressOf(journey: Journey): number {
   return steps < 1 ? 0 : 1 - placesToGo(journey) / steps;
 }
 
+/** Whether the robot is under way by itself, to map the building. */
+export function exploresNow({ mission }: Robot): boolean {
+  return mission?.kind === 'explore' && isActive(mission.state);
+}
+
 /** Why the robot cannot be sent anywhere just now; null when it can. */
 export function hindrance(robot: Robot, connected: boolean, mayDrive: boolean): string | null {
   if (!mayDrive) return 'Your account may look and may stop the chair, but not send it.';
   if (!connected) return 'The house server is out of reach, so the chair cannot be sent.';
   if (!robot.online) return `${robot.name} is not connected, so it cannot be sent.`;
+  if (exploresNow(robot)) return `${robot.name} maps the building by itself. Stop it before you send it.`;
   if (robot.map === null) return `${robot.name} has no map yet. Give it one under Robots.`;
   return null;
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as calls from '../../api/calls';
 import { now_ms } from '../../api/server';
-import type { Graph } from '../../api/types';
+import type { Graph, Robot } from '../../api/types';
 import { Icon } from '../../components/icons';
 import { Bar } from '../../components/notice';
 import { connected } from '../../lib/chosen';
+import { explorePath } from '../../lib/explore_address';
+import { follow } from '../../lib/router';
 import { placeTitle } from '../../lib/whereabouts';
 import { count } from '../../lib/words';
 import { isActive, placesToGo, progressOf, type Journey } from './journey';
@@ -13,6 +15,7 @@ import { arrivalSureness, heading, reasonOf, recordWords, toneOf } from './journ
 const kShownSteps = 6;
 
 interface Props {
+  robot: Robot;
   journey: Journey;
   graph: Graph | null;
   onAgain: (() => void) | null;
@@ -20,7 +23,7 @@ interface Props {
 }
 
 /** The newest journey: asked, driving, done or refused, with its way and the reason when it ended early. */
-export function JourneyCard({ journey, graph, onAgain, onDismiss }: Props) {
+export function JourneyCard({ robot, journey, graph, onAgain, onDismiss }: Props) {
   const { phase } = journey;
   const reason = reasonOf(journey);
   const sureness = arrivalSureness(journey, graph);
@@ -58,6 +61,7 @@ export function JourneyCard({ journey, graph, onAgain, onDismiss }: Props) {
         </div>
       )}
       {isActive(phase) && graph && <Way journey={journey} graph={graph} />}
+      {journey.explores && <ToExploration robot={robot} active={active} />}
       {record !== null && <p class="soft small">{record}</p>}
       {!active && (
         <div class="row">
@@ -72,6 +76,16 @@ export function JourneyCard({ journey, graph, onAgain, onDismiss }: Props) {
         </div>
       )}
     </section>
+  );
+}
+
+function ToExploration({ robot, active }: { robot: Robot; active: boolean }) {
+  return (
+    <div class="row">
+      <a class="button" href={explorePath(robot.id)} onClick={follow}>
+        {active ? 'Watch it' : 'See how far it came'}
+      </a>
+    </div>
   );
 }
 

@@ -7,6 +7,7 @@ import { announcement, arrivalSureness, heading, reasonOf, recordWords } from '.
 const journey: Journey = {
   id: 'one',
   phase: 'arrived',
+  explores: false,
   destination: 'kitchen',
   place: 'p5',
   reason: null,

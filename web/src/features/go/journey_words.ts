@@ -72,7 +72,19 @@ const kHeadings: Readonly<Record<Phase, (goal: string, reason: Reason | null) =>
   failed: (goal) => `Did not reach ${goal}`,
 };
 
+/** Those of a robot that maps a building by itself. */
+const kExploring: Readonly<Record<Phase, string>> = {
+  asking: 'Asking …',
+  accepted: 'About to map the building by itself',
+  driving: 'Maps the building by itself',
+  arrived: 'Mapping the building is over',
+  refused: 'Cannot map the building by itself',
+  stopped: 'Mapping the building was paused',
+  failed: 'Mapping the building came to a halt',
+};
+
 export function heading(journey: Journey, graph: Graph | null): string {
+  if (journey.explores) return kExploring[journey.phase];
   return kHeadings[journey.phase](goalName(journey, graph), journey.reason);
 }
 
@@ -99,7 +111,7 @@ const kArrived = 0.9;
 /** How sure the robot is that it is where it says that it has arrived; null where there is nothing to add, or not known. */
 export function arrivalSureness(journey: Journey, graph: Graph | null): string | null {
   const { phase, arrival_probability: probability } = journey;
-  if (phase !== 'arrived' || probability === null || probability >= kCertain) return null;
+  if (journey.explores || phase !== 'arrived' || probability === null || probability >= kCertain) return null;
   const goal = goalInSentence(journey, graph);
   if (probability >= kQuiteSure) return `I am quite sure that this is ${goal}.`;
   if (probability >= kArrived) return `I am fairly sure that this is ${goal}. Please have a look.`;

@@ -31,6 +31,8 @@ const mission: Mission = {
   version: 2,
   id: 'one',
   robot: 'r',
+  kind: 'drive',
+  exploration: null,
   map: 'm',
   revision: 1,
   destination: null,

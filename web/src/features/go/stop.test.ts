@@ -113,6 +113,7 @@ describe('stop', () => {
       heard_ms: { r: Date.now() },
       since: 1,
       drafts: {},
+      explorations: {},
     };
     connection.value = { state: 'live', server, last_message_ms: Date.now() };
     expect(stopState.value).toMatchObject({ kind: 'stands' });

@@ -6,12 +6,13 @@ import { Icon } from '../../components/icons';
 import { chosenAge, connected } from '../../lib/chosen';
 import { whereabouts, type Whereabouts } from '../../lib/whereabouts';
 import { ageText, percent } from '../../lib/words';
+import { exploresNow } from './journey';
 
 const kStaleMs = 5000;
 
 /** Where the robot is, how sure it is, and how old that is. */
 export function WhereaboutsCard({ robot, graph }: { robot: Robot; graph: Graph | null }) {
-  const found = whereabouts(robot.belief, graph);
+  const found = exploresNow(robot) ? null : whereabouts(robot.belief, graph); // it is on no map then
   const age = chosenAge.value;
   const stale = age !== null && age > kStaleMs;
   const known = found && found.sureness !== 'lost' && robot.online;
@@ -43,6 +44,7 @@ export function WhereaboutsCard({ robot, graph }: { robot: Robot; graph: Graph |
 
 function words(robot: Robot, found: Whereabouts | null): string {
   if (!robot.online) return `${robot.name} is not connected.`;
+  if (exploresNow(robot)) return 'I map the building by myself.';
   if (robot.map === null) return 'I have no map yet.';
   if (!found) return 'I have not looked around yet.';
   if (found.sureness === 'lost') return 'I am not sure where I am.';
@@ -71,14 +73,15 @@ function Sureness({ found }: { found: Whereabouts }) {
 
 /** The picture of the place; a sign when the robot does not know its place. */
 function WherePicture({ robot, graph }: { robot: Robot; graph: Graph | null }) {
-  const place = robot.belief && !robot.belief.lost && robot.online ? robot.belief.place : null;
+  const exploring = exploresNow(robot);
+  const place = !exploring && robot.belief && !robot.belief.lost && robot.online ? robot.belief.place : null;
   const src = place !== null && graph ? calls.placeThumbnailUrl(graph.map, place, graph.revision) : null;
   const [failed, setFailed] = useState<string | null>(null);
   useEffect(() => setFailed(null), [src]);
   if (src === null || failed === src)
     return (
       <div class="where-picture unknown">
-        <Icon name={robot.online ? 'question' : 'warn'} size={48} />
+        <Icon name={!robot.online ? 'warn' : exploring ? 'map' : 'question'} size={48} />
       </div>
     );
   return <img class="where-picture" src={src} alt="" onError={() => setFailed(src)} />;

@@ -2,7 +2,7 @@
 import { useEffect, useId, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import { count as counted } from '../../lib/words';
-import { watchHands, type Hands } from './matrix_hands';
+import { watchHands, type Hands } from '../../lib/hands';
 import {
   cellAt,
   centred,

@@ -10,12 +10,22 @@ import { SecretOnce } from '../../components/secret_once';
 import { connected, maps, robots } from '../../lib/chosen';
 import { useCommand } from '../../lib/command';
 import { without } from '../../lib/draft';
+import { explorePath, exploringRobot } from '../../lib/explore_address';
 import { atLeast } from '../../lib/roles';
+import { follow, path } from '../../lib/router';
 import { ageText, percent } from '../../lib/words';
+import { ExplorePage } from '../explore/explore_page';
+import { exploresNow } from '../go/journey';
 import { LivePicture } from './live_picture';
 import { directionWord, endOf, stateTone, stateWord, whyStopped } from './robot_words';
 
+/** The robots; at /robots/r1/explore the page on which one of them maps a building by itself. */
 export function RobotsPage() {
+  const exploring = exploringRobot(path.value);
+  return exploring === null ? <RobotList /> : <ExplorePage id={exploring} />;
+}
+
+function RobotList() {
   const mayInstall = atLeast(me.value?.role, 'installer');
   if (connection.value.server === null) return <Waiting what="Asking the server …" />;
   return (
@@ -55,10 +65,27 @@ function RobotCard({ robot, mayInstall }: { robot: Robot; mayInstall: boolean })
             {ended !== null && <span class="soft"> {ended}</span>}
           </Notice>
         )}
+        <Exploring robot={robot} mayInstall={mayInstall} />
         <Facts robot={robot} />
         {mayInstall && <MapChoice robot={robot} />}
       </div>
     </section>
+  );
+}
+
+/** That it maps the building by itself, or has, and the way to where that is watched and begun. */
+function Exploring({ robot, mayInstall }: { robot: Robot; mayInstall: boolean }) {
+  const now = exploresNow(robot);
+  if (!now && !mayInstall && robot.mission?.kind !== 'explore') return null;
+  const words = now ? 'Watch it' : mayInstall ? 'Let it map a building by itself' : 'See what it mapped';
+  return (
+    <div class="row apart">
+      {now && <strong>Maps the building by itself</strong>}
+      <a class="button" href={explorePath(robot.id)} onClick={follow}>
+        {words}
+        <span class="hidden-text">: {robot.name}</span>
+      </a>
+    </div>
   );
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { useState } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import type { MapInfo, Tour } from '../../api/types';
 import { Choice, TextField } from '../../components/field';
@@ -9,8 +9,14 @@ import { without } from '../../lib/draft';
 import { count } from '../../lib/words';
 import { offeredTours, suggested } from './tour_choice';
 
+interface Props {
+  tours: readonly Tour[];
+  maps: readonly MapInfo[];
+  wanted: string | null; // the tour that whoever opens the page wants a map of
+}
+
 /** Building a map from complete tours, or adding them to one that is there. */
-export function BuildMap({ tours, maps }: { tours: readonly Tour[]; maps: readonly MapInfo[] }) {
+export function BuildMap({ tours, maps, wanted }: Props) {
   const [target, setTarget] = useState('');
   const ready = maps.filter((one) => one.state === 'ready');
   const grown = ready.find((one) => one.id === target) ?? null;
@@ -19,7 +25,10 @@ export function BuildMap({ tours, maps }: { tours: readonly Tour[]; maps: readon
   const [ticks, setTicks] = useState<ReadonlyMap<string, boolean>>(new Map()); // as somebody has set them
   const [begun, setBegun] = useState<string | null>(null);
   const { busy, problem, run } = useCommand();
-  const likely = suggested(complete, maps);
+  const likely = complete.some((one) => one.id === wanted) ? wanted : suggested(complete, maps);
+  useEffect(() => {
+    if (wanted !== null) document.getElementById('build-map')?.scrollIntoView();
+  }, [wanted]);
   const isChosen = (tour: Tour) => ticks.get(tour.id) ?? tour.id === likely;
   const chosen = complete.filter(isChosen);
   // Once somebody has chosen, no tour that comes later changes what is chosen.
@@ -27,7 +36,7 @@ export function BuildMap({ tours, maps }: { tours: readonly Tour[]; maps: readon
     setTicks(new Map([...complete.map((one) => [one.id, isChosen(one) !== (one === tour)] as const)]));
   const submit = (event: Event) => {
     event.preventDefault();
-    const wanted = name.trim();
+    const called = name.trim();
     setBegun(null);
     run(async () => {
       const ids = chosen.map((one) => one.id);
@@ -37,8 +46,8 @@ export function BuildMap({ tours, maps }: { tours: readonly Tour[]; maps: readon
         setTicks(new Map());
         return;
       }
-      await calls.buildMap({ name: wanted, tours: ids });
-      setBegun(`Building ${wanted}`);
+      await calls.buildMap({ name: called, tours: ids });
+      setBegun(`Building ${called}`);
       setName(without(name));
       setTicks(new Map());
     });

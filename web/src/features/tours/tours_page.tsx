@@ -5,10 +5,12 @@ import type { MapInfo, Tour } from '../../api/types';
 import { Loading } from '../../components/loading';
 import { Notice } from '../../components/notice';
 import { SureButton } from '../../components/sure_button';
-import { maps } from '../../lib/chosen';
+import { maps, robots } from '../../lib/chosen';
 import { useCommand } from '../../lib/command';
+import { explorePath } from '../../lib/explore_address';
 import { useLoaded } from '../../lib/loaded';
 import { atLeast } from '../../lib/roles';
+import { follow, path } from '../../lib/router';
 import { count, dateText } from '../../lib/words';
 import { BuildMap } from './build_map';
 import { DriveNews, RefineSetting } from './drive_news';
@@ -19,6 +21,7 @@ import { tourListVersion } from './upload';
 export function ToursPage() {
   const tours = useLoaded(calls.tours, tourListVersion.value);
   const mayInstall = atLeast(me.value?.role, 'installer');
+  const wanted = path.value.split('/')[2] ?? null; // /tours/t7: build a map of this one
   return (
     <>
       <h1>Tours and maps</h1>
@@ -33,7 +36,13 @@ export function ToursPage() {
               {mayInstall ? (
                 <>
                   <NewTour tours={answer.tours} />
-                  <BuildMap tours={answer.tours} maps={maps.value} />
+                  <LetExplore />
+                  <BuildMap
+                    key={wanted ?? ''}
+                    tours={answer.tours}
+                    maps={maps.value}
+                    wanted={answer.tours.some((one) => one.id === wanted) ? wanted : null}
+                  />
                 </>
               ) : (
                 <Notice still>Somebody who may install things adds tours and builds maps.</Notice>
@@ -43,6 +52,27 @@ export function ToursPage() {
         )}
       </Loading>
     </>
+  );
+}
+
+/** A robot can make a tour by itself. */
+function LetExplore() {
+  if (robots.value.length === 0) return null;
+  return (
+    <section class="card stack" aria-labelledby="let-explore">
+      <h2 id="let-explore">Let a robot map a building by itself</h2>
+      <p class="soft">
+        It drives through all rooms that it can get to while somebody walks with it, and its pictures become a
+        tour.
+      </p>
+      <div class="row">
+        {robots.value.map((one) => (
+          <a key={one.id} class="button" href={explorePath(one.id)} onClick={follow}>
+            With {one.name}
+          </a>
+        ))}
+      </div>
+    </section>
   );
 }
 
