@@ -29,17 +29,19 @@ function(homeward_add_test_support name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   set(target homeward_test_${name})
   add_library(${target} STATIC EXCLUDE_FROM_ALL ${ARG_SOURCES})
+  homeward_unoptimised(${ARG_SOURCES})
   target_link_libraries(${target} PUBLIC ${ARG_LINK})
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/tests)
   _homeward_finish(${target})
 endfunction()
 
 # homeward_add_tests(mapping FILES edges loops+closed_loops LINK targets [SLOW loops] [LABELS unit] [TIMEOUT seconds]
-#                    [SOURCES helper.cpp] [REAL_TIME edges]): the GoogleTest program mapping_tests of this folder's
+#                    [SOURCES helper.cpp] [REAL_TIME edges] [COMPUTES]): the GoogleTest program mapping_tests of this folder's
 # edges_test.cpp, loops_test.cpp and closed_loops_test.cpp. Each of FILES is a ctest entry that runs that file's tests alone, here
 # mapping/edges and mapping/loops, which runs two files. Unit tests that are not SLOW also have the label "fast".
+# COMPUTES: the tests themselves work much out (pictures, scenes), so they are always compiled optimised.
 function(homeward_add_tests module)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "FILES;LINK;SLOW;LABELS;SOURCES;REAL_TIME" ${ARGN})
+  cmake_parse_arguments(ARG "COMPUTES" "TIMEOUT" "FILES;LINK;SLOW;LABELS;SOURCES;REAL_TIME" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
@@ -66,6 +68,9 @@ function(homeward_add_tests module)
 
   list(TRANSFORM files APPEND _test.cpp OUTPUT_VARIABLE sources)
   homeward_batches(batches ${target} 8 ${sources})
+  if(NOT ARG_COMPUTES)
+    homeward_unoptimised(${batches})
+  endif()
   add_executable(${target} ${batches} ${ARG_SOURCES})
   target_link_libraries(${target} PRIVATE ${ARG_LINK} homeward_test_folders homeward_test_main GTest::gtest
                                           GTest::gmock)
