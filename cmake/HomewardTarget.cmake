@@ -123,8 +123,17 @@ if(HOMEWARD_TESTS)
   add_library(homeward_test_pch OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/pch.cpp)
   target_link_libraries(homeward_test_pch PRIVATE homeward_options Eigen3::Eigen Threads::Threads GTest::gtest
                                                   GTest::gmock)
-  target_precompile_headers(homeward_test_pch PRIVATE ${homeward_common_headers} <gmock/gmock.h> <gtest/gtest.h>
-                            <nlohmann/json.hpp>)
+  set(homeward_test_headers ${homeward_common_headers} <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
+  target_precompile_headers(homeward_test_pch PRIVATE ${homeward_test_headers})
+  # The same for tests that compute little (homeward_add_tests): without optimising under the sanitizers.
+  if(HOMEWARD_ASAN OR HOMEWARD_TSAN)
+    add_library(homeward_plain_options INTERFACE)
+    target_compile_options(homeward_plain_options INTERFACE -O0)
+    add_library(homeward_plain_test_pch OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/pch.cpp)
+    target_link_libraries(homeward_plain_test_pch PRIVATE homeward_options Eigen3::Eigen Threads::Threads GTest::gtest
+                                                          GTest::gmock homeward_plain_options)
+    target_precompile_headers(homeward_plain_test_pch PRIVATE ${homeward_test_headers})
+  endif()
 endif()
 
 function(_homeward_finish target)
@@ -209,11 +218,12 @@ function(homeward_watch)
   endif()
 endfunction()
 
-# homeward_unoptimised(a.cpp ...): sources of this folder that compute little themselves. Under the sanitizers, which build
-# nearly everything once more, they are compiled without optimising: half of the compiler's time.
+# homeward_unoptimised(a.cpp ...): sources of this folder that compute little. Under the sanitizers, which build nearly
+# everything once more, they are compiled without optimising: half of the compiler's time.
 function(homeward_unoptimised)
   if(HOMEWARD_ASAN OR HOMEWARD_TSAN)
     set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS -O0)
+    set_property(SOURCE ${ARGN} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
   endif()
 endfunction()
 

@@ -39,7 +39,7 @@ endfunction()
 #                    [SOURCES helper.cpp] [REAL_TIME edges] [COMPUTES]): the GoogleTest program mapping_tests of this folder's
 # edges_test.cpp, loops_test.cpp and closed_loops_test.cpp. Each of FILES is a ctest entry that runs that file's tests alone, here
 # mapping/edges and mapping/loops, which runs two files. Unit tests that are not SLOW also have the label "fast".
-# COMPUTES: the tests themselves work much out (pictures, scenes), so they are always compiled optimised.
+# COMPUTES: the tests themselves work much out (pictures, scenes), so they are optimised under the sanitizers too.
 function(homeward_add_tests module)
   cmake_parse_arguments(ARG "COMPUTES" "TIMEOUT" "FILES;LINK;SLOW;LABELS;SOURCES;REAL_TIME" ${ARGN})
   if(NOT ARG_LABELS)
@@ -68,14 +68,16 @@ function(homeward_add_tests module)
 
   list(TRANSFORM files APPEND _test.cpp OUTPUT_VARIABLE sources)
   homeward_batches(batches ${target} 8 ${sources})
-  if(NOT ARG_COMPUTES)
-    homeward_unoptimised(${batches})
-  endif()
   add_executable(${target} ${batches} ${ARG_SOURCES})
   target_link_libraries(${target} PRIVATE ${ARG_LINK} homeward_test_folders homeward_test_main GTest::gtest
                                           GTest::gmock)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  _homeward_finish(${target} HEADERS homeward_test_pch)
+  if(ARG_COMPUTES OR NOT TARGET homeward_plain_options)
+    _homeward_finish(${target} HEADERS homeward_test_pch)
+  else()
+    _homeward_finish(${target} HEADERS homeward_plain_test_pch)
+    target_link_libraries(${target} PRIVATE homeward_plain_options)
+  endif()
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   if("unit" IN_LIST ARG_LABELS)
     add_dependencies(unit_tests ${target})

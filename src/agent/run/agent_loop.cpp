@@ -165,6 +165,12 @@ wire::Hello hello_of(const AgentOptions& options, const camera::CameraConfig& ca
   return hello;
 }
 
+void show_as_often_as_asked(const std::vector<wire::ServerMessage>& messages, Looker& looker) {
+  for (const wire::ServerMessage& message : messages) {
+    if (const auto* welcome = std::get_if<wire::Welcome>(&message)) looker.set_show_period(welcome->frame_period_ms);
+  }
+}
+
 /// What leads an exploration has its say before a step.
 void lead(const Exploring* exploring, driving::Inputs& inputs, const driving::DrivingState& state) {
   if (exploring != nullptr) return exploring->prepare(inputs, state);
@@ -257,9 +263,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
       picture = std::move(looked_at->bytes);
     }
     const driving::Milliseconds now = now_ms();
-    for (const wire::ServerMessage& message : inputs.messages) {
-      if (const auto* welcome = std::get_if<wire::Welcome>(&message)) looker.set_show_period(welcome->frame_period_ms);
-    }
+    show_as_often_as_asked(inputs.messages, looker);
     lead(exploring->get(), inputs, state);
     const driving::Outputs outputs =
         *recorder ? (*recorder)->step(state, inputs, picture, now) : driving::step(state, inputs, config, now);
