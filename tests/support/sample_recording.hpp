@@ -28,6 +28,8 @@ inline db::RecordedStep sample_recorded_step(std::int64_t seq) {
   step.picture = db::RecordedPicture{
       650 + 40 * seq, {2.0, -0.0, 0.1}, std::make_shared<const std::vector<std::uint8_t>>(200, std::uint8_t{7})};
   step.rider = db::RecordedRider{680 + 40 * seq, true, -0.0, std::nextafter(0.2, 1.0)};
+  step.leg = db::RecordedLeg{-0.0, 1.0 / 7.0, 0.1};
+  step.exploration_over = true;
   step.speed_mps = std::nextafter(0.3, 1.0);
   step.turn_radps = -0.0;
   step.state = wire::DriveState::kDriving;

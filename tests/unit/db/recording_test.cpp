@@ -88,6 +88,11 @@ TEST_F(RecordingFile, GivesEveryNumberBackBitForBit) {
   EXPECT_TRUE(step.rider->deflected);
   EXPECT_EQ(bits(step.rider->speed_mps), bits(-0.0));
   EXPECT_EQ(bits(step.rider->turn_radps), bits(expected.rider->turn_radps));
+  ASSERT_TRUE(step.leg);
+  EXPECT_EQ(bits(step.leg->goal_x_m), bits(-0.0));
+  EXPECT_EQ(bits(step.leg->goal_y_m), bits(1.0 / 7.0));
+  EXPECT_EQ(bits(step.leg->within_m), bits(0.1));
+  EXPECT_TRUE(step.exploration_over);
   ASSERT_TRUE(step.sweep);
   EXPECT_EQ(bits(step.sweep->angle_min_rad), bits(-0.0));
   EXPECT_TRUE(std::isinf(step.sweep->ranges_m[1]));
@@ -216,10 +221,10 @@ TEST_F(RecordingFile, ThatIsAnotherSqliteFile) {
 
 TEST_F(RecordingFile, OfANewerVersion) {
   record();
-  change("PRAGMA user_version = 5");
+  change("PRAGMA user_version = 6");
   EXPECT_EQ(trouble().code, ErrorCode::kUnsupportedFormat);
-  EXPECT_THAT(trouble().message, HasSubstr("version 5"));
-  EXPECT_THAT(trouble().message, HasSubstr("versions 1 to 4"));
+  EXPECT_THAT(trouble().message, HasSubstr("version 6"));
+  EXPECT_THAT(trouble().message, HasSubstr("versions 1 to 5"));
 }
 
 TEST_F(RecordingFile, OfTheVersionBeforeJoysticksIsRead) {

@@ -89,6 +89,8 @@ class RecordedDrive : public ::testing::Test {
     inputs.robot_link_up = robot_link_up_;
     inputs.rider = hand_;
     if (hand_) inputs.rider->said_ms = now_ms_;
+    inputs.leg = leg_;
+    inputs.exploration_over = over_;
     const driving::Outputs outputs = recorder_->step(state_, inputs, bytes, now_ms_);
     pose_ = pose_ * Pose2{0.1 * outputs.motion.speed_mps, 0.0, 0.1 * outputs.motion.turn_radps};
     return outputs;
@@ -134,6 +136,8 @@ class RecordedDrive : public ::testing::Test {
   Pose2 pose_;
   bool pictures_ = true;
   std::optional<driving::JoystickReading> hand_;
+  std::optional<driving::Leg> leg_;  // of an exploration
+  std::optional<driving::ExplorationOver> over_;
 
  private:
   std::mutex mutex_;

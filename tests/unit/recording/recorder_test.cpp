@@ -55,6 +55,18 @@ TEST_F(RecorderTest, KeepsOneFileForEachMission) {
   EXPECT_THAT(third.end->note, HasSubstr("program ended"));
 }
 
+TEST_F(RecorderTest, AnExplorationAfterAMissionIsAFileOfItsOwn) {
+  open_recorder();
+  tick({mission("m1", 1)});
+  tick({wire::ExploreOrder{MissionId("m2"), {1, 50}, 1500, 0.4, ExplorationId("x1"), false, {}, {}, {}}});
+  tick();
+  close_recorder();
+  const auto files = recordings();
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(read(files[0]).end->note, "Another mission was sent.");
+  EXPECT_EQ(read(files[1]).steps.size(), 2U);
+}
+
 TEST_F(RecorderTest, DoesNotRecordAMissionThatIsRefused) {
   open_recorder();
   wire::MissionOrder order = mission("m1", 1);

@@ -67,6 +67,26 @@ TEST_F(Replay, ReproducesARiderWhoTakesOver) {
   EXPECT_EQ(deflected.getInt(), 1);
 }
 
+TEST_F(Replay, ReproducesAnExploration) {
+  open_recorder();
+  tick({wire::ExploreOrder{MissionId("m1"), {1, 1}, 1500, 0.4, ExplorationId("x1"), false, {}, {}, {}}});
+  leg_ = driving::Leg{{1.0 / 3.0, 0.05}, 0.1};
+  for (int i = 0; i < 12; ++i) tick();
+  EXPECT_GT(pose_.x_m, 0.1) << "it stood: " << state_.reason;
+  leg_.reset();
+  tick();
+  over_ = driving::ExplorationOver{true, wire::Reason{wire::ReasonCode::kExplorationStuck}};
+  tick();
+  close_recorder();
+  const auto replayed = result();
+  ASSERT_TRUE(replayed) << replayed.error().message << " " << replayed.error().where;
+  EXPECT_TRUE(replayed->same()) << replayed->differing.front().what;
+  EXPECT_TRUE(replayed->complete);
+  EXPECT_EQ(replayed->compared, 15);
+  EXPECT_EQ(replayed->why->state, "failed");
+  EXPECT_EQ(replayed->why->reason, wire::Reason{wire::ReasonCode::kExplorationStuck});
+}
+
 TEST_F(Replay, ReproducesARobotThatIsNotReached) {
   open_recorder();
   tick({mission("m1", 1)});
