@@ -120,6 +120,10 @@ Status Driving::set_fences(const RobotId& id, const std::string& lease_id, const
   const std::scoped_lock lock(unit.mutex);
   if (const Status status = may_order(unit, lease_id, clock_.steady()); !status) return status;
   if (const Status told = has_told(unit); !told) return told;
+  if (unit.explores() && unit.mission->exploration != unit.exploration->id) {
+    return fail(ErrorCode::kConflict, "The robot has not told of its exploration yet; try again in a moment.",
+                where_of(unit));
+  }
   unit.link->send(wire::Fences{unit.exploration->id, fences_m});
   spdlog::info("robot {} exploration {} has {} fences, by {}", id.str(), unit.exploration->id.str(), fences_m.size(),
                unit.lease->holder);

@@ -16,8 +16,10 @@ namespace homeward::files {
 /// The tables that stand beside the pictures of a tour, as TourFolder reads them: gathered picture by picture.
 class TourTables {
  public:
-  void add(const std::string& picture, TimeUs t_us, const std::optional<Pose2>& odometry, const RangeSweep& sweep);
-  /// Writes times.csv, scans.csv, scans.json, camera.json and, where there is any, odometry.csv. Errors: kIo.
+  /// All sweeps are of one scanner: their geometry is that of the first.
+  void add(const std::string& picture, TimeUs t_us, const std::optional<Pose2>& odometry,
+           const std::optional<RangeSweep>& sweep);
+  /// Writes times.csv, camera.json and, where there are any, odometry.csv, scans.csv and scans.json. Errors: kIo.
   [[nodiscard]] Status write(const std::filesystem::path& folder, const camera::CameraConfig& camera) const;
 
  private:

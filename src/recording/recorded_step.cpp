@@ -60,6 +60,23 @@ db::RecordedStep to_recorded(std::int64_t seq, const driving::Inputs& inputs, co
   return step;
 }
 
+namespace {
+
+/// Why an order to explore was refused in a step: it came from outside the step. Nothing: none was.
+std::optional<wire::Reason> why_refused(const db::RecordedStep& step) {
+  for (const wire::ServerMessage& received : step.received) {
+    const auto* order = std::get_if<wire::ExploreOrder>(&received);
+    if (order == nullptr) continue;
+    for (const wire::AgentMessage& sent : step.sent) {
+      const auto* refused = std::get_if<wire::MissionRefused>(&sent);
+      if (refused != nullptr && refused->mission == order->mission) return refused->reason;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 driving::Inputs inputs_of(const db::RecordedStep& step) {
   driving::Inputs inputs;
   inputs.sensors_now_ms = step.sensors_ms;
@@ -73,6 +90,7 @@ driving::Inputs inputs_of(const db::RecordedStep& step) {
         step.rider->said_ms, step.rider->deflected, {step.rider->speed_mps, step.rider->turn_radps}};
   }
   if (step.leg) inputs.leg = driving::Leg{{step.leg->goal_x_m, step.leg->goal_y_m}, step.leg->within_m};
+  inputs.why_not_exploring = why_refused(step);
   if (step.exploration_over)
     inputs.exploration_over = driving::ExplorationOver{step.state == wire::DriveState::kFailed, step.reason};
   return inputs;

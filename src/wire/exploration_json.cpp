@@ -18,7 +18,8 @@ constexpr EnumNames<ExplorationPhase, 5> kPhases({"waiting", "exploring", "pause
 constexpr double kFarthest_m = 1e5;
 constexpr double kMostHeading_rad = 3.2;
 constexpr std::size_t kMostNodes = 20'000;
-constexpr int kMostCells = 5000;  // of a row or a column
+constexpr int kMostCells = 1000;  // of a row or a column
+constexpr std::size_t kMostRuns = 200'000;
 constexpr std::int64_t kFloorKinds = 4;
 constexpr std::size_t kLeastCorners = 3;
 
@@ -62,7 +63,7 @@ std::optional<FloorReport> read_floor(ObjectReader& outer) {
   floor.columns = static_cast<int>(reader.integer("columns", 1, kMostCells));
   floor.rows = static_cast<int>(reader.integer("rows", 1, kMostCells));
   const std::size_t size = static_cast<std::size_t>(floor.columns) * static_cast<std::size_t>(floor.rows);
-  for (const json& item : reader.array("runs")) {
+  for (const json& item : reader.array("runs", kMostRuns)) {
     const std::int64_t run = item.is_number_integer() ? item.get<std::int64_t>() : 0;
     const std::int64_t left = static_cast<std::int64_t>(size - floor.cells.size());
     if (run < kFloorKinds || run / kFloorKinds > left) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "files/write_file.hpp"
@@ -12,8 +13,14 @@ namespace {
 
 using wire::ReasonCode;
 
-constexpr std::size_t kSweepsKept = 12;
+constexpr driving::Milliseconds kSweepsKept_ms = 2000;
 constexpr driving::Milliseconds kOdometryKept_ms = 1000;
+// Odometry is not believed to go on where for so long nothing was seen, or no step was made,
+constexpr driving::Milliseconds kSeesNothing_ms = 500;
+constexpr driving::Milliseconds kHeldUp_ms = 2000;
+// or where it says that the robot moved faster than any.
+constexpr double kJump_m = 0.3;
+constexpr double kJump_rad = 0.8;
 
 bool explores(const driving::DrivingState& state) {
   return state.mission && state.mission->explores && state.drive == wire::DriveState::kDriving;
@@ -43,11 +50,15 @@ std::optional<wire::Reason> Exploring::why_not(const wire::ExploreOrder& order) 
 
 void Exploring::prepare(driving::Inputs& inputs, const driving::DrivingState& state) const {
   const std::lock_guard lock(mutex_);
+  bool ordered = false;
   for (const wire::ServerMessage& message : inputs.messages) {
-    if (const auto* order = std::get_if<wire::ExploreOrder>(&message)) inputs.why_not_exploring = why_not(*order);
+    const auto* order = std::get_if<wire::ExploreOrder>(&message);
+    if (order == nullptr) continue;
+    inputs.why_not_exploring = why_not(*order);
+    ordered = true;  // what is said of the mission before is not for that one
   }
-  if (!explores(state) || state.mission->id != from_.mission) return;
-  inputs.leg = from_.leg;
+  if (ordered || !explores(state) || state.mission->id != from_.mission) return;
+  if (from_.odometry_epoch == odometry_epoch_) inputs.leg = from_.leg;
   inputs.exploration_over = from_.over;
 }
 
@@ -62,32 +73,59 @@ void Exploring::note_orders(const driving::Inputs& inputs, const driving::Drivin
     if (const auto* order = std::get_if<wire::ExploreOrder>(&message)) {
       if (!follows || order->mission != state.mission->id || followed_) continue;
       followed_ = order->mission;
-      to_.commands.emplace_back(OrderObeyed{*order, state.displaced});
+      to_.commands.emplace_back(OrderObeyed{*order, odometry_epoch_, inputs.sensors_now_ms.value_or(0)});
     } else if (const auto* fences = std::get_if<wire::Fences>(&message)) {
       to_.commands.emplace_back(*fences);
     } else if (const auto* finish = std::get_if<wire::Finish>(&message)) {
       to_.commands.emplace_back(*finish);
     } else if (std::holds_alternative<wire::Welcome>(message)) {
-      to_.welcomed = true;
+      welcomed_ = true;
     }
   }
 }
 
+bool Exploring::odometry_goes_on(const driving::Inputs& inputs, const driving::DrivingState& state,
+                                 driving::Milliseconds now_ms) const {
+  if (state.displaced != displaced_ || !inputs.robot_link_up) return false;
+  if (step_ms_ && now_ms - *step_ms_ > kHeldUp_ms) return false;
+  const driving::Milliseconds sensors_ms = inputs.sensors_now_ms.value_or(now_ms);
+  if (sweep_ms_ && sensors_ms - *sweep_ms_ > kSeesNothing_ms) return false;
+  if (odometry_.empty()) return true;
+  const Pose2 moved = inverse(odometry_.back().second) * inputs.odometry;
+  return position_m(moved).norm() <= kJump_m && std::abs(moved.theta_rad) <= kJump_rad;
+}
+
+/// With the mails locked.
+void Exploring::watch_odometry(const driving::Inputs& inputs, const driving::DrivingState& state,
+                               driving::Milliseconds now_ms) {
+  const driving::Milliseconds sensors_ms = inputs.sensors_now_ms.value_or(now_ms);
+  if (!odometry_goes_on(inputs, state, now_ms)) {
+    ++odometry_epoch_;
+    odometry_.clear();
+    to_.sweeps.clear();
+  }
+  displaced_ = state.displaced;
+  step_ms_ = now_ms;
+  if (inputs.scan) sweep_ms_ = inputs.scan->taken_ms;
+  to_.odometry_epoch = odometry_epoch_;
+  odometry_.emplace_back(sensors_ms, inputs.odometry);
+  while (sensors_ms - odometry_.front().first > kOdometryKept_ms) odometry_.pop_front();
+}
+
 void Exploring::follow(const driving::Inputs& inputs, const recording::PictureBytes& picture,
-                       const driving::DrivingState& state) {
+                       const driving::DrivingState& state, driving::Milliseconds now_ms) {
   const std::lock_guard lock(mutex_);
   const std::size_t commands = to_.commands.size();
+  watch_odometry(inputs, state, now_ms);
   note_orders(inputs, state);
   to_.link_up = inputs.link_up;
-  const driving::Milliseconds now_ms = inputs.sensors_now_ms.value_or(0);
-  odometry_.emplace_back(now_ms, inputs.odometry);
-  while (now_ms - odometry_.front().first > kOdometryKept_ms) odometry_.pop_front();
+  if (followed_) to_.blocked = to_.blocked || state.leg.blocked;
   if (inputs.scan && followed_) {
     // A sweep is a moment old when it comes; it is of where the robot was then.
     const auto then = std::ranges::min_element(
         odometry_, {}, [&](const auto& at) { return std::abs(at.first - inputs.scan->taken_ms); });
-    to_.sweeps.push_back({inputs.scan->taken_ms, inputs.scan->scan, then->second, state.leg.blocked});
-    if (to_.sweeps.size() > kSweepsKept) to_.sweeps.pop_front();
+    to_.sweeps.push_back({inputs.scan->taken_ms, inputs.scan->scan, then->second});
+    while (to_.sweeps.back().sensors_ms - to_.sweeps.front().sensors_ms > kSweepsKept_ms) to_.sweeps.pop_front();
     new_sweep_ = true;
   }
   if (inputs.picture && inputs.picture->appearance && picture && followed_)
@@ -102,7 +140,7 @@ bool Exploring::wants_features() const {
 
 std::optional<wire::Explored> Exploring::take_report() {
   const std::lock_guard lock(mutex_);
-  const bool again = std::exchange(to_.welcomed, false);
+  const bool again = std::exchange(welcomed_, false);
   if (from_.report) {
     told_ = std::exchange(from_.report, std::nullopt);
   } else if (!again || !told_) {
@@ -129,6 +167,8 @@ void Exploring::run(const std::stop_token& stop) {
       mail.picture = std::exchange(to_.picture, std::nullopt);
       mail.link_up = to_.link_up;
       mail.sweeps = to_.sweeps;
+      mail.blocked = std::exchange(to_.blocked, false);
+      mail.odometry_epoch = to_.odometry_epoch;
       if (!mail.commands.empty()) to_.sweeps.clear();  // odometry may have moved between orders
       new_sweep_ = false;
     }

@@ -30,8 +30,9 @@ class Exploring {
   /// Before a step: adds where to drive, that it is over, and why an order to explore is refused.
   void prepare(driving::Inputs& inputs, const driving::DrivingState& state) const;
   /// After it: what was ordered and obeyed, and what the sensors said. `picture`: the bytes of the inputs' picture.
-  void follow(const driving::Inputs& inputs, const recording::PictureBytes& picture,
-              const driving::DrivingState& state);
+  /// `now_ms`: of the step.
+  void follow(const driving::Inputs& inputs, const recording::PictureBytes& picture, const driving::DrivingState& state,
+              driving::Milliseconds now_ms);
   /// Whether a picture with its features is of use now.
   [[nodiscard]] bool wants_features() const;
   /// How far it is, where that is new or the server has welcomed the robot since.
@@ -41,12 +42,20 @@ class Exploring {
   Exploring(ThinkerOptions options, const camera::CameraConfig& camera, const pipeline::Eye& eye);
   void run(const std::stop_token& stop);
   void note_orders(const driving::Inputs& inputs, const driving::DrivingState& state);
+  void watch_odometry(const driving::Inputs& inputs, const driving::DrivingState& state, driving::Milliseconds now_ms);
+  [[nodiscard]] bool odometry_goes_on(const driving::Inputs& inputs, const driving::DrivingState& state,
+                                      driving::Milliseconds now_ms) const;
   [[nodiscard]] std::optional<wire::Reason> why_not(const wire::ExploreOrder& order) const;
 
   Thinker thinker_;  // the thread's
   // The loop's own:
   std::optional<MissionId> followed_;
   std::deque<std::pair<driving::Milliseconds, Pose2>> odometry_;  // of the last second
+  int odometry_epoch_ = 0;
+  int displaced_ = 0;
+  std::optional<driving::Milliseconds> step_ms_;   // of the latest step, and by the sensors' clock of its
+  std::optional<driving::Milliseconds> sweep_ms_;  // latest sweep
+  bool welcomed_ = false;                          // since a report was asked for last
 
   mutable std::mutex mutex_;  // of the mails
   std::condition_variable_any came_;

@@ -13,10 +13,11 @@
 
 namespace homeward::agent {
 
-/// An order was obeyed. `displaced`: how often the robot has noticed by then that it was moved without its wheels.
+/// An order was obeyed, at `sensors_ms`. `odometry_epoch` rises where odometry may not go on from where it was.
 struct OrderObeyed {
   wire::ExploreOrder order;
-  int displaced = 0;
+  int odometry_epoch = 0;
+  driving::Milliseconds sensors_ms = 0;
 };
 /// What was ordered has ended.
 struct OrderEnded {
@@ -37,12 +38,14 @@ struct ToThinker {
   std::deque<Sensed> sweeps;  // the latest, the newest last
   std::optional<SeenByCamera> picture;
   bool link_up = false;
-  bool welcomed = false;  // since it was asked last
+  bool blocked = false;  // it has not got on to a leg's goal since the last mail
+  int odometry_epoch = 0;
 };
 
 /// And what that one answers. Leg and end are of one mission.
 struct FromThinker {
   MissionId mission;
+  int odometry_epoch = 0;  // of the leg
   std::optional<driving::Leg> leg;
   std::optional<driving::ExplorationOver> over;
   bool wants_features = false;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -81,10 +82,10 @@ Result<KeptFiles> KeptFiles::open(const fs::path& folder) {
 std::vector<KeptFiles> KeptFiles::not_uploaded(const fs::path& root, std::vector<Error>& unread) {
   std::vector<KeptFiles> found;
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(root, error)) {
+  for (fs::directory_iterator at(root, error); !error && at != fs::directory_iterator(); at.increment(error)) {
     std::error_code none;
-    if (!fs::exists(entry.path() / "exploration.json", none)) continue;
-    auto files = open(entry.path());
+    if (!fs::exists(at->path() / "exploration.json", none)) continue;
+    auto files = open(at->path());
     if (!files) {
       unread.push_back(files.error());
     } else if (!files->kept_.tour) {
@@ -98,8 +99,11 @@ std::vector<KeptFiles> KeptFiles::not_uploaded(const fs::path& root, std::vector
 Status KeptFiles::add(std::span<const std::uint8_t> jpeg, const wire::KeptView& view) {
   const std::string_view bytes(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
   if (Status written = files::write_file(picture(size_), bytes); !written) return written;
-  if (Status written = files::write_file(view_file(size_), wire::kept_view_to_json(view).dump() + "\n"); !written)
+  if (Status written = files::write_file(view_file(size_), wire::kept_view_to_json(view).dump() + "\n"); !written) {
+    std::error_code ignored;
+    fs::remove(picture(size_), ignored);
     return written;
+  }
   ++size_;
   return {};
 }
@@ -120,14 +124,35 @@ Result<wire::KeptView> KeptFiles::view(std::size_t index) const {
   return view;
 }
 
+Status KeptFiles::remove() const {
+  std::error_code error;
+  fs::remove_all(folder_, error);
+  if (error) return fail(ErrorCode::kIo, "The folder cannot be removed: " + error.message() + ".", folder_.string());
+  return {};
+}
+
+Result<std::vector<RangeSweep>> KeptFiles::sweeps() const {
+  std::vector<RangeSweep> sweeps;
+  for (std::size_t i = 0; i < size_; ++i) {
+    auto kept_view = view(i);
+    if (!kept_view) return pass_on(kept_view);
+    sweeps.push_back(std::move(kept_view->sweep));
+  }
+  return sweeps;
+}
+
 Status KeptFiles::write_tables(std::span<const Pose2> poses) const {
   const auto camera = files::read_camera(folder_ / "camera.json");
   if (!camera) return pass_on(camera);
+  for (std::size_t half = size_; fs::exists(picture(half)); ++half) {
+    std::error_code error;
+    if (!fs::remove(picture(half), error)) break;
+  }
   files::TourTables tables;
   for (std::size_t i = 0; i < std::min(size_, poses.size()); ++i) {
     const auto kept_view = view(i);
     if (!kept_view) return pass_on(kept_view);
-    tables.add(numbered(i, ".jpg"), kept_view->t_us, poses[i], kept_view->sweep);
+    tables.add(numbered(i, ".jpg"), kept_view->t_us, poses[i], std::nullopt);
   }
   return tables.write(tour_folder(), *camera);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -32,6 +33,12 @@ class KeptFiles {
   [[nodiscard]] std::filesystem::path tour_folder() const { return folder_ / "tour"; }
   /// How many pictures there are.
   [[nodiscard]] std::size_t size() const { return size_; }
+  /// Only the first ones count from now on; the next is written over what stands there.
+  void forget_from(std::size_t size) { size_ = std::min(size_, size); }
+  /// All of it leaves the disk. Errors: kIo.
+  [[nodiscard]] Status remove() const;
+  /// The sweeps of all pictures. Errors: those of `view`.
+  [[nodiscard]] Result<std::vector<RangeSweep>> sweeps() const;
   /// The next picture with its view. Errors: kIo.
   Status add(std::span<const std::uint8_t> jpeg, const wire::KeptView& view);
   /// Errors: kIo; then what was kept before stays.
@@ -39,7 +46,8 @@ class KeptFiles {
   [[nodiscard]] Result<wire::KeptView> view(std::size_t index) const;
   [[nodiscard]] std::filesystem::path picture(std::size_t index) const;
   /// The tables that make the pictures a tour, with what the robot took its poses to be in the end, one for each
-  /// picture. Errors: kIo, and those of `view`.
+  /// picture; but for the sweeps, each of which has a scanner's pose of its own. What is no whole picture leaves the
+  /// folder. Errors: kIo, and those of `view`.
   [[nodiscard]] Status write_tables(std::span<const Pose2> poses) const;
 
  private:

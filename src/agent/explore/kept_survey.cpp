@@ -17,8 +17,16 @@ using wire::ExplorationPhase;
 using wire::ReasonCode;
 
 /// As it is kept, in whole millimetres: what is explored with now is what it is after a restart.
-RangeSweep as_kept(const RangeSweep& sweep) {
-  return wire::sweep_from_json(wire::sweep_to_json(sweep)).value_or(sweep);
+Result<RangeSweep> as_kept(const RangeSweep& sweep) { return wire::sweep_from_json(wire::sweep_to_json(sweep)); }
+
+/// What was seen in a picture that is kept.
+Result<std::shared_ptr<const features::Appearance>> look_again(const std::filesystem::path& file,
+                                                               const pipeline::Eye& eye) {
+  const auto picture = files::read_picture(file);
+  if (!picture) return pass_on(picture);
+  auto appearance = eye.look(*picture);
+  if (!appearance) return pass_on(appearance);
+  return std::make_shared<const features::Appearance>(std::move(*appearance));
 }
 
 }  // namespace
@@ -32,7 +40,7 @@ Result<KeptSurvey> KeptSurvey::begin(const std::filesystem::path& root, const wi
 
 Result<KeptSurvey> KeptSurvey::restore(KeptFiles files, const pipeline::Eye& eye,
                                        const exploration::ExplorerConfig& config,
-                                       const std::function<bool(double)>& progress) {
+                                       const std::function<bool(double)>& progress, std::optional<Error>& unread) {
   KeptSurvey kept(std::move(files), config);
   const std::size_t pictures = kept.files_.size();
   for (std::size_t i = 0; i < pictures; ++i) {
@@ -40,14 +48,15 @@ Result<KeptSurvey> KeptSurvey::restore(KeptFiles files, const pipeline::Eye& eye
       return fail(ErrorCode::kConflict, "The program ends.", kept.files_.picture(i).string());
     }
     const auto view = kept.files_.view(i);
-    if (!view) return pass_on(view);
-    const auto picture = files::read_picture(kept.files_.picture(i));
-    if (!picture) return pass_on(picture);
-    auto appearance = eye.look(*picture);
-    if (!appearance) return pass_on(appearance);
+    const auto seen = view ? look_again(kept.files_.picture(i), eye) : pass_on(view);
+    if (!seen && i == 0) return pass_on(seen);
+    if (!seen) {
+      unread = seen.error();
+      kept.files_.forget_from(i);
+      break;
+    }
     if (view->odometry_moved) kept.survey_.go_on_anew(view->odometry_moved);
-    kept.survey_.take(view->sweep, view->odometry,
-                      std::make_shared<const features::Appearance>(std::move(*appearance)));
+    kept.survey_.take(view->sweep, view->odometry, *seen);
     kept.driven_m_ = view->driven_m;
     kept.explored_s_ = view->explored_s;
   }
@@ -88,23 +97,25 @@ std::optional<driving::ExplorationOver> KeptSurvey::over_by(const exploration::S
   return driving::ExplorationOver{false, wire::Reason{ReasonCode::kExplorationUnreached, {{"places", unreached}}}};
 }
 
-KeptSurvey::Next KeptSurvey::see(const Sensed& sensed) {
+KeptSurvey::Next KeptSurvey::see(const Sensed& sensed, bool blocked) {
   if (odometry_) driven_m_ += position_m(inverse(*odometry_) * sensed.odometry).norm();
   if (seen_ms_) explored_s_ += 0.001 * static_cast<double>(std::max<std::int64_t>(0, sensed.sensors_ms - *seen_ms_));
   odometry_ = sensed.odometry;
   seen_ms_ = sensed.sensors_ms;
-  const exploration::SurveyStep step = survey_.go_on(sensed.sweep, sensed.odometry, sensed.blocked, sensed.sensors_ms);
+  const exploration::SurveyStep step = survey_.go_on(sensed.sweep, sensed.odometry, blocked, sensed.sensors_ms);
   Next next{step.goal_m, step.takes_picture, over_by(step)};
   if (next.over) next.goal_m.reset();
   return next;
 }
 
 Status KeptSurvey::take(const SensedPicture& picture) {
+  auto sweep = as_kept(picture.sweep);
+  if (!sweep) return pass_on(sweep);
   wire::KeptView view;
   view.t_us = picture.t_us;
   view.odometry = picture.odometry;
   view.odometry_moved = odometry_moved_;
-  view.sweep = as_kept(picture.sweep);
+  view.sweep = std::move(*sweep);
   view.driven_m = driven_m_;
   view.explored_s = explored_s_;
   if (Status added = files_.add(*picture.jpeg, view); !added) return added;
@@ -131,11 +142,10 @@ Status KeptSurvey::end(const std::optional<wire::Reason>& reason) {
 }
 
 Status KeptSurvey::set_fences(const std::vector<wire::Fence>& fences_m) {
+  survey_.set_fences(fences_m);
   wire::KeptExploration kept = files_.kept();
   kept.fences_m = fences_m;
-  if (Status written = files_.keep(kept); !written) return written;
-  survey_.set_fences(fences_m);
-  return {};
+  return files_.keep(kept);
 }
 
 Status KeptSurvey::uploaded(const TourId& tour) {

@@ -19,7 +19,6 @@ struct Sensed {
   driving::Milliseconds sensors_ms = 0;
   RangeSweep sweep;
   Pose2 odometry;
-  bool blocked = false;  // the robot does not get on to the leg's goal
 };
 
 /// A picture with a sweep of the same moment.
@@ -38,14 +37,14 @@ class KeptSurvey {
   /// A new one. Errors: those of KeptFiles::create.
   static Result<KeptSurvey> begin(const std::filesystem::path& root, const wire::KeptExploration& kept,
                                   const camera::CameraConfig& camera, const exploration::ExplorerConfig& config);
-  /// As it was kept, picture by picture; `progress` hears the share that was read, and false ends it (kConflict).
-  /// Errors: those of KeptFiles::view, of files::read_picture and of Eye::look.
+  /// As it was kept, picture by picture, up to the first that cannot be read (`unread`); `progress` hears the share
+  /// that was read, and false ends it (kConflict). Errors: also why the very first picture cannot be read.
   static Result<KeptSurvey> restore(KeptFiles files, const pipeline::Eye& eye,
                                     const exploration::ExplorerConfig& config,
-                                    const std::function<bool(double)>& progress);
+                                    const std::function<bool(double)>& progress, std::optional<Error>& unread);
 
-  /// Takes up an order, at `sensors_ms`. `odometry_moved`: Explorer::move_odometry, where odometry says no more where
-  /// it stands.
+  /// Takes up an order that came at `sensors_ms`. `odometry_moved`: Explorer::move_odometry, where odometry says no
+  /// more where it stands.
   void take_up(const wire::ExploreOrder& order, driving::Milliseconds sensors_ms,
                const std::optional<Pose2>& odometry_moved);
   /// What is to be done now; while an order is followed.
@@ -54,15 +53,19 @@ class KeptSurvey {
     bool takes_picture = false;
     std::optional<driving::ExplorationOver> over;
   };
-  Next see(const Sensed& sensed);
-  /// The picture that was asked for. Errors: kIo; then it is as if there had been none.
+  /// `blocked`: the robot does not get on to the leg's goal.
+  Next see(const Sensed& sensed, bool blocked);
+  /// The picture that was asked for. Errors: kIo, kInvalidInput (a sweep that could not be read again); then it is as
+  /// if there had been none.
   Status take(const SensedPicture& picture);
   /// It stands, and may go on later.
   void pause(const std::optional<wire::Reason>& reason);
   /// Nothing more is explored: its tables are written, and its pictures may go to the server. Errors: kIo.
   Status end(const std::optional<wire::Reason>& reason);
-  /// Errors: kIo; then nothing is changed.
+  /// They hold from now on. Errors: kIo; then they do not outlive a restart.
   Status set_fences(const std::vector<wire::Fence>& fences_m);
+  /// It has ended without a picture.
+  void nothing_to_upload() { phase_ = wire::ExplorationPhase::kUploaded; }
   /// Its pictures are on the server. Errors: kIo.
   Status uploaded(const TourId& tour);
 

@@ -15,6 +15,7 @@ using wire::ReasonCode;
 
 constexpr auto kReportEvery = std::chrono::seconds(1);
 constexpr int kLooksToStandAgain = 5;  // pictures
+constexpr int kMostUnmatched = 30;     // pictures
 constexpr double kLegShare = 0.6;      // of the distance at which a place counts as reached: the leg goes on to that
 
 TimeUs now_us() {
@@ -35,35 +36,46 @@ wire::ExplorationReport report_of(const KeptFiles& files, ExplorationPhase phase
 
 }  // namespace
 
-void Thinker::take_up_kept(const Tell& tell, const std::stop_token& stop) {
-  std::vector<Error> unread;
-  std::vector<KeptFiles> kept = KeptFiles::not_uploaded(options_.folder, unread);
-  for (const Error& error : unread) options_.log("an exploration is passed over: " + error.message + " " + error.where);
-  std::optional<KeptFiles> open;
-  for (KeptFiles& files : kept) {
-    if (files.kept().ended) {
-      to_upload_.push_back(std::move(files));
-    } else {
-      open = std::move(files);
-    }
-  }
-  if (!open) return;
-  options_.log("goes on from exploration " + open->kept().id.str() + " with " + std::to_string(open->size()) +
-               " pictures");
-  said_.exploration = open->kept().id;
-  said_.report = report_of(*open, ExplorationPhase::kWaiting);
+void Thinker::restore(KeptFiles files, const Tell& tell, const std::stop_token& stop) {
+  said_.exploration = files.kept().id;
+  said_.report = report_of(files, ExplorationPhase::kWaiting);
   tell(said_);
-  auto restored =
-      KeptSurvey::restore(std::move(*open), eye_, options_.explorer, [&](double) { return !stop.stop_requested(); });
   said_.report.reset();
+  std::optional<Error> unread;
+  auto restored = KeptSurvey::restore(
+      files, eye_, options_.explorer, [&](double) { return !stop.stop_requested(); }, unread);
+  odometry_epoch_.reset();
+  if (unread) options_.log("from there on it cannot be read: " + unread->message + " " + unread->where);
   if (restored) {
     current_ = std::move(*restored);
-    odometry_goes_on_ = false;
   } else if (!stop.stop_requested()) {
     options_.log("that exploration cannot be read: " + restored.error().message + " " + restored.error().where);
     said_.exploration.reset();
+    said_.report = report_of(files, ExplorationPhase::kUploaded);
+    said_.report->reason =
+        wire::reason_with(ReasonCode::kExplorationBroken, "because", wire::reason_of(restored.error()));
+    tell(said_);
+    said_.report.reset();
   }
-  tell_now(tell, true);
+}
+
+void Thinker::take_up_kept(const Tell& tell, const std::stop_token& stop) {
+  std::vector<Error> unread;
+  std::deque<KeptFiles> open;
+  for (KeptFiles& files : KeptFiles::not_uploaded(options_.folder, unread))
+    (files.kept().ended ? to_upload_ : open).push_back(std::move(files));
+  for (const Error& error : unread) options_.log("an exploration is passed over: " + error.message + " " + error.where);
+  for (; !open.empty() && !stop.stop_requested(); open.pop_front()) {
+    options_.log("goes on from exploration " + open.front().kept().id.str() + " with " +
+                 std::to_string(open.front().size()) + " pictures");
+    restore(open.front(), tell, stop);
+    // It goes on with the newest; what was begun before and never ended is ended.
+    if (open.size() == 1 || !current_) continue;
+    if (const Status ended = end_current(wire::Reason{ReasonCode::kExplorationEndedByHand}); !ended)
+      options_.log("an exploration cannot be ended: " + ended.error().message + " " + ended.error().where);
+    current_.reset();
+  }
+  if (current_) tell_now(tell, true);
 }
 
 void Thinker::think(const ToThinker& mail, const Tell& tell, const std::stop_token& stop) {
@@ -77,22 +89,31 @@ void Thinker::think(const ToThinker& mail, const Tell& tell, const std::stop_tok
 
 void Thinker::obey(const OrderObeyed& obeyed) {
   order_ = obeyed.order;
+  obeyed_ms_ = obeyed.sensors_ms;
   said_.mission = obeyed.order.mission;
+  said_.odometry_epoch = obeyed.odometry_epoch;
   said_.leg.reset();
   said_.over.reset();
   wants_picture_since_ms_.reset();
   taken_up_ = false;
-  looked_ = 0;
-  if (std::exchange(displaced_, obeyed.displaced) != obeyed.displaced) odometry_goes_on_ = false;
+  looked_ = unmatched_ = 0;
   changed_ = true;
-  if (obeyed.order.goes_on && current_) return;
-  if (current_) obey(wire::Finish{current_->files().kept().id});
+  const bool has_it =
+      current_ && !current_->files().kept().ended && current_->files().kept().id == obeyed.order.exploration;
+  if (obeyed.order.goes_on) {
+    if (!has_it) end_by({true, wire::Reason{ReasonCode::kExplorationUnknown}});
+    return;
+  }
+  if (current_ && !current_->files().kept().ended) {
+    if (const Status ended = end_current(wire::Reason{ReasonCode::kExplorationEndedByHand}); !ended)
+      return broken(ended.error());
+  }
   auto begun = KeptSurvey::begin(options_.folder, {obeyed.order.exploration, now_us(), {}, false, {}, {}}, camera_,
                                  options_.explorer);
   if (!begun) return broken(begun.error());
   current_ = std::move(*begun);
   said_.exploration = obeyed.order.exploration;
-  odometry_goes_on_ = true;
+  odometry_epoch_ = obeyed.odometry_epoch;
 }
 
 void Thinker::obey(const OrderEnded& ended) {
@@ -107,19 +128,23 @@ void Thinker::obey(const OrderEnded& ended) {
 }
 
 void Thinker::obey(const wire::Fences& fences) {
-  if (!current_ || current_->files().kept().id != fences.exploration) return;
-  if (const Status set = current_->set_fences(fences.fences_m); !set) options_.log("no fence: " + set.error().message);
+  const bool knows_it = current_ && current_->files().kept().id == fences.exploration;
+  if (!knows_it || current_->files().kept().ended) return;
+  said_.leg.reset();  // it may lead over one
   changed_ = true;
+  const Status set = current_->set_fences(fences.fences_m);
+  if (set) return;
+  // It keeps off them now, and would not after a restart.
+  if (order_) return broken(set.error());
+  options_.log("fences are not kept: " + set.error().message + " " + set.error().where);
 }
 
 void Thinker::obey(const wire::Finish& finish) {
   const bool knows_it = current_ && current_->files().kept().id == finish.exploration;
   if (!knows_it || current_->files().kept().ended) return;
-  if (order_ && taken_up_ && said_.exploration == finish.exploration) return;  // it explores
-  if (const Status ended = current_->end(wire::Reason{ReasonCode::kExplorationEndedByHand}); !ended)
-    return options_.log("the exploration cannot be ended: " + ended.error().message + " " + ended.error().where);
-  to_upload_.push_back(current_->files());
-  said_.exploration.reset();
+  if (order_ && !said_.over) return;  // it explores, or is about to
+  if (const Status ended = end_current(wire::Reason{ReasonCode::kExplorationEndedByHand}); !ended)
+    options_.log("the exploration cannot be ended: " + ended.error().message + " " + ended.error().where);
   changed_ = true;
 }
 
@@ -136,92 +161,118 @@ void Thinker::end_by(const driving::ExplorationOver& over) {
   changed_ = true;
   if (!current_) return;
   if (over.failed) return current_->pause(over.reason);
-  if (const Status ended = current_->end(over.reason); !ended) return broken(ended.error());
-  to_upload_.push_back(current_->files());
+  if (const Status ended = end_current(over.reason); !ended) broken(ended.error());
+}
+
+Status Thinker::end_current(const std::optional<wire::Reason>& reason) {
+  if (Status ended = current_->end(reason); !ended) return ended;
   said_.exploration.reset();
+  if (current_->files().size() > 0) {
+    to_upload_.push_back(current_->files());
+    return {};
+  }
+  // There is nothing that could be a tour.
+  if (const Status removed = current_->files().remove(); !removed) options_.log(removed.error().message);
+  current_->nothing_to_upload();
+  return {};
 }
 
 /// Where the robot stands, before an order is followed.
 void Thinker::take_up(const ToThinker& mail) {
-  const driving::Milliseconds now_ms = mail.sweeps.back().sensors_ms;
   const exploration::Explorer& explorer = current_->survey().explorer();
-  if (odometry_goes_on_ || explorer.views().empty()) {
-    current_->take_up(*order_, now_ms, std::nullopt);
+  if (odometry_epoch_ == mail.odometry_epoch || explorer.views().empty()) {
+    odometry_epoch_ = said_.odometry_epoch = mail.odometry_epoch;
+    current_->take_up(*order_, obeyed_ms_, std::nullopt);
     taken_up_ = true;
     return;
   }
   said_.wants_features = true;
   if (!mail.picture) return;
   const auto sweep = sweep_of_picture(mail.sweeps, mail.picture->seen);
-  if (!sweep) return;
-  const auto floor_from_robot = exploration::stand_again(explorer, *sweep, *mail.picture->seen.appearance);
+  std::optional<Pose2> floor_from_robot;
+  if (sweep) floor_from_robot = exploration::stand_again(explorer, *sweep, *mail.picture->seen.appearance);
   if (!floor_from_robot) {
     if (++looked_ >= kLooksToStandAgain) end_by({true, wire::Reason{ReasonCode::kRobotMovedSince}});
     return;
   }
   const Pose2 said_before = explorer.views().back().odometry * inverse(explorer.poses().back()) * *floor_from_robot;
-  current_->take_up(*order_, now_ms, mail.picture->seen.odometry * inverse(said_before));
-  taken_up_ = odometry_goes_on_ = true;
+  current_->take_up(*order_, obeyed_ms_, mail.picture->seen.odometry * inverse(said_before));
+  odometry_epoch_ = said_.odometry_epoch = mail.odometry_epoch;
+  taken_up_ = true;
+}
+
+/// The picture that is wanted, once there is one with a sweep of its time.
+void Thinker::take_picture(const ToThinker& mail) {
+  if (!wants_picture_since_ms_ || !mail.picture) return;
+  if (mail.picture->seen.taken_ms < *wants_picture_since_ms_) return;
+  const auto sweep = sweep_of_picture(mail.sweeps, mail.picture->seen);
+  if (!sweep) {
+    if (++unmatched_ < kMostUnmatched) return;
+    return broken({ErrorCode::kIo, "Pictures come so late that no sweep of their time is known any more.", "camera"});
+  }
+  unmatched_ = 0;
+  wants_picture_since_ms_.reset();
+  const Status taken = current_->take(
+      {*sweep, mail.picture->seen.odometry, mail.picture->seen.appearance, mail.picture->bytes, now_us()});
+  if (!taken) broken(taken.error());
 }
 
 void Thinker::explore(const ToThinker& mail) {
   if (!current_ || mail.sweeps.empty()) return;
   changed_ = true;
   if (!taken_up_) return take_up(mail);
+  if (odometry_epoch_ != mail.odometry_epoch)
+    return end_by({true, wire::Reason{ReasonCode::kRobotMovedSince}});  // it sees where it stands when it is sent on
   const Sensed& sensed = mail.sweeps.back();
-  const KeptSurvey::Next next = current_->see(sensed);
+  const KeptSurvey::Next next = current_->see(sensed, mail.blocked);
   said_.leg.reset();
   if (next.goal_m) said_.leg = driving::Leg{*next.goal_m, kLegShare * exploration::SurveyConfig{}.there_m};
   if (next.takes_picture && !wants_picture_since_ms_) wants_picture_since_ms_ = sensed.sensors_ms;
-  if (wants_picture_since_ms_ && mail.picture && mail.picture->seen.taken_ms >= *wants_picture_since_ms_) {
-    if (const auto sweep = sweep_of_picture(mail.sweeps, mail.picture->seen)) {
-      wants_picture_since_ms_.reset();
-      const Status taken = current_->take(
-          {*sweep, mail.picture->seen.odometry, mail.picture->seen.appearance, mail.picture->bytes, now_us()});
-      if (!taken) return broken(taken.error());
-    }
-  }
+  take_picture(mail);
+  if (said_.over) return;
   said_.wants_features = wants_picture_since_ms_.has_value() || current_->soon_wants_picture();
   if (next.over) end_by(*next.over);
 }
 
 void Thinker::upload(const Tell& tell, const std::stop_token& stop) {
-  const KeptFiles files = to_upload_.front();
+  KeptFiles files = std::move(to_upload_.front());
+  to_upload_.pop_front();
   const bool is_current = current_ && current_->files().kept().id == files.kept().id;
+  // Of one that is over nothing is told while there is one to go on with.
+  const bool is_told = is_current || !current_ || current_->files().kept().ended;
   auto report = is_current ? current_->report() : report_of(files, ExplorationPhase::kEnded);
   report.reason = files.kept().reason;
-  said_.uploads = true;
-  const auto show = [&](double share) {
-    report.uploaded = std::clamp(share, 0.0, 1.0);
-    if (stop.stop_requested() || Clock::now() - told_at_ < kReportEvery) return;
+  const auto tell_report = [&] {
+    if (is_told) said_.report = report;
     told_at_ = Clock::now();
-    said_.report = report;
     tell(said_);
+    said_.report.reset();
   };
-  show(0.0);
-  const auto tour = options_.upload(files.tour_folder(), "Exploration " + files.kept().id.str(), show);
+  said_.uploads = true;
+  tell_report();
+  const auto tour = options_.upload(files, "Exploration " + files.kept().id.str(), [&](double share) {
+    report.uploaded = std::clamp(share, 0.0, 1.0);
+    if (Clock::now() - told_at_ >= kReportEvery) tell_report();
+    return !stop.stop_requested();
+  });
   said_.uploads = false;
   tried_upload_at_ = Clock::now();
   if (!tour) {
     options_.log("the pictures of an exploration do not get to the server: " + tour.error().message);
     report.reason = wire::reason_with(ReasonCode::kExplorationNotUploaded, "because", wire::reason_of(tour.error()));
+    to_upload_.push_back(std::move(files));  // others first
   } else {
     wire::KeptExploration kept = files.kept();
     kept.tour = *tour;
-    KeptFiles done = files;
-    if (const Status written = is_current ? current_->uploaded(*tour) : done.keep(kept); !written)
+    if (const Status written = is_current ? current_->uploaded(*tour) : files.keep(kept); !written)
       options_.log("that an exploration is on the server cannot be noted: " + written.error().message);
-    to_upload_.pop_front();
     tried_upload_at_ = {};
     report.phase = ExplorationPhase::kUploaded;
     report.tour = *tour;
     report.uploaded = 1.0;
   }
-  told_at_ = Clock::now();
   changed_ = false;
-  said_.report = report;
-  tell(said_);
-  said_.report.reset();
+  tell_report();
 }
 
 void Thinker::tell_now(const Tell& tell, bool forced) {

@@ -21,10 +21,10 @@ namespace homeward::agent {
 struct ThinkerOptions {
   std::filesystem::path folder;  // of all explorations
   exploration::ExplorerConfig explorer;
-  /// Brings a folder with a tour to the server under a name; hears the share that is there. It is tried again after a
-  /// while where it fails.
-  std::function<Result<TourId>(const std::filesystem::path& tour, const std::string& name,
-                               const std::function<void(double)>& progress)>
+  /// Brings the pictures to the server as a tour of that name; tells the share that is there, and ends where that gives
+  /// false. It is tried again after a while where it fails.
+  std::function<Result<TourId>(const KeptFiles& kept, const std::string& name,
+                               const std::function<bool(double)>& progress)>
       upload;
   std::function<void(const std::string&)> log;
   std::chrono::milliseconds upload_again_after{10'000};
@@ -55,7 +55,11 @@ class Thinker {
   void obey(const wire::Finish& finish);
   void explore(const ToThinker& mail);
   void take_up(const ToThinker& mail);
+  void take_picture(const ToThinker& mail);
   void end_by(const driving::ExplorationOver& over);
+  /// Of the present one nothing more is explored. Errors: kIo; then it stays as it is.
+  Status end_current(const std::optional<wire::Reason>& reason);
+  void restore(KeptFiles files, const Tell& tell, const std::stop_token& stop);
   void broken(const Error& error);
   void upload(const Tell& tell, const std::stop_token& stop);
   void tell_now(const Tell& tell, bool forced);
@@ -66,10 +70,11 @@ class Thinker {
   std::optional<KeptSurvey> current_;
   std::deque<KeptFiles> to_upload_;
   std::optional<wire::ExploreOrder> order_;  // that is followed
-  bool taken_up_ = false;          // the survey follows it; else it is still looked for where the robot stands
-  int looked_ = 0;                 // pictures by which that was tried
-  bool odometry_goes_on_ = false;  // since the latest picture of `current_`
-  int displaced_ = 0;
+  bool taken_up_ = false;                // the survey follows it; else it is still looked for where the robot stands
+  int looked_ = 0;                       // pictures by which that was tried
+  std::optional<int> odometry_epoch_;    // that the poses of `current_` are of; nothing: of none that goes on
+  driving::Milliseconds obeyed_ms_ = 0;  // when the order came, by the sensors' clock
+  int unmatched_ = 0;                    // pictures without a sweep of their time, in a row
   std::optional<driving::Milliseconds> wants_picture_since_ms_;
   FromThinker said_;
   bool changed_ = true;

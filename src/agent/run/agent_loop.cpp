@@ -143,10 +143,12 @@ Result<std::unique_ptr<Exploring>> open_exploring(const AgentOptions& options, c
   thinker.explorer.reach.radius_m = body.outline.radius_m + body.outline.side_m;
   thinker.log = options.log;
   thinker.upload = [server = options.server, token = options.token](
-                       const std::filesystem::path& tour, const std::string& name,
-                       const std::function<void(double)>& progress) -> Result<TourId> {
+                       const KeptFiles& kept, const std::string& name,
+                       const std::function<bool(double)>& progress) -> Result<TourId> {
     RestClient client(server, token);
-    const auto uploaded = upload_tour(client, {tour.string(), tour.parent_path() / "camera.json", name}, progress);
+    auto sweeps = kept.sweeps();
+    if (!sweeps) return pass_on(sweeps);
+    const auto uploaded = upload_tour(client, {kept.tour_folder().string(), "", name, std::move(*sweeps)}, progress);
     if (!uploaded) return pass_on(uploaded);
     return TourId(uploaded->id);
   };
@@ -179,9 +181,9 @@ void lead(const Exploring* exploring, driving::Inputs& inputs, const driving::Dr
 
 /// And hears what came of it after the step. Whether features of pictures are wanted.
 bool follow(Exploring* exploring, const driving::Inputs& inputs, const recording::PictureBytes& picture,
-            const driving::DrivingState& state, LinkClient& link) {
+            const driving::DrivingState& state, driving::Milliseconds now, LinkClient& link) {
   if (exploring != nullptr) {
-    exploring->follow(inputs, picture, state);
+    exploring->follow(inputs, picture, state, now);
     if (link.up()) {
       if (auto report = exploring->take_report()) link.send(std::move(*report));
     }
@@ -272,7 +274,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
     driver.command(held_up ? driving::Motion{} : outputs.motion);
     send(link, outputs.messages);
     looker.set_looking(state.drive == wire::DriveState::kDriving);
-    looker.set_features_wanted(follow(exploring->get(), inputs, picture, state, link));
+    looker.set_features_wanted(follow(exploring->get(), inputs, picture, state, now, link));
     reporting.report(state, config, reading, now);
     if (Clock::now() >= next_cycle) next_cycle = std::max(next_cycle + kCycle, Clock::now());
     // What is received is obeyed at once, and its silence counts from when it came.

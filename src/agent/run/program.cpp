@@ -118,9 +118,10 @@ Status upload(const UploadCommand& options) {
   int reported = -1;
   const auto progress = [&](double share) {
     const int tenths = static_cast<int>(share * 10.0);
-    if (tenths == reported) return;
+    if (tenths == reported) return true;
     reported = tenths;
     std::fprintf(stderr, "uploading: %d %%\n", tenths * 10);
+    return true;
   };
   const auto tour = upload_tour(server, options.upload, progress);
   if (!tour) return pass_on(tour);

@@ -105,7 +105,7 @@ Status put_sweep(RestClient& server, const std::string& tour, std::size_t number
 }  // namespace
 
 Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& options,
-                                 const std::function<void(double)>& progress) {
+                                 const std::function<bool(double)>& progress) {
   const auto tour = files::TourFolder::open(options.folder);
   if (!tour) return pass_on(tour);
   const std::filesystem::path folder(options.folder);
@@ -119,16 +119,19 @@ Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& option
   UploadedTour uploaded{*id, {}};
   std::size_t kept = 0;  // the server numbers without gaps
   for (std::size_t i = 0; i < files->size(); ++i) {
-    const Status put = put_picture(server, *id, kept, (*files)[i], tour->images()[i]);
+    TourImage image = tour->images()[i];
+    if (i < options.sweeps.size()) image.sweep = options.sweeps[i];
+    const Status put = put_picture(server, *id, kept, (*files)[i], image);
     if (put) {
-      if (const Status sent = put_sweep(server, *id, kept, folder, tour->images()[i]); !sent) return pass_on(sent);
+      if (const Status sent = put_sweep(server, *id, kept, folder, image); !sent) return pass_on(sent);
       ++kept;
     } else if (unreadable(put.error())) {
       uploaded.skipped.push_back(put.error());
     } else {
       return pass_on(put);
     }
-    progress(static_cast<double>(i + 1) / static_cast<double>(files->size()));
+    if (!progress(static_cast<double>(i + 1) / static_cast<double>(files->size())))
+      return fail(ErrorCode::kConflict, "The upload was ended; it can be carried on with.", *id);
   }
   if (kept == 0) return tl::unexpected<Error>(uploaded.skipped.front());
   json marks = {{"marks", json::array()}};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "agent/link/rest_client.hpp"
+#include "core/range_sweep.hpp"
 
 namespace homeward::agent {
 
@@ -13,6 +14,8 @@ struct UploadOptions {
   std::string folder;
   std::string camera;  // camera.json; empty: the one in the folder
   std::string name;
+  /// Of the pictures in their order, in place of those of the folder; empty: those.
+  std::vector<RangeSweep> sweeps = {};
 };
 
 struct UploadedTour {
@@ -22,8 +25,8 @@ struct UploadedTour {
 
 /// Brings a folder's tour to a server: pictures, times, odometry, sweeps and marks. A tour of the same name that is
 /// still open is carried on with. Errors: those of TourFolder and read_camera, kIo, and what the server refuses but for
-/// single pictures that it cannot read.
+/// single pictures that it cannot read. `progress` hears the share that is there; false ends it (kConflict).
 Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& options,
-                                 const std::function<void(double)>& progress);
+                                 const std::function<bool(double)>& progress);
 
 }  // namespace homeward::agent

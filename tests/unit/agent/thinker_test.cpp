@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "files/tour_folder.hpp"
 #include "imageio/decode.hpp"
 #include "support/painted_room.hpp"
@@ -37,7 +39,8 @@ const pipeline::Eye& eye() {
   return *kEye;
 }
 
-/// A robot of no size in a painted room, 0.1 s a cycle and a picture every other one, whose program may be started anew.
+/// A robot of no size in a painted room, 0.1 s a cycle and a picture every other one, whose program may be started
+/// anew.
 class ThinkerTest : public ::testing::Test {
  protected:
   ThinkerTest() {
@@ -53,12 +56,13 @@ class ThinkerTest : public ::testing::Test {
     options.explorer.floor.cell_m = 0.1;
     options.upload_again_after = std::chrono::milliseconds(0);
     options.log = [this](const std::string& line) { log_.push_back(line); };
-    options.upload = [this](const std::filesystem::path& tour, const std::string& name,
-                            const std::function<void(double)>& progress) -> Result<TourId> {
+    options.upload = [this](const KeptFiles& kept, const std::string& name,
+                            const std::function<bool(double)>& progress) -> Result<TourId> {
       uploads_.push_back(name);
       progress(0.5);
       if (upload_fails_) return fail(ErrorCode::kIo, "The server is away.", "server");
-      uploaded_ = *files::TourFolder::open(tour);
+      uploaded_ = *files::TourFolder::open(kept.tour_folder());
+      sweeps_uploaded_ = kept.sweeps()->size();
       return TourId("t7");
     };
     thinker_.emplace(options, camera_config(), eye());
@@ -77,6 +81,7 @@ class ThinkerTest : public ::testing::Test {
     obeyed.order.exploration = ExplorationId(id);
     obeyed.order.goes_on = goes_on;
     obeyed.order.limit_m = limit_m;
+    obeyed.odometry_epoch = epoch_;
     command(obeyed);
   }
   void command(const ExploringCommand& what) {
@@ -91,9 +96,11 @@ class ThinkerTest : public ::testing::Test {
     now_ms_ += 100;
     ToThinker mail;
     mail.link_up = link_up_;
-    sweeps_.push_back({now_ms_, exploration::sweep_of(walls_, truth_), odometry(), false});
+    sweeps_.push_back({now_ms_, exploration::sweep_of(walls_, truth_), odometry()});
     if (sweeps_.size() > 3) sweeps_.pop_front();
     mail.sweeps = sweeps_;
+    mail.odometry_epoch = epoch_;
+    mail.blocked = blocked_;
     if (said_.wants_features && now_ms_ % 200 == 0) mail.picture = picture();
     thinker_->think(mail, tell_, stop_.get_token());
     if (!said_.leg) return;
@@ -142,10 +149,13 @@ class ThinkerTest : public ::testing::Test {
   std::deque<Sensed> sweeps_;
   std::int64_t now_ms_ = 0;
   int missions_ = 0;
+  int epoch_ = 0;  // of odometry
+  bool blocked_ = false;
   bool link_up_ = true;
   bool upload_fails_ = false;
   std::vector<std::string> uploads_;
   std::optional<files::TourFolder> uploaded_;
+  std::size_t sweeps_uploaded_ = 0;
   std::vector<std::string> log_;
 };
 
@@ -166,7 +176,7 @@ TEST_F(ThinkerTest, ARoomIsExploredAndItsPicturesBecomeATourOnTheServer) {
   EXPECT_EQ(report().nodes_m.size(), uploaded_->images().size());
   const Pose2 last = *uploaded_->images().back().odometry;
   EXPECT_NEAR(last.x_m, report().nodes_m.back().x(), 0.01) << "the odometry of the tour is that of the settled poses";
-  EXPECT_TRUE(uploaded_->images().back().sweep);
+  EXPECT_EQ(sweeps_uploaded_, uploaded_->images().size());
   start_program();
   EXPECT_TRUE(told_.empty()) << "nothing is left to do";
   EXPECT_FALSE(said_.exploration);
@@ -219,7 +229,7 @@ TEST_F(ThinkerTest, WhoWasCarriedAwayMeanwhileSaysSoAndDrivesNowhere) {
   EXPECT_EQ(said_.exploration, ExplorationId("x1")) << "brought back, it goes on";
 }
 
-TEST_F(ThinkerTest, WhoeverNoticedALiftLooksWhereItStandsFirst) {
+TEST_F(ThinkerTest, WhereOdometryMayNotGoOnItLooksWhereItStandsFirst) {
   order("x1", false);
   explore_to(4);
   end_order(wire::Reason{ReasonCode::kLifted});
@@ -229,11 +239,86 @@ TEST_F(ThinkerTest, WhoeverNoticedALiftLooksWhereItStandsFirst) {
   obeyed.order.mission = MissionId("m9");
   obeyed.order.exploration = ExplorationId("x1");
   obeyed.order.goes_on = true;
-  obeyed.displaced = 1;
+  obeyed.odometry_epoch = epoch_ = 1;
   command(obeyed);
   for (int k = 0; k < 20 && !said_.over; ++k) cycle();
   ASSERT_TRUE(said_.over);
   EXPECT_EQ(said_.over->reason, wire::Reason{ReasonCode::kRobotMovedSince});
+}
+
+TEST_F(ThinkerTest, OdometryThatBeginsAnewWhileItDrivesEndsThatAndItGoesOnAfterALook) {
+  order("x1", false);
+  explore_to(4);
+  began_ = truth_;  // the base was switched off and on
+  epoch_ = 1;
+  cycle();
+  ASSERT_TRUE(said_.over);
+  EXPECT_TRUE(said_.over->failed);
+  EXPECT_FALSE(said_.leg);
+  end_order(said_.over->reason);
+  order("x1", true);
+  explore_to(6);
+  EXPECT_EQ(report().pictures, 6);
+  EXPECT_LT((position_m(first_ * *report().pose) - position_m(truth_)).norm(), 0.15);
+}
+
+TEST_F(ThinkerTest, WhereItIsBlockedOnceItWantsAnotherPlace) {
+  order("x1", false);
+  explore_to(2);
+  while (!report().target_m) cycle(), command(wire::Finish{ExplorationId("none")});
+  const Eigen::Vector2d before_m = *report().target_m;
+  blocked_ = true;
+  cycle();
+  blocked_ = false;
+  cycle();
+  command(wire::Finish{ExplorationId("none")});
+  ASSERT_TRUE(report().target_m);
+  EXPECT_GT((*report().target_m - before_m).norm(), 0.1);
+}
+
+TEST_F(ThinkerTest, WithoutAPictureThereIsNothingToUploadAndNothingStays) {
+  order("x1", false);
+  end_order(wire::Reason{ReasonCode::kStoppedBy, {{"by", "anna"}}});
+  command(wire::Finish{ExplorationId("x1")});
+  cycle();
+  EXPECT_TRUE(uploads_.empty());
+  EXPECT_EQ(report().phase, ExplorationPhase::kUploaded);
+  EXPECT_FALSE(report().tour);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "x1"));
+}
+
+TEST_F(ThinkerTest, WhatCannotBeReadAgainIsLeftOutFromThereOn) {
+  order("x1", false);
+  explore_to(4);
+  std::ofstream(folder_.path() / "x1" / "tour" / "00002.jpg") << "no picture";
+  start_program();
+  EXPECT_EQ(report().phase, ExplorationPhase::kPaused);
+  EXPECT_EQ(report().pictures, 2);
+  std::ofstream(folder_.path() / "x1" / "tour" / "00000.jpg") << "no picture";
+  start_program();
+  EXPECT_FALSE(said_.exploration);
+  EXPECT_TRUE(wire::says(report().reason, ReasonCode::kExplorationBroken));
+}
+
+TEST_F(ThinkerTest, AnEndedOneIsNotGoneOnWith) {
+  link_up_ = false;
+  order("x1", false);
+  explore_to(3);
+  end_order(std::nullopt);
+  command(wire::Finish{ExplorationId("x1")});
+  order("x1", true);
+  ASSERT_TRUE(said_.over);
+  EXPECT_EQ(said_.over->reason, wire::Reason{ReasonCode::kExplorationUnknown});
+  EXPECT_FALSE(said_.leg);
+}
+
+TEST_F(ThinkerTest, FencesThatCannotBeKeptHoldAndStopIt) {
+  order("x1", false);
+  explore_to(2);
+  std::filesystem::remove_all(folder_.path() / "x1");
+  command(wire::Fences{ExplorationId("x1"), {{{5.0, 5.0}, {6.0, 5.0}, {6.0, 6.0}}}});
+  ASSERT_TRUE(said_.over);
+  EXPECT_TRUE(wire::says(said_.over->reason, ReasonCode::kExplorationBroken));
 }
 
 TEST_F(ThinkerTest, APauseKeepsAllAndTheSameProgramGoesOn) {

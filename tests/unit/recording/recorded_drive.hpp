@@ -91,6 +91,7 @@ class RecordedDrive : public ::testing::Test {
     if (hand_) inputs.rider->said_ms = now_ms_;
     inputs.leg = leg_;
     inputs.exploration_over = over_;
+    inputs.why_not_exploring = why_not_exploring_;
     const driving::Outputs outputs = recorder_->step(state_, inputs, bytes, now_ms_);
     pose_ = pose_ * Pose2{0.1 * outputs.motion.speed_mps, 0.0, 0.1 * outputs.motion.turn_radps};
     return outputs;
@@ -138,6 +139,7 @@ class RecordedDrive : public ::testing::Test {
   std::optional<driving::JoystickReading> hand_;
   std::optional<driving::Leg> leg_;  // of an exploration
   std::optional<driving::ExplorationOver> over_;
+  std::optional<wire::Reason> why_not_exploring_;
 
  private:
   std::mutex mutex_;

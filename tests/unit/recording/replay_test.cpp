@@ -87,6 +87,20 @@ TEST_F(Replay, ReproducesAnExploration) {
   EXPECT_EQ(replayed->why->reason, wire::Reason{wire::ReasonCode::kExplorationStuck});
 }
 
+TEST_F(Replay, ReproducesThatAnOrderToExploreIsRefused) {
+  open_recorder();
+  tick({mission("m1", 1)});
+  for (int i = 0; i < 3; ++i) tick();
+  why_not_exploring_ = wire::Reason{wire::ReasonCode::kExplorationUnknown};
+  tick({wire::ExploreOrder{MissionId("m2"), {1, 50}, 1500, 0.4, ExplorationId("x1"), true, {}, {}, {}}});
+  EXPECT_EQ(state_.drive, wire::DriveState::kStopped);
+  close_recorder();
+  const auto replayed = result();
+  ASSERT_TRUE(replayed) << replayed.error().message << " " << replayed.error().where;
+  EXPECT_TRUE(replayed->same()) << replayed->differing.front().what;
+  EXPECT_EQ(replayed->compared, 5);
+}
+
 TEST_F(Replay, ReproducesARobotThatIsNotReached) {
   open_recorder();
   tick({mission("m1", 1)});
