@@ -218,15 +218,6 @@ function(homeward_watch)
   endif()
 endfunction()
 
-# homeward_unoptimised(a.cpp ...): sources of this folder that compute little. Under the sanitizers, which build nearly
-# everything once more, they are compiled without optimising: half of the compiler's time.
-function(homeward_unoptimised)
-  if(HOMEWARD_ASAN OR HOMEWARD_TSAN)
-    set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS -O0)
-    set_property(SOURCE ${ARGN} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
-  endif()
-endfunction()
-
 # homeward_add_program(homeward-server SOURCES main.cpp [BATCH size] LINK targets)
 function(homeward_add_program name)
   cmake_parse_arguments(ARG "" "BATCH" "SOURCES;LINK" ${ARGN})
