@@ -27,7 +27,9 @@ void add_simulator_options(CLI::App& command, scenario::SimulatorDriverConfig& s
   command
       .add_option_function<std::vector<double>>(
           "--start-pose",
-          [&simulator](const std::vector<double>& pose) { simulator.start = Pose2{pose[0], pose[1], pose[2]}; },
+          [&simulator](const std::vector<double>& pose) {
+            simulator.start = Pose2{pose[0], pose[1], pose[2]};
+          },
           "Simulator: x and y in metres of the world and heading in radians to start at, in place of a room")
       ->expected(3)
       ->excludes("--start-room");
