@@ -124,6 +124,18 @@ Result<wire::KeptView> KeptFiles::view(std::size_t index) const {
   return view;
 }
 
+Status KeptFiles::forget_from(std::size_t size) {
+  // The last first: a kill in between leaves no gap that later ones would be counted behind.
+  for (; size_ > size; --size_) {
+    std::error_code error;
+    fs::remove(view_file(size_ - 1), error);
+    if (error)
+      return fail(ErrorCode::kIo, "The file cannot be removed: " + error.message() + ".",
+                  view_file(size_ - 1).string());
+  }
+  return {};
+}
+
 Status KeptFiles::remove() const {
   std::error_code error;
   fs::remove_all(folder_, error);
@@ -144,9 +156,8 @@ Result<std::vector<RangeSweep>> KeptFiles::sweeps() const {
 Status KeptFiles::write_tables(std::span<const Pose2> poses) const {
   const auto camera = files::read_camera(folder_ / "camera.json");
   if (!camera) return pass_on(camera);
-  for (std::size_t half = size_; fs::exists(picture(half)); ++half) {
-    std::error_code error;
-    if (!fs::remove(picture(half), error)) break;
+  std::error_code none;
+  for (std::size_t half = size_; fs::remove(picture(half), none); ++half) {
   }
   files::TourTables tables;
   for (std::size_t i = 0; i < std::min(size_, poses.size()); ++i) {

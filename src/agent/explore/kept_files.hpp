@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -33,8 +32,9 @@ class KeptFiles {
   [[nodiscard]] std::filesystem::path tour_folder() const { return folder_ / "tour"; }
   /// How many pictures there are.
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// Only the first ones count from now on; the next is written over what stands there.
-  void forget_from(std::size_t size) { size_ = std::min(size_, size); }
+  /// Only the first ones count from now on, after a restart too; the next is written over what stands there. Errors:
+  /// kIo.
+  Status forget_from(std::size_t size);
   /// All of it leaves the disk. Errors: kIo.
   [[nodiscard]] Status remove() const;
   /// The sweeps of all pictures. Errors: those of `view`.

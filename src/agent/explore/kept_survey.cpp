@@ -52,7 +52,7 @@ Result<KeptSurvey> KeptSurvey::restore(KeptFiles files, const pipeline::Eye& eye
     if (!seen && i == 0) return pass_on(seen);
     if (!seen) {
       unread = seen.error();
-      kept.files_.forget_from(i);
+      if (const Status forgotten = kept.files_.forget_from(i); !forgotten) return pass_on(forgotten);
       break;
     }
     if (view->odometry_moved) kept.survey_.go_on_anew(view->odometry_moved);

@@ -294,6 +294,10 @@ TEST_F(ThinkerTest, WhatCannotBeReadAgainIsLeftOutFromThereOn) {
   start_program();
   EXPECT_EQ(report().phase, ExplorationPhase::kPaused);
   EXPECT_EQ(report().pictures, 2);
+  order("x1", true);
+  explore_to(3);
+  start_program();
+  EXPECT_EQ(report().pictures, 3) << "what was left out does not come back behind the new one";
   std::ofstream(folder_.path() / "x1" / "tour" / "00000.jpg") << "no picture";
   start_program();
   EXPECT_FALSE(said_.exploration);

@@ -32,7 +32,8 @@ class StandAgainTest : public ::testing::Test {
 };
 
 TEST_F(StandAgainTest, HoweverItWasTurnedItIsFoundAndPicturesTellTheSidesApart) {
-  for (const Pose2& stands : std::vector<Pose2>{{0.8, 0.0, 0.0}, {0.5, 0.3, 1.7}, {1.0, -0.4, 3.1}, {0.3, 0.2, -1.4}}) {
+  for (const Pose2& stands :
+       std::vector<Pose2>{{0.8, 0.0, 0.0}, {0.5, 0.3, 1.7}, {1.0, -0.4, 3.1}, {0.3, 0.2, -1.4}, {-0.2, 0.1, 2.4}}) {
     const auto pose = found(stands);
     ASSERT_TRUE(pose) << stands.x_m << " " << stands.theta_rad;
     EXPECT_LT(position_m(inverse(stands) * *pose).norm(), 0.05) << stands.theta_rad;
