@@ -97,12 +97,13 @@ void ExploredFloor::pass(const RangeSweep& sweep, const Pose2& floor_from_scan) 
   }
 }
 
-void ExploredFloor::see(const RangeSweep& sweep, std::span<const SurfacePoint> surface, const Pose2& floor_from_robot) {
+void ExploredFloor::see(const RangeSweep& sweep, std::span<const geometry::SurfacePoint> surface,
+                        const Pose2& floor_from_robot) {
   if (sweep.ranges_m.size() < 2 || sweep.angle_step_rad == 0.0) return;
   const Pose2 floor_from_scan = floor_from_robot * sweep.robot_from_scan;
   grow_to(position_m(floor_from_scan), std::max(config_.sees_free_m, 1.0));
   pass(sweep, floor_from_scan);
-  for (const SurfacePoint& point : surface) {
+  for (const geometry::SurfacePoint& point : surface) {
     const Eigen::Vector2d at_m = position_m(floor_from_robot * Pose2{point.at_m.x(), point.at_m.y(), 0.0});
     add(frame_.cell(at_m), config_.hit);
   }

@@ -8,7 +8,7 @@
 
 #include "core/pose2.hpp"
 #include "core/range_sweep.hpp"
-#include "exploration/sweep_surface.hpp"
+#include "geometry/sweep_surface.hpp"
 
 namespace homeward::exploration {
 
@@ -60,7 +60,7 @@ class ExploredFloor {
  public:
   explicit ExploredFloor(const FloorConfig& config = {}) : config_(config) { frame_.cell_m = config.cell_m; }
 
-  void see(const RangeSweep& sweep, std::span<const SurfacePoint> surface, const Pose2& floor_from_robot);
+  void see(const RangeSweep& sweep, std::span<const geometry::SurfacePoint> surface, const Pose2& floor_from_robot);
   void forget() { *this = ExploredFloor(config_); }
 
   [[nodiscard]] const FloorFrame& frame() const { return frame_; }

@@ -21,7 +21,7 @@ Pose2 Explorer::floor_from_robot(const Pose2& odometry) const {
   return aligned_ * inverse(aligned_odometry_) * odometry;
 }
 
-PosePrior Explorer::prior(const Pose2& odometry) const {
+geometry::PosePrior Explorer::prior(const Pose2& odometry) const {
   const Pose2 moved = inverse(aligned_odometry_) * odometry;
   const double driven_m = length_m(moved);
   return {aligned_ * moved, 0.02 + config_.odometry_spread * driven_m,
@@ -29,14 +29,14 @@ PosePrior Explorer::prior(const Pose2& odometry) const {
               config_.odometry_spread_rad_per_rad * std::abs(moved.theta_rad)};
 }
 
-bool Explorer::align_to_recent(std::span<const SurfacePoint> surface, const Pose2& odometry) {
-  const PosePrior before = prior(odometry);
-  ReferenceSurface reference;
+bool Explorer::align_to_recent(std::span<const geometry::SurfacePoint> surface, const Pose2& odometry) {
+  const geometry::PosePrior before = prior(odometry);
+  geometry::ReferenceSurface reference;
   const std::size_t first = views_.size() > static_cast<std::size_t>(config_.recent)
                                 ? views_.size() - static_cast<std::size_t>(config_.recent)
                                 : 0;
   for (std::size_t i = first; i < views_.size(); ++i) reference.add(views_[i].surface, poses_[i]);
-  const auto aligned = align(reference, surface, before, config_.alignment);
+  const auto aligned = geometry::align(reference, surface, before, config_.alignment);
   const bool agrees = aligned && aligned->agreement >= config_.least_agreement;
   aligned_ = agrees ? aligned->reference_from_robot : before.reference_from_robot;
   aligned_odometry_ = odometry;
@@ -50,7 +50,7 @@ void Explorer::see(const RangeSweep& sweep, const Pose2& odometry) {
       length_m(moved) >= config_.aligned_every_m || std::abs(moved.theta_rad) >= config_.aligned_every_rad;
   if (!is_due && ++standing_sweeps_ < config_.standing_every) return;
   standing_sweeps_ = 0;
-  const std::vector<SurfacePoint> surface = surface_of(sweep, config_.filter);
+  const std::vector<geometry::SurfacePoint> surface = geometry::surface_of(sweep, config_.filter);
   align_to_recent(surface, odometry);
   floor_.see(sweep, surface, aligned_);
   coverage_.follow(floor_.frame());
@@ -67,11 +67,11 @@ double Explorer::since_picture_m(const Pose2& odometry) const {
 
 void Explorer::take(const RangeSweep& sweep, const Pose2& odometry,
                     std::shared_ptr<const features::Appearance> appearance) {
-  KeyView view{odometry, sweep, surface_of(sweep, config_.filter), std::move(appearance), 0.0};
+  KeyView view{odometry, sweep, geometry::surface_of(sweep, config_.filter), std::move(appearance), 0.0};
   if (views_.empty()) {
     aligned_odometry_ = odometry;
   } else {
-    const PosePrior wheels = prior(odometry);
+    const geometry::PosePrior wheels = prior(odometry);
     const bool agrees = align_to_recent(view.surface, odometry);
     view.driven_m = views_.back().driven_m + length_m(inverse(views_.back().odometry) * odometry);
     const int last = static_cast<int>(views_.size()) - 1;
@@ -174,7 +174,7 @@ void Explorer::move_odometry(const Pose2& now_from_before) {
 std::optional<PoseLink> Explorer::loop_with(int then) const {
   const auto old = static_cast<std::size_t>(then);
   const KeyView& now = views_.back();
-  ReferenceSurface reference;
+  geometry::ReferenceSurface reference;
   const std::size_t first = old >= 3 ? old - 3 : 0;
   const std::size_t last = std::min(old + 3, views_.size() - 1 - static_cast<std::size_t>(config_.loop_gap));
   for (std::size_t i = first; i <= last; ++i) reference.add(views_[i].surface, poses_[i]);
@@ -195,14 +195,14 @@ std::optional<PoseLink> Explorer::loop_with(int then) const {
         pose.x_m += right * 0.25;
         pose.y_m += up * 0.25;
         pose.theta_rad = wrap_angle(pose.theta_rad + turn * 0.5 * std::min(doubt_rad, radians(10.0)));
-        starts.push_back({pose, agreement(reference, now.surface, pose, 0.15)});
+        starts.push_back({pose, geometry::agreement(reference, now.surface, pose, 0.15)});
       }
     }
   }
   std::ranges::stable_sort(starts, std::greater<>(), &Start::agreement);
-  std::optional<Alignment> best;
+  std::optional<geometry::Alignment> best;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, starts.size()); ++i) {
-    const auto aligned = align(reference, now.surface, {starts[i].pose, 0.5, 0.2}, config_.alignment);
+    const auto aligned = geometry::align(reference, now.surface, {starts[i].pose, 0.5, 0.2}, config_.alignment);
     if (aligned && (!best || aligned->agreement > best->agreement)) best = aligned;
   }
   if (!best || best->agreement < config_.loop_agreement) return std::nullopt;

@@ -14,14 +14,14 @@
 #include "exploration/next_view.hpp"
 #include "exploration/pose_graph.hpp"
 #include "exploration/reach.hpp"
-#include "exploration/sweep_alignment.hpp"
 #include "features/appearance.hpp"
+#include "geometry/sweep_alignment.hpp"
 
 namespace homeward::exploration {
 
 struct ExplorerConfig {
-  SweepFilter filter;
-  AlignmentConfig alignment;
+  geometry::SweepFilter filter;
+  geometry::AlignmentConfig alignment;
   FloorConfig floor;
   ReachConfig reach;
   ViewConfig view;
@@ -46,7 +46,7 @@ struct ExplorerConfig {
 struct KeyView {
   Pose2 odometry;
   RangeSweep sweep;
-  std::vector<SurfacePoint> surface;
+  std::vector<geometry::SurfacePoint> surface;
   std::shared_ptr<const features::Appearance> appearance;  // null: it was not looked at
   double driven_m = 0.0;                                   // up to there
 };
@@ -108,9 +108,9 @@ class Explorer {
   [[nodiscard]] const ExplorerConfig& config() const { return config_; }
 
  private:
-  [[nodiscard]] PosePrior prior(const Pose2& odometry) const;
+  [[nodiscard]] geometry::PosePrior prior(const Pose2& odometry) const;
   /// Whether the sweeps agree; else the wheels are believed.
-  bool align_to_recent(std::span<const SurfacePoint> surface, const Pose2& odometry);
+  bool align_to_recent(std::span<const geometry::SurfacePoint> surface, const Pose2& odometry);
   void look_for_loop();
   [[nodiscard]] std::optional<PoseLink> loop_with(int then) const;
   void lay_out_again();

@@ -19,8 +19,8 @@ struct Start {
 };
 
 /// Poses about `last`, those first at which the sweep looks best.
-std::vector<Start> starts_about(const Pose2& last, const ReferenceSurface& reference,
-                                std::span<const SurfacePoint> surface, const StandAgainConfig& config) {
+std::vector<Start> starts_about(const Pose2& last, const geometry::ReferenceSurface& reference,
+                                std::span<const geometry::SurfacePoint> surface, const StandAgainConfig& config) {
   constexpr double kLooksNear_m = 0.2;
   std::vector<Start> starts;
   const int steps = static_cast<int>(config.within_m / config.step_m);
@@ -30,7 +30,7 @@ std::vector<Start> starts_about(const Pose2& last, const ReferenceSurface& refer
         const double turn_rad = 2.0 * std::numbers::pi * heading / config.headings;
         const Pose2 pose{last.x_m + right * config.step_m, last.y_m + up * config.step_m,
                          wrap_angle(last.theta_rad + turn_rad)};
-        starts.push_back({pose, agreement(reference, surface, pose, kLooksNear_m)});
+        starts.push_back({pose, geometry::agreement(reference, surface, pose, kLooksNear_m)});
       }
     }
   }
@@ -67,19 +67,19 @@ std::optional<Pose2> stand_again(const Explorer& explorer, const RangeSweep& swe
                                  const features::Appearance& appearance, const StandAgainConfig& config) {
   if (explorer.views().empty()) return std::nullopt;
   const Pose2& last = explorer.poses().back();
-  ReferenceSurface reference;
+  geometry::ReferenceSurface reference;
   for (std::size_t i = 0; i < explorer.views().size(); ++i) {
     if ((position_m(explorer.poses()[i]) - position_m(last)).norm() <= config.sees_m)
       reference.add(explorer.views()[i].surface, explorer.poses()[i]);
   }
-  const std::vector<SurfacePoint> surface = surface_of(sweep, explorer.config().filter);
+  const std::vector<geometry::SurfacePoint> surface = geometry::surface_of(sweep, explorer.config().filter);
   std::vector<Start> found;
   std::vector<Pose2> tried;
   for (const Start& start : starts_about(last, reference, surface, config)) {
     if (static_cast<int>(tried.size()) == config.worked_out) break;
     if (std::ranges::any_of(tried, [&](const Pose2& pose) { return about_the_same(pose, start.pose); })) continue;
     tried.push_back(start.pose);
-    const auto aligned = align(reference, surface, {start.pose, 0.5, 0.2}, explorer.config().alignment);
+    const auto aligned = geometry::align(reference, surface, {start.pose, 0.5, 0.2}, explorer.config().alignment);
     if (!aligned || aligned->agreement < config.agreement) continue;
     if ((position_m(aligned->reference_from_robot) - position_m(last)).norm() > 1.5 * config.within_m) continue;
     found.push_back({aligned->reference_from_robot, aligned->agreement});

@@ -7,11 +7,11 @@
 #include <thread>
 
 #include "imageio/decode.hpp"
+#include "support/drawn_walls.hpp"
 #include "support/painted_room.hpp"
 #include "support/reason_printing.hpp"
 #include "support/sample_cameras.hpp"
 #include "support/scratch_folder.hpp"
-#include "unit/exploration/drawn_walls.hpp"
 
 namespace homeward::agent::exploring_test {
 namespace {
@@ -56,7 +56,7 @@ class ExploringTest : public ::testing::Test {
     inputs.sensors_now_ms = now_ms_;
     inputs.odometry = odometry_;
     inputs.messages = std::move(messages);
-    if (sweeps_) inputs.scan = driving::SeenScan{now_ms_, exploration::sweep_of(walls_, {})};
+    if (sweeps_) inputs.scan = driving::SeenScan{now_ms_, sweep_of(walls_, {})};
     inputs.picture = driving::SeenPicture{now_ms_, seen_, {}, odometry_};
     exploring_->prepare(inputs, state_);
     for (const wire::ServerMessage& message : inputs.messages) {
@@ -86,7 +86,7 @@ class ExploringTest : public ::testing::Test {
   homeward::testing::PaintedRoom room_{2.6, 2.1, 1.4, -1.2, 1};
   std::shared_ptr<const camera::Camera> camera_;
   pipeline::Eye eye_;
-  std::vector<exploration::DrawnWall> walls_;
+  std::vector<testing::DrawnWall> walls_;
   recording::PictureBytes jpeg_;
   std::shared_ptr<const features::Appearance> seen_;
   std::unique_ptr<Exploring> exploring_;

@@ -7,11 +7,11 @@
 
 #include "files/tour_folder.hpp"
 #include "imageio/decode.hpp"
+#include "support/drawn_walls.hpp"
 #include "support/painted_room.hpp"
 #include "support/reason_printing.hpp"
 #include "support/sample_cameras.hpp"
 #include "support/scratch_folder.hpp"
-#include "unit/exploration/drawn_walls.hpp"
 
 namespace homeward::agent::thinker_test {
 namespace {
@@ -96,7 +96,7 @@ class ThinkerTest : public ::testing::Test {
     now_ms_ += 100;
     ToThinker mail;
     mail.link_up = link_up_;
-    sweeps_.push_back({now_ms_, exploration::sweep_of(walls_, truth_), odometry()});
+    sweeps_.push_back({now_ms_, sweep_of(walls_, truth_), odometry()});
     if (sweeps_.size() > 3) sweeps_.pop_front();
     mail.sweeps = sweeps_;
     mail.odometry_epoch = epoch_;
@@ -134,7 +134,7 @@ class ThinkerTest : public ::testing::Test {
   }
 
   homeward::testing::ScratchFolder folder_;
-  std::vector<exploration::DrawnWall> walls_;
+  std::vector<testing::DrawnWall> walls_;
   Pose2 truth_{1.0, 0.5, 0.4};
   Pose2 first_ = truth_;  // where the exploration began
   Pose2 began_ = truth_;

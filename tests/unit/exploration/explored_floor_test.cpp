@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "unit/exploration/drawn_walls.hpp"
+#include "support/drawn_walls.hpp"
 
 namespace homeward::exploration {
 namespace {
@@ -13,8 +13,8 @@ namespace {
 class ExploredFloorTest : public testing::Test {
  protected:
   void see(const Pose2& pose) {
-    const RangeSweep sweep = sweep_of(two_rooms(), pose);
-    floor_.see(sweep, surface_of(sweep), pose);
+    const RangeSweep sweep = sweep_of(testing::two_rooms(), pose);
+    floor_.see(sweep, geometry::surface_of(sweep), pose);
   }
   [[nodiscard]] std::size_t cell(double x_m, double y_m) const {
     return floor_.frame().index(floor_.frame().cell({x_m, y_m}));
@@ -43,15 +43,15 @@ TEST_F(ExploredFloorTest, ItGrowsWithTheRobotAndKeepsWhatItKnows) {
 }
 
 TEST_F(ExploredFloorTest, ARayThatComesBackWithNothingSaysNothing) {
-  RangeSweep sweep = sweep_of(two_rooms(), {2.0, 2.0, 0.0});
+  RangeSweep sweep = sweep_of(testing::two_rooms(), {2.0, 2.0, 0.0});
   for (std::size_t i = 80; i < 100; ++i) sweep.ranges_m[i] = std::numeric_limits<float>::infinity();
-  floor_.see(sweep, surface_of(sweep), {2.0, 2.0, 0.0});
+  floor_.see(sweep, geometry::surface_of(sweep), {2.0, 2.0, 0.0});
   EXPECT_TRUE(floor_.is_unknown(cell(2.0, 3.5)));
 }
 
 TEST_F(ExploredFloorTest, OneReturnOfNothingIsOutvoted) {
-  RangeSweep sweep = sweep_of(two_rooms(), {2.0, 2.0, 0.0});
-  const std::vector<SurfacePoint> ghost = {{{1.0, 0.0}, {-1.0, 0.0}}};
+  RangeSweep sweep = sweep_of(testing::two_rooms(), {2.0, 2.0, 0.0});
+  const std::vector<geometry::SurfacePoint> ghost = {{{1.0, 0.0}, {-1.0, 0.0}}};
   floor_.see(sweep, ghost, {2.0, 2.0, 0.0});
   EXPECT_TRUE(floor_.is_occupied(cell(3.0, 2.0)));
   for (int i = 0; i < 5; ++i) see({2.0, 2.0 + 0.05 * i, 0.0});

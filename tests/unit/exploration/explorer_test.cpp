@@ -5,14 +5,14 @@
 
 #include <numbers>
 
-#include "unit/exploration/drawn_walls.hpp"
+#include "support/drawn_walls.hpp"
 
 namespace homeward::exploration {
 namespace {
 
 /// Two rooms with two doors between them: a way round.
-std::vector<DrawnWall> rooms_with_two_doors() {
-  std::vector<DrawnWall> walls;
+std::vector<testing::DrawnWall> rooms_with_two_doors() {
+  std::vector<testing::DrawnWall> walls;
   add_box(walls, 0.0, 0.0, 10.0, 4.0);
   walls.push_back({{5.0, 1.4}, {5.0, 2.6}});
   add_box(walls, 1.9, 1.6, 3.1, 2.4);
@@ -23,7 +23,7 @@ std::vector<DrawnWall> rooms_with_two_doors() {
 /// Drives along points with wheels that turn left by themselves, and takes pictures as the explorer wants them.
 class DrivenExplorer {
  public:
-  explicit DrivenExplorer(std::vector<DrawnWall> walls, const Pose2& start, double drift_rad_per_m)
+  explicit DrivenExplorer(std::vector<testing::DrawnWall> walls, const Pose2& start, double drift_rad_per_m)
       : walls_(std::move(walls)), start_(start), truth_(start), drift_rad_per_m_(drift_rad_per_m) {
     explorer.take(sweep_of(walls_, truth_), odometry_, nullptr);
   }
@@ -53,7 +53,7 @@ class DrivenExplorer {
     if (explorer.wants_picture(odometry_)) explorer.take(sweep, odometry_, nullptr);
   }
 
-  std::vector<DrawnWall> walls_;
+  std::vector<testing::DrawnWall> walls_;
   Pose2 start_;
   Pose2 truth_;
   Pose2 odometry_;
@@ -81,7 +81,7 @@ TEST(ExplorerTest, APlaceIsKnownAgainAfterAWayRound) {
 }
 
 TEST(ExplorerTest, PicturesAreWantedAsFarApartAsATourHasThem) {
-  DrivenExplorer driven(two_rooms(), {1.0, 2.0, 0.0}, 0.0);
+  DrivenExplorer driven(testing::two_rooms(), {1.0, 2.0, 0.0}, 0.0);
   driven.drive_to({9.0, 2.0});
   EXPECT_NEAR(static_cast<double>(driven.explorer.views().size()), 8.0 / 0.4, 2.0);
   for (std::size_t i = 1; i < driven.explorer.poses().size(); ++i) {
@@ -91,7 +91,7 @@ TEST(ExplorerTest, PicturesAreWantedAsFarApartAsATourHasThem) {
 }
 
 TEST(ExplorerTest, WhatIsGivenUpIsNotWantedAgain) {
-  DrivenExplorer driven(two_rooms(), {1.0, 2.0, 0.0}, 0.0);
+  DrivenExplorer driven(testing::two_rooms(), {1.0, 2.0, 0.0}, 0.0);
   const Reach reach = driven.explorer.reach(driven.odometry());
   const auto first = driven.explorer.next(reach, std::nullopt);
   ASSERT_TRUE(first);
@@ -102,7 +102,7 @@ TEST(ExplorerTest, WhatIsGivenUpIsNotWantedAgain) {
 }
 
 TEST(ExplorerTest, NoWayLeadsPastWhereOneWasBlockedUntilItIsTriedAgain) {
-  DrivenExplorer driven(two_rooms(), {4.0, 2.0, 0.0}, 0.0);
+  DrivenExplorer driven(testing::two_rooms(), {4.0, 2.0, 0.0}, 0.0);
   driven.drive_to({4.4, 2.0});
   const auto reaches_next_room = [&] {
     const Reach reach = driven.explorer.reach(driven.odometry());
@@ -118,7 +118,7 @@ TEST(ExplorerTest, NoWayLeadsPastWhereOneWasBlockedUntilItIsTriedAgain) {
 }
 
 TEST(ExplorerTest, AFenceKeepsTheWholeBodyOff) {
-  DrivenExplorer driven(two_rooms(), {1.0, 2.0, 0.0}, 0.0);
+  DrivenExplorer driven(testing::two_rooms(), {1.0, 2.0, 0.0}, 0.0);
   driven.drive_to({3.0, 2.0});
   const auto reaches = [&](double x_m) {
     const Reach reach = driven.explorer.reach(driven.odometry());

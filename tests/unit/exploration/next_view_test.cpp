@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "unit/exploration/drawn_walls.hpp"
+#include "support/drawn_walls.hpp"
 
 namespace homeward::exploration {
 namespace {
@@ -11,8 +11,8 @@ namespace {
 class NextViewTest : public testing::Test {
  protected:
   void take(const Pose2& pose) {
-    const RangeSweep sweep = sweep_of(two_rooms(), pose);
-    floor_.see(sweep, surface_of(sweep), pose);
+    const RangeSweep sweep = sweep_of(testing::two_rooms(), pose);
+    floor_.see(sweep, geometry::surface_of(sweep), pose);
     coverage_.add(floor_, position_m(pose), config_);
   }
   [[nodiscard]] std::optional<NextView> next(const Eigen::Vector2d& from_m) const {

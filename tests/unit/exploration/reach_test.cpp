@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "unit/exploration/drawn_walls.hpp"
+#include "support/drawn_walls.hpp"
 
 namespace homeward::exploration {
 namespace {
@@ -11,8 +11,8 @@ namespace {
 ExploredFloor seen_from(const std::vector<Pose2>& poses) {
   ExploredFloor floor;
   for (const Pose2& pose : poses) {
-    const RangeSweep sweep = sweep_of(two_rooms(), pose);
-    floor.see(sweep, surface_of(sweep), pose);
+    const RangeSweep sweep = sweep_of(testing::two_rooms(), pose);
+    floor.see(sweep, geometry::surface_of(sweep), pose);
   }
   return floor;
 }

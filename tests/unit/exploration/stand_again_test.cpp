@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/drawn_walls.hpp"
 #include "support/landmarks.hpp"
-#include "unit/exploration/drawn_walls.hpp"
 
 namespace homeward::exploration::stand_again_test {
 namespace {
@@ -26,7 +26,7 @@ class StandAgainTest : public ::testing::Test {
     return stand_again(explorer_, sweep_of(walls_, stands), *picture(stands));
   }
 
-  std::vector<DrawnWall> walls_;
+  std::vector<testing::DrawnWall> walls_;
   homeward::testing::Landmarks landmarks_;
   Explorer explorer_{ExplorerConfig{}};
 };
@@ -42,7 +42,7 @@ TEST_F(StandAgainTest, HoweverItWasTurnedItIsFoundAndPicturesTellTheSidesApart) 
 }
 
 TEST_F(StandAgainTest, InAnotherRoomItIsNotFound) {
-  std::vector<DrawnWall> walls;
+  std::vector<testing::DrawnWall> walls;
   add_box(walls, -1.0, -3.5, 1.5, 2.5);
   EXPECT_FALSE(stand_again(explorer_, sweep_of(walls, {0.5, 0.0, 0.3}), *picture({0.5, 0.0, 0.3})));
 }

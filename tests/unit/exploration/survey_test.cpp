@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "unit/exploration/drawn_walls.hpp"
+#include "support/drawn_walls.hpp"
 
 namespace homeward::exploration {
 namespace {
@@ -17,7 +17,7 @@ ExplorerConfig coarse() {
 
 /// A robot of no size that goes straight to each goal, 0.05 m a cycle.
 struct Walker {
-  std::vector<DrawnWall> walls = two_rooms();
+  std::vector<testing::DrawnWall> walls = testing::two_rooms();
   Pose2 start{1.0, 2.0, 0.3};
   Pose2 truth = start;
   Survey survey{coarse(), SurveyConfig{}};

@@ -6,7 +6,7 @@
 
 #include "core/range_sweep.hpp"
 
-namespace homeward::exploration {
+namespace homeward::geometry {
 
 /// Which returns of a sweep are believed (Ferdaus 2008 §4.2).
 struct SweepFilter {
@@ -26,4 +26,4 @@ struct SurfacePoint {
 /// out: glass, dust and mixed edges give such, surfaces do not.
 std::vector<SurfacePoint> surface_of(const RangeSweep& sweep, const SweepFilter& filter = {});
 
-}  // namespace homeward::exploration
+}  // namespace homeward::geometry

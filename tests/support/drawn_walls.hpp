@@ -10,7 +10,7 @@
 #include "core/pose2.hpp"
 #include "core/range_sweep.hpp"
 
-namespace homeward::exploration {
+namespace homeward::testing {
 
 /// A straight wall of a plan that a test draws.
 struct DrawnWall {
@@ -59,4 +59,4 @@ inline RangeSweep sweep_of(const std::vector<DrawnWall>& walls, const Pose2& pos
   return sweep;
 }
 
-}  // namespace homeward::exploration
+}  // namespace homeward::testing

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/pose2.hpp"
-#include "exploration/sweep_surface.hpp"
+#include "geometry/sweep_surface.hpp"
 
-namespace homeward::exploration {
+namespace homeward::geometry {
 
 /// Surfaces of earlier sweeps in one frame, to which a new sweep is aligned.
 class ReferenceSurface {
@@ -59,4 +59,4 @@ std::optional<Alignment> align(const ReferenceSurface& reference, std::span<cons
 double agreement(const ReferenceSurface& reference, std::span<const SurfacePoint> surface,
                  const Pose2& reference_from_robot, double within_m);
 
-}  // namespace homeward::exploration
+}  // namespace homeward::geometry

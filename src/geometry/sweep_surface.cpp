@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exploration/sweep_surface.hpp"
+#include "geometry/sweep_surface.hpp"
 
 #include <cmath>
 #include <optional>
@@ -7,7 +7,7 @@
 #include "core/angles.hpp"
 #include "core/pose2.hpp"
 
-namespace homeward::exploration {
+namespace homeward::geometry {
 namespace {
 
 using Hit = std::optional<Eigen::Vector2d>;
@@ -59,4 +59,4 @@ std::vector<SurfacePoint> surface_of(const RangeSweep& sweep, const SweepFilter&
   return surface;
 }
 
-}  // namespace homeward::exploration
+}  // namespace homeward::geometry

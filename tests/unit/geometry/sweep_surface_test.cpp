@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exploration/sweep_surface.hpp"
+#include "geometry/sweep_surface.hpp"
 
 #include <gtest/gtest.h>
 
-#include "unit/exploration/drawn_walls.hpp"
+#include "support/drawn_walls.hpp"
 
-namespace homeward::exploration {
+namespace homeward::geometry {
 namespace {
 
-RangeSweep room_sweep() { return sweep_of(two_rooms(), {2.5, 2.0, 0.3}); }
+RangeSweep room_sweep() { return sweep_of(testing::two_rooms(), {2.5, 2.0, 0.3}); }
 
 TEST(SweepSurfaceTest, PointsLieOnWallsAndNormalsLookAtTheScanner) {
   const Pose2 pose{2.5, 2.0, 0.3};
@@ -53,4 +53,4 @@ TEST(SweepSurfaceTest, AScannerThatLooksForwardAloneDoesNotJoinItsEnds) {
 }
 
 }  // namespace
-}  // namespace homeward::exploration
+}  // namespace homeward::geometry

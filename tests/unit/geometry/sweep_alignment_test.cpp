@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exploration/sweep_alignment.hpp"
+#include "geometry/sweep_alignment.hpp"
 
 #include <gtest/gtest.h>
 
-#include "unit/exploration/drawn_walls.hpp"
+#include "support/drawn_walls.hpp"
 
-namespace homeward::exploration {
+namespace homeward::geometry {
 namespace {
 
 constexpr Pose2 kFirst{2.0, 2.0, 0.2};
 
 ReferenceSurface seen_from_first() {
   ReferenceSurface reference;
-  reference.add(surface_of(sweep_of(two_rooms(), kFirst)), kFirst);
+  reference.add(surface_of(sweep_of(testing::two_rooms(), kFirst)), kFirst);
   return reference;
 }
 
 TEST(SweepAlignmentTest, ASweepIsPutWhereItWasTaken) {
   const Pose2 second{2.5, 2.3, 0.6};
-  const auto surface = surface_of(sweep_of(two_rooms(), second));
+  const auto surface = surface_of(sweep_of(testing::two_rooms(), second));
   const PosePrior prior{{2.62, 2.2, 0.7}, 0.3, 0.2};
   const auto aligned = align(seen_from_first(), surface, prior);
   ASSERT_TRUE(aligned);
@@ -29,7 +29,7 @@ TEST(SweepAlignmentTest, ASweepIsPutWhereItWasTaken) {
 }
 
 TEST(SweepAlignmentTest, AlongACorridorThePriorHolds) {
-  std::vector<DrawnWall> corridor = {{{-50.0, 0.0}, {50.0, 0.0}}, {{-50.0, 2.0}, {50.0, 2.0}}};
+  std::vector<testing::DrawnWall> corridor = {{{-50.0, 0.0}, {50.0, 0.0}}, {{-50.0, 2.0}, {50.0, 2.0}}};
   ReferenceSurface reference;
   reference.add(surface_of(sweep_of(corridor, {0.0, 1.0, 0.0})), {0.0, 1.0, 0.0});
   const auto surface = surface_of(sweep_of(corridor, {0.4, 1.2, 0.05}));
@@ -41,7 +41,7 @@ TEST(SweepAlignmentTest, AlongACorridorThePriorHolds) {
 }
 
 TEST(SweepAlignmentTest, WhatHasNothingInCommonIsNotAligned) {
-  const auto surface = surface_of(sweep_of(two_rooms(), kFirst));
+  const auto surface = surface_of(sweep_of(testing::two_rooms(), kFirst));
   EXPECT_FALSE(align(seen_from_first(), surface, {{40.0, 2.0, 0.2}, 0.1, 0.1}));
   EXPECT_FALSE(align(ReferenceSurface(), surface, {kFirst, 0.1, 0.1}));
   EXPECT_FALSE(align(seen_from_first(), {}, {kFirst, 0.1, 0.1}));
@@ -49,7 +49,7 @@ TEST(SweepAlignmentTest, WhatHasNothingInCommonIsNotAligned) {
 }
 
 TEST(SweepAlignmentTest, TheOtherSideOfAWallIsAnotherSurface) {
-  std::vector<DrawnWall> wall = {{{1.0, -3.0}, {1.0, 3.0}}};
+  std::vector<testing::DrawnWall> wall = {{{1.0, -3.0}, {1.0, 3.0}}};
   ReferenceSurface reference;
   reference.add(surface_of(sweep_of(wall, {0.0, 0.0, 0.0})), {});
   const auto behind = surface_of(sweep_of(wall, {2.0, 0.0, 0.0}));
@@ -57,4 +57,4 @@ TEST(SweepAlignmentTest, TheOtherSideOfAWallIsAnotherSurface) {
 }
 
 }  // namespace
-}  // namespace homeward::exploration
+}  // namespace homeward::geometry

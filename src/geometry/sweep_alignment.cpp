@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exploration/sweep_alignment.hpp"
+#include "geometry/sweep_alignment.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "core/angles.hpp"
 
-namespace homeward::exploration {
+namespace homeward::geometry {
 namespace {
 
 constexpr double kCell_m = 0.2;
@@ -119,4 +119,4 @@ std::optional<Alignment> align(const ReferenceSurface& reference, std::span<cons
   return Alignment{pose, agreement(reference, surface, pose, config.agrees_m)};
 }
 
-}  // namespace homeward::exploration
+}  // namespace homeward::geometry
