@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/pose2.hpp"
+#include "map/doubt.hpp"
 #include "map/graph.hpp"
 #include "map/metric_layout.hpp"
 #include "map/topological_map.hpp"

@@ -15,6 +15,7 @@
 #include "mapping/loops.hpp"
 #include "mapping/new_places.hpp"
 #include "mapping/old_places.hpp"
+#include "mapping/place_sides.hpp"
 #include "mapping/shortcut_edges.hpp"
 #include "mapping/sights.hpp"
 #include "mapping/subclusters.hpp"
@@ -31,10 +32,13 @@ class Growth {
         input_(input),
         pairs_(pairs),
         config_(config),
-        all_{input.images, input.tour_of, input.appearances, input.marks, &pairs},
+        all_{input.images, input.tour_of, input.appearances, input.marks, &pairs, input.sweeps},
         fresh_{std::span(input.images).first(at(input.new_images)),
                std::span(input.tour_of).first(at(input.new_images)),
-               std::span(input.appearances).first(at(input.new_images)), input.marks, &pairs},
+               std::span(input.appearances).first(at(input.new_images)),
+               input.marks,
+               &pairs,
+               {}},
         path_(fresh_),
         track_(input.images, input.tour_of, pairs, path_.metric(), extent(), config.track),
         labels_(labels_by_image(all_)),
@@ -51,8 +55,11 @@ class Growth {
     ++grown.map.revision;
     close();
     form_places();
+    part_at_doorways();
     settle();
     put_in_extra_places();
+    part_at_doorways();
+    reject_across(loops_.hypotheses, loops_.parts, place_of_image_);
     add_places(grown);
     add_edges(grown);
     settle_shortcuts(grown.map);
@@ -110,6 +117,10 @@ class Growth {
     for (int i = input_.new_images; i < static_cast<int>(input_.images.size()); ++i) {
       place_of_image_[at(i)] = input_.anchored(i);
     }
+  }
+
+  void part_at_doorways() {
+    split_at_doorways(all_, config_.doorways, labels_, {}, input_.new_images, places_, place_of_image_);
   }
 
   /// New images as places of their own where an edge that the new tours make would be weak.

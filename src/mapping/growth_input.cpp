@@ -40,6 +40,7 @@ Result<GrowthInput> growth_input(const map::TopologicalMap& old, NewTours tours)
   input.tour_of = std::move(tours.tour_of);
   input.appearances = std::move(tours.appearances);
   input.marks = std::move(tours.marks);
+  input.sweeps = std::move(tours.sweeps);
   int tour = input.tour_of.empty() ? 0 : input.tour_of.back() + 1;
   for (std::size_t p = 0; p < old.places.size(); ++p) {
     const map::Place& place = old.places[p];
@@ -50,6 +51,7 @@ Result<GrowthInput> growth_input(const map::TopologicalMap& old, NewTours tours)
       input.tour_of.push_back(tour++);
       input.appearances.push_back(appearance);
       input.appearances.back().sift.document_frequency.clear();  // what grows is counted anew
+      if (!input.sweeps.empty()) input.sweeps.push_back(nullptr);
       input.place_of_anchor.push_back(static_cast<int>(p));
     }
   }

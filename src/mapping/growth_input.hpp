@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/range_sweep.hpp"
 #include "core/result.hpp"
 #include "features/appearance.hpp"
 #include "map/topological_map.hpp"
@@ -22,6 +23,7 @@ struct NewTours {
   std::vector<int> tour_of;           // number of the tour of each image, ascending from 0
   std::vector<features::Appearance> appearances;
   std::vector<MarkedImage> marks;
+  std::vector<const RangeSweep*> sweeps = {};  // of each image, null: none; may be empty
 };
 
 /// New tours and an old map side by side. A map keeps no appearances of its images but those of its places: each of
@@ -30,8 +32,9 @@ struct GrowthInput {
   std::vector<map::MapImage> images;  // the new ones, then for each anchor the prototype of its place
   std::vector<int> tour_of;
   std::vector<features::Appearance> appearances;
-  std::vector<MarkedImage> marks;    // of new images
-  std::vector<int> place_of_anchor;  // index of a place of the old map
+  std::vector<MarkedImage> marks;         // of new images
+  std::vector<const RangeSweep*> sweeps;  // of each image, null for anchors; may be empty
+  std::vector<int> place_of_anchor;       // index of a place of the old map
   int new_images = 0;
 
   [[nodiscard]] bool is_anchor(int image) const { return image >= new_images; }

@@ -15,6 +15,7 @@
 #include "mapping/identity.hpp"
 #include "mapping/loops.hpp"
 #include "mapping/new_places.hpp"
+#include "mapping/place_sides.hpp"
 #include "mapping/shortcut_edges.hpp"
 #include "mapping/similarity.hpp"
 #include "mapping/subclusters.hpp"
@@ -56,6 +57,17 @@ std::vector<map::Destination> form_destinations(const MappingInput& input, std::
     destinations.push_back(std::move(destination));
   }
   return destinations;
+}
+
+/// Of each place whether a person has said that two parts of it are one.
+std::vector<char> joined_by_people(std::span<const LoopHypothesis> hypotheses, std::span<const int> place_of_part,
+                                   std::size_t places) {
+  std::vector<char> joined(places, 0);
+  for (const LoopHypothesis& hypothesis : hypotheses) {
+    if (hypothesis.by == map::Decider::kPerson && hypothesis.decision == map::Decision::kAccepted)
+      joined[at(place_of_part[at(hypothesis.a)])] = 1;
+  }
+  return joined;
 }
 
 map::MotionStatistics measure_statistics(const MappingInput& input, const map::TopologicalMap& map,
@@ -105,8 +117,7 @@ NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, 
                         path.metric() ? config.place_extent_m : config.place_extent_images, config.track);
   const float threshold = place_distance_threshold(input, path, config);
   const UsualDistances usual = usual_distances(input, path, config);
-  const auto [cluster_of, parts, hypotheses, place_of_part] =
-      close_loops(input, config, track, labels, threshold, previous);
+  auto [cluster_of, parts, hypotheses, place_of_part] = close_loops(input, config, track, labels, threshold, previous);
 
   std::vector<int> place_of_image(at(images), 0);
   for (std::size_t part = 0; part < parts.size(); ++part) {
@@ -115,9 +126,14 @@ NotedMap make_noted_map(const MappingInput& input, const MappingConfig& config, 
   map::TopologicalMap map;
   map.images.assign(input.images.begin(), input.images.end());
   map.places = form_places(input, parts, place_of_part, labels);
+  const std::vector<char> stays = joined_by_people(hypotheses, place_of_part, map.places.size());
+  split_at_doorways(input, config.doorways, labels, stays, images, map.places, place_of_image);
   Sights sights(input);
   const ExtraPlaces extra =
       insert_extra_places(input, config, pinned_images(input, parts), sights, map.places, place_of_image);
+  // What was put in drew images to it from both sides.
+  split_at_doorways(input, config.doorways, labels, stays, images, map.places, place_of_image);
+  reject_across(hypotheses, parts, place_of_image);
   map.edges = form_edges(input, path, track, config, map.places, place_of_image, sights);
   map.destinations = form_destinations(input, map.places, place_of_image);
   MappingNotes notes{config, threshold, cluster_of, {}, {}, {}, {}, {}, extra.weak_before, extra.weak_after};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "mapping/doorways.hpp"
 #include "mapping/hypotheses.hpp"
 #include "mapping/track.hpp"
 
@@ -27,6 +28,7 @@ struct MappingConfig {
   int extra_place_depth = 3;           // how often a way is halved by extra places where its edge is weak; 0: never
   EvidenceSources sources;
   HypothesisConfig hypotheses;
+  DoorwayConfig doorways;
   TrackConfig track;
 };
 

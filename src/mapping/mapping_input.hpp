@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "core/range_sweep.hpp"
 #include "features/appearance.hpp"
 #include "map/topological_map.hpp"
 #include "mapping/pair_table.hpp"
@@ -23,6 +24,7 @@ struct MappingInput {
   std::span<const features::Appearance> appearances;
   std::span<const MarkedImage> marks;
   const PairTable* pairs = nullptr;
+  std::span<const RangeSweep* const> sweeps = {};  // taken with each image, null: none; may be empty
 };
 
 }  // namespace homeward::mapping

@@ -151,6 +151,16 @@ Result<SeenPictures> look_at_all(Pictures all, const Eye& eye, int threads, cons
   return seen;
 }
 
+/// Of each picture its sweep, null: it has none.
+std::vector<const RangeSweep*> sweeps_of(const Pictures& pictures) {
+  std::vector<const RangeSweep*> sweeps;
+  for (const Pictures::Where& where : pictures.where) {
+    const std::optional<RangeSweep>& sweep = where.tour->images()[where.index].sweep;
+    sweeps.push_back(sweep ? &*sweep : nullptr);
+  }
+  return sweeps;
+}
+
 Status check_texture(const Pictures& pictures, const std::vector<features::Appearance>& appearances) {
   std::size_t blank = 0;
   std::string first_blank;
@@ -213,7 +223,9 @@ Result<BuiltMap> build_noted_map(const std::vector<const TourSource*>& tours, co
   if (!warnings) return pass_on(warnings);
 
   stage("cluster", kFeaturesShare + kCompareShare, 0.0)(0.0);
-  const mapping::MappingInput input{pictures->images, pictures->tour_of, *appearances, pictures->marks, &*pairs};
+  const std::vector<const RangeSweep*> sweeps = sweeps_of(*pictures);
+  const mapping::MappingInput input{pictures->images, pictures->tour_of, *appearances,
+                                    pictures->marks,  &*pairs,           sweeps};
   mapping::NotedMap made = mapping::make_noted_map(input, {}, previous);
   map::TopologicalMap& map = made.map;
   map.name = options.name;

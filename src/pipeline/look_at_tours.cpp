@@ -76,6 +76,7 @@ Result<SeenTours> look_at_tours(const std::vector<const TourSource*>& tours, con
     }
     seen.tours.images.push_back({image.id, image.t_us, image.odometry});
     seen.tours.tour_of.push_back(where[i].tour);
+    seen.tours.sweeps.push_back(image.sweep ? &*image.sweep : nullptr);
     seen.tours.appearances.push_back(std::move(*looked[i]));
   }
   if (seen.tours.images.empty()) return tl::unexpected<Error>(seen.skipped.front());
