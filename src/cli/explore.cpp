@@ -6,6 +6,7 @@
 #include "cli/explore.hpp"
 #include "scenario/starting_pose.hpp"
 #include "scenario/world_folder.hpp"
+#include "sim/generate/shut_doors.hpp"
 #include "sim/tour_path.hpp"
 
 namespace homeward::cli {
@@ -56,6 +57,11 @@ Status run(const ExploreOptions& options) {
   std::error_code ignored;
   if (fs::exists(out, ignored) && !fs::is_empty(out, ignored)) {
     return fail(ErrorCode::kConflict, "The folder holds something already; name a new or empty one.", out.string());
+  }
+  if (options.shut_doors > 0.0) {
+    auto shut = sim::shut_doors(*loaded, options.shut_doors, options.stage.seed);
+    if (!shut) return pass_on(shut);
+    loaded = std::move(shut->world);
   }
   sim::LitWorld world(std::move(*loaded));
   auto explorer = exploring_robot(options, world, *camera);
@@ -117,6 +123,8 @@ void register_explore(CLI::App& program) {
   command->add_option("--camera-height-m", options->camera_height_m, "Of the camera above the floor; else its own")
       ->check(CLI::PositiveNumber);
   command->add_option("--start", options->start, "Room to begin in; without it where the world says");
+  command->add_option("--shut-doors", options->shut_doors, "Share of the doors that are shut, by the seed")
+      ->check(CLI::Range(0.0, 1.0));
   command->add_option("--robot", options->robot, "disc or chair")->capture_default_str();
   command->add_option("--limit-m", options->limit_m, "Way after which it ends")
       ->check(CLI::PositiveNumber)

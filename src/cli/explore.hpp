@@ -30,6 +30,7 @@ struct ExploreOptions {
   ThesisOptions thesis;
   std::string start;
   std::string robot = "disc";
+  double shut_doors = 0.0;                // share
   std::optional<double> camera_height_m;  // nothing: the camera's own
   double limit_m = 2000.0;
   std::optional<double> limit_s;       // simulated, of the survey; nothing: two hours

@@ -51,6 +51,15 @@ struct Furniture {
   bool movable = true;  // not built in or hung on a wall
 };
 
+/// A doorway, which a door may shut.
+struct DoorOpening {
+  Pose2 frame;  // its middle on the floor, x along the wall
+  double width_m = 0.0;
+  double height_m = 0.0;
+  Eigen::Index first = 0;  // triangles of the leaf that stands open beside it, which share no vertices with others
+  Eigen::Index count = 0;  // 0: it has none
+};
+
 /// Cells of the floor, row 0 at the largest y, like ROS map_server.
 struct FloorGrid {  // see floor.hpp for what is computed on it
   int width = 0;
@@ -69,6 +78,7 @@ struct World {
   std::vector<Room> rooms;
   std::vector<Lamp> lamps;
   std::vector<Furniture> furniture;  // known of generated worlds alone
+  std::vector<DoorOpening> doors;    // the same
   FloorGrid occupied;                // 255 = something stands there between knee and head
   FloorGrid
       drivable;  // 255 = the centre of a disc robot of robot_radius_m may be here, and can get here from the start

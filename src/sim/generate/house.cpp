@@ -171,8 +171,9 @@ World generate(std::uint64_t seed, double door_m) {
     SceneBuilder scene;
     const Plan plan = plan_house(scene, door_m, random);
     for (const Space& space : plan.spaces) build_shell(scene, space, plan.doorways, random);
-    build_linings(scene, plan.doorways, random);
+    const std::vector<DoorOpening> doors = build_linings(scene, plan.doorways, random);
     world = World();
+    world.doors = doors;
     for (const Space& space : plan.spaces) {
       const std::vector<Furniture> placed = furnish(scene, space, plan.doorways, random);
       world.furniture.insert(world.furniture.end(), placed.begin(), placed.end());

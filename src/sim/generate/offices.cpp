@@ -71,8 +71,8 @@ World generate_offices(std::uint64_t seed) {
                       {{south ? Side::kSouth : Side::kNorth, window_at_m, 1.6}}});
     doorways.push_back({{x0 + 0.5 * kWidth_m, south ? 0.0 : kCorridor_m}, true, 1.15, 2.1, false});
   }
-  build_like_shells(scene, spaces, doorways, seed);
   World world;
+  world.doors = build_like_shells(scene, spaces, doorways, seed);
   for (std::size_t i = 1; i < spaces.size(); ++i) {
     const int number = static_cast<int>(i);
     const auto placed =

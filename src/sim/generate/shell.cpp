@@ -20,6 +20,7 @@ constexpr double kRailTop_m = 0.88;
 constexpr double kRailDeep_m = 0.05;
 constexpr double kLiningDeep_m = kHalfWall_m + 0.015;  // from the wall's middle
 constexpr double kLeaf_m = 0.85;
+constexpr double kHalfLeaf_m = 0.02;  // of its thickness
 
 /// A rectangle of wall from x0 to x1 and z0 to z1, `y` in front of the wall's plane. Looks into the room.
 void wall_piece(SceneBuilder& scene, const Pose2& frame, double x0, double x1, double z0, double z1, Surface surface,
@@ -186,7 +187,8 @@ void build_shell(SceneBuilder& scene, const Space& space, const std::vector<Door
   for (const WindowOpening& window : space.windows) build_window(scene, space, window, random);
 }
 
-void build_linings(SceneBuilder& scene, const std::vector<Doorway>& doorways, Random& random) {
+std::vector<DoorOpening> build_linings(SceneBuilder& scene, const std::vector<Doorway>& doorways, Random& random) {
+  std::vector<DoorOpening> openings;
   for (const Doorway& doorway : doorways) {
     const Surface wood = lining_of(scene, random);
     Pose2 frame{doorway.centre_m.x(), doorway.centre_m.y(), doorway.in_x_wall ? 0.0 : 0.5 * std::numbers::pi};
@@ -198,23 +200,29 @@ void build_linings(SceneBuilder& scene, const std::vector<Doorway>& doorways, Ra
     scene.box(frame, {half, -kDeep_m, foot}, {half + 0.07, kDeep_m, doorway.height_m + 0.07}, {wood, wood});
     scene.box(frame, {-half, -kDeep_m, doorway.height_m}, {half, kDeep_m, doorway.height_m + 0.07}, {wood, wood});
     if (foot > 0.0) build_bars(scene, frame, doorway, wood);
+    if (foot == 0.0) openings.push_back({frame, doorway.width_m, doorway.height_m, scene.triangles(), 0});
     if (!doorway.leaf) continue;
     // The leaf stands open against the wall, on the side that the frame's +y points to.
     const Surface door = leaf_of(scene, random);
     scene.box(frame, {half + 0.08, kDeep_m + 0.01, 0.01}, {half + 0.08 + kLeaf_m, kDeep_m + 0.05, 2.05}, {door, door});
+    if (foot == 0.0) openings.back().count = scene.triangles() - openings.back().first;
   }
+  return openings;
 }
 
-void build_like_shells(SceneBuilder& scene, const std::vector<Space>& spaces, const std::vector<Doorway>& doorways,
-                       std::uint64_t seed) {
+std::vector<DoorOpening> build_like_shells(SceneBuilder& scene, const std::vector<Space>& spaces,
+                                           const std::vector<Doorway>& doorways, std::uint64_t seed) {
+  std::vector<DoorOpening> openings;
   for (const Space& space : spaces) {
     Random same(seed * 13 + 1);  // the same windows, curtains and skirting everywhere
     build_shell(scene, space, doorways, same);
   }
   for (const Doorway& doorway : doorways) {
     Random same(seed * 17 + 2);
-    build_linings(scene, {doorway}, same);
+    const std::vector<DoorOpening> built = build_linings(scene, {doorway}, same);
+    openings.insert(openings.end(), built.begin(), built.end());
   }
+  return openings;
 }
 
 void build_shut_door(SceneBuilder& scene, const Pose2& frame, Random& random) {
@@ -227,6 +235,12 @@ void build_shut_door(SceneBuilder& scene, const Pose2& frame, Random& random) {
   scene.box(frame, {-kHalf_m - 0.07, 0.0, 0.0}, {-kHalf_m, kRailDeep_m + 0.025, kTop_m + 0.07}, {wood, wood});
   scene.box(frame, {kHalf_m, 0.0, 0.0}, {kHalf_m + 0.07, kRailDeep_m + 0.025, kTop_m + 0.07}, {wood, wood});
   scene.box(frame, {-kHalf_m, 0.0, kTop_m}, {kHalf_m, kRailDeep_m + 0.025, kTop_m + 0.07}, {wood, wood});
+}
+
+void build_leaf(SceneBuilder& scene, const DoorOpening& door, Random& random) {
+  const Surface leaf = leaf_of(scene, random);
+  const double half = 0.5 * door.width_m;
+  scene.box(door.frame, {-half, -kHalfLeaf_m, 0.01}, {half, kHalfLeaf_m, door.height_m}, {leaf, leaf});
 }
 
 Lamp build_lamp(SceneBuilder& scene, const Eigen::Vector2d& position_m, double strength, Random& random) {

@@ -62,16 +62,21 @@ std::vector<std::pair<double, double>> openings_of(const Space& space, Side side
 /// Floor, ceiling, walls with their openings, skirting, windows with a view, and door leaves.
 void build_shell(SceneBuilder& scene, const Space& space, const std::vector<Doorway>& doorways, Random& random);
 
-/// The linings of the doorways' walls, once for each doorway; the frames and bars of glazed panels.
-void build_linings(SceneBuilder& scene, const std::vector<Doorway>& doorways, Random& random);
+/// The linings of the doorways' walls, once for each doorway; the frames and bars of glazed panels. Returns those that
+/// are gone through.
+std::vector<DoorOpening> build_linings(SceneBuilder& scene, const std::vector<Doorway>& doorways, Random& random);
 
-/// Shells and linings that look the same from space to space and from doorway to doorway.
-void build_like_shells(SceneBuilder& scene, const std::vector<Space>& spaces, const std::vector<Doorway>& doorways,
-                       std::uint64_t seed);
+/// Shells and linings that look the same from space to space and from doorway to doorway. Returns what build_linings
+/// does.
+std::vector<DoorOpening> build_like_shells(SceneBuilder& scene, const std::vector<Space>& spaces,
+                                           const std::vector<Doorway>& doorways, std::uint64_t seed);
 
 /// A door that is shut: it stands before the wall at y = 0 of `frame`, which looks along +y. Looks as the leaves do
 /// that `build_linings` builds of the same `random`.
 void build_shut_door(SceneBuilder& scene, const Pose2& frame, Random& random);
+
+/// The leaf of a door, in its doorway: shut.
+void build_leaf(SceneBuilder& scene, const DoorOpening& door, Random& random);
 
 /// A ceiling lamp with its light.
 Lamp build_lamp(SceneBuilder& scene, const Eigen::Vector2d& position_m, double strength, Random& random);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kWidth_m = 10.0;  // Ferdaus (2008, §4.2): "the lab was 10m x 12m"
 constexpr double kDepth_m = 12.0;
-constexpr double kCorner_m = 1.0;  // of the free corners' points, from both walls
-constexpr double kDoor_m = 2.94;   // along the east wall
+constexpr double kCorner_m = 1.0;      // of the free corners' points, from both walls
+constexpr double kDoorAlong_m = 2.94;  // along the east wall
 
 /// What stands along the walls; distances of its middle from the wall's left end. A place is 1.9 m wide or more and no
 /// piece wider than 1.4 m, so that none meets another wherever it is moved to.
@@ -103,7 +103,7 @@ std::vector<Furniture> furnish_middle(SceneBuilder& scene, Random& random) {
 
 std::vector<Furniture> furnish(SceneBuilder& scene, const Space& room, Random& random) {
   // Nothing hangs on the door, which is none to go through.
-  const Doorway door{{kWidth_m, kHalfWall_m + kDoor_m}, false, 0.85};
+  const Doorway door{{kWidth_m, kHalfWall_m + kDoorAlong_m}, false, 0.85};
   Furnisher furnisher(scene, room, {door});
   for (const Place& place : kPlaces) {
     const double along_m = place.along_m + uniform(random, -kMovedMost_m, kMovedMost_m);
@@ -166,7 +166,7 @@ World generate_systems_laboratory(std::uint64_t seed) {
     SceneBuilder scene;
     const Space room = room_of(scene, random);
     build_shell(scene, room, {}, random);
-    build_shut_door(scene, wall_frame(room, Side::kEast).frame * Pose2{kDoor_m, 0.0, 0.0}, random);
+    build_shut_door(scene, wall_frame(room, Side::kEast).frame * Pose2{kDoorAlong_m, 0.0, 0.0}, random);
     world = World();
     world.name = "laboratory:" + std::to_string(seed);
     world.furniture = furnish(scene, room, random);

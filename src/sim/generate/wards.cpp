@@ -181,7 +181,8 @@ World generate_wards(std::uint64_t seed) {
   const WardsPlan plan = plan_wards(random);
   const std::vector<Space> spaces = spaces_of(plan, surfaces_of(scene, plan, random));
   const std::vector<Doorway> doorways = doorways_of(plan);
-  build_like_shells(scene, spaces, doorways, seed);
+  World world;
+  world.doors = build_like_shells(scene, spaces, doorways, seed);
   Fitter fitter(scene, plan, seed);
   for (int i = 0; i < plan.modules; ++i) {
     for (const bool north : {false, true}) {
@@ -191,7 +192,6 @@ World generate_wards(std::uint64_t seed) {
     if (!plan.has_cross(false, i)) fitter.fit_hall(i);
   }
   fitter.scatter(random);
-  World world;
   world.lamps = light(scene, plan, seed);
   world.name = "wards:" + std::to_string(seed);
   world.scene = scene.take();
