@@ -35,6 +35,16 @@ Result<camera::CameraConfig> camera_of(const ExploreOptions& options) {
   return camera;
 }
 
+/// CLI::Range lets "nan" through.
+CLI::Validator share() {
+  const auto problem_of = [](const std::string& text) {
+    double value = 0.0;
+    const bool fits = CLI::detail::lexical_cast(text, value) && value >= 0.0 && value <= 1.0;
+    return fits ? std::string() : text + " is no share: 0 to 1.";
+  };
+  return {problem_of, "SHARE", "share"};
+}
+
 /// What one method knows nothing of must not be dropped in silence: a fence least of all.
 Status refuse_of_survey_alone(const ExploreOptions& options) {
   if (options.method == "survey") return {};
@@ -93,6 +103,8 @@ Result<ExploringRobot> exploring_robot(const ExploreOptions& options, sim::LitWo
   config.camera = camera;
   config.light = *light;
   config.profile = *profile;
+  config.laser.glass_share = options.glass_share;
+  config.laser.spurious_share = options.spurious_share;
   config.seed = options.stage.seed;
   auto robot = scenario::SimulatedRobot::create(world, config, *start);
   if (!robot) return pass_on(robot);
@@ -118,6 +130,16 @@ void register_explore(CLI::App& program) {
       ->check(CLI::PositiveNumber);
   command->add_option("--start", options->start, "Room to begin in; without it where the world says");
   command->add_option("--robot", options->robot, "disc or chair")->capture_default_str();
+  command
+      ->add_option("--glass-share", options->glass_share,
+                   "Share of the laser's rays that go through panes of windows, and come back from nothing")
+      ->check(share())
+      ->capture_default_str();
+  command
+      ->add_option("--spurious-share", options->spurious_share,
+                   "Share of the laser's rays that report any range, whatever they meet")
+      ->check(share())
+      ->capture_default_str();
   command->add_option("--limit-m", options->limit_m, "Way after which it ends")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

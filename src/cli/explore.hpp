@@ -31,6 +31,8 @@ struct ExploreOptions {
   std::string start;
   std::string robot = "disc";
   std::optional<double> camera_height_m;  // nothing: the camera's own
+  double glass_share = 0.0;               // see sim::LaserConfig
+  double spurious_share = 0.0;
   double limit_m = 2000.0;
   std::optional<double> limit_s;       // simulated, of the survey; nothing: two hours
   std::optional<double> back_after_s;  // of the survey; nothing: it need not be back
