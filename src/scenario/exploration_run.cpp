@@ -28,6 +28,8 @@ ExplorationEnd end_of(exploration::SurveyEnd end) {
       return ExplorationEnd::kBack;
     case exploration::SurveyEnd::kStuck:
       return ExplorationEnd::kStuck;
+    case exploration::SurveyEnd::kLimit:
+      return ExplorationEnd::kLimit;
   }
   return ExplorationEnd::kStopped;
 }

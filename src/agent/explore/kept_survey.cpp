@@ -89,6 +89,8 @@ std::optional<driving::ExplorationOver> KeptSurvey::over_by(const exploration::S
       return driving::ExplorationOver{false, wire::Reason{ReasonCode::kExplorationBack}};
     case exploration::SurveyEnd::kStuck:
       return driving::ExplorationOver{true, wire::Reason{ReasonCode::kExplorationStuck}};
+    case exploration::SurveyEnd::kLimit:
+      return driving::ExplorationOver{false, wire::Reason{ReasonCode::kExplorationLimit}};
     case exploration::SurveyEnd::kAllSeen:
       break;
   }
