@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
+#include <iostream>
+#include <limits>
 #include <memory>
 
 #include "cli/command.hpp"
 #include "cli/explore.hpp"
+#include "core/version.hpp"
+#include "scenario/order_to_explore.hpp"
 #include "scenario/starting_pose.hpp"
 #include "scenario/world_folder.hpp"
 #include "sim/tour_path.hpp"
@@ -113,6 +117,21 @@ Result<ExploringRobot> exploring_robot(const ExploreOptions& options, sim::LitWo
   auto eye = pipeline::Eye::create(camera, pipeline::suited_feature_config(**made));
   if (!eye) return pass_on(eye);
   return ExploringRobot{std::move(*robot), std::move(*eye), *profile};
+}
+
+Result<std::unique_ptr<recording::Recorder>> recorder_of(const ExploreOptions& options,
+                                                         const ExploringRobot& explorer) {
+  recording::RecordingOptions record;
+  record.folder = options.stage.out;
+  record.name = "exploration";
+  record.wait_for_disk = true;
+  // The exploration's own limits bound it.
+  record.limit_bytes = record.folder_limit_bytes = std::numeric_limits<std::int64_t>::max();
+  const features::FeatureConfig& features = explorer.eye.feature_config();
+  const recording::Recorder::Robot recorded{
+      name_with_version("homeward explore"), explorer.eye.camera().config(), features,
+      scenario::exploring_config(scenario::body_of(explorer.profile), features::feature_config_id(features))};
+  return recording::Recorder::create(record, recorded, [](const std::string& what) { std::cerr << what << "\n"; });
 }
 
 void register_explore(CLI::App& program) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "cli/simulate.hpp"
 #include "core/result.hpp"
 #include "pipeline/eye.hpp"
+#include "recording/recorder.hpp"
 #include "scenario/exploration_run.hpp"
 #include "scenario/simulated_robot.hpp"
 
@@ -53,15 +55,19 @@ void add_thesis_options(CLI::App& command, ThesisOptions& options);
 Result<ExploringRobot> exploring_robot(const ExploreOptions& options, sim::LitWorld& world,
                                        const camera::CameraConfig& camera);
 
+/// What records its exploration as exploration.hwrec in the folder `--out`, which it makes. Errors: kIo.
+Result<std::unique_ptr<recording::Recorder>> recorder_of(const ExploreOptions& options, const ExploringRobot& explorer);
+
 /// "complete", "limit" or "stopped".
 const char* name_of(scenario::ExplorationEnd end);
 
-/// `homeward explore --method survey`: writes a tour, the map of it and a picture of what that covers into the folder
-/// `--out`.
+/// `homeward explore --method survey`: writes a recording, a tour, the map of it and a picture of what that covers
+/// into the folder `--out`.
 Status explore_by_survey(const ExploreOptions& options, const sim::World& world, const camera::CameraConfig& camera,
                          ExploringRobot& explorer);
 
-/// `homeward explore --method thesis`: writes states.csv and dissimilarities.csv into the folder `--out`.
+/// `homeward explore --method thesis`: writes a recording, states.csv and dissimilarities.csv into the folder
+/// `--out`.
 Status explore_by_thesis(const ExploreOptions& options, ExploringRobot& explorer);
 
 }  // namespace homeward::cli

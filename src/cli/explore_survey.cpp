@@ -94,11 +94,15 @@ double covered_share(const exploration::Explorer& explorer) {
   return seen > 0 ? static_cast<double>(covered) / static_cast<double>(seen) : 0.0;
 }
 
-Result<scenario::ExplorationResult> explore(const scenario::ExplorationPlan& plan, ExploringRobot& explorer) {
+Result<scenario::ExplorationResult> explore(const ExploreOptions& options, const scenario::ExplorationPlan& plan,
+                                            ExploringRobot& explorer) {
+  const auto recorder = recorder_of(options, explorer);
+  if (!recorder) return pass_on(recorder);
   ProgressBar bar;
   return scenario::explore(
       explorer.robot, scenario::body_of(explorer.profile), explorer.eye, plan,
-      [&](const exploration::Survey& survey) { bar.show("exploring", covered_share(survey.explorer())); }, now_ms);
+      [&](const exploration::Survey& survey) { bar.show("exploring", covered_share(survey.explorer())); }, now_ms,
+      recorder->get());
 }
 
 /// The pictures with what the robot took itself to be in the end, as a tour.
@@ -159,7 +163,7 @@ Status explore_by_survey(const ExploreOptions& options, const sim::World& world,
   const fs::path out(options.stage.out);
   const auto plan_of_robot = plan_of(options, explorer);
   if (!plan_of_robot) return pass_on(plan_of_robot);
-  const auto explored = explore(*plan_of_robot, explorer);
+  const auto explored = explore(options, *plan_of_robot, explorer);
   if (!explored) return pass_on(explored);
   if (Status written = write_tour(out / "tour", camera, world, *explored); !written) return written;
   const auto map = build_map_of(out / "tour", out / "map.hwmap", camera, options);

@@ -12,6 +12,7 @@
 #include "core/result.hpp"
 #include "exploration/survey.hpp"
 #include "pipeline/eye.hpp"
+#include "recording/recorder.hpp"
 #include "scenario/simulated_robot.hpp"
 
 namespace homeward::scenario {
@@ -53,11 +54,12 @@ struct ExplorationResult {
 
 /// Explores a world in simulated time by the agent's own driving step, under permits that never end, until nothing is
 /// left or a limit is reached. `progress`: called with each picture, may be empty. `clock_ms`: the machine's time, for
-/// step_ms alone. Errors: those of Eye::look.
+/// step_ms alone. `recorder`: of the same body (`exploring_config`) and eye, with the table of states; may be null.
+/// Errors: those of Eye::look.
 Result<ExplorationResult> explore(SimulatedRobot& robot, const driving::Body& body, const pipeline::Eye& eye,
                                   const ExplorationPlan& plan,
                                   const std::function<void(const exploration::Survey&)>& progress,
-                                  const std::function<double()>& clock_ms);
+                                  const std::function<double()>& clock_ms, recording::Recorder* recorder = nullptr);
 
 /// The plan for a robot of this body.
 ExplorationPlan exploration_plan_for(const sim::RobotProfile& profile);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "agent/explore/exploration_report.hpp"
+#include "driving/exploration_over.hpp"
 #include "files/read_file.hpp"
 #include "wire/scans_json.hpp"
 
@@ -84,19 +85,7 @@ std::optional<driving::ExplorationOver> KeptSurvey::over_by(const exploration::S
   if ((limit_m_ && driven_m_ >= *limit_m_) || (limit_s_ && explored_s_ >= *limit_s_))
     return driving::ExplorationOver{false, wire::Reason{ReasonCode::kExplorationLimit}};
   if (!step.ended) return std::nullopt;
-  switch (*step.ended) {
-    case exploration::SurveyEnd::kBack:
-      return driving::ExplorationOver{false, wire::Reason{ReasonCode::kExplorationBack}};
-    case exploration::SurveyEnd::kStuck:
-      return driving::ExplorationOver{true, wire::Reason{ReasonCode::kExplorationStuck}};
-    case exploration::SurveyEnd::kLimit:
-      return driving::ExplorationOver{false, wire::Reason{ReasonCode::kExplorationLimit}};
-    case exploration::SurveyEnd::kAllSeen:
-      break;
-  }
-  const auto unreached = static_cast<std::int64_t>(survey_.explorer().put_off());
-  if (unreached == 0) return driving::ExplorationOver{};
-  return driving::ExplorationOver{false, wire::Reason{ReasonCode::kExplorationUnreached, {{"places", unreached}}}};
+  return driving::exploration_over(*step.ended, survey_.explorer().put_off());
 }
 
 KeptSurvey::Next KeptSurvey::see(const Sensed& sensed, bool blocked) {
