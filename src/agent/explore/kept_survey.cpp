@@ -62,6 +62,7 @@ Result<KeptSurvey> KeptSurvey::restore(KeptFiles files, const pipeline::Eye& eye
     kept.explored_s_ = view->explored_s;
   }
   kept.survey_.set_fences(kept.files_.kept().fences_m);
+  kept.survey_.take_rows();  // they are of the drives before
   kept.phase_ = kept.files_.kept().ended ? ExplorationPhase::kEnded : ExplorationPhase::kPaused;
   kept.reason_ = kept.files_.kept().reason;
   return kept;
@@ -81,11 +82,8 @@ void KeptSurvey::take_up(const wire::ExploreOrder& order, driving::Milliseconds 
   seen_ms_.reset();
 }
 
-std::optional<driving::ExplorationOver> KeptSurvey::over_by(const exploration::SurveyStep& step) const {
-  if ((limit_m_ && driven_m_ >= *limit_m_) || (limit_s_ && explored_s_ >= *limit_s_))
-    return driving::ExplorationOver{false, wire::Reason{ReasonCode::kExplorationLimit}};
-  if (!step.ended) return std::nullopt;
-  return driving::exploration_over(*step.ended, survey_.explorer().put_off());
+bool KeptSurvey::at_limit() const {
+  return (limit_m_ && driven_m_ >= *limit_m_) || (limit_s_ && explored_s_ >= *limit_s_);
 }
 
 KeptSurvey::Next KeptSurvey::see(const Sensed& sensed, bool blocked) {
@@ -94,9 +92,12 @@ KeptSurvey::Next KeptSurvey::see(const Sensed& sensed, bool blocked) {
   odometry_ = sensed.odometry;
   seen_ms_ = sensed.sensors_ms;
   const exploration::SurveyStep step = survey_.go_on(sensed.sweep, sensed.odometry, blocked, sensed.sensors_ms);
-  Next next{step.goal_m, step.takes_picture, over_by(step)};
-  if (next.over) next.goal_m.reset();
-  return next;
+  if (at_limit()) {
+    survey_.end_at_limit(sensed.odometry);
+    return {std::nullopt, step.takes_picture, driving::exploration_over(exploration::SurveyEnd::kLimit, 0)};
+  }
+  if (!step.ended) return {step.goal_m, step.takes_picture, std::nullopt};
+  return {std::nullopt, step.takes_picture, driving::exploration_over(*step.ended, survey_.explorer().put_off())};
 }
 
 Status KeptSurvey::take(const SensedPicture& picture) {
