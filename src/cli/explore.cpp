@@ -56,6 +56,7 @@ Status refuse_of_survey_alone(const ExploreOptions& options) {
   if (options.limit_s) option = "--limit-s";
   if (options.back_after_s) option = "--back-after-s";
   if (!options.fences.empty()) option = "--fence";
+  if (options.pictures_every > 0) option = "--pictures-every";
   if (option == nullptr) return {};
   return fail(ErrorCode::kInvalidInput, "Only --method survey knows this option.", option);
 }
@@ -173,6 +174,10 @@ void register_explore(CLI::App& program) {
   command->add_option(
       "--fence", options->fences,
       "Corners of floor that no way leads over, in metres of the world: \"1,2 3,2 3,4\"; once for each (survey)");
+  command
+      ->add_option("--pictures-every", options->pictures_every,
+                   "After so many pictures each time, draw the graph so far over the true plan: plan-0010.png (survey)")
+      ->check(CLI::Range(1, 1'000'000));
   command->add_flag("--json", options->json, "Print one JSON object");
   run_on(*command, [options] { return run(*options); });
 }

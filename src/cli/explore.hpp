@@ -39,6 +39,7 @@ struct ExploreOptions {
   std::optional<double> limit_s;       // simulated, of the survey; nothing: two hours
   std::optional<double> back_after_s;  // of the survey; nothing: it need not be back
   std::vector<std::string> fences;     // of the survey: corners "x,y x,y x,y", metres of the world
+  int pictures_every = 0;              // of the survey: so many pictures, the graph so far is drawn; 0: never
   bool json = false;
 };
 

@@ -90,7 +90,7 @@ class ExplorationLoop {
   }
 
   [[nodiscard]] const exploration::Survey& survey() const { return survey_; }
-  [[nodiscard]] std::size_t pictures() const { return result_.pictures.size(); }
+  [[nodiscard]] const ExplorationResult& so_far() const { return result_; }
 
  private:
   [[nodiscard]] double clock() const { return clock_ms_ ? clock_ms_() : 0.0; }
@@ -162,15 +162,14 @@ class ExplorationLoop {
 }  // namespace
 
 Result<ExplorationResult> explore(SimulatedRobot& robot, const driving::Body& body, const pipeline::Eye& eye,
-                                  const ExplorationPlan& plan,
-                                  const std::function<void(const exploration::Survey&)>& progress,
+                                  const ExplorationPlan& plan, const ExplorationProgress& progress,
                                   const std::function<double()>& clock_ms, recording::Recorder* recorder) {
   ExplorationLoop loop(robot, body, eye, plan, clock_ms, recorder);
   for (;;) {
-    const std::size_t before = loop.pictures();
+    const std::size_t before = loop.so_far().pictures.size();
     const auto goes_on = loop.cycle();
     if (!goes_on) return pass_on(goes_on);
-    if (progress && loop.pictures() > before) progress(loop.survey());
+    if (progress && loop.so_far().pictures.size() > before) progress(loop.survey(), loop.so_far());
     if (!*goes_on) return loop.finish();
   }
 }
@@ -182,8 +181,7 @@ ExplorationPlan exploration_plan_for(const sim::RobotProfile& profile) {
 }
 
 Result<ExplorationResult> explore_world(sim::LitWorld& world, const SimulatedRobotConfig& config, const Pose2& start,
-                                        const ExplorationPlan& plan,
-                                        const std::function<void(const exploration::Survey&)>& progress,
+                                        const ExplorationPlan& plan, const ExplorationProgress& progress,
                                         const std::function<double()>& clock_ms) {
   auto robot = SimulatedRobot::create(world, config, start);
   if (!robot) return pass_on(robot);

@@ -363,6 +363,8 @@ class WrongUse(CliTest):
             self.assert_refused(2, ["fence"], *explore, "--fence", fence, "--out", "new")
         self.assert_refused(2, ["fence", "survey"], *explore, "--method", "thesis", "--fence", "1,2 3,2 3,4", "--out", "new")
         self.assert_refused(2, ["limit-s", "survey"], *explore, "--method", "thesis", "--limit-s", "60", "--out", "new")
+        self.assert_refused(2, ["pictures-every"], *explore, "--pictures-every", "0", "--out", "new")
+        self.assert_refused(2, ["pictures-every", "survey"], *explore, "--method", "thesis", "--pictures-every", "9", "--out", "new")
         self.assert_refused(2, ["back-after-s"], *explore, "--back-after-s", "1e300", "--out", "new")
         self.assertFalse((self.folder / "new").exists())
         (self.folder / "full").mkdir()

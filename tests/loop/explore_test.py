@@ -132,12 +132,15 @@ class Exploration(unittest.TestCase):
         self.assertEqual(replayed["why_stopped"]["reason"]["code"], reason)
 
     def test_it_ends_at_a_limit_and_maps_what_it_has_seen(self):
-        told = json.loads(homeward("explore", "--world", "offices:42", "--seed", 2, "--limit-m", 6, "--out",
-                                   self.folder / "little", "--json"))
+        told = json.loads(homeward("explore", "--world", "offices:42", "--seed", 2, "--limit-m", 6, "--pictures-every", 5,
+                                   "--out", self.folder / "little", "--json"))
         self.assertEqual(told["ended"], "limit")
         self.assertLess(told["driven_m"], 6.5)
         self.assertGreaterEqual(told["driven_m"], 6.0)
         self.assertGreater(told["nodes"], 0)
+        self.assertEqual(sorted(file.name for file in (self.folder / "little").glob("plan-*.png")),
+                         [f"plan-{number:04}.png" for number in range(5, told["pictures"] + 1, 5)])
+        self.assertGreater(told["pictures"], 5)
         self.assert_replays(self.folder / "little" / "exploration.hwrec", "exploration_limit")
         self.assertEqual(self.states_of(self.folder / "little")[-1]["end"], "limit")
 
