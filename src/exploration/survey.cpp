@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "exploration/picture_rows.hpp"
+
 namespace homeward::exploration {
 namespace {
 
@@ -69,23 +71,6 @@ void Survey::note_end(const Pose2& odometry) {
   if (std::exchange(end_noted_, true)) return;
   rows_.push_back(row_of(SurveyState::kEnded, odometry));
   rows_.back().end = ended_;
-}
-
-/// What the newest picture has made of places known again.
-void Survey::note_known_again(const std::vector<KnownAgain>& before, const Pose2& odometry) {
-  const std::vector<KnownAgain>& now = explorer_.known_again();
-  rows_.push_back(row_of(now.size() > before.size() ? SurveyState::kKnownAgain : SurveyState::kNew, odometry));
-  if (now.size() > before.size()) {
-    rows_.back().known = now.back().then;
-    rows_.back().agreement = now.back().agreement;
-  }
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    if (!now[i].taken_back || (i < before.size() && before[i].taken_back)) continue;
-    rows_.push_back(row_of(SurveyState::kTakenBack, odometry));
-    rows_.back().picture = now[i].now;
-    rows_.back().known = now[i].then;
-    rows_.back().agreement = now[i].agreement;
-  }
 }
 
 void Survey::forget_target() {
@@ -239,7 +224,10 @@ void Survey::take(const RangeSweep& sweep, const Pose2& odometry,
                   std::shared_ptr<const features::Appearance> appearance) {
   const std::vector<KnownAgain> before = explorer_.known_again();
   explorer_.take(sweep, odometry, std::move(appearance));
-  note_known_again(before, odometry);
+  const int picture = static_cast<int>(explorer_.views().size()) - 1;
+  for (const SurveyRow& row :
+       picture_rows(before, explorer_.known_again(), picture, explorer_.floor_from_robot(odometry)))
+    rows_.push_back(row);
   chosen_ms_.reset();
 }
 

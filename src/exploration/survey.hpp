@@ -76,7 +76,6 @@ class Survey {
   void note_place(SurveyState state, const Pose2& odometry);
   void note_next(const NextView& next, const std::optional<Eigen::Vector2d>& before_m, const Pose2& odometry);
   void note_end(const Pose2& odometry);
-  void note_known_again(const std::vector<KnownAgain>& before, const Pose2& odometry);
 
   Explorer explorer_;
   SurveyConfig config_;

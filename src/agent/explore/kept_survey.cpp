@@ -91,11 +91,8 @@ KeptSurvey::Next KeptSurvey::see(const Sensed& sensed, bool blocked) {
   if (seen_ms_) explored_s_ += 0.001 * static_cast<double>(std::max<std::int64_t>(0, sensed.sensors_ms - *seen_ms_));
   odometry_ = sensed.odometry;
   seen_ms_ = sensed.sensors_ms;
+  if (at_limit()) survey_.end_at_limit(sensed.odometry);
   const exploration::SurveyStep step = survey_.go_on(sensed.sweep, sensed.odometry, blocked, sensed.sensors_ms);
-  if (at_limit()) {
-    survey_.end_at_limit(sensed.odometry);
-    return {std::nullopt, step.takes_picture, driving::exploration_over(exploration::SurveyEnd::kLimit, 0)};
-  }
   if (!step.ended) return {step.goal_m, step.takes_picture, std::nullopt};
   return {std::nullopt, step.takes_picture, driving::exploration_over(*step.ended, survey_.explorer().put_off())};
 }
