@@ -14,6 +14,7 @@
 #include "core/time.hpp"
 #include "wire/link_messages.hpp"
 #include "wire/reason.hpp"
+#include "wire/state_row_json.hpp"
 
 namespace homeward::db {
 
@@ -46,6 +47,7 @@ struct RecordedPicture {
   Pose2 odometry;
   std::shared_ptr<const std::vector<std::uint8_t>> bytes;  // nothing: left out, the recording was full
   bool recognised = true;                                  // its features were looked for; else it was only tracked
+  bool looked_at = true;  // false: the step was told that it was taken, and not what it shows; there are no bytes
 };
 
 /// What the rider's joystick said.
@@ -95,7 +97,8 @@ struct RecordedStep {
   std::optional<RecordedRider> rider = {};
   bool robot_link_up = true;  // as all older recordings have it
   std::optional<RecordedLeg> leg = {};
-  bool exploration_over = false;  // by itself; how and why is the outcome of the step
+  bool exploration_over = false;          // by itself; how and why is the outcome of the step
+  std::vector<wire::StateRow> rows = {};  // of an exploration's table of states, since the step before; no input
   // Out.
   double speed_mps = 0.0;
   double turn_radps = 0.0;
@@ -161,7 +164,7 @@ struct WhyStopped {
 class RecordingReader {
  public:
   /// Errors: kNotFound, kCorruptFile (no SQLite file, no recording, ends early), kUnsupportedFormat (newer version),
-  /// kIo. Versions 1 and 2, which knew no joysticks and kept no counts of tracked features, are read.
+  /// kIo. Older versions are read: what they did not know is not there.
   static Result<std::unique_ptr<RecordingReader>> open(const std::filesystem::path& file);
   RecordingReader(const RecordingReader&) = delete;
   RecordingReader& operator=(const RecordingReader&) = delete;

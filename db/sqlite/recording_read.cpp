@@ -11,6 +11,7 @@
 #include "db/sqlite/recording_rows.hpp"
 #include "db/sqlite/recording_schema.hpp"
 #include "db/sqlite/store_database.hpp"
+#include "wire/json_reader.hpp"
 #include "wire/reason_json.hpp"
 
 namespace homeward::db {
@@ -97,6 +98,7 @@ class SqliteRecordingReader final : public RecordingReader {
                    "has_sweep, has_picture, messages, exact, " +
                        tracks + " FROM steps ORDER BY seq");
     messages_.emplace(database_, "SELECT sender, cbor FROM messages WHERE step = ? ORDER BY position");
+    if (has_states()) states_.emplace(database_, "SELECT row FROM states WHERE step = ? ORDER BY position");
   }
 
   [[nodiscard]] const RecordingHeader& header() const override { return header_; }
@@ -145,6 +147,8 @@ class SqliteRecordingReader final : public RecordingReader {
  private:
   static constexpr int kBusyTimeout_ms = 2000;
   static constexpr int kMostBytesOfRow = 64 << 20;
+
+  [[nodiscard]] bool has_states() const { return version_ >= kRecordingVersionOfStates; }
 
   void check_kind_and_version() {
     if (database_.execAndGet("PRAGMA application_id").getInt() != kRecordingApplicationId) {
@@ -205,12 +209,16 @@ class SqliteRecordingReader final : public RecordingReader {
 
   std::optional<RecordedPicture> picture_of(std::int64_t step) {
     SQLite::Statement select =
-        prepared(database_, "SELECT taken_ms, exact, bytes, recognised FROM pictures WHERE step = ?", step);
+        prepared(database_,
+                 has_states() ? "SELECT taken_ms, exact, bytes, recognised, looked_at FROM pictures WHERE step = ?"
+                              : "SELECT taken_ms, exact, bytes, recognised, 1 FROM pictures WHERE step = ?",
+                 step);
     if (!select.executeStep()) return std::nullopt;
     RecordedPicture picture;
     picture.taken_ms = integer(select, 0);
     if (!unpack_pose(blob(select.getColumn(1)), picture.odometry)) refuse_step(step, "its picture's odometry");
     picture.recognised = integer(select, 3) != 0;
+    picture.looked_at = integer(select, 4) != 0;
     if (!select.isColumnNull(2)) {
       const SQLite::Column column = select.getColumn(2);
       const auto bytes = blob(column);
@@ -236,6 +244,19 @@ class SqliteRecordingReader final : public RecordingReader {
       } else {
         refuse_step(step.seq, "who sent a message");
       }
+    }
+  }
+
+  void read_rows(RecordedStep& step) {
+    if (!states_) return;
+    constexpr std::size_t kMostBytesOfText = 1 << 20;
+    states_->reset();
+    states_->bind(1, step.seq);
+    while (states_->executeStep()) {
+      const auto value = wire::parse_json(text(*states_, 0), "row", kMostBytesOfText);
+      auto row = value ? wire::state_row_from_json(*value, "row") : pass_on(value);
+      if (!row) refuse_step(step.seq, "a row of its table of states (" + row.error().message + ")");
+      step.rows.push_back(std::move(*row));
     }
   }
 
@@ -270,6 +291,7 @@ class SqliteRecordingReader final : public RecordingReader {
     }
     if (tracked) step.tracks = RecordedTracks{*tracked, *recovered, *lost};
     read_messages(step);
+    read_rows(step);
     step.sweep = sweep_of(step.seq);
     step.picture = picture_of(step.seq);
     if (integer(row, 10) != 0 && !step.sweep) refuse_lack(step.seq, "sweep");
@@ -289,6 +311,7 @@ class SqliteRecordingReader final : public RecordingReader {
   std::int64_t last_seq_ = 0;
   std::optional<SQLite::Statement> steps_;
   std::optional<SQLite::Statement> messages_;
+  std::optional<SQLite::Statement> states_;  // nothing: the recording is older than these
 };
 
 }  // namespace

@@ -6,12 +6,15 @@ namespace homeward::db {
 /// "HWRC" in SQLite's application_id field: what makes an SQLite file the recording of a mission.
 inline constexpr int kRecordingApplicationId = 0x48575243;
 /// user_version of the file. A released schema is never edited; a newer file is refused.
-inline constexpr int kRecordingVersion = 5;
+inline constexpr int kRecordingVersion = 6;
 /// Version 1 has no word of joysticks, versions 1 and 2 no counts of tracked features; versions up to 3 have words
-/// where later ones have the JSON of a reason. Version 5 has the legs of explorations.
+/// where later ones have the JSON of a reason. Version 5 has the legs of explorations, version 6
+/// their tables of states, and pictures that were not looked at.
 inline constexpr int kOldestRecordingVersion = 1;
 /// The first with the columns `tracked`, `recovered` and `lost`.
 inline constexpr int kRecordingVersionOfTracks = 3;
+/// The first with the table `states` and the column `looked_at`.
+inline constexpr int kRecordingVersionOfStates = 6;
 
 /// Columns in units are for people and their queries; what must come back bit for bit stands in `exact` as well (SQLite
 /// keeps neither -0.0 nor NaN).
@@ -32,7 +35,11 @@ CREATE TABLE messages (
 CREATE TABLE sweeps (step INTEGER PRIMARY KEY, taken_ms INTEGER NOT NULL, exact BLOB NOT NULL) STRICT;
 CREATE TABLE pictures (
   step INTEGER PRIMARY KEY, taken_ms INTEGER NOT NULL, odometry_x_m REAL, odometry_y_m REAL, odometry_theta_rad REAL,
-  recognised INTEGER NOT NULL CHECK (recognised IN (0, 1)), exact BLOB NOT NULL, bytes BLOB) STRICT;
+  recognised INTEGER NOT NULL CHECK (recognised IN (0, 1)), exact BLOB NOT NULL, bytes BLOB,
+  looked_at INTEGER NOT NULL CHECK (looked_at IN (0, 1))) STRICT;
+CREATE TABLE states (
+  step INTEGER NOT NULL, position INTEGER NOT NULL, state TEXT NOT NULL, row TEXT NOT NULL,
+  PRIMARY KEY (step, position)) STRICT;
 -- What made the robot stand: the first step that does not drive, or the last one where the recording ends before it.
 CREATE VIEW why_did_it_stop AS
 WITH stood AS (SELECT * FROM steps WHERE seq = coalesce(

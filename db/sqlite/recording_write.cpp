@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "db/recording.hpp"
@@ -106,10 +107,11 @@ class SqliteRecordingWriter final : public RecordingWriter {
   void put_picture(std::int64_t step, const RecordedPicture& picture) {
     const std::vector<std::uint8_t> exact = pack_pose(picture.odometry);
     SQLite::Statement insert =
-        prepared(database_, "INSERT INTO pictures VALUES (?, ?, ?, ?, ?, ?, ?, ?)", step, picture.taken_ms,
+        prepared(database_, "INSERT INTO pictures VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)", step, picture.taken_ms,
                  picture.odometry.x_m, picture.odometry.y_m, picture.odometry.theta_rad, picture.recognised);
     bind_bytes(insert, 7, exact);
     if (picture.bytes) bind_bytes(insert, 8, *picture.bytes);
+    insert.bind(9, picture.looked_at ? 1 : 0);
     insert.exec();
   }
 
@@ -152,6 +154,11 @@ class SqliteRecordingWriter final : public RecordingWriter {
     int position = 0;
     for (const wire::ServerMessage& message : step.received) put_message(step.seq, position++, "server", message);
     for (const wire::AgentMessage& message : step.sent) put_message(step.seq, position++, "agent", message);
+    int row_position = 0;
+    for (const wire::StateRow& row : step.rows) {
+      execute(database_, "INSERT INTO states VALUES (?, ?, ?, ?)", step.seq, row_position++,
+              std::string(wire::state_name(row)), wire::state_row_to_json(row).dump());
+    }
     if (step.sweep) put_sweep(step.seq, *step.sweep);
     if (step.picture) put_picture(step.seq, *step.picture);
   }

@@ -17,4 +17,9 @@ namespace homeward::cli {
 Image exploration_picture(const sim::World& world, const map::TopologicalMap& map,
                           const std::unordered_map<ImageId, Pose2>& taken, const scenario::ExplorationResult& explored);
 
+/// The same of an exploration that is under way: the graph is that of its pictures, each with the one before and with
+/// those by which it was known again, where the pictures were truly taken.
+Image growing_picture(const sim::World& world, const exploration::Explorer& explorer,
+                      const scenario::ExplorationResult& so_far);
+
 }  // namespace homeward::cli

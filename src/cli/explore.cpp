@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
+#include <iostream>
+#include <limits>
 #include <memory>
 
 #include "cli/command.hpp"
 #include "cli/explore.hpp"
+#include "core/version.hpp"
+#include "scenario/order_to_explore.hpp"
 #include "scenario/starting_pose.hpp"
 #include "scenario/world_folder.hpp"
 #include "sim/generate/shut_doors.hpp"
@@ -36,6 +40,16 @@ Result<camera::CameraConfig> camera_of(const ExploreOptions& options) {
   return camera;
 }
 
+/// CLI::Range lets "nan" through.
+CLI::Validator share() {
+  const auto problem_of = [](const std::string& text) {
+    double value = 0.0;
+    const bool fits = CLI::detail::lexical_cast(text, value) && value >= 0.0 && value <= 1.0;
+    return fits ? std::string() : text + " is no share: 0 to 1.";
+  };
+  return {problem_of, "SHARE", "share"};
+}
+
 /// What one method knows nothing of must not be dropped in silence: a fence least of all.
 Status refuse_of_survey_alone(const ExploreOptions& options) {
   if (options.method == "survey") return {};
@@ -43,6 +57,7 @@ Status refuse_of_survey_alone(const ExploreOptions& options) {
   if (options.limit_s) option = "--limit-s";
   if (options.back_after_s) option = "--back-after-s";
   if (!options.fences.empty()) option = "--fence";
+  if (options.pictures_every > 0) option = "--pictures-every";
   if (option == nullptr) return {};
   return fail(ErrorCode::kInvalidInput, "Only --method survey knows this option.", option);
 }
@@ -99,6 +114,8 @@ Result<ExploringRobot> exploring_robot(const ExploreOptions& options, sim::LitWo
   config.camera = camera;
   config.light = *light;
   config.profile = *profile;
+  config.laser.glass_share = options.glass_share;
+  config.laser.spurious_share = options.spurious_share;
   config.seed = options.stage.seed;
   auto robot = scenario::SimulatedRobot::create(world, config, *start);
   if (!robot) return pass_on(robot);
@@ -107,6 +124,21 @@ Result<ExploringRobot> exploring_robot(const ExploreOptions& options, sim::LitWo
   auto eye = pipeline::Eye::create(camera, pipeline::suited_feature_config(**made));
   if (!eye) return pass_on(eye);
   return ExploringRobot{std::move(*robot), std::move(*eye), *profile};
+}
+
+Result<std::unique_ptr<recording::Recorder>> recorder_of(const ExploreOptions& options,
+                                                         const ExploringRobot& explorer) {
+  recording::RecordingOptions record;
+  record.folder = options.stage.out;
+  record.name = "exploration";
+  record.wait_for_disk = true;
+  // The exploration's own limits bound it.
+  record.limit_bytes = record.folder_limit_bytes = std::numeric_limits<std::int64_t>::max();
+  const features::FeatureConfig& features = explorer.eye.feature_config();
+  const recording::Recorder::Robot recorded{
+      name_with_version("homeward explore"), explorer.eye.camera().config(), features,
+      scenario::exploring_config(scenario::body_of(explorer.profile), features::feature_config_id(features))};
+  return recording::Recorder::create(record, recorded, [](const std::string& what) { std::cerr << what << "\n"; });
 }
 
 void register_explore(CLI::App& program) {
@@ -126,6 +158,16 @@ void register_explore(CLI::App& program) {
   command->add_option("--shut-doors", options->shut_doors, "Share of the doors that are shut, by the seed")
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--robot", options->robot, "disc or chair")->capture_default_str();
+  command
+      ->add_option("--glass-share", options->glass_share,
+                   "Share of the laser's rays that go through panes of windows, and come back from nothing")
+      ->check(share())
+      ->capture_default_str();
+  command
+      ->add_option("--spurious-share", options->spurious_share,
+                   "Share of the laser's rays that report any range, whatever they meet")
+      ->check(share())
+      ->capture_default_str();
   command->add_option("--limit-m", options->limit_m, "Way after which it ends")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -140,6 +182,10 @@ void register_explore(CLI::App& program) {
   command->add_option(
       "--fence", options->fences,
       "Corners of floor that no way leads over, in metres of the world: \"1,2 3,2 3,4\"; once for each (survey)");
+  command
+      ->add_option("--pictures-every", options->pictures_every,
+                   "After so many pictures each time, draw the graph so far over the true plan: plan-0010.png (survey)")
+      ->check(CLI::Range(1, 1'000'000));
   command->add_flag("--json", options->json, "Print one JSON object");
   run_on(*command, [options] { return run(*options); });
 }

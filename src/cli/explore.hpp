@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "cli/simulate.hpp"
 #include "core/result.hpp"
 #include "pipeline/eye.hpp"
+#include "recording/recorder.hpp"
 #include "scenario/exploration_run.hpp"
 #include "scenario/simulated_robot.hpp"
 
@@ -32,10 +34,13 @@ struct ExploreOptions {
   std::string robot = "disc";
   double shut_doors = 0.0;                // share
   std::optional<double> camera_height_m;  // nothing: the camera's own
+  double glass_share = 0.0;               // see sim::LaserConfig
+  double spurious_share = 0.0;
   double limit_m = 2000.0;
   std::optional<double> limit_s;       // simulated, of the survey; nothing: two hours
   std::optional<double> back_after_s;  // of the survey; nothing: it need not be back
   std::vector<std::string> fences;     // of the survey: corners "x,y x,y x,y", metres of the world
+  int pictures_every = 0;              // of the survey: so many pictures, the graph so far is drawn; 0: never
   bool json = false;
 };
 
@@ -52,15 +57,19 @@ void add_thesis_options(CLI::App& command, ThesisOptions& options);
 Result<ExploringRobot> exploring_robot(const ExploreOptions& options, sim::LitWorld& world,
                                        const camera::CameraConfig& camera);
 
+/// What records its exploration as exploration.hwrec in the folder `--out`, which it makes. Errors: kIo.
+Result<std::unique_ptr<recording::Recorder>> recorder_of(const ExploreOptions& options, const ExploringRobot& explorer);
+
 /// "complete", "limit" or "stopped".
 const char* name_of(scenario::ExplorationEnd end);
 
-/// `homeward explore --method survey`: writes a tour, the map of it and a picture of what that covers into the folder
-/// `--out`.
+/// `homeward explore --method survey`: writes a recording, a tour, the map of it and a picture of what that covers
+/// into the folder `--out`.
 Status explore_by_survey(const ExploreOptions& options, const sim::World& world, const camera::CameraConfig& camera,
                          ExploringRobot& explorer);
 
-/// `homeward explore --method thesis`: writes states.csv and dissimilarities.csv into the folder `--out`.
+/// `homeward explore --method thesis`: writes a recording, states.csv and dissimilarities.csv into the folder
+/// `--out`.
 Status explore_by_thesis(const ExploreOptions& options, ExploringRobot& explorer);
 
 }  // namespace homeward::cli

@@ -94,11 +94,29 @@ double covered_share(const exploration::Explorer& explorer) {
   return seen > 0 ? static_cast<double>(covered) / static_cast<double>(seen) : 0.0;
 }
 
-Result<scenario::ExplorationResult> explore(const scenario::ExplorationPlan& plan, ExploringRobot& explorer) {
+Status write_png(const fs::path& file, const Image& drawn) {
+  const std::vector<std::uint8_t> png = imageio::encode_png(drawn);
+  return files::write_file(file, {reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
+Result<scenario::ExplorationResult> explore(const ExploreOptions& options, const sim::World& world,
+                                            const scenario::ExplorationPlan& plan, ExploringRobot& explorer) {
+  const auto recorder = recorder_of(options, explorer);
+  if (!recorder) return pass_on(recorder);
   ProgressBar bar;
-  return scenario::explore(
-      explorer.robot, scenario::body_of(explorer.profile), explorer.eye, plan,
-      [&](const exploration::Survey& survey) { bar.show("exploring", covered_share(survey.explorer())); }, now_ms);
+  Status drawn;
+  const auto progress = [&](const exploration::Survey& survey, const scenario::ExplorationResult& so_far) {
+    bar.show("exploring", covered_share(survey.explorer()));
+    const std::size_t pictures = so_far.pictures.size();
+    if (options.pictures_every == 0 || pictures % static_cast<std::size_t>(options.pictures_every) != 0) return;
+    char name[40];
+    std::snprintf(name, sizeof name, "plan-%04zu.png", pictures);
+    if (drawn) drawn = write_png(fs::path(options.stage.out) / name, growing_picture(world, survey.explorer(), so_far));
+  };
+  auto explored = scenario::explore(explorer.robot, scenario::body_of(explorer.profile), explorer.eye, plan, progress,
+                                    now_ms, recorder->get());
+  if (!drawn) return pass_on(drawn);
+  return explored;
 }
 
 /// The pictures with what the robot took itself to be in the end, as a tour.
@@ -159,7 +177,7 @@ Status explore_by_survey(const ExploreOptions& options, const sim::World& world,
   const fs::path out(options.stage.out);
   const auto plan_of_robot = plan_of(options, explorer);
   if (!plan_of_robot) return pass_on(plan_of_robot);
-  const auto explored = explore(*plan_of_robot, explorer);
+  const auto explored = explore(options, world, *plan_of_robot, explorer);
   if (!explored) return pass_on(explored);
   if (Status written = write_tour(out / "tour", camera, world, *explored); !written) return written;
   const auto map = build_map_of(out / "tour", out / "map.hwmap", camera, options);
@@ -170,11 +188,8 @@ Status explore_by_survey(const ExploreOptions& options, const sim::World& world,
     std::snprintf(name, sizeof name, "tour/%05zu.jpg", i);
     taken.emplace(ImageId(name), explored->pictures[i].truth);
   }
-  const std::vector<std::uint8_t> plan = imageio::encode_png(exploration_picture(world, *map, taken, *explored));
-  if (Status written = files::write_file(out / "plan.png", {reinterpret_cast<const char*>(plan.data()), plan.size()});
-      !written) {
-    return written;
-  }
+  const Image plan = exploration_picture(world, *map, taken, *explored);
+  if (Status written = write_png(out / "plan.png", plan); !written) return written;
   const scenario::ExplorationFigures figures = scenario::exploration_figures(world, *map, taken);
   const std::string reason = reason_of(*explored);
   if (options.json) {

@@ -131,16 +131,26 @@ void add_thesis_options(CLI::App& command, ThesisOptions& options) {
       ->capture_default_str();
 }
 
+namespace {
+
+Result<scenario::ThesisExploration> explore_recorded(const ExploreOptions& options, ExploringRobot& explorer,
+                                                     const scenario::ThesisPlan& plan) {
+  const auto recorder = recorder_of(options, explorer);
+  if (!recorder) return pass_on(recorder);
+  return scenario::explore_as_thesis(explorer.robot, scenario::body_of(explorer.profile), explorer.eye, plan, {},
+                                     recorder->get());
+}
+
+}  // namespace
+
 Status explore_by_thesis(const ExploreOptions& options, ExploringRobot& explorer) {
   scenario::ThesisPlan plan;
   plan.forward_distance_m = options.thesis.forward_m;
   plan.classifier = {measure_named(options.thesis.measure), options.thesis.hist_threshold};
   plan.limit_m = options.limit_m;
-  const auto explored =
-      scenario::explore_as_thesis(explorer.robot, scenario::body_of(explorer.profile), explorer.eye, plan);
+  const auto explored = explore_recorded(options, explorer, plan);
   if (!explored) return pass_on(explored);
   const fs::path out(options.stage.out);
-  if (const Status made = files::make_folder(out); !made) return made;
   if (const Status made = files::write_file(out / "states.csv", scenario::states_csv(explored->rows)); !made) {
     return made;
   }

@@ -2,12 +2,15 @@
 #include "recording/replay.hpp"
 
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "files/write_file.hpp"
 #include "recording/export.hpp"
+#include "recording/states_csv.hpp"
 #include "wire/reason_json.hpp"
 
 namespace homeward::cli {
@@ -20,6 +23,7 @@ struct ReplayOptions {
   bool json = false;
   bool why = false;
   std::string out;
+  std::string states;
 };
 
 template <class T>
@@ -111,8 +115,20 @@ Status tell_why(const ReplayOptions& options) {
   return {};
 }
 
+Status write_states(const ReplayOptions& options) {
+  // Most of all not over the recording.
+  std::error_code ignored;
+  if (std::filesystem::exists(options.states, ignored)) {
+    return fail(ErrorCode::kConflict, "There is a file of this name already.", options.states);
+  }
+  const auto table = recording::states_csv(options.recording);
+  if (!table) return pass_on(table);
+  return files::write_file(options.states, *table);
+}
+
 Status run(const ReplayOptions& options) {
   if (options.why) return tell_why(options);
+  if (!options.states.empty()) return write_states(options);
   if (!options.out.empty()) return recording::export_recording(options.recording, options.out);
   ProgressBar bar;
   const auto result = recording::replay(options.recording, [&](double share) { bar.show("replaying", share); });
@@ -132,15 +148,22 @@ Status run(const ReplayOptions& options) {
 }  // namespace
 
 void register_replay(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
-      "replay", "Run a recorded mission through the same code again and compare every vector, decision and command");
+  CLI::App* command = program.add_subcommand("replay",
+                                             "Run a recorded mission or exploration through the same code again and "
+                                             "compare every vector, decision and command");
   const auto options = std::make_shared<ReplayOptions>();
-  command->add_option("recording", options->recording, "Recording of a mission (.hwrec)")->required();
+  command->add_option("recording", options->recording, "Recording of a mission or an exploration (.hwrec)")->required();
   command->add_flag("--json", options->json, "The result as one JSON line");
   CLI::Option* why = command->add_flag("--why", options->why, "Only say why the robot stopped");
+  CLI::Option* out = command
+                         ->add_option("--export", options->out,
+                                      "Only write pictures, odometry and sweeps as a tour into this new folder")
+                         ->excludes(why);
   command
-      ->add_option("--export", options->out, "Only write pictures, odometry and sweeps as a tour into this new folder")
-      ->excludes(why);
+      ->add_option("--states", options->states,
+                   "Only write the table of states of an exploration, what it found and decided, as this new CSV file")
+      ->excludes(why)
+      ->excludes(out);
   run_on(*command, [options] { return run(*options); });
 }
 

@@ -171,7 +171,7 @@ void Explorer::move_odometry(const Pose2& now_from_before) {
 }
 
 /// How the newest key view lies to an old one, if their sweeps and their pictures agree on it.
-std::optional<PoseLink> Explorer::loop_with(int then) const {
+std::optional<Explorer::Loop> Explorer::loop_with(int then) const {
   const auto old = static_cast<std::size_t>(then);
   const KeyView& now = views_.back();
   geometry::ReferenceSurface reference;
@@ -215,7 +215,8 @@ std::optional<PoseLink> Explorer::loop_with(int then) const {
     if (!seen || std::abs(wrap_angle(seen->pose.motion.turn_rad + then_from_now.theta_rad)) > kSameTurn_rad)
       return std::nullopt;
   }
-  return PoseLink{then, static_cast<int>(views_.size()) - 1, then_from_now, 0.03, radians(0.6), true};
+  const PoseLink link{then, static_cast<int>(views_.size()) - 1, then_from_now, 0.03, radians(0.6), true};
+  return Loop{link, best->agreement};
 }
 
 void Explorer::look_for_loop() {
@@ -234,13 +235,13 @@ void Explorer::look_for_loop() {
     then = i;
   }
   if (then < 0) return;
-  const auto link = loop_with(then);
-  if (!link) return;
-  links_.push_back(*link);
-  known_again_.push_back({newest, then, false});
+  const auto loop = loop_with(then);
+  if (!loop) return;
+  links_.push_back(loop->link);
+  known_again_.push_back({newest, then, loop->agreement, false});
   // What fits already need not be laid out again.
   constexpr double kFits = 1.5;
-  if (strain(poses_, *link) < kFits) return;
+  if (strain(poses_, loop->link) < kFits) return;
   lay_out_again();
 }
 

@@ -55,6 +55,7 @@ struct KeyView {
 struct KnownAgain {
   int now = 0;  // key views
   int then = 0;
+  double agreement = 0.0;  // share of the sweep that agrees with those around the old one
   bool taken_back = false;
 };
 
@@ -112,7 +113,12 @@ class Explorer {
   /// Whether the sweeps agree; else the wheels are believed.
   bool align_to_recent(std::span<const geometry::SurfacePoint> surface, const Pose2& odometry);
   void look_for_loop();
-  [[nodiscard]] std::optional<PoseLink> loop_with(int then) const;
+  /// How the newest key view lies to an old one.
+  struct Loop {
+    PoseLink link;
+    double agreement = 0.0;
+  };
+  [[nodiscard]] std::optional<Loop> loop_with(int then) const;
   void lay_out_again();
   [[nodiscard]] std::vector<std::uint8_t> given_up_cells() const;
   [[nodiscard]] std::vector<std::uint8_t> barred_cells() const;

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "exploration/picture_rows.hpp"
+
 namespace homeward::exploration {
 namespace {
 
@@ -41,6 +43,36 @@ bool Survey::at_target(const Pose2& odometry) const {
   return target_m_ && (position_m(explorer_.floor_from_robot(odometry)) - *target_m_).norm() <= config_.there_m;
 }
 
+SurveyRow Survey::row_of(SurveyState state, const Pose2& odometry) const {
+  SurveyRow row;
+  row.state = state;
+  if (!explorer_.views().empty()) {
+    row.picture = static_cast<int>(explorer_.views().size()) - 1;
+    row.floor_from_robot = explorer_.floor_from_robot(odometry);
+  }
+  return row;
+}
+
+void Survey::note_place(SurveyState state, const Pose2& odometry) {
+  rows_.push_back(row_of(state, odometry));
+  rows_.back().place_m = target_m_;
+}
+
+/// Where that is another place than the one driven to before.
+void Survey::note_next(const NextView& next, const std::optional<Eigen::Vector2d>& before_m, const Pose2& odometry) {
+  if (before_m && (*before_m - *target_m_).norm() < explorer_.floor().frame().cell_m) return;
+  note_place(SurveyState::kNextPlace, odometry);
+  rows_.back().gain_m2 = next.gain_m2;
+  rows_.back().cost_m = next.cost_m;
+}
+
+/// Once, however often it is asked what to do then.
+void Survey::note_end(const Pose2& odometry) {
+  if (std::exchange(end_noted_, true)) return;
+  rows_.push_back(row_of(SurveyState::kEnded, odometry));
+  rows_.back().end = ended_;
+}
+
 void Survey::forget_target() {
   target_m_.reset();
   goal_m_.reset();
@@ -60,6 +92,12 @@ void Survey::go_on_anew(const std::optional<Pose2>& odometry_moved) {
   waiting_since_ms_.reset();
   tried_ = blocked_in_a_row_ = 0;
   ended_.reset();
+  end_noted_ = false;
+}
+
+void Survey::end_at_limit(const Pose2& odometry) {
+  ended_ = SurveyEnd::kLimit;
+  note_end(odometry);
 }
 
 /// Along the way to a cell, as far as that is straight.
@@ -80,10 +118,18 @@ bool Survey::is_time_to_go_home(const Reach& reach, std::int64_t now_ms) const {
 }
 
 void Survey::go_home(const Reach& reach, const Pose2& odometry) {
-  goes_home_ = true;
+  const bool turns_home = !std::exchange(goes_home_, true);
   target_m_.reset();
-  if (const auto home = reach.nearest(position_m(explorer_.poses().front()))) return drive_on(reach, *home, odometry);
-  explorer_.try_blocked_again();
+  const auto home = reach.nearest(position_m(explorer_.poses().front()));
+  if (home) {
+    drive_on(reach, *home, odometry);
+  } else {
+    explorer_.try_blocked_again();
+  }
+  if (!turns_home) return;
+  note_place(SurveyState::kGoesHome, odometry);
+  if (home) rows_.back().cost_m = reach.cost_m(*home);
+  rows_.back().end = all_seen_ ? SurveyEnd::kAllSeen : SurveyEnd::kBack;
 }
 
 void Survey::choose(const Pose2& odometry, std::int64_t now_ms) {
@@ -95,11 +141,15 @@ void Survey::choose(const Pose2& odometry, std::int64_t now_ms) {
   if (goes_home_ || is_time_to_go_home(reach, now_ms)) return go_home(reach, odometry);
   if (!reach.anywhere()) return;
   const auto next = explorer_.next(reach, target_m_);
-  target_m_.reset();
-  if (next) return drive_on(reach, next->cell, odometry);
+  const std::optional<Eigen::Vector2d> before_m = std::exchange(target_m_, std::nullopt);
+  if (next) {
+    drive_on(reach, next->cell, odometry);
+    return note_next(*next, before_m, odometry);
+  }
   if (tried_ < config_.tries && explorer_.try_blocked_again()) {
     ++tried_;
     chosen_ms_.reset();
+    rows_.push_back(row_of(SurveyState::kTriesAgain, odometry));
     return;
   }
   all_seen_ = true;
@@ -117,6 +167,7 @@ void Survey::note_blocked(const Pose2& odometry) {
 
 /// The place is reached, or cannot be.
 void Survey::leave_target(bool reached, const Pose2& odometry) {
+  note_place(reached ? SurveyState::kReached : SurveyState::kBlocked, odometry);
   if (reached) blocked_in_a_row_ = 0;
   if (reached && goes_home_) {
     ended_ = all_seen_ ? SurveyEnd::kAllSeen : SurveyEnd::kBack;
@@ -143,6 +194,7 @@ SurveyStep Survey::go_on(const RangeSweep& sweep, const Pose2& odometry, bool bl
   explorer_.see(sweep, odometry);
   SurveyStep step;
   if (ended_) {
+    note_end(odometry);
     step.ended = ended_;
     return step;
   }
@@ -159,6 +211,7 @@ SurveyStep Survey::go_on(const RangeSweep& sweep, const Pose2& odometry, bool bl
     if (ended_ == SurveyEnd::kAllSeen && !goes_home_) ended_.reset();
   } else {
     step.ended = ended_;
+    if (ended_) note_end(odometry);
   }
   if (goal_m_ && !step.ended) {
     const Pose2 odometry_from_floor = odometry * inverse(explorer_.floor_from_robot(odometry));
@@ -169,7 +222,12 @@ SurveyStep Survey::go_on(const RangeSweep& sweep, const Pose2& odometry, bool bl
 
 void Survey::take(const RangeSweep& sweep, const Pose2& odometry,
                   std::shared_ptr<const features::Appearance> appearance) {
+  const std::vector<KnownAgain> before = explorer_.known_again();
   explorer_.take(sweep, odometry, std::move(appearance));
+  const int picture = static_cast<int>(explorer_.views().size()) - 1;
+  for (const SurveyRow& row :
+       picture_rows(before, explorer_.known_again(), picture, explorer_.floor_from_robot(odometry)))
+    rows_.push_back(row);
   chosen_ms_.reset();
 }
 

@@ -4,9 +4,11 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "exploration/explorer.hpp"
+#include "exploration/survey_row.hpp"
 
 namespace homeward::exploration {
 
@@ -21,13 +23,6 @@ struct SurveyConfig {
   std::int64_t waits_ms = 20'000;       // so long it waits where it can drive nowhere
   double home_mps = 0.25;               // so fast it gets home at least, by the way's cost
   std::int64_t home_spare_ms = 15'000;  // and this it keeps in hand
-};
-
-/// Why a survey has ended.
-enum class SurveyEnd : std::uint8_t {
-  kAllSeen,  // nothing is left to explore but what could not be got to (Explorer::put_off); it is back if it has to be
-  kBack,     // it is where it began, as its time is nearly over
-  kStuck,    // it does not get away from where it is, or knows no way home
 };
 
 /// What the robot is to do now.
@@ -55,8 +50,13 @@ class Survey {
   /// It goes on after a pause, or after it has ended: what was blocked may be free. `odometry_moved`: see
   /// Explorer::move_odometry.
   void go_on_anew(const std::optional<Pose2>& odometry_moved);
+  /// A limit that others keep is reached: it has ended there, until `go_on_anew`.
+  void end_at_limit(const Pose2& odometry);
   /// The picture that the last step asked for, with the sweep and the odometry of the same moment.
   void take(const RangeSweep& sweep, const Pose2& odometry, std::shared_ptr<const features::Appearance> appearance);
+
+  /// The rows of its table of states since this was called last, in their order.
+  std::vector<SurveyRow> take_rows() { return std::exchange(rows_, {}); }
 
   [[nodiscard]] const Explorer& explorer() const { return explorer_; }
   /// The place driven to; nothing: none.
@@ -72,6 +72,10 @@ class Survey {
   void note_blocked(const Pose2& odometry);
   void note_waiting(std::int64_t now_ms);
   [[nodiscard]] bool at_target(const Pose2& odometry) const;
+  [[nodiscard]] SurveyRow row_of(SurveyState state, const Pose2& odometry) const;
+  void note_place(SurveyState state, const Pose2& odometry);
+  void note_next(const NextView& next, const std::optional<Eigen::Vector2d>& before_m, const Pose2& odometry);
+  void note_end(const Pose2& odometry);
 
   Explorer explorer_;
   SurveyConfig config_;
@@ -87,6 +91,8 @@ class Survey {
   int blocked_in_a_row_ = 0;
   Pose2 blocked_at_;  // odometry
   std::optional<SurveyEnd> ended_;
+  bool end_noted_ = false;
+  std::vector<SurveyRow> rows_;
 };
 
 }  // namespace homeward::exploration

@@ -49,7 +49,7 @@ db::RecordedStep to_recorded(std::int64_t seq, const driving::Inputs& inputs, co
   if (inputs.scan) step.sweep = to_recorded(*inputs.scan);
   if (inputs.picture)
     step.picture = db::RecordedPicture{inputs.picture->taken_ms, inputs.picture->odometry, bytes,
-                                       inputs.picture->appearance != nullptr};
+                                       inputs.picture->appearance != nullptr, bytes != nullptr};
   if (inputs.rider) {
     step.rider = db::RecordedRider{inputs.rider->said_ms, inputs.rider->deflected, inputs.rider->wanted.speed_mps,
                                    inputs.rider->wanted.turn_radps};
@@ -85,6 +85,8 @@ driving::Inputs inputs_of(const db::RecordedStep& step) {
   inputs.robot_link_up = step.robot_link_up;
   inputs.messages = step.received;
   if (step.sweep) inputs.scan = from_recorded(*step.sweep);
+  if (step.picture && !step.picture->looked_at)
+    inputs.picture = driving::SeenPicture{step.picture->taken_ms, nullptr, {}, step.picture->odometry};
   if (step.rider) {
     inputs.rider = driving::JoystickReading{
         step.rider->said_ms, step.rider->deflected, {step.rider->speed_mps, step.rider->turn_radps}};

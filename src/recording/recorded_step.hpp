@@ -18,7 +18,7 @@ db::RecordedStep to_recorded(std::int64_t seq, const driving::Inputs& inputs, co
 /// What came out of a step, of a recorded one and of a replay's alike.
 void put_outcome(db::RecordedStep& step, const driving::DrivingState& state, const driving::Outputs& outputs);
 
-/// The inputs of a recorded step but for its picture, which has to be looked at.
+/// The inputs of a recorded step but for its picture where that was looked at, and has to be again.
 driving::Inputs inputs_of(const db::RecordedStep& step);
 
 }  // namespace homeward::recording

@@ -70,13 +70,16 @@ void Recorder::begin(const driving::DrivingState& before, const driving::Driving
 }
 
 driving::Outputs Recorder::step(driving::DrivingState& state, const driving::Inputs& inputs,
-                                const PictureBytes& picture, driving::Milliseconds now_ms) {
+                                const PictureBytes& picture, driving::Milliseconds now_ms,
+                                std::vector<wire::StateRow> rows) {
   std::optional<driving::DrivingState> before;
   if (may_begin(inputs)) before = state;
   const driving::Outputs outputs = driving::step(state, inputs, robot_.driving, now_ms);
   if (before && state.mission != before->mission) begin(*before, state);
   if (!recording_) return outputs;
-  recording_ = thread_.append(to_recorded(++seq_, inputs, picture, state, outputs, now_ms));
+  db::RecordedStep recorded = to_recorded(++seq_, inputs, picture, state, outputs, now_ms);
+  recorded.rows = std::move(rows);
+  recording_ = thread_.append(std::move(recorded));
   if (recording_ && state.drive != wire::DriveState::kDriving) {
     thread_.finish({true, "The mission ended."});
     recording_ = false;

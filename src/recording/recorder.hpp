@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "camera/camera_config.hpp"
 #include "core/result.hpp"
@@ -36,9 +37,10 @@ class Recorder {
   Recorder& operator=(const Recorder&) = delete;
 
   /// One step of driving. Recorded from the step that takes up a mission to the one that ends it.
-  /// `picture`: the bytes of the picture in `inputs`, when there is one.
+  /// `picture`: the bytes of the picture in `inputs`; null where there is none, or where only that one was taken is
+  /// told, and not what it shows. `rows`: what whoever leads an exploration has decided since the step before.
   driving::Outputs step(driving::DrivingState& state, const driving::Inputs& inputs, const PictureBytes& picture,
-                        driving::Milliseconds now_ms);
+                        driving::Milliseconds now_ms, std::vector<wire::StateRow> rows = {});
 
  private:
   Recorder(const RecordingOptions& options, Robot robot, std::function<void(const std::string&)> log);

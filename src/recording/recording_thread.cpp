@@ -16,6 +16,8 @@ std::int64_t size_of(const db::RecordedStep& step) {
   std::size_t bytes = 500;
   if (step.picture && step.picture->bytes) bytes += step.picture->bytes->size();
   if (step.sweep) bytes += step.sweep->ranges_m.size() * sizeof(float);
+  constexpr std::size_t kOfRow = 300;
+  bytes += kOfRow * step.rows.size();
   for (const wire::ServerMessage& message : step.received) {
     bytes += 100;
     const auto* order = std::get_if<wire::MissionOrder>(&message);

@@ -140,7 +140,7 @@ Result<Robot> robot_of(const db::RecordingReader& recording) {
 /// Why the recording cannot be replayed from this step on, or nothing.
 Result<std::optional<std::string>> replay_step(const db::RecordedStep& then, Robot& robot, ReplayResult& result) {
   driving::Inputs inputs = inputs_of(then);
-  if (then.picture) {
+  if (then.picture && then.picture->looked_at) {
     if (!then.picture->bytes) return std::optional("the picture of step " + shown(then.seq) + " was left out");
     auto seen = look({then.picture->taken_ms, then.picture->odometry, then.picture->bytes, then.picture->recognised},
                      robot.eye);

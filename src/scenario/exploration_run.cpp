@@ -5,8 +5,10 @@
 #include <memory>
 #include <utility>
 
+#include "driving/exploration_over.hpp"
 #include "driving/step.hpp"
 #include "imageio/decode.hpp"
+#include "recording/survey_rows.hpp"
 #include "scenario/drive_loop.hpp"
 #include "scenario/order_to_explore.hpp"
 #include "sim/floor.hpp"
@@ -28,6 +30,8 @@ ExplorationEnd end_of(exploration::SurveyEnd end) {
       return ExplorationEnd::kBack;
     case exploration::SurveyEnd::kStuck:
       return ExplorationEnd::kStuck;
+    case exploration::SurveyEnd::kLimit:
+      return ExplorationEnd::kLimit;
   }
   return ExplorationEnd::kStopped;
 }
@@ -36,24 +40,21 @@ ExplorationEnd end_of(exploration::SurveyEnd end) {
 class ExplorationLoop {
  public:
   ExplorationLoop(SimulatedRobot& robot, const driving::Body& body, const pipeline::Eye& eye,
-                  const ExplorationPlan& plan, const std::function<double()>& clock_ms)
-      : robot_(robot), eye_(eye), plan_(plan), clock_ms_(clock_ms), survey_(plan.explorer, plan.survey) {
-    config_.body = body;
-    config_.feature_config_id = features::feature_config_id(eye.feature_config());
+                  const ExplorationPlan& plan, const std::function<double()>& clock_ms, recording::Recorder* recorder)
+      : robot_(robot),
+        eye_(eye),
+        plan_(plan),
+        clock_ms_(clock_ms),
+        recorder_(recorder),
+        survey_(plan.explorer, plan.survey),
+        config_(exploring_config(body, features::feature_config_id(eye.feature_config()))) {
     if (plan.back_after_s) survey_.be_back_by(static_cast<std::int64_t>(1000.0 * *plan.back_after_s));
     survey_.set_fences(plan.fences_m);
   }
 
   /// False: it has ended.
   Result<bool> cycle() {
-    driving::Inputs inputs;
-    inputs.odometry = robot_.odometry();
-    inputs.link_up = true;
-    inputs.scan = {now_ms_, robot_.sweep()};
-    // What the camera shows on the way is of no use before it is a picture of the tour: it is not rendered.
-    inputs.picture = driving::SeenPicture{now_ms_, nullptr, {}, inputs.odometry};
-    if (!std::exchange(begun_, true)) inputs.messages.emplace_back(order_to_explore(plan_.speed_limit_mps));
-    inputs.messages.emplace_back(wire::Permit{MissionId("exploration"), {1, ++permit_}, wire::kPermitValid_ms});
+    driving::Inputs inputs = sense();
     const double began_ms = clock();
     const exploration::SurveyStep next = survey_.go_on(inputs.scan->scan, inputs.odometry, state_.leg.blocked, now_ms_);
     if (next.takes_picture) {
@@ -61,23 +62,20 @@ class ExplorationLoop {
       if (const Status looked = look(inputs); !looked) return pass_on(looked);
       result_.step_ms.push_back(clock() - began_ms - rendering_ms);
     }
+    if (next.goal_m) inputs.leg = driving::Leg{*next.goal_m, kLegShare * plan_.survey.there_m};
+    if (next.ended) inputs.exploration_over = driving::exploration_over(*next.ended, survey_.explorer().put_off());
+    drive(inputs);
     if (next.ended) {
       result_.ended = end_of(*next.ended);
       return false;
     }
-    if (next.goal_m) inputs.leg = driving::Leg{*next.goal_m, kLegShare * plan_.survey.there_m};
-    const driving::Outputs outputs = driving::step(state_, inputs, config_, now_ms_);
-    robot_.command(outputs.motion);
     move();
     if (state_.drive != wire::DriveState::kDriving) {
       result_.ended = ExplorationEnd::kStopped;
       result_.reason = state_.reason ? wire::english(*state_.reason) : "";
       return false;
     }
-    if (robot_.vehicle().path_m() >= plan_.limit_m || now_s() >= plan_.limit_s) {
-      result_.ended = ExplorationEnd::kLimit;
-      return false;
-    }
+    if (robot_.vehicle().path_m() >= plan_.limit_m || now_s() >= plan_.limit_s) survey_.end_at_limit(robot_.odometry());
     return true;
   }
 
@@ -92,11 +90,31 @@ class ExplorationLoop {
   }
 
   [[nodiscard]] const exploration::Survey& survey() const { return survey_; }
-  [[nodiscard]] std::size_t pictures() const { return result_.pictures.size(); }
+  [[nodiscard]] const ExplorationResult& so_far() const { return result_; }
 
  private:
   [[nodiscard]] double clock() const { return clock_ms_ ? clock_ms_() : 0.0; }
   [[nodiscard]] double now_s() const { return 0.001 * static_cast<double>(now_ms_); }
+
+  driving::Inputs sense() {
+    driving::Inputs inputs;
+    inputs.odometry = robot_.odometry();
+    inputs.link_up = true;
+    inputs.scan = {now_ms_, robot_.sweep()};
+    // What the camera shows on the way is of no use before it is a picture of the tour: it is not rendered.
+    inputs.picture = driving::SeenPicture{now_ms_, nullptr, {}, inputs.odometry};
+    if (!std::exchange(begun_, true)) inputs.messages.emplace_back(order_to_explore(plan_.speed_limit_mps));
+    inputs.messages.emplace_back(wire::Permit{MissionId("exploration"), {1, ++permit_}, wire::kPermitValid_ms});
+    return inputs;
+  }
+
+  void drive(const driving::Inputs& inputs) {
+    std::vector<wire::StateRow> rows = recording::to_recorded(survey_.take_rows());
+    const driving::Outputs outputs = recorder_ != nullptr
+                                         ? recorder_->step(state_, inputs, nullptr, now_ms_, std::move(rows))
+                                         : driving::step(state_, inputs, config_, now_ms_);
+    robot_.command(outputs.motion);
+  }
 
   /// How long that took: a camera takes its pictures for nothing.
   double render_picture(const RangeSweep& sweep) {
@@ -131,6 +149,7 @@ class ExplorationLoop {
   const pipeline::Eye& eye_;
   const ExplorationPlan& plan_;
   const std::function<double()>& clock_ms_;
+  recording::Recorder* recorder_;
   exploration::Survey survey_;
   driving::DrivingConfig config_;
   driving::DrivingState state_;
@@ -143,15 +162,14 @@ class ExplorationLoop {
 }  // namespace
 
 Result<ExplorationResult> explore(SimulatedRobot& robot, const driving::Body& body, const pipeline::Eye& eye,
-                                  const ExplorationPlan& plan,
-                                  const std::function<void(const exploration::Survey&)>& progress,
-                                  const std::function<double()>& clock_ms) {
-  ExplorationLoop loop(robot, body, eye, plan, clock_ms);
+                                  const ExplorationPlan& plan, const ExplorationProgress& progress,
+                                  const std::function<double()>& clock_ms, recording::Recorder* recorder) {
+  ExplorationLoop loop(robot, body, eye, plan, clock_ms, recorder);
   for (;;) {
-    const std::size_t before = loop.pictures();
+    const std::size_t before = loop.so_far().pictures.size();
     const auto goes_on = loop.cycle();
     if (!goes_on) return pass_on(goes_on);
-    if (progress && loop.pictures() > before) progress(loop.survey());
+    if (progress && loop.so_far().pictures.size() > before) progress(loop.survey(), loop.so_far());
     if (!*goes_on) return loop.finish();
   }
 }
@@ -163,8 +181,7 @@ ExplorationPlan exploration_plan_for(const sim::RobotProfile& profile) {
 }
 
 Result<ExplorationResult> explore_world(sim::LitWorld& world, const SimulatedRobotConfig& config, const Pose2& start,
-                                        const ExplorationPlan& plan,
-                                        const std::function<void(const exploration::Survey&)>& progress,
+                                        const ExplorationPlan& plan, const ExplorationProgress& progress,
                                         const std::function<double()>& clock_ms) {
   auto robot = SimulatedRobot::create(world, config, start);
   if (!robot) return pass_on(robot);

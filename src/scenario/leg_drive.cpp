@@ -13,13 +13,14 @@
 namespace homeward::scenario {
 
 LegDrive::LegDrive(SimulatedRobot& robot, const driving::Body& body, const std::string& feature_config_id,
-                   double speed_limit_mps, double limit_m)
-    : robot_(robot), speed_limit_mps_(speed_limit_mps), limit_m_(limit_m) {
-  config_.body = body;
-  config_.feature_config_id = feature_config_id;
-}
+                   double speed_limit_mps, double limit_m, recording::Recorder* recorder)
+    : robot_(robot),
+      recorder_(recorder),
+      config_(exploring_config(body, feature_config_id)),
+      speed_limit_mps_(speed_limit_mps),
+      limit_m_(limit_m) {}
 
-void LegDrive::cycle(const std::optional<driving::Leg>& leg) {
+void LegDrive::step(const std::optional<driving::Leg>& leg, const std::optional<driving::ExplorationOver>& over) {
   driving::Inputs inputs;
   inputs.odometry = robot_.odometry();
   inputs.link_up = true;
@@ -27,14 +28,25 @@ void LegDrive::cycle(const std::optional<driving::Leg>& leg) {
   // What the camera shows on the way is of no use: it is not rendered.
   inputs.picture = driving::SeenPicture{now_ms_, nullptr, {}, inputs.odometry};
   inputs.leg = leg;
+  inputs.exploration_over = over;
   if (!std::exchange(begun_, true)) inputs.messages.emplace_back(order_to_explore(speed_limit_mps_));
   inputs.messages.emplace_back(wire::Permit{MissionId("exploration"), {1, ++permit_}, wire::kPermitValid_ms});
-  const driving::Outputs outputs = driving::step(state_, inputs, config_, now_ms_);
+  const driving::Outputs outputs = recorder_ != nullptr
+                                       ? recorder_->step(state_, inputs, nullptr, now_ms_, std::exchange(rows_, {}))
+                                       : driving::step(state_, inputs, config_, now_ms_);
   robot_.command(outputs.motion);
+}
+
+void LegDrive::cycle(const std::optional<driving::Leg>& leg) {
+  step(leg, std::nullopt);
   constexpr int kParts = 5;
   for (int part = 0; part < kParts; ++part) robot_.advance(kScenarioCycle_s / kParts);
   now_ms_ += static_cast<driving::Milliseconds>(1000.0 * kScenarioCycle_s);
   if (stopped() && state_.reason) reason_ = wire::english(*state_.reason);
+}
+
+void LegDrive::end(const driving::ExplorationOver& over) {
+  if (!stopped()) step(std::nullopt, over);
 }
 
 LegEnd LegDrive::drive(const Eigen::Vector2d& goal_in_robot_m, double within_m) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/angles.hpp"
+#include "driving/exploration_over.hpp"
 #include "features/global.hpp"
 #include "homing/scale_space.hpp"
 #include "homing/visual_compass.hpp"
@@ -19,16 +20,31 @@ struct View {
   features::Appearance appearance;
 };
 
+wire::ThesisState recorded_state(ThesisState state) {
+  switch (state) {
+    case ThesisState::kExploration:
+      return wire::ThesisState::kExploration;
+    case ThesisState::kHoming:
+      return wire::ThesisState::kHoming;
+    case ThesisState::kPathPlanning:
+      return wire::ThesisState::kPathPlanning;
+    case ThesisState::kDone:
+      break;
+  }
+  return wire::ThesisState::kDone;
+}
+
 /// The robot of the thesis: it drives, looks, and takes itself to be at one of its nodes.
 class Explorer {
  public:
   Explorer(SimulatedRobot& robot, const driving::Body& body, const pipeline::Eye& eye, const ThesisPlan& plan,
-           const std::function<void(const ThesisRow&)>& progress)
+           const std::function<void(const ThesisRow&)>& progress, recording::Recorder* recorder)
       : robot_(robot),
         eye_(eye),
         plan_(plan),
         progress_(progress),
-        drive_(robot, body, features::feature_config_id(eye.feature_config()), plan.speed_limit_mps, plan.limit_m) {}
+        drive_(robot, body, features::feature_config_id(eye.feature_config()), plan.speed_limit_mps, plan.limit_m,
+               recorder) {}
 
   Result<ThesisExploration> run() {
     auto first = look();
@@ -39,6 +55,9 @@ class Explorer {
     while (!over_) {
       if (const Status done = next(); !done) return pass_on(done);
     }
+    drive_.end(driving::exploration_over(
+        result_.ended == ExplorationEnd::kLimit ? exploration::SurveyEnd::kLimit : exploration::SurveyEnd::kAllSeen,
+        0));
     result_.reason = drive_.reason();
     result_.driven_m = robot_.vehicle().path_m();
     result_.duration_s = drive_.seconds();
@@ -56,11 +75,11 @@ class Explorer {
     if (const auto direction_rad = result_.graph.take_direction(at_)) return explore(*direction_rad);
     const auto way = result_.graph.way_to_open(at_);
     if (!way) {
-      add_row({ThesisState::kDone, {}, std::nullopt});
+      add_row({ThesisState::kDone, {}, {}, {}, {}});
       end(ExplorationEnd::kComplete);
       return {};
     }
-    add_row({ThesisState::kPathPlanning, *way, std::nullopt});
+    add_row({ThesisState::kPathPlanning, *way, {}, {}, {}});
     for (std::size_t i = 1; i < way->size() && !over_; ++i) {
       if (const Status homed = home((*way)[i]); !homed) return homed;
     }
@@ -79,13 +98,19 @@ class Explorer {
     if (!known) return pass_on(known);
     if (const Status noted = note(*whole, leg, *known); !noted) return noted;
     const int from = at_;
+    const auto left_rad = result_.graph.left_rad(from);
+    ThesisRow row{ThesisState::kExploration, {from}, {}, direction_rad, {left_rad.begin(), left_rad.end()}};
     if (!*known) {
       if (const Status made = add_node(std::move(*view), std::move(*whole)); !made) return made;
       result_.graph.join(from, at_);
-      add_row({ThesisState::kExploration, {from, at_}, std::nullopt});
+      row.nodes.push_back(at_);
+      add_row(std::move(row));
       return {};
     }
-    add_row({ThesisState::kHoming, {from, (*known)->node}, (*known)->dissimilarity});
+    row.state = ThesisState::kHoming;
+    row.nodes.push_back((*known)->node);
+    row.dissimilarity = (*known)->dissimilarity;
+    add_row(std::move(row));
     if (const Status homed = home((*known)->node); !homed) return homed;
     if (!over_) result_.graph.join(from, at_);
     return {};
@@ -196,6 +221,11 @@ class Explorer {
   }
 
   void add_row(ThesisRow row) {
+    drive_.note(wire::ThesisRow{recorded_state(row.state),
+                                {row.nodes.begin(), row.nodes.end()},
+                                row.dissimilarity,
+                                row.direction_rad,
+                                row.left_rad});
     result_.rows.push_back(std::move(row));
     if (progress_) progress_(result_.rows.back());
   }
@@ -222,8 +252,9 @@ class Explorer {
 
 Result<ThesisExploration> explore_as_thesis(SimulatedRobot& robot, const driving::Body& body, const pipeline::Eye& eye,
                                             const ThesisPlan& plan,
-                                            const std::function<void(const ThesisRow&)>& progress) {
-  return Explorer(robot, body, eye, plan, progress).run();
+                                            const std::function<void(const ThesisRow&)>& progress,
+                                            recording::Recorder* recorder) {
+  return Explorer(robot, body, eye, plan, progress, recorder).run();
 }
 
 }  // namespace homeward::scenario

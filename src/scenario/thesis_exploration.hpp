@@ -109,10 +109,12 @@ struct ThesisExploration {
 /// - A direction is used up by driving in it, whatever came of that.
 /// - Edges have no lengths, and path planning adds none.
 ///
-/// `progress`: called with each new row; may be empty. Errors: those of Eye::unwrap, features::describe,
-/// exploration::open_directions, exploration::known_view and homing::visual_compass.
+/// `progress`: called with each new row; may be empty. `recorder`: of the same body and eye; may be null. Errors: those
+/// of Eye::unwrap, features::describe, exploration::open_directions, exploration::known_view and
+/// homing::visual_compass.
 Result<ThesisExploration> explore_as_thesis(SimulatedRobot& robot, const driving::Body& body, const pipeline::Eye& eye,
                                             const ThesisPlan& plan,
-                                            const std::function<void(const ThesisRow&)>& progress = {});
+                                            const std::function<void(const ThesisRow&)>& progress = {},
+                                            recording::Recorder* recorder = nullptr);
 
 }  // namespace homeward::scenario

@@ -50,8 +50,10 @@ enum class ThesisState { kExploration, kHoming, kPathPlanning, kDone };
 /// A row of those tables.
 struct ThesisRow {
   ThesisState state = ThesisState::kExploration;
-  std::vector<int> nodes;               // from, to; a whole way where it is planned
-  std::optional<double> dissimilarity;  // from the node that the view was taken for; nothing where it was new
+  std::vector<int> nodes;                    // from, to; a whole way where it is planned
+  std::optional<double> dissimilarity;       // from the node that the view was taken for; nothing where it was new
+  std::optional<double> direction_rad = {};  // that was driven in, of those of the first node
+  std::vector<double> left_rad = {};         // of that node: those left then, best first
 };
 
 /// "Exploration", "Exploration(Homing)", "Path planning", "EXPLORATION DONE".

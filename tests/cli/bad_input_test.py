@@ -356,10 +356,15 @@ class WrongUse(CliTest):
         self.assert_refused(3, ["none.json"], "explore", "--world", "none.json", "--out", "new")
         self.assert_refused(2, ["noon"], *explore, "--light", "noon", "--out", "new")
         self.assert_refused(2, ["limit-m"], *explore, "--limit-m", "0", "--out", "new")
+        for share in ("-0.1", "1.5", "nan", "some"):
+            self.assert_refused(2, ["glass-share", share], *explore, "--glass-share", share, "--out", "new")
+            self.assert_refused(2, ["spurious-share", share], *explore, "--spurious-share", share, "--out", "new")
         for fence in ("1,2 3", "1,2 3,4", "1,2 3,2 3,4 5", "1,2 3,2 3,4 5,", "1,2 3,2 3,4x", "1,2 3,2 1e300,4"):
             self.assert_refused(2, ["fence"], *explore, "--fence", fence, "--out", "new")
         self.assert_refused(2, ["fence", "survey"], *explore, "--method", "thesis", "--fence", "1,2 3,2 3,4", "--out", "new")
         self.assert_refused(2, ["limit-s", "survey"], *explore, "--method", "thesis", "--limit-s", "60", "--out", "new")
+        self.assert_refused(2, ["pictures-every"], *explore, "--pictures-every", "0", "--out", "new")
+        self.assert_refused(2, ["pictures-every", "survey"], *explore, "--method", "thesis", "--pictures-every", "9", "--out", "new")
         self.assert_refused(2, ["back-after-s"], *explore, "--back-after-s", "1e300", "--out", "new")
         self.assertFalse((self.folder / "new").exists())
         (self.folder / "full").mkdir()

@@ -23,7 +23,7 @@ class Replay(CliTest):
         return file
 
     def refuse(self, code, *words):
-        for options in ((), ("--json",), ("--why",), ("--export", "out")):
+        for options in ((), ("--json",), ("--why",), ("--export", "out"), ("--states", "out")):
             with self.subTest(options=options):
                 self.assert_refused(code, ["mission.hwrec", *words], "replay", "mission.hwrec", *options)
                 self.assertFalse((self.folder / "out").exists())
@@ -44,8 +44,8 @@ class Replay(CliTest):
         self.refuse(2, "SQLite file is not a recording")
 
     def test_of_a_newer_program(self):
-        self.database(RECORDING_ID, 6)
-        self.refuse(2, "version 6", "newer")
+        self.database(RECORDING_ID, 7)
+        self.refuse(2, "version 7", "newer")
 
     def test_without_anything_in_it(self):
         self.database(RECORDING_ID, 1)
@@ -59,6 +59,15 @@ class Replay(CliTest):
     def test_wrong_use(self):
         self.assert_refused(2, ["recording"], "replay")
         self.assert_refused(2, ["--why"], "replay", "mission.hwrec", "--why", "--export", "out")
+
+        for more in (("--why",), ("--export", "out")):
+            self.assert_refused(2, ["--states"], "replay", "mission.hwrec", "--states", "states.csv", *more)
+
+    def test_states_over_a_file(self):
+        file = self.database(RECORDING_ID, 1)
+        before = file.read_bytes()
+        self.assert_refused(4, ["mission.hwrec", "already"], "replay", "mission.hwrec", "--states", "mission.hwrec")
+        self.assertEqual(file.read_bytes(), before)
 
     def test_recording_into_a_folder_that_holds_something(self):
         (self.folder / "scenario.json").write_text(

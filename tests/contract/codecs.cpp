@@ -12,6 +12,7 @@
 #include "wire/rosbridge_json.hpp"
 #include "wire/scans_json.hpp"
 #include "wire/scenario_json.hpp"
+#include "wire/state_row_json.hpp"
 #include "wire/tour_json.hpp"
 #include "wire/world_json.hpp"
 
@@ -89,6 +90,7 @@ std::map<std::string, Recode> all_codecs() {
                             [](const wire::Reason& reason) { return wire::reason_to_json(reason); });
   codecs["problem"] = recode(wire::problem_from_json, wire::problem_to_json);
   codecs["rosbridge"] = recode([](const json& v) { return wire::rosbridge_from_json(v); }, wire::rosbridge_to_json);
+  codecs["state_row"] = recode([](const json& v) { return wire::state_row_from_json(v); }, wire::state_row_to_json);
   codecs["scenario"] = [](const json& value) -> Result<json> {  // only ever read
     const auto scenario = wire::scenario_from_json(value);
     return scenario ? Result<json>(value) : pass_on(scenario);

@@ -21,6 +21,7 @@
 #include "wire/replay_check_json.hpp"
 #include "wire/route_json.hpp"
 #include "wire/similarity_json.hpp"
+#include "wire/state_row_json.hpp"
 #include "wire/tour_json.hpp"
 
 namespace homeward::wire::encoders_test {
@@ -107,6 +108,26 @@ TEST(Encoders, TellWhatIsOtherInALaterStateOfAMap) {
   EXPECT_EQ(value["places"][1]["change"], "removed");
   EXPECT_TRUE(value["places"][1]["after"].is_null());
   EXPECT_THAT(schemas().problems("difference", difference_to_json(map::difference(after, sample_map()))), IsEmpty());
+}
+
+TEST(Encoders, WriteRowsOfEveryStateThatTheSchemaAccepts) {
+  for (const SurveyState state : {SurveyState::kNew, SurveyState::kKnownAgain, SurveyState::kTakenBack,
+                                  SurveyState::kNextPlace, SurveyState::kReached, SurveyState::kBlocked,
+                                  SurveyState::kTriesAgain, SurveyState::kGoesHome, SurveyState::kEnded}) {
+    SurveyRow row;
+    row.state = state;
+    EXPECT_THAT(schemas().problems("state_row", state_row_to_json(row)), IsEmpty()) << state_name(row);
+  }
+  for (const SurveyEnd end : {SurveyEnd::kAllSeen, SurveyEnd::kBack, SurveyEnd::kStuck, SurveyEnd::kLimit}) {
+    SurveyRow row;
+    row.end = end;
+    EXPECT_THAT(schemas().problems("state_row", state_row_to_json(row)), IsEmpty()) << survey_end_name(end);
+  }
+  for (const ThesisState state :
+       {ThesisState::kExploration, ThesisState::kHoming, ThesisState::kPathPlanning, ThesisState::kDone}) {
+    const ThesisRow row{state, {}, {}, {}, {}};
+    EXPECT_THAT(schemas().problems("state_row", state_row_to_json(row)), IsEmpty()) << state_name(row);
+  }
 }
 
 TEST(Encoders, TellOfDrafts) {

@@ -84,13 +84,65 @@ class Exploration(unittest.TestCase):
     def test_its_picture_of_the_plan_is_written(self):
         self.assertEqual((self.out / "plan.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
 
+    def states_of(self, out):
+        table = self.folder / f"{out.name}-states.csv"
+        homeward("replay", out / "exploration.hwrec", "--states", table)
+        return rows(table)
+
+    def test_its_recording_tells_what_it_found_and_decided(self):
+        states = self.states_of(self.out)
+        self.assertEqual(list(states[0]), ["step", "after_s", "state", "picture", "x_m", "y_m", "theta_rad", "known", "agreement",
+                                           "place_x_m", "place_y_m", "gain_m2", "cost_m", "end"])
+        of = {name: [row for row in states if row["state"] == name]
+              for name in ("new", "known_again", "next_place", "reached", "ended")}
+        pictures = sorted(int(row["picture"]) for row in of["new"] + of["known_again"])
+        self.assertEqual(pictures, list(range(self.told["pictures"])))
+        self.assertGreater(len(of["known_again"]), 0)
+        for row in of["known_again"]:
+            self.assertLess(int(row["known"]), int(row["picture"]))
+            self.assertGreater(float(row["agreement"]), 0.5)
+        self.assertGreater(len(of["next_place"]), 10)
+        self.assertGreater(min(float(row["gain_m2"]) for row in of["next_place"]), 0.0)
+        self.assertGreater(len(of["reached"]), 10)
+        self.assertEqual([row["end"] for row in of["ended"]], ["all_seen"])
+        self.assertEqual(states[-1]["state"], "ended")
+        self.assertLessEqual(float(states[-1]["after_s"]), self.told["duration_s"])
+
+    def test_the_thesis_s_method_is_recorded_too(self):
+        out = self.folder / "thesis"
+        told = json.loads(homeward("explore", "--method", "thesis", "--world", "laboratory:1", "--seed", 1, "--limit-m", 5,
+                                   "--out", out, "--json"))
+        self.assertEqual(told["ended"], "limit")
+        self.assert_replays(out / "exploration.hwrec", "exploration_limit")
+        states = self.states_of(out)
+        self.assertEqual(list(states[0]), ["step", "after_s", "state", "nodes", "dissimilarity", "direction_rad", "left_rad"])
+        self.assertEqual([(row["state"], row["nodes"]) for row in states],
+                         [({"Exploration": "exploration", "Exploration(Homing)": "exploration_homing",
+                            "Path planning": "path_planning", "EXPLORATION DONE": "done"}[row["state"]], row["nodes"])
+                          for row in told["rows"]])
+        self.assertEqual(states[0]["state"], "exploration")
+        self.assertNotEqual(states[0]["direction_rad"], "")
+
+    def assert_replays(self, recording, reason):
+        """To the end, and bit for bit."""
+        replayed = json.loads(homeward("replay", recording, "--json"))
+        self.assertEqual((replayed["complete"], replayed["differences"]), (True, 0), replayed)
+        self.assertEqual(replayed["compared"], replayed["steps"])
+        self.assertEqual(replayed["why_stopped"]["state"], "arrived")
+        self.assertEqual(replayed["why_stopped"]["reason"]["code"], reason)
+
     def test_it_ends_at_a_limit_and_maps_what_it_has_seen(self):
-        told = json.loads(homeward("explore", "--world", "offices:42", "--seed", 2, "--limit-m", 6, "--out",
-                                   self.folder / "little", "--json"))
+        told = json.loads(homeward("explore", "--world", "offices:42", "--seed", 2, "--limit-m", 6, "--pictures-every", 5,
+                                   "--out", self.folder / "little", "--json"))
         self.assertEqual(told["ended"], "limit")
         self.assertLess(told["driven_m"], 6.5)
         self.assertGreaterEqual(told["driven_m"], 6.0)
         self.assertGreater(told["nodes"], 0)
+        self.assertEqual(sorted(file.name for file in (self.folder / "little").glob("plan-*.png")),
+                         [f"plan-{number:04}.png" for number in range(5, told["pictures"] + 1, 5)])
+        self.assertGreater(told["pictures"], 5)
+        self.assert_replays(self.folder / "little" / "exploration.hwrec", "exploration_limit")
+        self.assertEqual(self.states_of(self.folder / "little")[-1]["end"], "limit")
 
 
 if __name__ == "__main__":

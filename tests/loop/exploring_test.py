@@ -4,6 +4,7 @@ server, until its pictures are a tour of which a map is built.
 
 usage: exploring_test.py BIN_FOLDER WEB_FOLDER
 """
+import csv
 import json
 import math
 import pathlib
@@ -70,7 +71,7 @@ class Exploring(unittest.TestCase):
         where = ["--start-pose", *(f"{value:.4f}" for value in pose)] if pose else []
         self.start("agent", [BIN / "homeward-simulated-agent", "run", "--server", self.address, "--token-file", self.token, "--robot",
                              self.robot.split("/")[-1], "--driver", "simulator", "--world", "house:1", "--explorations",
-                             self.data / "explorations", "--truth-file", self.truth_file, *where])
+                             self.data / "explorations", "--record", self.data / "recordings", "--truth-file", self.truth_file, *where])
         self.until("the robot is there", lambda: self.server.call("GET", self.robot)["online"])
 
     def stands(self):
@@ -126,6 +127,18 @@ class Exploring(unittest.TestCase):
         self.assertLess(math.hypot(after[0] - before[0], after[1] - before[1]), 0.001, "it moves without an order")
         self.assertAlmostEqual(after[2], before[2], places=3)
 
+    def expect_recorded(self):
+        """The latest drive, with what was found and decided on it."""
+        latest = max((self.data / "recordings").glob("*.hwrec"))
+        done = subprocess.run([BIN / "homeward", "replay", latest, "--json"], capture_output=True, text=True)
+        replayed = json.loads(done.stdout)
+        self.assertEqual((replayed["complete"], replayed["differences"]), (True, 0), replayed)
+        subprocess.run([BIN / "homeward", "replay", latest, "--states", self.data / "states.csv"], check=True)
+        with open(self.data / "states.csv", newline="") as table:
+            states = list(csv.DictReader(table))
+        self.assertEqual([row["end"] for row in states if row["state"] == "ended"], ["limit"])
+        self.assertTrue([row for row in states if row["state"] in ("new", "known_again")])
+
     def test_a_robot_maps_a_house_through_pauses_and_kills(self):
         self.start_agent()
         mission = self.explore(limit_m=4.5)
@@ -177,6 +190,7 @@ class Exploring(unittest.TestCase):
                            lambda: (self.server.call("GET", f"/api/v1/jobs/{job['id']}")["state"] in ("done", "failed")
                                     and self.server.call("GET", f"/api/v1/jobs/{job['id']}")))
         self.assertEqual(built["state"], "done", built)
+        self.expect_recorded()
         for line in self.truth_file.read_text().splitlines():
             self.assertEqual(json.loads(line)["collisions"], 0)
 

@@ -59,4 +59,14 @@ inline RangeSweep sweep_of(const std::vector<DrawnWall>& walls, const Pose2& pos
   return sweep;
 }
 
+/// Two rooms with two doors between them: a way round.
+inline std::vector<DrawnWall> rooms_with_two_doors() {
+  std::vector<DrawnWall> walls;
+  add_box(walls, 0.0, 0.0, 10.0, 4.0);
+  walls.push_back({{5.0, 1.4}, {5.0, 2.6}});
+  add_box(walls, 1.9, 1.6, 3.1, 2.4);
+  add_box(walls, 6.8, 1.7, 8.2, 2.3);
+  return walls;
+}
+
 }  // namespace homeward::testing

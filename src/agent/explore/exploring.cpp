@@ -149,12 +149,20 @@ std::optional<wire::Explored> Exploring::take_report() {
   return wire::Explored{*told_};
 }
 
+std::vector<wire::StateRow> Exploring::take_rows() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(from_.rows, {});
+}
+
 void Exploring::run(const std::stop_token& stop) {
   const auto tell = [this](const FromThinker& said) {
     const std::lock_guard lock(mutex_);
     auto report = said.report ? said.report : std::exchange(from_.report, std::nullopt);
+    std::vector<wire::StateRow> rows = std::exchange(from_.rows, {});
+    rows.insert(rows.end(), said.rows.begin(), said.rows.end());
     from_ = said;
     from_.report = std::move(report);
+    from_.rows = std::move(rows);
   };
   thinker_.take_up_kept(tell, stop);
   while (!stop.stop_requested()) {

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "agent/explore/exploring_mail.hpp"
 #include "agent/explore/thinker.hpp"
@@ -37,6 +38,8 @@ class Exploring {
   [[nodiscard]] bool wants_features() const;
   /// How far it is, where that is new or the server has welcomed the robot since.
   std::optional<wire::Explored> take_report();
+  /// The rows of the table of states since this was called last, for a recording: before the step.
+  std::vector<wire::StateRow> take_rows();
 
  private:
   Exploring(ThinkerOptions options, const camera::CameraConfig& camera, const pipeline::Eye& eye);

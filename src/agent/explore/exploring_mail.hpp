@@ -10,6 +10,7 @@
 #include "driving/inputs.hpp"
 #include "recording/look.hpp"
 #include "wire/link_messages.hpp"
+#include "wire/state_row_json.hpp"
 
 namespace homeward::agent {
 
@@ -50,6 +51,7 @@ struct FromThinker {
   std::optional<driving::ExplorationOver> over;
   bool wants_features = false;
   std::optional<wire::ExplorationReport> report;  // that was not sent
+  std::vector<wire::StateRow> rows;               // of the table of states, that were not taken
   // Of the exploration that it can go on with.
   std::optional<ExplorationId> exploration;
   bool uploads = false;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "agent/explore/exploration_report.hpp"
+#include "driving/exploration_over.hpp"
 #include "files/read_file.hpp"
 #include "wire/scans_json.hpp"
 
@@ -61,6 +62,7 @@ Result<KeptSurvey> KeptSurvey::restore(KeptFiles files, const pipeline::Eye& eye
     kept.explored_s_ = view->explored_s;
   }
   kept.survey_.set_fences(kept.files_.kept().fences_m);
+  kept.survey_.take_rows();  // they are of the drives before
   kept.phase_ = kept.files_.kept().ended ? ExplorationPhase::kEnded : ExplorationPhase::kPaused;
   kept.reason_ = kept.files_.kept().reason;
   return kept;
@@ -80,21 +82,8 @@ void KeptSurvey::take_up(const wire::ExploreOrder& order, driving::Milliseconds 
   seen_ms_.reset();
 }
 
-std::optional<driving::ExplorationOver> KeptSurvey::over_by(const exploration::SurveyStep& step) const {
-  if ((limit_m_ && driven_m_ >= *limit_m_) || (limit_s_ && explored_s_ >= *limit_s_))
-    return driving::ExplorationOver{false, wire::Reason{ReasonCode::kExplorationLimit}};
-  if (!step.ended) return std::nullopt;
-  switch (*step.ended) {
-    case exploration::SurveyEnd::kBack:
-      return driving::ExplorationOver{false, wire::Reason{ReasonCode::kExplorationBack}};
-    case exploration::SurveyEnd::kStuck:
-      return driving::ExplorationOver{true, wire::Reason{ReasonCode::kExplorationStuck}};
-    case exploration::SurveyEnd::kAllSeen:
-      break;
-  }
-  const auto unreached = static_cast<std::int64_t>(survey_.explorer().put_off());
-  if (unreached == 0) return driving::ExplorationOver{};
-  return driving::ExplorationOver{false, wire::Reason{ReasonCode::kExplorationUnreached, {{"places", unreached}}}};
+bool KeptSurvey::at_limit() const {
+  return (limit_m_ && driven_m_ >= *limit_m_) || (limit_s_ && explored_s_ >= *limit_s_);
 }
 
 KeptSurvey::Next KeptSurvey::see(const Sensed& sensed, bool blocked) {
@@ -102,10 +91,10 @@ KeptSurvey::Next KeptSurvey::see(const Sensed& sensed, bool blocked) {
   if (seen_ms_) explored_s_ += 0.001 * static_cast<double>(std::max<std::int64_t>(0, sensed.sensors_ms - *seen_ms_));
   odometry_ = sensed.odometry;
   seen_ms_ = sensed.sensors_ms;
+  if (at_limit()) survey_.end_at_limit(sensed.odometry);
   const exploration::SurveyStep step = survey_.go_on(sensed.sweep, sensed.odometry, blocked, sensed.sensors_ms);
-  Next next{step.goal_m, step.takes_picture, over_by(step)};
-  if (next.over) next.goal_m.reset();
-  return next;
+  if (!step.ended) return {step.goal_m, step.takes_picture, std::nullopt};
+  return {std::nullopt, step.takes_picture, driving::exploration_over(*step.ended, survey_.explorer().put_off())};
 }
 
 Status KeptSurvey::take(const SensedPicture& picture) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "agent/explore/kept_files.hpp"
 #include "driving/inputs.hpp"
@@ -58,6 +59,8 @@ class KeptSurvey {
   /// The picture that was asked for. Errors: kIo, kInvalidInput (a sweep that could not be read again); then it is as
   /// if there had been none.
   Status take(const SensedPicture& picture);
+  /// See Survey::take_rows.
+  std::vector<exploration::SurveyRow> take_rows() { return survey_.take_rows(); }
   /// It stands, and may go on later.
   void pause(const std::optional<wire::Reason>& reason);
   /// Nothing more is explored: its tables are written, and its pictures may go to the server. Errors: kIo.
@@ -78,7 +81,7 @@ class KeptSurvey {
  private:
   KeptSurvey(KeptFiles files, const exploration::ExplorerConfig& config)
       : files_(std::move(files)), survey_(config, {}) {}
-  [[nodiscard]] std::optional<driving::ExplorationOver> over_by(const exploration::SurveyStep& step) const;
+  [[nodiscard]] bool at_limit() const;
 
   KeptFiles files_;
   exploration::Survey survey_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "exploration/stand_again.hpp"
+#include "recording/survey_rows.hpp"
 #include "wire/exploration_json.hpp"
 
 namespace homeward::agent {
@@ -81,6 +82,7 @@ void Thinker::take_up_kept(const Tell& tell, const std::stop_token& stop) {
 void Thinker::think(const ToThinker& mail, const Tell& tell, const std::stop_token& stop) {
   for (const ExploringCommand& command : mail.commands) std::visit([this](const auto& what) { obey(what); }, command);
   if (order_ && !said_.over && mail.commands.empty()) explore(mail);
+  if (current_) said_.rows = recording::to_recorded(current_->take_rows());
   tell_now(tell, !mail.commands.empty());
   const bool idle = !order_ || said_.over;
   if (idle && mail.link_up && !to_upload_.empty() && Clock::now() - tried_upload_at_ >= options_.upload_again_after)
@@ -285,6 +287,7 @@ void Thinker::tell_now(const Tell& tell, bool forced) {
   }
   tell(said_);
   said_.report.reset();
+  said_.rows.clear();
 }
 
 }  // namespace homeward::agent

@@ -179,6 +179,11 @@ void lead(const Exploring* exploring, driving::Inputs& inputs, const driving::Dr
   inputs.why_not_exploring = wire::Reason{wire::ReasonCode::kDoesNotExplore};
 }
 
+/// What it has decided since the step before, for a recording. To be taken also where there is none: it piles up.
+std::vector<wire::StateRow> decided(Exploring* exploring) {
+  return exploring != nullptr ? exploring->take_rows() : std::vector<wire::StateRow>();
+}
+
 /// And hears what came of it after the step. Whether features of pictures are wanted.
 bool follow(Exploring* exploring, const driving::Inputs& inputs, const recording::PictureBytes& picture,
             const driving::DrivingState& state, driving::Milliseconds now, LinkClient& link) {
@@ -267,8 +272,9 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
     const driving::Milliseconds now = now_ms();
     show_as_often_as_asked(inputs.messages, looker);
     lead(exploring->get(), inputs, state);
-    const driving::Outputs outputs =
-        *recorder ? (*recorder)->step(state, inputs, picture, now) : driving::step(state, inputs, config, now);
+    auto rows = decided(exploring->get());
+    const driving::Outputs outputs = *recorder ? (*recorder)->step(state, inputs, picture, now, std::move(rows))
+                                               : driving::step(state, inputs, config, now);
     // Frozen while it thought, it must not do what it thought before; the next step says why it stopped.
     const bool held_up = now_ms() - now > config.loop_silence_ms;
     driver.command(held_up ? driving::Motion{} : outputs.motion);

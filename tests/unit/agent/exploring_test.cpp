@@ -137,6 +137,18 @@ TEST_F(ExploringTest, AfterSweepsStayedAwayItDoesNotBelieveToStandWhereItStood) 
   EXPECT_FALSE(cycle().leg);
 }
 
+TEST_F(ExploringTest, RowsOfItsTableOfStatesAreGivenOnceAndInOrder) {
+  cycle({order("m1", false)});
+  ASSERT_TRUE(until_leg());
+  const std::vector<wire::StateRow> rows = exploring_->take_rows();
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(wire::state_name(rows[0]), "new");
+  EXPECT_EQ(wire::state_name(rows[1]), "next_place");
+  EXPECT_EQ(std::get<wire::SurveyRow>(rows[0]).picture, 0);
+  ASSERT_TRUE(std::get<wire::SurveyRow>(rows[1]).place_m);
+  EXPECT_TRUE(exploring_->take_rows().empty());
+}
+
 TEST_F(ExploringTest, WhoIsWelcomedIsToldHowFarItIs) {
   EXPECT_FALSE(exploring_->take_report());
   cycle({order("m1", false)});

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "files/tour_folder.hpp"
@@ -133,6 +134,19 @@ class ThinkerTest : public ::testing::Test {
     sweeps_.clear();
   }
 
+  /// Of how many pictures rows of the table of states tell.
+  [[nodiscard]] std::int64_t pictures_told() const {
+    return std::ranges::count_if(rows_, [](const wire::SurveyRow& row) {
+      return row.state == wire::SurveyState::kNew || row.state == wire::SurveyState::kKnownAgain;
+    });
+  }
+  [[nodiscard]] std::vector<wire::SurveyEnd> ends_told() const {
+    std::vector<wire::SurveyEnd> ends;
+    for (const wire::SurveyRow& row : rows_)
+      if (row.end) ends.push_back(*row.end);
+    return ends;
+  }
+
   homeward::testing::ScratchFolder folder_;
   std::vector<testing::DrawnWall> walls_;
   Pose2 truth_{1.0, 0.5, 0.4};
@@ -141,9 +155,11 @@ class ThinkerTest : public ::testing::Test {
   std::stop_source stop_;
   FromThinker said_;
   std::vector<wire::ExplorationReport> told_;
+  std::vector<wire::SurveyRow> rows_;
   Thinker::Tell tell_ = [this](const FromThinker& said) {
     said_ = said;
     if (said.report) told_.push_back(*said.report);
+    for (const wire::StateRow& row : said.rows) rows_.push_back(std::get<wire::SurveyRow>(row));
   };
   std::optional<Thinker> thinker_;
   std::deque<Sensed> sweeps_;
@@ -177,6 +193,8 @@ TEST_F(ThinkerTest, ARoomIsExploredAndItsPicturesBecomeATourOnTheServer) {
   const Pose2 last = *uploaded_->images().back().odometry;
   EXPECT_NEAR(last.x_m, report().nodes_m.back().x(), 0.01) << "the odometry of the tour is that of the settled poses";
   EXPECT_EQ(sweeps_uploaded_, uploaded_->images().size());
+  EXPECT_EQ(pictures_told(), report().pictures);
+  EXPECT_EQ(ends_told(), std::vector{wire::SurveyEnd::kAllSeen});
   start_program();
   EXPECT_TRUE(told_.empty()) << "nothing is left to do";
   EXPECT_FALSE(said_.exploration);
@@ -210,6 +228,7 @@ TEST_F(ThinkerTest, AfterARestartItGoesOnFromWhereItStands) {
   explore_to(1000);
   ASSERT_TRUE(said_.over);
   EXPECT_FALSE(said_.over->failed) << said_.over->reason;
+  EXPECT_EQ(pictures_told(), report().pictures) << "those of before a restart were told then";
   EXPECT_LT((position_m(first_ * *report().pose) - position_m(truth_)).norm(), 0.15);
 }
 
@@ -346,6 +365,7 @@ TEST_F(ThinkerTest, ALimitOfWayEndsItAndItsPicturesAreATour) {
   explore_to(1000);
   ASSERT_TRUE(said_.over);
   EXPECT_EQ(said_.over->reason, wire::Reason{ReasonCode::kExplorationLimit});
+  EXPECT_EQ(ends_told(), std::vector{wire::SurveyEnd::kLimit});
   end_order(std::nullopt);
   EXPECT_EQ(report().phase, ExplorationPhase::kUploaded);
   EXPECT_NEAR(report().driven_m, 1.5, 0.1);

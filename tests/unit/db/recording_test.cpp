@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <bit>
+#include <nlohmann/json.hpp>
 
 #include "support/sample_recording.hpp"
 #include "support/scratch_folder.hpp"
@@ -100,10 +101,52 @@ TEST_F(RecordingFile, GivesEveryNumberBackBitForBit) {
   ASSERT_TRUE(step.picture && step.picture->bytes);
   EXPECT_EQ(*step.picture->bytes, *expected.picture->bytes);
   EXPECT_EQ(bits(step.picture->odometry.y_m), bits(-0.0));
+  EXPECT_TRUE(step.picture->looked_at);
   ASSERT_EQ(step.received.size(), 1U);
   EXPECT_EQ(wire::encode(step.received[0]), wire::encode(expected.received[0]));
   ASSERT_EQ(step.sent.size(), 1U);
   EXPECT_EQ(wire::encode(step.sent[0]), wire::encode(expected.sent[0]));
+}
+
+TEST_F(RecordingFile, GivesRowsOfTheTableOfStatesBackInTheirOrder) {
+  record();
+  auto reader = RecordingReader::open(file());
+  ASSERT_TRUE(reader) << reader.error().message;
+  const auto read = (*reader)->next();
+  ASSERT_TRUE(read && *read);
+  const RecordedStep expected = homeward::testing::sample_recorded_step(1);
+  ASSERT_EQ((*read)->rows.size(), expected.rows.size());
+  for (std::size_t i = 0; i < expected.rows.size(); ++i)
+    EXPECT_EQ(wire::state_row_to_json((*read)->rows[i]), wire::state_row_to_json(expected.rows[i])) << i;
+  const auto& known = std::get<wire::SurveyRow>((*read)->rows[0]);
+  EXPECT_EQ(known.state, wire::SurveyState::kKnownAgain);
+  EXPECT_EQ(known.known, 12);
+  EXPECT_EQ(bits(known.pose.x_m), bits(1.0 / 3.0));
+  const auto& next = std::get<wire::SurveyRow>((*read)->rows[1]);
+  EXPECT_EQ(next.cost_m, 1.0 / 7.0);
+  EXPECT_FALSE(next.known);
+  EXPECT_EQ(std::get<wire::ThesisRow>((*read)->rows[2]).nodes, (std::vector<std::int64_t>{3, 1}));
+  // What a person types into sqlite3.
+  SQLite::Database database(file().string());
+  SQLite::Statement states(database, "SELECT state FROM states WHERE step = 2 ORDER BY position");
+  for (const char* state : {"known_again", "next_place", "exploration_homing"}) {
+    ASSERT_TRUE(states.executeStep());
+    EXPECT_EQ(states.getColumn(0).getString(), state);
+  }
+  EXPECT_FALSE(states.executeStep());
+}
+
+TEST_F(RecordingFile, OfTheVersionBeforeTablesOfStatesIsRead) {
+  record();
+  change("PRAGMA user_version = 5; DROP TABLE states; ALTER TABLE pictures DROP COLUMN looked_at");
+  auto reader = RecordingReader::open(file());
+  ASSERT_TRUE(reader) << reader.error().message;
+  const auto step = (*reader)->next();
+  ASSERT_TRUE(step) << step.error().message << " " << step.error().where;
+  ASSERT_TRUE(*step);
+  EXPECT_TRUE((*step)->rows.empty());
+  EXPECT_TRUE((*step)->picture->looked_at);
+  EXPECT_TRUE((*step)->leg);
 }
 
 TEST_F(RecordingFile, KeepsWhetherTheRobotWasReached) {
@@ -221,10 +264,10 @@ TEST_F(RecordingFile, ThatIsAnotherSqliteFile) {
 
 TEST_F(RecordingFile, OfANewerVersion) {
   record();
-  change("PRAGMA user_version = 6");
+  change("PRAGMA user_version = 7");
   EXPECT_EQ(trouble().code, ErrorCode::kUnsupportedFormat);
-  EXPECT_THAT(trouble().message, HasSubstr("version 6"));
-  EXPECT_THAT(trouble().message, HasSubstr("versions 1 to 5"));
+  EXPECT_THAT(trouble().message, HasSubstr("version 7"));
+  EXPECT_THAT(trouble().message, HasSubstr("versions 1 to 6"));
 }
 
 TEST_F(RecordingFile, OfTheVersionBeforeJoysticksIsRead) {
@@ -307,7 +350,8 @@ TEST_F(RecordingFile, ThatHoldsWhatCannotBe) {
   for (const char* sql :
        {"UPDATE steps SET exact = x'00' WHERE seq = 2", "UPDATE steps SET state = 'dancing' WHERE seq = 2",
         "UPDATE sweeps SET exact = x'0102' WHERE step = 2", "UPDATE messages SET cbor = x'ff' WHERE step = 2",
-        "UPDATE messages SET sender = 'nobody' WHERE step = 2", "UPDATE pictures SET exact = x'' WHERE step = 2"}) {
+        "UPDATE messages SET sender = 'nobody' WHERE step = 2", "UPDATE states SET row = '{}' WHERE step = 2",
+        "UPDATE states SET row = 'known_again' WHERE step = 2", "UPDATE pictures SET exact = x'' WHERE step = 2"}) {
     std::filesystem::remove(file());
     record();
     change(sql);

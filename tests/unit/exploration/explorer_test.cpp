@@ -10,16 +10,6 @@
 namespace homeward::exploration {
 namespace {
 
-/// Two rooms with two doors between them: a way round.
-std::vector<testing::DrawnWall> rooms_with_two_doors() {
-  std::vector<testing::DrawnWall> walls;
-  add_box(walls, 0.0, 0.0, 10.0, 4.0);
-  walls.push_back({{5.0, 1.4}, {5.0, 2.6}});
-  add_box(walls, 1.9, 1.6, 3.1, 2.4);
-  add_box(walls, 6.8, 1.7, 8.2, 2.3);
-  return walls;
-}
-
 /// Drives along points with wheels that turn left by themselves, and takes pictures as the explorer wants them.
 class DrivenExplorer {
  public:
@@ -63,14 +53,14 @@ class DrivenExplorer {
 const std::vector<Eigen::Vector2d> kRound = {{1.0, 0.7}, {8.9, 0.7}, {8.9, 3.3}, {1.0, 3.3}, {1.0, 0.7}, {4.0, 0.7}};
 
 TEST(ExplorerTest, SweepsTakeTheDriftOfTheWheelsOut) {
-  DrivenExplorer driven(rooms_with_two_doors(), {1.0, 0.7, 0.0}, radians(1.0));
+  DrivenExplorer driven(testing::rooms_with_two_doors(), {1.0, 0.7, 0.0}, radians(1.0));
   for (const Eigen::Vector2d& point : kRound) driven.drive_to(point);
   EXPECT_GT(driven.wheels_error_m(), 0.5);
   EXPECT_LT(driven.error_m(), 0.06);
 }
 
 TEST(ExplorerTest, APlaceIsKnownAgainAfterAWayRound) {
-  DrivenExplorer driven(rooms_with_two_doors(), {1.0, 0.7, 0.0}, radians(1.0));
+  DrivenExplorer driven(testing::rooms_with_two_doors(), {1.0, 0.7, 0.0}, radians(1.0));
   for (const Eigen::Vector2d& point : kRound) driven.drive_to(point);
   const auto& known = driven.explorer.known_again();
   ASSERT_FALSE(known.empty());

@@ -25,6 +25,7 @@ struct Walker {
   std::int64_t now_ms = 0;
   double driven_m = 0.0;
   std::optional<SurveyEnd> ended;
+  std::vector<SurveyRow> rows;
 
   /// False: the survey is complete.
   bool cycle(bool blocked = false) {
@@ -38,6 +39,7 @@ struct Walker {
     }
     now_ms += 100;
     ended = step.ended;
+    for (SurveyRow& row : survey.take_rows()) rows.push_back(row);
     if (step.ended) return false;
     if (!step.goal_m || blocked) return true;
     const Pose2 goal = start * Pose2{step.goal_m->x(), step.goal_m->y(), 0.0};
@@ -48,6 +50,13 @@ struct Walker {
              std::atan2(way.y(), way.x())};
     driven_m += length_m;
     return true;
+  }
+
+  [[nodiscard]] std::vector<SurveyRow> rows_of(SurveyState state) const {
+    std::vector<SurveyRow> found;
+    for (const SurveyRow& row : rows)
+      if (row.state == state) found.push_back(row);
+    return found;
   }
 };
 
@@ -190,6 +199,124 @@ TEST(SurveyTest, WhereNothingIsSeenNothingIsDriven) {
   }
   EXPECT_EQ(survey.go_on(nothing, {}, false, 21'000).ended, SurveyEnd::kStuck)
       << "to call that explored would be wrong";
+}
+
+TEST(SurveyRows, ThereIsOneOfEachPictureAndOneOfTheEnd) {
+  Walker walker;
+  while (walker.cycle()) {
+  }
+  EXPECT_FALSE(walker.cycle());  // to be asked again changes nothing
+  const auto fresh = walker.rows_of(SurveyState::kNew);
+  const auto known = walker.rows_of(SurveyState::kKnownAgain);
+  ASSERT_EQ(fresh.size() + known.size(), walker.pictures.size());
+  EXPECT_EQ(walker.rows.front().state, SurveyState::kNew);
+  int picture = 0;
+  for (const SurveyRow& row : walker.rows) {
+    if (row.state == SurveyState::kNew || row.state == SurveyState::kKnownAgain) {
+      EXPECT_EQ(row.picture, picture++);
+    }
+  }
+  ASSERT_EQ(walker.rows_of(SurveyState::kEnded).size(), 1U);
+  EXPECT_EQ(walker.rows.back().state, SurveyState::kEnded);
+  EXPECT_EQ(walker.rows.back().end, SurveyEnd::kAllSeen);
+}
+
+TEST(SurveyRows, APlaceThatIsKnownAgainNamesItsPictureAndHowWellTheyAgree) {
+  Survey survey{ExplorerConfig{}, SurveyConfig{}};
+  const std::vector<DrawnWall> walls = testing::rooms_with_two_doors();
+  const Pose2 start{1.0, 0.7, 0.0};
+  Pose2 truth = start;
+  const std::vector<Eigen::Vector2d> round_m = {{8.9, 0.7}, {8.9, 3.3}, {1.0, 3.3}, {1.0, 0.7}, {3.0, 0.7}};
+  for (const Eigen::Vector2d& to_m : round_m) {
+    const Eigen::Vector2d way_m = to_m - position_m(truth);
+    truth.theta_rad = std::atan2(way_m.y(), way_m.x());
+    for (double left_m = way_m.norm(); left_m > 0.0; left_m -= 0.1) {
+      const RangeSweep sweep = sweep_of(walls, truth);
+      const Pose2 odometry = inverse(start) * truth;
+      survey.go_on(sweep, odometry, false, 0);  // it has seen all before it is round
+      if (survey.explorer().wants_picture(odometry)) survey.take(sweep, odometry, nullptr);
+      truth = truth * Pose2{0.1, 0.0, 0.0};
+    }
+  }
+  std::vector<KnownAgain> told;
+  for (const SurveyRow& row : survey.take_rows()) {
+    if (row.state != SurveyState::kKnownAgain) continue;
+    ASSERT_TRUE(row.picture && row.known && row.agreement);
+    told.push_back({*row.picture, *row.known, *row.agreement, false});
+  }
+  const std::vector<KnownAgain>& known = survey.explorer().known_again();
+  ASSERT_FALSE(known.empty());
+  ASSERT_EQ(told.size(), known.size());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    EXPECT_EQ(told[i].now, known[i].now);
+    EXPECT_EQ(told[i].then, known[i].then);
+    EXPECT_EQ(told[i].agreement, known[i].agreement);
+    EXPECT_GE(told[i].agreement, survey.explorer().config().loop_agreement);
+    EXPECT_LE(told[i].agreement, 1.0);
+  }
+  EXPECT_TRUE(survey.take_rows().empty()) << "rows are given once";
+}
+
+TEST(SurveyRows, EachPlaceDrivenToIsReachedOrBlockedOrPassedOver) {
+  Walker walker;
+  while (walker.cycle(walker.now_ms == 4000)) {
+  }
+  const auto next = walker.rows_of(SurveyState::kNextPlace);
+  ASSERT_GT(next.size(), 3U);
+  for (const SurveyRow& row : next) {
+    ASSERT_TRUE(row.place_m && row.gain_m2 && row.cost_m);
+    EXPECT_GE(*row.gain_m2, walker.survey.explorer().config().view.least_gain_m2);
+    EXPECT_GT(*row.cost_m, 0.0);
+  }
+  std::optional<Eigen::Vector2d> driven_to_m;
+  for (const SurveyRow& row : walker.rows) {
+    if (row.state == SurveyState::kReached || row.state == SurveyState::kBlocked) {
+      EXPECT_EQ(row.place_m, driven_to_m) << "it left a place that it did not drive to";
+    }
+    if (row.state == SurveyState::kNextPlace) {
+      EXPECT_NE(row.place_m, driven_to_m) << "that is no other place";
+      driven_to_m = row.place_m;
+    }
+  }
+  EXPECT_EQ(walker.rows_of(SurveyState::kBlocked).size(), 1U);
+  EXPECT_FALSE(walker.rows_of(SurveyState::kReached).empty());
+}
+
+TEST(SurveyRows, TheyTellThatItTriesAgainAndThatItIsStuck) {
+  Walker walker;
+  while (!walker.survey.target_m()) ASSERT_TRUE(walker.cycle());
+  while (walker.cycle(true) && walker.now_ms < 20'000) {
+  }
+  EXPECT_EQ(walker.rows.back().end, SurveyEnd::kStuck);
+  EXPECT_GE(walker.rows_of(SurveyState::kBlocked).size(), 5U);
+  Walker other;
+  while (other.cycle(other.now_ms == 4000)) {
+  }
+  EXPECT_FALSE(other.rows_of(SurveyState::kTriesAgain).empty());
+}
+
+TEST(SurveyRows, TheyTellOfTheWayHomeOnce) {
+  Walker walker;
+  walker.survey.be_back_by(40'000);
+  while (walker.cycle()) {
+  }
+  const auto home = walker.rows_of(SurveyState::kGoesHome);
+  ASSERT_EQ(home.size(), 1U);
+  EXPECT_EQ(home.front().end, SurveyEnd::kBack);
+  EXPECT_GT(home.front().cost_m.value_or(0.0), 1.0);
+  EXPECT_EQ(walker.rows.back().end, SurveyEnd::kBack);
+}
+
+TEST(SurveyRows, ALimitIsAnEndUntilItGoesOn) {
+  Walker walker;
+  while (walker.now_ms < 3000) ASSERT_TRUE(walker.cycle());
+  walker.survey.end_at_limit(inverse(walker.start) * walker.truth);
+  EXPECT_FALSE(walker.cycle());
+  EXPECT_EQ(walker.ended, SurveyEnd::kLimit);
+  ASSERT_EQ(walker.rows_of(SurveyState::kEnded).size(), 1U);
+  EXPECT_EQ(walker.rows.back().end, SurveyEnd::kLimit);
+  walker.survey.go_on_anew(std::nullopt);
+  EXPECT_TRUE(walker.cycle());
 }
 
 }  // namespace

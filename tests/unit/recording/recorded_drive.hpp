@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "driving/follow.hpp"
@@ -78,7 +79,8 @@ class RecordedDrive : public ::testing::Test {
     inputs.messages = std::move(messages);
     inputs.messages.emplace_back(wire::Permit{MissionId("m1"), {1, ++seq_}, 1500});
     PictureBytes bytes;
-    if (pictures_) {
+    if (pictures_ && !looks_) inputs.picture = driving::SeenPicture{now_ms_, nullptr, {}, pose_};
+    if (pictures_ && looks_) {
       CameraPicture sent = picture(pose_);
       sent.recognised = driving::wants_features(state_.follow);
       inputs.picture = look(sent, *eye_).value();
@@ -92,7 +94,7 @@ class RecordedDrive : public ::testing::Test {
     inputs.leg = leg_;
     inputs.exploration_over = over_;
     inputs.why_not_exploring = why_not_exploring_;
-    const driving::Outputs outputs = recorder_->step(state_, inputs, bytes, now_ms_);
+    const driving::Outputs outputs = recorder_->step(state_, inputs, bytes, now_ms_, std::exchange(rows_, {}));
     pose_ = pose_ * Pose2{0.1 * outputs.motion.speed_mps, 0.0, 0.1 * outputs.motion.turn_radps};
     return outputs;
   }
@@ -136,6 +138,8 @@ class RecordedDrive : public ::testing::Test {
   bool robot_link_up_ = true;
   Pose2 pose_;
   bool pictures_ = true;
+  bool looks_ = true;  // else it is only told that pictures are taken
+  std::vector<wire::StateRow> rows_;
   std::optional<driving::JoystickReading> hand_;
   std::optional<driving::Leg> leg_;  // of an exploration
   std::optional<driving::ExplorationOver> over_;

@@ -87,6 +87,31 @@ TEST_F(Replay, ReproducesAnExploration) {
   EXPECT_EQ(replayed->why->reason, wire::Reason{wire::ReasonCode::kExplorationStuck});
 }
 
+TEST_F(Replay, ReproducesAnExplorationWhosePicturesWereNotLookedAt) {
+  open_recorder();
+  looks_ = false;
+  leg_ = driving::Leg{{1.0, 0.05}, 0.1};
+  rows_ = {wire::ThesisRow{wire::ThesisState::kExploration, {0, 1}, {}, 0.5, {}}};
+  tick({wire::ExploreOrder{MissionId("m1"), {1, 1}, 1500, 0.4, ExplorationId("x1"), false, {}, {}, {}}});
+  for (int i = 0; i < 12; ++i) tick();
+  EXPECT_GT(pose_.x_m, 0.1) << "it stood: " << state_.reason;
+  over_ = driving::ExplorationOver{};
+  tick();
+  close_recorder();
+  const auto replayed = result();
+  ASSERT_TRUE(replayed) << replayed.error().message << " " << replayed.error().where;
+  EXPECT_TRUE(replayed->same()) << replayed->differing.front().what;
+  EXPECT_TRUE(replayed->complete) << replayed->note;
+  EXPECT_EQ(replayed->compared, 14);
+  EXPECT_EQ(replayed->pictures, 0);
+  auto reader = db::RecordingReader::open(recording());
+  ASSERT_TRUE(reader);
+  const auto step = (*reader)->next();
+  ASSERT_TRUE(step && *step && (*step)->picture);
+  EXPECT_FALSE((*step)->picture->looked_at);
+  ASSERT_EQ((*step)->rows.size(), 1U) << "what was decided before the step";
+}
+
 TEST_F(Replay, ReproducesThatAnOrderToExploreIsRefused) {
   open_recorder();
   tick({mission("m1", 1)});
