@@ -190,7 +190,7 @@ bool follow(Exploring* exploring, const driving::Inputs& inputs, const recording
   if (exploring != nullptr) {
     exploring->follow(inputs, picture, state, now);
     if (link.up()) {
-      if (auto report = exploring->take_report()) link.send(std::move(*report));
+      if (const auto report = exploring->take_report()) link.send_encoded(*report);
     }
   }
   if (state.mission && state.mission->explores) return exploring != nullptr && exploring->wants_features();
