@@ -48,8 +48,9 @@ struct RestServer::Impl {
   }
 
   void answer() {
-    const Reply reply =
-        handler(std::string(request.method_string()), std::string(request.target()), request.body());
+    const Reply reply = handler({std::string(request.method_string()), std::string(request.target()),
+                                 std::string(request["Idempotency-Key"]), request.body()});
+    if (reply.lost) return stream->close();
     http::response<http::string_body> response(static_cast<http::status>(reply.status), request.version());
     response.body() = reply.body;
     response.keep_alive(true);

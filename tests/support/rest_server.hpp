@@ -10,11 +10,18 @@ namespace homeward::testing {
 /// A web server for one client at a time, in a thread of its own, that answers what the test says.
 class RestServer {
  public:
+  struct Request {
+    std::string method;
+    std::string path;
+    std::string idempotency_key;  // empty: none
+    std::string body;
+  };
   struct Reply {
     int status = 200;
     std::string body = {};
+    bool lost = false;  // the connection ends in its place
   };
-  using Handler = std::function<Reply(const std::string& method, const std::string& path, const std::string& body)>;
+  using Handler = std::function<Reply(const Request& request)>;
 
   /// Listens on any port of 127.0.0.1. `handler` is called from the thread. Throws when it cannot.
   explicit RestServer(Handler handler);

@@ -17,17 +17,18 @@
 namespace homeward::agent::upload_test {
 namespace {
 
+using homeward::testing::RestServer;
 using nlohmann::json;
-using Reply = homeward::testing::RestServer::Reply;
 
 /// What a server keeps of tours, so far as an upload asks for it.
 class KeptTours {
  public:
-  Reply answer(const std::string& method, const std::string& path, const std::string& body) {
+  RestServer::Reply answer(const RestServer::Request& request) {
+    const std::string& path = request.path;
     const std::string tours = "/api/v1/tours";
-    if (method == "GET" && path == tours) return {200, list().dump()};
-    if (method == "POST" && path == tours) {
-      names.push_back(json::parse(body)["name"]);
+    if (request.method == "GET" && path == tours) return {200, list().dump()};
+    if (request.method == "POST" && path == tours) {
+      names.push_back(json::parse(request.body)["name"]);
       complete.push_back(false);
       pictures.emplace_back();
       return {201, json{{"id", std::to_string(names.size() - 1)}}.dump()};
@@ -80,8 +81,7 @@ class UploadTest : public ::testing::Test {
 
   homeward::testing::ScratchFolder folder_;
   KeptTours tours_;  // the server's thread, but between uploads
-  homeward::testing::RestServer server_{[this](const std::string& method, const std::string& path,
-                                               const std::string& body) { return tours_.answer(method, path, body); }};
+  RestServer server_{[this](const RestServer::Request& request) { return tours_.answer(request); }};
 };
 
 TEST_F(UploadTest, ATourOfItsOwnNameThatIsCompleteIsNotMadeAgain) {
