@@ -61,7 +61,7 @@ void Driving::received(const std::shared_ptr<AgentLink>& link, wire::AgentMessag
     received_refusal(unit, *refusal);
   } else if (auto* explored = std::get_if<wire::Explored>(&message)) {
     unit.exploration = std::make_shared<const wire::ExplorationReport>(std::move(explored->exploration));
-    events_.publish(wire::ExplorationView{unit.id, *unit.exploration});
+    events_.publish(wire::ExplorationView{unit.id, unit.exploration});
   } else if (auto* stopped = std::get_if<wire::Stopped>(&message)) {
     spdlog::info("robot {} has stopped for stop {}", unit.id.str(), stopped->stop_id);
   }

@@ -29,7 +29,8 @@ json body(const DraftGone& gone) {
   return {{"type", "draft_gone"}, {"map", gone.map.str()}, {"draft", gone.draft.str()}};
 }
 json body(const ExplorationView& view) {
-  return {{"type", "exploration"}, {"robot", view.robot.str()}, {"exploration", exploration_to_json(view.exploration)}};
+  return {
+      {"type", "exploration"}, {"robot", view.robot.str()}, {"exploration", exploration_to_json(*view.exploration)}};
 }
 json body(const Heartbeat&) { return {{"type", "heartbeat"}}; }
 

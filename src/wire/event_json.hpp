@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <variant>
@@ -29,7 +30,7 @@ struct Snapshot {
 /// How far a robot's exploration is.
 struct ExplorationView {
   RobotId robot;
-  ExplorationReport exploration;
+  std::shared_ptr<const ExplorationReport> exploration;  // never null; large, and the same for all who hear of it
 };
 
 /// Says that the server lives, where nothing else is to be said.

@@ -138,15 +138,15 @@ bool Exploring::wants_features() const {
   return from_.wants_features;
 }
 
-std::optional<wire::Explored> Exploring::take_report() {
+std::shared_ptr<const std::vector<std::uint8_t>> Exploring::take_report() {
   const std::lock_guard lock(mutex_);
   const bool again = std::exchange(welcomed_, false);
-  if (from_.report) {
-    told_ = std::exchange(from_.report, std::nullopt);
-  } else if (!again || !told_) {
-    return std::nullopt;
+  if (new_report_) {
+    told_ = std::exchange(new_report_, nullptr);
+  } else if (!again) {
+    return nullptr;
   }
-  return wire::Explored{*told_};
+  return told_;
 }
 
 std::vector<wire::StateRow> Exploring::take_rows() {
@@ -155,14 +155,19 @@ std::vector<wire::StateRow> Exploring::take_rows() {
 }
 
 void Exploring::run(const std::stop_token& stop) {
-  const auto tell = [this](const FromThinker& said) {
+  const auto tell = [this](FromThinker said) {
+    // A large one takes a while to encode, which the loop must not wait for.
+    std::shared_ptr<const std::vector<std::uint8_t>> report;
+    if (said.report) {
+      report = std::make_shared<const std::vector<std::uint8_t>>(wire::encode(wire::Explored{std::move(*said.report)}));
+      said.report.reset();
+    }
     const std::lock_guard lock(mutex_);
-    auto report = said.report ? said.report : std::exchange(from_.report, std::nullopt);
     std::vector<wire::StateRow> rows = std::exchange(from_.rows, {});
     rows.insert(rows.end(), said.rows.begin(), said.rows.end());
-    from_ = said;
-    from_.report = std::move(report);
+    from_ = std::move(said);
     from_.rows = std::move(rows);
+    if (report) new_report_ = std::move(report);
   };
   thinker_.take_up_kept(tell, stop);
   while (!stop.stop_requested()) {

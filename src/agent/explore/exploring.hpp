@@ -2,6 +2,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -36,8 +37,9 @@ class Exploring {
               driving::Milliseconds now_ms);
   /// Whether a picture with its features is of use now.
   [[nodiscard]] bool wants_features() const;
-  /// How far it is, where that is new or the server has welcomed the robot since.
-  std::optional<wire::Explored> take_report();
+  /// How far it is, as a message of the link (wire::Explored, encoded), where that is new or the server has welcomed
+  /// the robot since; null otherwise.
+  std::shared_ptr<const std::vector<std::uint8_t>> take_report();
   /// The rows of the table of states since this was called last, for a recording: before the step.
   std::vector<wire::StateRow> take_rows();
 
@@ -64,9 +66,10 @@ class Exploring {
   std::condition_variable_any came_;
   ToThinker to_;
   bool new_sweep_ = false;
-  FromThinker from_;
-  std::optional<wire::ExplorationReport> told_;  // the latest that was sent, for who is welcomed anew
-  std::jthread thread_;                          // last: it uses all of the above
+  FromThinker from_;                                             // but for the report
+  std::shared_ptr<const std::vector<std::uint8_t>> new_report_;  // encoded, and not sent yet
+  std::shared_ptr<const std::vector<std::uint8_t>> told_;        // the latest that was sent, for who is welcomed anew
+  std::jthread thread_;                                          // last: it uses all of the above
 };
 
 }  // namespace homeward::agent

@@ -50,7 +50,7 @@ struct FromThinker {
   std::optional<driving::Leg> leg;
   std::optional<driving::ExplorationOver> over;
   bool wants_features = false;
-  std::optional<wire::ExplorationReport> report;  // that was not sent
+  std::optional<wire::ExplorationReport> report;  // where there is a new one
   std::vector<wire::StateRow> rows;               // of the table of states, that were not taken
   // Of the exploration that it can go on with.
   std::optional<ExplorationId> exploration;

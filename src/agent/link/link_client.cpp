@@ -98,4 +98,8 @@ void LinkClient::send(const wire::AgentMessage& message) {
   }
 }
 
+void LinkClient::send_encoded(std::vector<std::uint8_t> message) {
+  if (up()) impl_->socket.send(std::move(message));
+}
+
 }  // namespace homeward::agent

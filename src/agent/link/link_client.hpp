@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -32,6 +33,8 @@ class LinkClient {
   void wait_for_message(std::chrono::steady_clock::time_point until);
   /// Sends a message when connected, else drops it. Of frames only the newest waits, and always behind other messages.
   void send(const wire::AgentMessage& message);
+  /// The same for what is no frame and was encoded before: large messages, by who may take a while for that.
+  void send_encoded(std::vector<std::uint8_t> message);
 
  private:
   struct Impl;

@@ -10,6 +10,7 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/ssl.hpp>
 #include <chrono>
+#include <random>
 #include <thread>
 
 namespace homeward::agent {
@@ -21,6 +22,14 @@ namespace http = beast::http;
 using Tcp = asio::ip::tcp;
 
 constexpr std::size_t kMaxAnswerBytes = 64UL * 1024 * 1024;
+
+/// By which the server knows a POST that it has answered before.
+std::string new_key() {
+  std::random_device random;
+  std::string key(32, '0');
+  for (char& letter : key) letter = "0123456789abcdef"[random() % 16];
+  return key;
+}
 
 }  // namespace
 
@@ -82,6 +91,7 @@ Result<RestAnswer> RestClient::call(const std::string& method, const std::string
   request.set(http::field::host, impl_->address.host_header());
   request.set(http::field::user_agent, "homeward-agent");
   if (!impl_->token.empty()) request.set(http::field::authorization, "Bearer " + impl_->token);
+  if (method == "POST") request.set("Idempotency-Key", new_key());
   for (const auto& [name, value] : headers) request.set(name, value);
   request.body() = std::string(body);
   request.prepare_payload();
@@ -92,7 +102,7 @@ Result<RestAnswer> RestClient::call(const std::string& method, const std::string
       if (!impl_->plain && !impl_->secure) impl_->connect();
       return impl_->plain ? impl_->exchange(*impl_->plain, request) : impl_->exchange(*impl_->secure, request);
     } catch (const std::exception& broken) {
-      // A kept connection may have been closed meanwhile; every call of this client may safely be made again.
+      // A kept connection may have been closed meanwhile. Made again it does nothing twice: a POST has its key.
       trouble = broken.what();
       impl_->drop();
       if (attempt + 1 < kTries) std::this_thread::sleep_for(std::chrono::milliseconds(200 * (attempt + 1)));

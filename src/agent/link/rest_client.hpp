@@ -23,7 +23,8 @@ class RestClient {
   RestClient(RestClient&&) noexcept;
   RestClient& operator=(RestClient&&) noexcept;
 
-  /// Any answer of the server is a result, whatever its status. Errors: kIo when there is none after three tries.
+  /// Any answer of the server is a result, whatever its status. Errors: kIo when there is none after three tries, which
+  /// the server knows as the same call.
   Result<RestAnswer> call(const std::string& method, const std::string& path, std::string_view body,
                           const std::map<std::string, std::string>& headers);
 

@@ -148,7 +148,12 @@ Result<std::unique_ptr<Exploring>> open_exploring(const AgentOptions& options, c
     RestClient client(server, token);
     auto sweeps = kept.sweeps();
     if (!sweeps) return pass_on(sweeps);
-    const auto uploaded = upload_tour(client, {kept.tour_folder().string(), "", name, std::move(*sweeps)}, progress);
+    UploadOptions upload;
+    upload.folder = kept.tour_folder().string();
+    upload.name = name;
+    upload.own_name = true;  // it tells the exploration's id
+    upload.sweeps = std::move(*sweeps);
+    const auto uploaded = upload_tour(client, upload, progress);
     if (!uploaded) return pass_on(uploaded);
     return TourId(uploaded->id);
   };
@@ -190,7 +195,7 @@ bool follow(Exploring* exploring, const driving::Inputs& inputs, const recording
   if (exploring != nullptr) {
     exploring->follow(inputs, picture, state, now);
     if (link.up()) {
-      if (auto report = exploring->take_report()) link.send(std::move(*report));
+      if (const auto report = exploring->take_report()) link.send_encoded(*report);
     }
   }
   if (state.mission && state.mission->explores) return exploring != nullptr && exploring->wants_features();

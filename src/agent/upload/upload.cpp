@@ -45,19 +45,24 @@ bool unreadable(const Error& error) {
          error.code == ErrorCode::kImageTooLarge;
 }
 
-/// An open tour of this name to carry on with, or a new one.
-Result<std::string> open_tour(RestClient& server, const std::string& name, const camera::CameraConfig& camera) {
+struct FoundTour {
+  std::string id;
+  bool complete = false;
+};
+
+/// A tour of this name to carry on with, or a new one; a complete one where the name is its own.
+Result<FoundTour> find_tour(RestClient& server, const UploadOptions& options, const camera::CameraConfig& camera) {
   const auto known = call(server, "GET", "/api/v1/tours", nullptr);
   if (!known) return pass_on(known);
   for (const json& tour : known->value("tours", json::array())) {
-    if (tour.value("name", std::string()) == name && tour.value("state", std::string()) == "open") {
-      return tour.value("id", std::string());
-    }
+    if (tour.value("name", std::string()) != options.name) continue;
+    const FoundTour found{tour.value("id", std::string()), tour.value("state", std::string()) == "complete"};
+    if (!found.complete || options.own_name) return found;
   }
-  const json request = {{"name", name}, {"camera", wire::camera_to_json(camera)}};
+  const json request = {{"name", options.name}, {"camera", wire::camera_to_json(camera)}};
   const auto made = call(server, "POST", "/api/v1/tours", &request);
   if (!made) return pass_on(made);
-  return made->value("id", std::string());
+  return FoundTour{made->value("id", std::string()), false};
 }
 
 std::string file_name(const TourImage& image) {
@@ -112,18 +117,20 @@ Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& option
   const auto camera =
       files::read_camera(options.camera.empty() ? folder / "camera.json" : std::filesystem::path(options.camera));
   if (!camera) return pass_on(camera);
-  const auto id = open_tour(server, options.name, *camera);
-  if (!id) return pass_on(id);
+  const auto found = find_tour(server, options, *camera);
+  if (!found) return pass_on(found);
+  const std::string& id = found->id;
+  if (found->complete) return UploadedTour{id, {}};
   const auto files = files::pictures_in(options.folder);
   if (!files) return pass_on(files);
-  UploadedTour uploaded{*id, {}};
+  UploadedTour uploaded{id, {}};
   std::size_t kept = 0;  // the server numbers without gaps
   for (std::size_t i = 0; i < files->size(); ++i) {
     TourImage image = tour->images()[i];
     if (i < options.sweeps.size()) image.sweep = options.sweeps[i];
-    const Status put = put_picture(server, *id, kept, (*files)[i], image);
+    const Status put = put_picture(server, id, kept, (*files)[i], image);
     if (put) {
-      if (const Status sent = put_sweep(server, *id, kept, folder, image); !sent) return pass_on(sent);
+      if (const Status sent = put_sweep(server, id, kept, folder, image); !sent) return pass_on(sent);
       ++kept;
     } else if (unreadable(put.error())) {
       uploaded.skipped.push_back(put.error());
@@ -131,7 +138,7 @@ Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& option
       return pass_on(put);
     }
     if (!progress(static_cast<double>(i + 1) / static_cast<double>(files->size())))
-      return fail(ErrorCode::kConflict, "The upload was ended; it can be carried on with.", *id);
+      return fail(ErrorCode::kConflict, "The upload was ended; it can be carried on with.", id);
   }
   if (kept == 0) return tl::unexpected<Error>(uploaded.skipped.front());
   json marks = {{"marks", json::array()}};
@@ -143,9 +150,9 @@ Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& option
       error->message += " Its destination \"" + mark.label + "\" is left out with it.";
     }
   }
-  if (const auto put = call(server, "PUT", "/api/v1/tours/" + *id + "/marks", &marks); !put) return pass_on(put);
+  if (const auto put = call(server, "PUT", "/api/v1/tours/" + id + "/marks", &marks); !put) return pass_on(put);
   const json nothing = json::object();
-  if (const auto done = call(server, "POST", "/api/v1/tours/" + *id + "/complete", &nothing); !done)
+  if (const auto done = call(server, "POST", "/api/v1/tours/" + id + "/complete", &nothing); !done)
     return pass_on(done);
   return uploaded;
 }

@@ -14,6 +14,8 @@ struct UploadOptions {
   std::string folder;
   std::string camera;  // camera.json; empty: the one in the folder
   std::string name;
+  /// No other tour has this name: one that is complete is this one, of which the word that it is did not arrive.
+  bool own_name = false;
   /// Of the pictures in their order, in place of those of the folder; empty: those.
   std::vector<RangeSweep> sweeps = {};
 };
@@ -24,8 +26,9 @@ struct UploadedTour {
 };
 
 /// Brings a folder's tour to a server: pictures, times, odometry, sweeps and marks. A tour of the same name that is
-/// still open is carried on with. Errors: those of TourFolder and read_camera, kIo, and what the server refuses but for
-/// single pictures that it cannot read. `progress` hears the share that is there; false ends it (kConflict).
+/// still open is carried on with; one of its own name that is complete is given as it is. Errors: those of TourFolder
+/// and read_camera, kIo, and what the server refuses but for single pictures that it cannot read. `progress` hears the
+/// share that is there; false ends it (kConflict).
 Result<UploadedTour> upload_tour(RestClient& server, const UploadOptions& options,
                                  const std::function<bool(double)>& progress);
 

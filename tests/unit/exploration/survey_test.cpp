@@ -223,7 +223,7 @@ TEST(SurveyRows, ThereIsOneOfEachPictureAndOneOfTheEnd) {
 
 TEST(SurveyRows, APlaceThatIsKnownAgainNamesItsPictureAndHowWellTheyAgree) {
   Survey survey{ExplorerConfig{}, SurveyConfig{}};
-  const std::vector<DrawnWall> walls = testing::rooms_with_two_doors();
+  const std::vector<testing::DrawnWall> walls = testing::rooms_with_two_doors();
   const Pose2 start{1.0, 0.7, 0.0};
   Pose2 truth = start;
   const std::vector<Eigen::Vector2d> round_m = {{8.9, 0.7}, {8.9, 3.3}, {1.0, 3.3}, {1.0, 0.7}, {3.0, 0.7}};

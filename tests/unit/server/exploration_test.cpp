@@ -334,7 +334,8 @@ TEST(ExplorationEvents, ASlowReaderGetsTheNewestOfEachRobot) {
   for (const std::int64_t pictures : {1, 2, 3}) {
     for (const char* robot : {"a", "b"}) {
       events.publish(
-          wire::ExplorationView{RobotId(robot), report_of(ExplorationId("e"), ExplorationPhase::kExploring, pictures)});
+          wire::ExplorationView{RobotId(robot), std::make_shared<const wire::ExplorationReport>(report_of(
+                                                    ExplorationId("e"), ExplorationPhase::kExploring, pictures))});
     }
   }
   const auto next = [&] { return json::parse(*page->next_message().value().bytes); };
