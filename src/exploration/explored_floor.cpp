@@ -26,15 +26,6 @@ double seen_past_m(const RangeSweep& sweep, double angle_rad) {
 
 }  // namespace
 
-FloorCell FloorFrame::cell(const Eigen::Vector2d& at_m) const {
-  // Far outside the grid it does not matter where.
-  constexpr double kFar = 1e8;
-  const auto number = [&](double off_m) {
-    return static_cast<int>(std::floor(std::clamp(off_m / cell_m, -kFar, kFar)));
-  };
-  return {number(at_m.x() - origin_m.x()), number(at_m.y() - origin_m.y())};
-}
-
 Eigen::Vector2d FloorFrame::centre_m(const FloorCell& cell) const {
   return {origin_m.x() + (cell.column + 0.5) * cell_m, origin_m.y() + (cell.row + 0.5) * cell_m};
 }

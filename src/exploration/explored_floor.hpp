@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,7 +29,14 @@ struct FloorFrame {
   int columns = 0;
   int rows = 0;
 
-  [[nodiscard]] FloorCell cell(const Eigen::Vector2d& at_m) const;
+  [[nodiscard]] FloorCell cell(const Eigen::Vector2d& at_m) const {
+    // Far outside the grid it does not matter where.
+    constexpr double kFar = 1e8;
+    const auto number = [&](double off_m) {
+      return static_cast<int>(std::floor(std::clamp(off_m / cell_m, -kFar, kFar)));
+    };
+    return {number(at_m.x() - origin_m.x()), number(at_m.y() - origin_m.y())};
+  }
   [[nodiscard]] Eigen::Vector2d centre_m(const FloorCell& cell) const;
   [[nodiscard]] bool holds(const FloorCell& cell) const {
     return cell.column >= 0 && cell.row >= 0 && cell.column < columns && cell.row < rows;

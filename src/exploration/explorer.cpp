@@ -147,8 +147,8 @@ std::vector<std::uint8_t> Explorer::given_up_cells() const {
   return cells;
 }
 
-std::optional<NextView> Explorer::next(const Reach& reach, const std::optional<Eigen::Vector2d>& driven_to_m) const {
-  return next_view(floor_, reach, coverage_, given_up_cells(), driven_to_m, config_.view);
+std::optional<NextView> Explorer::next(const Reach& reach, const std::optional<DrivenTo>& driven_to) const {
+  return next_view(floor_, reach, coverage_, given_up_cells(), driven_to, config_.view);
 }
 
 void Explorer::give_up(const Eigen::Vector2d& at_m) { given_up_.push_back(spot_at(at_m)); }

@@ -79,9 +79,8 @@ class Explorer {
   [[nodiscard]] Pose2 floor_from_robot(const Pose2& odometry) const;
   /// What it reaches from there.
   [[nodiscard]] Reach reach(const Pose2& odometry) const;
-  /// Where to take a picture next; nothing: all is explored. `driven_to_m`: where the robot drives now, if it does.
-  [[nodiscard]] std::optional<NextView> next(const Reach& reach,
-                                             const std::optional<Eigen::Vector2d>& driven_to_m) const;
+  /// Where to take a picture next; nothing: all is explored. `driven_to`: where the robot drives now, if it does.
+  [[nodiscard]] std::optional<NextView> next(const Reach& reach, const std::optional<DrivenTo>& driven_to) const;
   /// That place is not wanted again, as long as the loops stand by which it was placed.
   void give_up(const Eigen::Vector2d& at_m);
   /// The way to that place is blocked at a point: the place is not wanted, and no way leads past that point, until

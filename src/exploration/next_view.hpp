@@ -12,14 +12,16 @@
 namespace homeward::exploration {
 
 struct ViewConfig {
-  double covers_m = 1.5;       // a picture covers what is so near to it and in sight
-  double looks_m = 3.0;        // from so far the edge of the known floor is worth looking at
-  double edge_worth_m = 1.0;   // so deep the floor beyond it is taken to be
-  double least_gain_m2 = 0.2;  // less is not worth a way
-  double enough_m2 = 0.5;      // more than that makes no place better: what is near is finished first
-  double kept = 1.3;           // so much better another place has to be than the one driven to
-  double lattice_m = 0.2;      // from one pose that is considered to the next
-  double setting_out_m = 1.0;  // what a way costs besides its length
+  double covers_m = 1.5;        // a picture covers what is so near to it and in sight
+  double looks_m = 3.0;         // from so far the edge of the known floor is worth looking at
+  double edge_worth_m = 1.0;    // so deep the floor beyond it is taken to be
+  double least_gain_m2 = 0.2;   // less is not worth a way
+  double enough_m2 = 2.0;       // more than that makes no view better
+  double setting_out_m = 3.0;   // what the way to a view costs besides its length
+  double lattice_m = 0.4;       // from one pose that is considered to the next
+  double within_m = 14.0;       // of the nearest view that gains anything: farther views are left for later
+  std::size_t most_views = 14;  // so many are put into an order
+  double kept_m = 0.5;          // so much shorter an order has to be than the best that begins with the place driven to
 };
 
 /// Which cells of the floor pictures have covered, and which were looked at from near enough that what is unknown
@@ -46,18 +48,27 @@ class Coverage {
 struct NextView {
   std::size_t cell = 0;
   Eigen::Vector2d at_m = Eigen::Vector2d::Zero();
-  double cost_m = 0.0;   // of the way there
-  double gain_m2 = 0.0;  // floor that it would cover, and that it may find
+  double cost_m = 0.0;     // of the way there
+  double gain_m2 = 0.0;    // floor that it would cover, and that it may find
+  bool overrules = false;  // the place driven to would still have gained something
 };
 
-/// The place from which most is gained for the way there; nothing where no gain is worth a way. `given_up`: cells that
-/// could not be got to, or that nobody wants to be driven to.
+/// The place that the robot drives to.
+struct DrivenTo {
+  Eigen::Vector2d at_m;
+  int changes = 0;  // so often in a row it has been overruled by another
+};
+
+/// The first of a short way past views that gain the most together; nothing where no gain is worth a way. `given_up`:
+/// cells that could not be got to, or that nobody wants to be driven to. `driven_to`: kept, where it still gains
+/// anything and no other order is clearly shorter.
 /// What a picture there gains: floor that the body reaches and no picture covers yet, and floor that may lie beyond the
 /// edge of what is known, where the body would fit through.
 /// Gain over cost: González-Baños & Latombe, Navigation strategies for exploring indoor environments (IJRR 2002); that
-/// floor counts by being covered, and the edge by the floor behind it, is ours.
+/// floor counts by being covered, the edge by the floor behind it, and that several views are put into an order, is
+/// ours: docs/experiments/exploration.md.
 std::optional<NextView> next_view(const ExploredFloor& floor, const Reach& reach, const Coverage& coverage,
-                                  const std::vector<std::uint8_t>& given_up,
-                                  const std::optional<Eigen::Vector2d>& driven_to_m, const ViewConfig& config);
+                                  const std::vector<std::uint8_t>& given_up, const std::optional<DrivenTo>& driven_to,
+                                  const ViewConfig& config);
 
 }  // namespace homeward::exploration

@@ -140,10 +140,17 @@ void Survey::choose(const Pose2& odometry, std::int64_t now_ms) {
   const Reach reach = explorer_.reach(odometry);
   if (goes_home_ || is_time_to_go_home(reach, now_ms)) return go_home(reach, odometry);
   if (!reach.anywhere()) return;
-  const auto next = explorer_.next(reach, target_m_);
+  const auto driven_to = target_m_ ? std::optional(DrivenTo{*target_m_, changes_}) : std::nullopt;
+  const auto next = explorer_.next(reach, driven_to);
   const std::optional<Eigen::Vector2d> before_m = std::exchange(target_m_, std::nullopt);
   if (next) {
     drive_on(reach, next->cell, odometry);
+    const bool same = before_m && (*before_m - *target_m_).norm() < reach.frame().cell_m;
+    if (same) {
+      target_m_ = before_m;  // to the last bit, however the floor's cells are counted now
+    } else {
+      changes_ = next->overrules ? changes_ + 1 : 0;
+    }
     return note_next(*next, before_m, odometry);
   }
   if (tried_ < config_.tries && explorer_.try_blocked_again()) {

@@ -80,6 +80,7 @@ class Survey {
   Explorer explorer_;
   SurveyConfig config_;
   std::optional<Eigen::Vector2d> target_m_;
+  int changes_ = 0;                        // of mind about it in a row
   std::optional<Eigen::Vector2d> goal_m_;  // of the leg, on the floor
   std::optional<std::int64_t> chosen_ms_;
   std::optional<std::int64_t> back_by_ms_;

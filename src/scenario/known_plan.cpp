@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <utility>
 #include <vector>
 
+#include "exploration/visiting_order.hpp"
 #include "scenario/exploration_figures.hpp"
 #include "sim/floor.hpp"
 
@@ -96,74 +96,14 @@ std::vector<double> ways_from(const sim::FloorGrid& grid, const Eigen::Vector2d&
   return ways_m;
 }
 
-using Distances = std::vector<std::vector<double>>;
-
-double length_of(const std::vector<std::size_t>& order, const Distances& apart_m) {
-  double sum_m = 0.0;
-  for (std::size_t i = 1; i < order.size(); ++i) sum_m += apart_m[order[i - 1]][order[i]];
-  return sum_m;
-}
-
-std::vector<std::size_t> nearest_first(const Distances& apart_m) {
-  std::vector<std::size_t> order = {0};
-  std::vector<char> used(apart_m.size(), 0);
-  used[0] = 1;
-  while (order.size() < apart_m.size()) {
-    std::size_t nearest = 0;
-    double least_m = std::numeric_limits<double>::infinity();
-    for (std::size_t next = 0; next < apart_m.size(); ++next) {
-      if (used[next] != 0 || apart_m[order.back()][next] >= least_m) continue;
-      nearest = next;
-      least_m = apart_m[order.back()][next];
-    }
-    used[nearest] = 1;
-    order.push_back(nearest);
-  }
-  return order;
-}
-
-/// One pass of 2-opt and of moving single views, the first one held; whether the way became shorter.
-bool mend(std::vector<std::size_t>& order, const Distances& apart_m) {
-  constexpr double kShorter_m = 1e-6;
-  bool better = false;
-  double length_m = length_of(order, apart_m);
-  const auto keep_if_shorter = [&](std::vector<std::size_t> changed) {
-    const double now_m = length_of(changed, apart_m);
-    if (now_m >= length_m - kShorter_m) return;
-    order = std::move(changed);
-    length_m = now_m;
-    better = true;
-  };
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    for (std::size_t j = i + 1; j < order.size(); ++j) {
-      std::vector<std::size_t> reversed = order;
-      std::reverse(reversed.begin() + static_cast<std::ptrdiff_t>(i),
-                   reversed.begin() + static_cast<std::ptrdiff_t>(j) + 1);
-      keep_if_shorter(std::move(reversed));
-      for (const auto& [from, to] : {std::pair(i, j), std::pair(j, i)}) {
-        std::vector<std::size_t> moved = order;
-        const std::size_t view = moved[from];
-        moved.erase(moved.begin() + static_cast<std::ptrdiff_t>(from));
-        moved.insert(moved.begin() + static_cast<std::ptrdiff_t>(to), view);
-        keep_if_shorter(std::move(moved));
-      }
-    }
-  }
-  return better;
-}
-
 }  // namespace
 
 double known_plan_m(const sim::World& world, const Eigen::Vector2d& from_m, double covers_m) {
   std::vector<Eigen::Vector2d> stops_m = covering_views(world, covers_m);
   stops_m.insert(stops_m.begin(), from_m);
-  Distances apart_m;
+  exploration::StopDistances apart_m;
   for (const Eigen::Vector2d& stop : stops_m) apart_m.push_back(ways_from(world.drivable, stop, stops_m));
-  std::vector<std::size_t> order = nearest_first(apart_m);
-  constexpr int kPasses = 50;
-  for (int pass = 0; pass < kPasses && mend(order, apart_m); ++pass) {
-  }
-  return length_of(order, apart_m);
+  return exploration::order_length_m(exploration::visiting_order(apart_m), apart_m);
 }
 
 }  // namespace homeward::scenario

@@ -8,7 +8,7 @@
 namespace homeward::exploration {
 namespace {
 
-class NextViewTest : public testing::Test {
+class NextViewTest : public ::testing::Test {
  protected:
   void take(const Pose2& pose) {
     const RangeSweep sweep = sweep_of(testing::two_rooms(), pose);
@@ -73,9 +73,27 @@ TEST_F(NextViewTest, ThePlaceDrivenToIsKeptUntilAnotherIsClearlyBetter) {
   ASSERT_TRUE(best);
   // The room is the same to both sides of its middle.
   const Eigen::Vector2d other(best->at_m.x(), 4.0 - best->at_m.y());
-  const auto kept = next_view(floor_, reach, coverage_, none, other, config_);
+  const auto kept = next_view(floor_, reach, coverage_, none, DrivenTo{other}, config_);
   ASSERT_TRUE(kept);
   EXPECT_LT((kept->at_m - other).norm(), 0.05);
+  EXPECT_FALSE(kept->overrules);
+}
+
+TEST_F(NextViewTest, APlaceOutOfTheWayIsOverruledButNotForEver) {
+  take({1.0, 2.0, 0.0});
+  take({2.5, 2.0, 0.0});
+  config_.kept_m = 0.1;
+  const std::vector<std::uint8_t> none(floor_.frame().size(), 0);
+  const Reach reach = Reach::from(floor_, {1.0, 2.0}, {});
+  const Eigen::Vector2d far(4.4, 2.0);
+  const auto changed = next_view(floor_, reach, coverage_, none, DrivenTo{far}, config_);
+  ASSERT_TRUE(changed);
+  EXPECT_TRUE(changed->overrules);
+  EXPECT_GT((changed->at_m - far).norm(), 0.5);
+  const auto kept = next_view(floor_, reach, coverage_, none, DrivenTo{far, 10}, config_);
+  ASSERT_TRUE(kept);
+  EXPECT_FALSE(kept->overrules);
+  EXPECT_LT((kept->at_m - far).norm(), 0.05);
 }
 
 }  // namespace
