@@ -51,7 +51,8 @@ struct KeyView {
   double driven_m = 0.0;                                   // up to there
 };
 
-/// A place that is known already, seen again: a link of the pose graph. It may be wrong, and is taken back then.
+/// A place that is known already, seen again: a link of the pose graph. It may be wrong, and is taken back then; what
+/// was taken back may turn out right.
 struct KnownAgain {
   int now = 0;  // key views
   int then = 0;
@@ -127,9 +128,10 @@ class Explorer {
   ExploredFloor floor_;
   Coverage coverage_;
   std::vector<KeyView> views_;
-  std::vector<Pose2> poses_;  // of the key views
-  std::vector<PoseLink> links_;
-  std::vector<KnownAgain> known_again_;
+  std::vector<Pose2> poses_;     // of the key views
+  std::vector<PoseLink> steps_;  // from key view to key view
+  std::vector<PoseLink> loops_;
+  std::vector<KnownAgain> known_again_;  // one for each loop
   /// A point of the floor that moves with the key view beside which it was given.
   struct Spot {
     std::size_t view = 0;
