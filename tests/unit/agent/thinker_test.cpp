@@ -45,8 +45,8 @@ const pipeline::Eye& eye() {
 class ThinkerTest : public ::testing::Test {
  protected:
   ThinkerTest() {
-    exploration::add_box(walls_, -room().half_length_m, -room().half_width_m, room().half_length_m,
-                         room().half_width_m);
+    homeward::testing::add_box(walls_, -room().half_length_m, -room().half_width_m, room().half_length_m,
+                               room().half_width_m);
     start_program();
   }
 
