@@ -64,6 +64,13 @@ struct KnownAgain {
 /// The whole is ours; what it grew from is Ferdaus 2008, chapter 4 (docs/experiments/exploration.md).
 class Explorer {
  public:
+  /// A point of the floor that moves with the key view beside which it was given.
+  struct Spot {
+    std::size_t view = 0;
+    Eigen::Vector2d seen_from_view_m = Eigen::Vector2d::Zero();
+    friend bool operator==(const Spot&, const Spot&) = default;
+  };
+
   explicit Explorer(const ExplorerConfig& config) : config_(config), floor_(config.floor) {}
 
   /// A new sweep and the odometry of its moment.
@@ -85,6 +92,10 @@ class Explorer {
                                              const std::optional<Eigen::Vector2d>& driven_to_m) const;
   /// That place is not wanted again, as long as the loops stand by which it was placed.
   void give_up(const Eigen::Vector2d& at_m);
+  /// The same place of an exploration that is taken up again: once its key view, and before the next one, was taken.
+  void give_up_again(const Spot& spot) { given_up_.push_back(spot); }
+  /// What is given up, in the order in which it was.
+  [[nodiscard]] const std::vector<Spot>& given_up() const { return given_up_; }
   /// The way to that place is blocked at a point: the place is not wanted, and no way leads past that point, until
   /// `try_blocked_again`.
   void put_off(const Eigen::Vector2d& at_m, const Eigen::Vector2d& blocked_at_m);
@@ -132,11 +143,6 @@ class Explorer {
   std::vector<PoseLink> steps_;  // from key view to key view
   std::vector<PoseLink> loops_;
   std::vector<KnownAgain> known_again_;  // one for each loop
-  /// A point of the floor that moves with the key view beside which it was given.
-  struct Spot {
-    std::size_t view = 0;
-    Eigen::Vector2d seen_from_view_m = Eigen::Vector2d::Zero();
-  };
   [[nodiscard]] Spot spot_at(const Eigen::Vector2d& at_m) const;
   [[nodiscard]] Eigen::Vector2d position_of(const Spot& spot) const;
   void mark_around(const Spot& spot, double within_m, std::vector<std::uint8_t>& cells) const;
