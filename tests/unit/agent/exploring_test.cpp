@@ -103,6 +103,15 @@ class ExploringTest : public ::testing::Test {
   bool sweeps_ = true;
 };
 
+TEST_F(ExploringTest, ASecondProgramDoesNotExploreIntoTheSameFolder) {
+  ThinkerOptions options;
+  options.folder = folder_.path();
+  const auto second = Exploring::create(options, camera_->config(), eye_);
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, ErrorCode::kConflict);
+  EXPECT_EQ(second.error().where, folder_.path().string());
+}
+
 TEST_F(ExploringTest, WhatItDoesNotHaveItDoesNotGoOnWith) {
   EXPECT_EQ(refusal(order("m1", true)), wire::Reason{ReasonCode::kExplorationUnknown});
   EXPECT_FALSE(refusal(order("m1", false)));
