@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kVersion = 2;  // of an exploration, which has places that were given up since
+constexpr int kVersion = 2;  // of an exploration in which places are given up; else 1
 constexpr int kViewVersion = 1;
 constexpr std::size_t kMostGivenUp = 100'000;
 constexpr std::size_t kLongestId = 100;
@@ -58,6 +58,7 @@ std::vector<KeptSpot> read_given_up(ObjectReader& outer) {
     outer.close(reader);
     given_up.push_back(spot);
   }
+  if (given_up.empty()) outer.problem("given_up", "An exploration in which no place is given up has version 1.");
   return given_up;
 }
 
@@ -71,15 +72,16 @@ bool can_name_folder(const ExplorationId& id) {
 }
 
 json kept_exploration_to_json(const KeptExploration& kept) {
-  return {{"format", "homeward-kept-exploration"},
-          {"version", kVersion},
-          {"id", kept.id.str()},
-          {"begun_us", kept.begun_us},
-          {"fences", fences_to_json(kept.fences_m)},
-          {"given_up", given_up_to_json(kept.given_up)},
-          {"ended", kept.ended},
-          {"reason", reason_to_json(kept.reason)},
-          {"tour", or_null(kept.tour)}};
+  json value = {{"format", "homeward-kept-exploration"},
+                {"version", kept.given_up.empty() ? 1 : kVersion},
+                {"id", kept.id.str()},
+                {"begun_us", kept.begun_us},
+                {"fences", fences_to_json(kept.fences_m)},
+                {"ended", kept.ended},
+                {"reason", reason_to_json(kept.reason)},
+                {"tour", or_null(kept.tour)}};
+  if (!kept.given_up.empty()) value["given_up"] = given_up_to_json(kept.given_up);
+  return value;
 }
 
 json kept_view_to_json(const KeptView& view) {

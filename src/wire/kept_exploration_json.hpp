@@ -29,7 +29,7 @@ struct KeptExploration {
   ExplorationId id;  // can_name_folder
   TimeUs begun_us = 0;
   std::vector<Fence> fences_m;
-  std::vector<KeptSpot> given_up;  // in the order in which they were; a file of version 1 has none
+  std::vector<KeptSpot> given_up;  // in the order in which they were
   bool ended = false;
   std::optional<Reason> reason;  // why it ended
   std::optional<TourId> tour;    // that its pictures are on the server
