@@ -182,7 +182,7 @@ void print_words(const scenario::ExplorationResult& explored, const map::Topolog
               figures.reachable_m2, figures.wrong_edges);
   if (agreement.apart_in_map == 0 && agreement.missed_by_map == 0) return;
   std::printf(
-      "The map contradicts the exploration: %d pictures share a place with another one more than 4 m off, and %d that "
+      "The map and the exploration differ: %d pictures share a place with another one more than 4 m off, and %d that "
       "were known again have two places without an edge. Why, says homeward map build --tour %s --report DIR.\n",
       agreement.apart_in_map, agreement.missed_by_map, (out / "tour").string().c_str());
 }

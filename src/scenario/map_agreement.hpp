@@ -18,8 +18,9 @@ struct ExploredGraph {
   std::vector<exploration::KnownAgain> known_again;  // by the numbers of the images
 };
 
-/// Where the map of an exploration's tour contradicts the exploration. Neither knows the truth: whoever wants to know
-/// which of them is wrong looks at the map's evidence.
+/// Where the map of an exploration's tour differs from the exploration. Neither knows the truth: whoever wants to know
+/// which of them is wrong looks at the map's evidence. Places beside each other between which nobody drove have no
+/// edge, so that some are missed in maps without a fault.
 struct MapAgreement {
   int apart_in_map = 0;   // pictures that share a place with another one more than 4 m off, by the exploration
   int missed_by_map = 0;  // pictures known again by others (and not taken back) that have two places without an edge
