@@ -41,6 +41,12 @@ Status has_told(const RobotUnit& unit) {
   return fail(ErrorCode::kNotFound, "The robot has told of no exploration.", where_of(unit));
 }
 
+// What changes an exploration: who drives a robot that is there and has told of one.
+Status may_change(const RobotUnit& unit, const std::string& lease_id, SteadyTime now) {
+  if (const Status status = may_order(unit, lease_id, now); !status) return status;
+  return has_told(unit);
+}
+
 // What forbids an exploration now, with the unit locked.
 Status may_explore(const RobotUnit& unit, const Driving::ExplorationRequest& request, SteadyTime now) {
   if (const Status status = may_order(unit, request.lease_id, now); !status) return status;
@@ -118,8 +124,7 @@ Status Driving::set_fences(const RobotId& id, const std::string& lease_id, const
   if (!found) return pass_on(found);
   RobotUnit& unit = **found;
   const std::scoped_lock lock(unit.mutex);
-  if (const Status status = may_order(unit, lease_id, clock_.steady()); !status) return status;
-  if (const Status told = has_told(unit); !told) return told;
+  if (const Status status = may_change(unit, lease_id, clock_.steady()); !status) return status;
   if (unit.explores() && unit.mission->exploration != unit.exploration->id) {
     return fail(ErrorCode::kConflict, "The robot has not told of its exploration yet; try again in a moment.",
                 where_of(unit));
@@ -135,8 +140,7 @@ Status Driving::finish_exploration(const RobotId& id, const std::string& lease_i
   if (!found) return pass_on(found);
   RobotUnit& unit = **found;
   const std::scoped_lock lock(unit.mutex);
-  if (const Status status = may_order(unit, lease_id, clock_.steady()); !status) return status;
-  if (const Status told = has_told(unit); !told) return told;
+  if (const Status status = may_change(unit, lease_id, clock_.steady()); !status) return status;
   if (unit.explores()) return fail(ErrorCode::kConflict, "The robot explores just now; stop it first.", where_of(unit));
   unit.link->send(wire::Finish{unit.exploration->id});
   spdlog::info("robot {} exploration {} is ended by {}", id.str(), unit.exploration->id.str(), unit.lease->holder);

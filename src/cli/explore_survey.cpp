@@ -22,6 +22,7 @@
 #include "scenario/exploration_figures.hpp"
 #include "scenario/exploration_run.hpp"
 #include "scenario/known_plan.hpp"
+#include "scenario/map_agreement.hpp"
 #include "sim/floor.hpp"
 
 namespace homeward::cli {
@@ -170,6 +171,22 @@ Result<scenario::ExplorationPlan> plan_of(const ExploreOptions& options, const E
   return plan;
 }
 
+void print_words(const scenario::ExplorationResult& explored, const map::TopologicalMap& map, const fs::path& out,
+                 const scenario::ExplorationFigures& figures, const scenario::MapAgreement& agreement) {
+  const std::string reason = reason_of(explored);
+  std::printf("%s: %zu pictures, %.0f m driven in %.0f s, %d collisions\n", name_of(explored.ended),
+              explored.pictures.size(), explored.driven_m, explored.duration_s, explored.collisions);
+  if (!reason.empty()) std::printf("%s\n", reason.c_str());
+  std::printf("%s: %s\n", summary(map).c_str(), (out / "map.hwmap").string().c_str());
+  std::printf("%.1f %% of %.0f m2 lie within 2 m and in sight of a place; %d wrong edges\n", 100.0 * figures.covered,
+              figures.reachable_m2, figures.wrong_edges);
+  if (agreement.apart_in_map == 0 && agreement.missed_by_map == 0) return;
+  std::printf(
+      "The map and the exploration differ: %d pictures share a place with another one more than 4 m off, and %d that "
+      "were known again have two places without an edge. Why, says homeward map build --tour %s --report DIR.\n",
+      agreement.apart_in_map, agreement.missed_by_map, (out / "tour").string().c_str());
+}
+
 }  // namespace
 
 Status explore_by_survey(const ExploreOptions& options, const sim::World& world, const camera::CameraConfig& camera,
@@ -183,22 +200,27 @@ Status explore_by_survey(const ExploreOptions& options, const sim::World& world,
   const auto map = build_map_of(out / "tour", out / "map.hwmap", camera, options);
   if (!map) return pass_on(map);
   std::unordered_map<ImageId, Pose2> taken;
+  scenario::ExploredGraph graph{{}, explored->poses, explored->known_again};
   for (std::size_t i = 0; i < explored->pictures.size(); ++i) {
     char name[40];
     std::snprintf(name, sizeof name, "tour/%05zu.jpg", i);
-    taken.emplace(ImageId(name), explored->pictures[i].truth);
+    graph.images.emplace_back(name);
+    taken.emplace(graph.images.back(), explored->pictures[i].truth);
   }
   const Image plan = exploration_picture(world, *map, taken, *explored);
   if (Status written = write_png(out / "plan.png", plan); !written) return written;
+  const scenario::MapAgreement agreement = scenario::map_agreement(*map, graph);
   const scenario::ExplorationFigures figures = scenario::exploration_figures(world, *map, taken);
-  const std::string reason = reason_of(*explored);
   if (options.json) {
+    const std::string reason = reason_of(*explored);
     print_json({{"covered", figures.covered},
                 {"reachable_m2", figures.reachable_m2},
                 {"nodes", map->places.size()},
                 {"edges", map->edges.size()},
                 {"wrong_edges", figures.wrong_edges},
                 {"mixed_places", figures.mixed_places},
+                {"apart_in_map", agreement.apart_in_map},
+                {"missed_by_map", agreement.missed_by_map},
                 {"pictures", explored->pictures.size()},
                 {"driven_m", explored->driven_m},
                 {"known_plan_m", scenario::known_plan_m(world, position_m(explored->pictures.front().truth),
@@ -213,12 +235,7 @@ Status explore_by_survey(const ExploreOptions& options, const sim::World& world,
                 {"reason", reason.empty() ? nlohmann::json() : nlohmann::json(reason)}});
     return {};
   }
-  std::printf("%s: %zu pictures, %.0f m driven in %.0f s, %d collisions\n", name_of(explored->ended),
-              explored->pictures.size(), explored->driven_m, explored->duration_s, explored->collisions);
-  if (!reason.empty()) std::printf("%s\n", reason.c_str());
-  std::printf("%s: %s\n", summary(*map).c_str(), (out / "map.hwmap").string().c_str());
-  std::printf("%.1f %% of %.0f m2 lie within 2 m and in sight of a place; %d wrong edges\n", 100.0 * figures.covered,
-              figures.reachable_m2, figures.wrong_edges);
+  print_words(*explored, *map, out, figures, agreement);
   return {};
 }
 

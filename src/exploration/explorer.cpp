@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/angles.hpp"
+#include "exploration/believed_loops.hpp"
 #include "matching/verify.hpp"
 
 namespace homeward::exploration {
@@ -75,7 +76,7 @@ void Explorer::take(const RangeSweep& sweep, const Pose2& odometry,
     const bool agrees = align_to_recent(view.surface, odometry);
     view.driven_m = views_.back().driven_m + length_m(inverse(views_.back().odometry) * odometry);
     const int last = static_cast<int>(views_.size()) - 1;
-    links_.push_back({last, last + 1, inverse(poses_.back()) * aligned_, agrees ? 0.01 : wheels.spread_m,
+    steps_.push_back({last, last + 1, inverse(poses_.back()) * aligned_, agrees ? 0.01 : wheels.spread_m,
                       agrees ? radians(0.3) : wheels.spread_rad, false});
   }
   views_.push_back(std::move(view));
@@ -237,7 +238,7 @@ void Explorer::look_for_loop() {
   if (then < 0) return;
   const auto loop = loop_with(then);
   if (!loop) return;
-  links_.push_back(loop->link);
+  loops_.push_back(loop->link);
   known_again_.push_back({newest, then, loop->agreement, false});
   // What fits already need not be laid out again.
   constexpr double kFits = 1.5;
@@ -248,22 +249,17 @@ void Explorer::look_for_loop() {
 /// Settles the poses by all links and puts the floor together anew. A loop that the others contradict is taken back,
 /// and with it the places that were given up since.
 void Explorer::lay_out_again() {
-  settle(poses_, links_);
-  constexpr double kWrong = 8.0;  // spreads
-  std::optional<int> taken_back;  // the first key view since which a wrong loop was believed
-  std::size_t loop = 0;
-  std::erase_if(links_, [&](const PoseLink& link) {
-    if (!link.loop) return false;
-    while (known_again_[loop].taken_back) ++loop;
-    KnownAgain& known = known_again_[loop++];
-    if (strain(poses_, link) < kWrong) return false;
-    known.taken_back = true;
-    taken_back = std::min(taken_back.value_or(known.now), known.now);
-    return true;
-  });
-  if (taken_back) {
-    settle(poses_, links_);
-    std::erase_if(given_up_, [&](const Spot& spot) { return spot.view >= static_cast<std::size_t>(*taken_back); });
+  constexpr int kLatest = 30;  // key views
+  std::vector<std::uint8_t> believed;
+  for (const KnownAgain& known : known_again_) believed.push_back(known.taken_back ? 0 : 1);
+  const int since = static_cast<int>(views_.size()) - kLatest;
+  SettledLoops settled = settle_loops(poses_, steps_, loops_, std::move(believed), since);
+  poses_ = std::move(settled.poses);
+  for (std::size_t i = 0; i < loops_.size(); ++i) {
+    KnownAgain& known = known_again_[i];
+    const bool was_believed = !std::exchange(known.taken_back, settled.believed[i] == 0);
+    if (!was_believed || !known.taken_back) continue;
+    std::erase_if(given_up_, [&](const Spot& spot) { return spot.view >= static_cast<std::size_t>(known.now); });
   }
   aligned_ = poses_.back();
   aligned_odometry_ = views_.back().odometry;
@@ -271,7 +267,7 @@ void Explorer::lay_out_again() {
   double moved_m = 0.0;
   for (std::size_t i = 0; i < poses_.size(); ++i)
     moved_m = std::max(moved_m, (position_m(poses_[i]) - position_m(laid_out_[i])).norm());
-  if (!taken_back && moved_m < config_.floor.cell_m) return;
+  if (moved_m < config_.floor.cell_m) return;
   ++layouts_;
   laid_out_ = poses_;
   floor_.forget();

@@ -51,7 +51,8 @@ struct KeyView {
   double driven_m = 0.0;                                   // up to there
 };
 
-/// A place that is known already, seen again: a link of the pose graph. It may be wrong, and is taken back then.
+/// A place that is known already, seen again: a link of the pose graph. It may be wrong, and is taken back then; what
+/// was taken back may turn out right.
 struct KnownAgain {
   int now = 0;  // key views
   int then = 0;
@@ -63,6 +64,13 @@ struct KnownAgain {
 /// The whole is ours; what it grew from is Ferdaus 2008, chapter 4 (docs/experiments/exploration.md).
 class Explorer {
  public:
+  /// A point of the floor that moves with the key view beside which it was given.
+  struct Spot {
+    std::size_t view = 0;
+    Eigen::Vector2d seen_from_view_m = Eigen::Vector2d::Zero();
+    friend bool operator==(const Spot&, const Spot&) = default;
+  };
+
   explicit Explorer(const ExplorerConfig& config) : config_(config), floor_(config.floor) {}
 
   /// A new sweep and the odometry of its moment.
@@ -83,6 +91,10 @@ class Explorer {
   [[nodiscard]] std::optional<NextView> next(const Reach& reach, const std::optional<DrivenTo>& driven_to) const;
   /// That place is not wanted again, as long as the loops stand by which it was placed.
   void give_up(const Eigen::Vector2d& at_m);
+  /// The same place of an exploration that is taken up again: once its key view, and before the next one, was taken.
+  void give_up_again(const Spot& spot) { given_up_.push_back(spot); }
+  /// What is given up, in the order in which it was.
+  [[nodiscard]] const std::vector<Spot>& given_up() const { return given_up_; }
   /// The way to that place is blocked at a point: the place is not wanted, and no way leads past that point, until
   /// `try_blocked_again`.
   void put_off(const Eigen::Vector2d& at_m, const Eigen::Vector2d& blocked_at_m);
@@ -126,14 +138,10 @@ class Explorer {
   ExploredFloor floor_;
   Coverage coverage_;
   std::vector<KeyView> views_;
-  std::vector<Pose2> poses_;  // of the key views
-  std::vector<PoseLink> links_;
-  std::vector<KnownAgain> known_again_;
-  /// A point of the floor that moves with the key view beside which it was given.
-  struct Spot {
-    std::size_t view = 0;
-    Eigen::Vector2d seen_from_view_m = Eigen::Vector2d::Zero();
-  };
+  std::vector<Pose2> poses_;     // of the key views
+  std::vector<PoseLink> steps_;  // from key view to key view
+  std::vector<PoseLink> loops_;
+  std::vector<KnownAgain> known_again_;  // one for each loop
   [[nodiscard]] Spot spot_at(const Eigen::Vector2d& at_m) const;
   [[nodiscard]] Eigen::Vector2d position_of(const Spot& spot) const;
   void mark_around(const Spot& spot, double within_m, std::vector<std::uint8_t>& cells) const;

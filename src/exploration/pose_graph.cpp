@@ -33,7 +33,7 @@ struct LinkCost {
 
 }  // namespace
 
-void settle(std::vector<Pose2>& poses, const std::vector<PoseLink>& links) {
+void settle(std::vector<Pose2>& poses, const std::vector<PoseLink>& links, double looseness) {
   if (poses.size() < 2 || links.empty()) return;
   std::vector<std::array<double, 3>> values;
   values.reserve(poses.size());
@@ -42,7 +42,7 @@ void settle(std::vector<Pose2>& poses, const std::vector<PoseLink>& links) {
   for (const PoseLink& link : links) {
     // Ceres takes what it is given into its own hands.
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LinkCost, 3, 3, 3>(new LinkCost{link}),
-                             link.loop ? new ceres::CauchyLoss(1.0) : nullptr,
+                             link.loop ? new ceres::CauchyLoss(looseness) : nullptr,
                              values[static_cast<std::size_t>(link.a)].data(),
                              values[static_cast<std::size_t>(link.b)].data());
   }

@@ -18,8 +18,8 @@ struct PoseLink {
 };
 
 /// The most probable poses by all links, the first one held; improved from where they are (a pose graph, Lu & Milios
-/// 1997). Same input, same poses.
-void settle(std::vector<Pose2>& poses, const std::vector<PoseLink>& links);
+/// 1997). A loop counts less from so many spreads on: `looseness`. Same input, same poses.
+void settle(std::vector<Pose2>& poses, const std::vector<PoseLink>& links, double looseness = 1.0);
 
 /// How far a link is from the poses, in units of its spread.
 double strain(const std::vector<Pose2>& poses, const PoseLink& link);

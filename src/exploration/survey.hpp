@@ -55,6 +55,9 @@ class Survey {
   /// The picture that the last step asked for, with the sweep and the odometry of the same moment.
   void take(const RangeSweep& sweep, const Pose2& odometry, std::shared_ptr<const features::Appearance> appearance);
 
+  /// See Explorer::give_up_again.
+  void give_up_again(const Explorer::Spot& spot) { explorer_.give_up_again(spot); }
+
   /// The rows of its table of states since this was called last, in their order.
   std::vector<SurveyRow> take_rows() { return std::exchange(rows_, {}); }
 

@@ -81,6 +81,7 @@ class ExplorationLoop {
 
   ExplorationResult finish() {
     result_.poses = survey_.explorer().poses();
+    result_.known_again = survey_.explorer().known_again();
     result_.unreached = survey_.explorer().put_off();
     result_.driven_m = robot_.vehicle().path_m();
     result_.duration_s = now_s();

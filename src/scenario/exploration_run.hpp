@@ -40,8 +40,9 @@ enum class ExplorationEnd : std::uint8_t { kComplete, kBack, kLimit, kStuck, kSt
 
 struct ExplorationResult {
   std::vector<ExploredPicture> pictures;
-  std::vector<Pose2> poses;   // of the pictures by what the robot knows in the end; the first one is the origin
-  std::size_t unreached = 0;  // places that were wanted and that blocked ways led to
+  std::vector<Pose2> poses;  // of the pictures by what the robot knows in the end; the first one is the origin
+  std::vector<exploration::KnownAgain> known_again;
+  std::size_t unreached = 0;             // places that were wanted and that blocked ways led to
   std::vector<Eigen::Vector2d> trail_m;  // where it truly drove, for judging only
   ExplorationEnd ended = ExplorationEnd::kComplete;
   std::string reason;  // where it was stopped

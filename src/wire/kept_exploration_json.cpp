@@ -15,7 +15,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;  // of an exploration in which places are given up; else 1
+constexpr int kViewVersion = 1;
+constexpr std::size_t kMostGivenUp = 100'000;
 constexpr std::size_t kLongestId = 100;
 
 json odometry_to_json(const Pose2& pose) {
@@ -32,6 +34,34 @@ Pose2 read_odometry(ObjectReader& outer, const std::string& key) {
   return pose;
 }
 
+json given_up_to_json(const std::vector<KeptSpot>& given_up) {
+  json list = json::array();
+  for (const KeptSpot& spot : given_up) {
+    list.push_back({{"view", spot.view}, {"seen_from_view_m", {spot.seen_from_view_m.x(), spot.seen_from_view_m.y()}}});
+  }
+  return list;
+}
+
+std::vector<KeptSpot> read_given_up(ObjectReader& outer) {
+  constexpr std::int64_t kMostViews = 1'000'000;
+  constexpr double kFarthest_m = 1e5;
+  std::vector<KeptSpot> given_up;
+  std::size_t index = 0;
+  for (const json& item : outer.array("given_up", kMostGivenUp)) {
+    ObjectReader reader(item, outer.path_of("given_up") + "/" + std::to_string(index++));
+    KeptSpot spot;
+    spot.view = reader.integer("view", 0, kMostViews);
+    const std::vector<double> at_m = reader.numbers("seen_from_view_m", 2);
+    if (at_m.size() == 2) spot.seen_from_view_m = {at_m[0], at_m[1]};
+    if (!(spot.seen_from_view_m.cwiseAbs().maxCoeff() <= kFarthest_m))
+      reader.problem("seen_from_view_m", "A place that was given up lies within 100 km.");
+    outer.close(reader);
+    given_up.push_back(spot);
+  }
+  if (given_up.empty()) outer.problem("given_up", "An exploration in which no place is given up has version 1.");
+  return given_up;
+}
+
 }  // namespace
 
 bool can_name_folder(const ExplorationId& id) {
@@ -42,19 +72,21 @@ bool can_name_folder(const ExplorationId& id) {
 }
 
 json kept_exploration_to_json(const KeptExploration& kept) {
-  return {{"format", "homeward-kept-exploration"},
-          {"version", kVersion},
-          {"id", kept.id.str()},
-          {"begun_us", kept.begun_us},
-          {"fences", fences_to_json(kept.fences_m)},
-          {"ended", kept.ended},
-          {"reason", reason_to_json(kept.reason)},
-          {"tour", or_null(kept.tour)}};
+  json value = {{"format", "homeward-kept-exploration"},
+                {"version", kept.given_up.empty() ? 1 : kVersion},
+                {"id", kept.id.str()},
+                {"begun_us", kept.begun_us},
+                {"fences", fences_to_json(kept.fences_m)},
+                {"ended", kept.ended},
+                {"reason", reason_to_json(kept.reason)},
+                {"tour", or_null(kept.tour)}};
+  if (!kept.given_up.empty()) value["given_up"] = given_up_to_json(kept.given_up);
+  return value;
 }
 
 json kept_view_to_json(const KeptView& view) {
   return {{"format", "homeward-kept-view"},
-          {"version", kVersion},
+          {"version", kViewVersion},
           {"t_us", view.t_us},
           {"odometry", odometry_to_json(view.odometry)},
           {"odometry_moved", view.odometry_moved ? odometry_to_json(*view.odometry_moved) : json()},
@@ -65,12 +97,13 @@ json kept_view_to_json(const KeptView& view) {
 
 Result<KeptExploration> kept_exploration_from_json(const json& value, const std::string& path) {
   ObjectReader reader(value, path);
-  reader.format("homeward-kept-exploration", kVersion);
+  const int version = reader.format("homeward-kept-exploration", 1, kVersion);
   KeptExploration kept;
   kept.id = ExplorationId(reader.text("id", kLongestId));
   if (!can_name_folder(kept.id)) reader.problem("id", "'id' must be of letters, digits, '_' and '-'.");
   kept.begun_us = reader.integer("begun_us", 0, std::numeric_limits<std::int64_t>::max());
   kept.fences_m = reader.take(fences_from_json(reader.value("fences"), reader.path_of("fences")));
+  if (version >= 2) kept.given_up = read_given_up(reader);
   kept.ended = reader.boolean("ended");
   if (const json& reason = reader.value("reason"); !reason.is_null())
     kept.reason = reader.take(reason_from_json(reason, reader.path_of("reason")));
@@ -81,7 +114,7 @@ Result<KeptExploration> kept_exploration_from_json(const json& value, const std:
 
 Result<KeptView> kept_view_from_json(const json& value, const std::string& path) {
   ObjectReader reader(value, path);
-  reader.format("homeward-kept-view", kVersion);
+  reader.format("homeward-kept-view", kViewVersion);
   KeptView view;
   view.t_us = reader.integer("t_us", 0, std::numeric_limits<std::int64_t>::max());
   view.odometry = read_odometry(reader, "odometry");

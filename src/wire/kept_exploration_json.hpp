@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -15,11 +17,19 @@
 
 namespace homeward::wire {
 
+/// A place that was given up, beside a picture (exploration::Explorer::Spot).
+struct KeptSpot {
+  std::int64_t view = 0;
+  Eigen::Vector2d seen_from_view_m = Eigen::Vector2d::Zero();  // frame of the robot at that picture
+  friend bool operator==(const KeptSpot&, const KeptSpot&) = default;
+};
+
 /// What a robot keeps of an exploration beside its views (proto/schemas/kept_exploration.schema.json).
 struct KeptExploration {
   ExplorationId id;  // can_name_folder
   TimeUs begun_us = 0;
   std::vector<Fence> fences_m;
+  std::vector<KeptSpot> given_up;  // in the order in which they were
   bool ended = false;
   std::optional<Reason> reason;  // why it ended
   std::optional<TourId> tour;    // that its pictures are on the server

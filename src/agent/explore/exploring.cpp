@@ -31,11 +31,16 @@ bool explores(const driving::DrivingState& state) {
 Result<std::unique_ptr<Exploring>> Exploring::create(ThinkerOptions options, const camera::CameraConfig& camera,
                                                      const pipeline::Eye& eye) {
   if (const Status made = files::make_folder(options.folder); !made) return pass_on(made);
-  return std::unique_ptr<Exploring>(new Exploring(std::move(options), camera, eye));
+  auto lock = files::FolderLock::take(options.folder, "folder of explorations");
+  if (!lock) return pass_on(lock);
+  return std::unique_ptr<Exploring>(new Exploring(std::move(*lock), std::move(options), camera, eye));
 }
 
-Exploring::Exploring(ThinkerOptions options, const camera::CameraConfig& camera, const pipeline::Eye& eye)
-    : thinker_(std::move(options), camera, eye), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+Exploring::Exploring(files::FolderLock lock, ThinkerOptions options, const camera::CameraConfig& camera,
+                     const pipeline::Eye& eye)
+    : lock_(std::move(lock)),
+      thinker_(std::move(options), camera, eye),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 Exploring::~Exploring() {
   thread_.request_stop();

@@ -13,6 +13,7 @@
 #include "agent/explore/thinker.hpp"
 #include "driving/driving_state.hpp"
 #include "driving/inputs.hpp"
+#include "files/folder_lock.hpp"
 #include "recording/look.hpp"
 #include "wire/link_messages.hpp"
 
@@ -22,7 +23,8 @@ namespace homeward::agent {
 /// own (Thinker): the loop never waits for it. All but the destructor are called by the loop.
 class Exploring {
  public:
-  /// `eye` has to outlive it. Errors: kIo (the folder cannot be made).
+  /// `eye` has to outlive it. Errors: kIo (the folder cannot be made), kConflict
+  /// (another program explores into it).
   static Result<std::unique_ptr<Exploring>> create(ThinkerOptions options, const camera::CameraConfig& camera,
                                                    const pipeline::Eye& eye);
   ~Exploring();
@@ -44,7 +46,8 @@ class Exploring {
   std::vector<wire::StateRow> take_rows();
 
  private:
-  Exploring(ThinkerOptions options, const camera::CameraConfig& camera, const pipeline::Eye& eye);
+  Exploring(files::FolderLock lock, ThinkerOptions options, const camera::CameraConfig& camera,
+            const pipeline::Eye& eye);
   void run(const std::stop_token& stop);
   void note_orders(const driving::Inputs& inputs, const driving::DrivingState& state);
   void watch_odometry(const driving::Inputs& inputs, const driving::DrivingState& state, driving::Milliseconds now_ms);
@@ -52,7 +55,8 @@ class Exploring {
                                       driving::Milliseconds now_ms) const;
   [[nodiscard]] std::optional<wire::Reason> why_not(const wire::ExploreOrder& order) const;
 
-  Thinker thinker_;  // the thread's
+  files::FolderLock lock_;  // of the folder
+  Thinker thinker_;         // the thread's
   // The loop's own:
   std::optional<MissionId> followed_;
   std::deque<std::pair<driving::Milliseconds, Pose2>> odometry_;  // of the last second

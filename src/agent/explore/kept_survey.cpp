@@ -44,6 +44,7 @@ Result<KeptSurvey> KeptSurvey::restore(KeptFiles files, const pipeline::Eye& eye
                                        const std::function<bool(double)>& progress, std::optional<Error>& unread) {
   KeptSurvey kept(std::move(files), config);
   const std::size_t pictures = kept.files_.size();
+  const std::vector<wire::KeptSpot> given_up = kept.files_.kept().given_up;
   for (std::size_t i = 0; i < pictures; ++i) {
     if (progress && !progress(static_cast<double>(i) / static_cast<double>(pictures))) {
       return fail(ErrorCode::kConflict, "The program ends.", kept.files_.picture(i).string());
@@ -58,6 +59,8 @@ Result<KeptSurvey> KeptSurvey::restore(KeptFiles files, const pipeline::Eye& eye
     }
     if (view->odometry_moved) kept.survey_.go_on_anew(view->odometry_moved);
     kept.survey_.take(view->sweep, view->odometry, *seen);
+    for (const wire::KeptSpot& spot : given_up)
+      if (spot.view == static_cast<std::int64_t>(i)) kept.survey_.give_up_again({i, spot.seen_from_view_m});
     kept.driven_m_ = view->driven_m;
     kept.explored_s_ = view->explored_s;
   }
@@ -95,6 +98,16 @@ KeptSurvey::Next KeptSurvey::see(const Sensed& sensed, bool blocked) {
   const exploration::SurveyStep step = survey_.go_on(sensed.sweep, sensed.odometry, blocked, sensed.sensors_ms);
   if (!step.ended) return {step.goal_m, step.takes_picture, std::nullopt};
   return {std::nullopt, step.takes_picture, driving::exploration_over(*step.ended, survey_.explorer().put_off())};
+}
+
+Status KeptSurvey::keep_given_up() {
+  std::vector<wire::KeptSpot> given_up;
+  for (const exploration::Explorer::Spot& spot : survey_.explorer().given_up())
+    given_up.push_back({static_cast<std::int64_t>(spot.view), spot.seen_from_view_m});
+  if (given_up == files_.kept().given_up) return {};
+  wire::KeptExploration kept = files_.kept();
+  kept.given_up = std::move(given_up);
+  return files_.keep(kept);
 }
 
 Status KeptSurvey::take(const SensedPicture& picture) {

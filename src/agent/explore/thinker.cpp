@@ -110,7 +110,7 @@ void Thinker::obey(const OrderObeyed& obeyed) {
     if (const Status ended = end_current(wire::Reason{ReasonCode::kExplorationEndedByHand}); !ended)
       return broken(ended.error());
   }
-  auto begun = KeptSurvey::begin(options_.folder, {obeyed.order.exploration, now_us(), {}, false, {}, {}}, camera_,
+  auto begun = KeptSurvey::begin(options_.folder, {obeyed.order.exploration, now_us(), {}, {}, false, {}, {}}, camera_,
                                  options_.explorer);
   if (!begun) return broken(begun.error());
   current_ = std::move(*begun);
@@ -227,6 +227,7 @@ void Thinker::explore(const ToThinker& mail) {
     return end_by({true, wire::Reason{ReasonCode::kRobotMovedSince}});  // it sees where it stands when it is sent on
   const Sensed& sensed = mail.sweeps.back();
   const KeptSurvey::Next next = current_->see(sensed, mail.blocked);
+  if (const Status kept = current_->keep_given_up(); !kept) return broken(kept.error());
   said_.leg.reset();
   if (next.goal_m) said_.leg = driving::Leg{*next.goal_m, kLegShare * exploration::SurveyConfig{}.there_m};
   if (next.takes_picture && !wants_picture_since_ms_) wants_picture_since_ms_ = sensed.sensors_ms;

@@ -24,7 +24,8 @@ class ExploringTest : public ::testing::Test {
   ExploringTest()
       : camera_(camera::Camera::create(homeward::testing::sphere_camera(320)).value()),
         eye_(pipeline::Eye::create(camera_->config(), pipeline::suited_feature_config(*camera_)).value()) {
-    exploration::add_box(walls_, -room_.half_length_m, -room_.half_width_m, room_.half_length_m, room_.half_width_m);
+    homeward::testing::add_box(walls_, -room_.half_length_m, -room_.half_width_m, room_.half_length_m,
+                               room_.half_width_m);
     const Image image = homeward::testing::painted_picture(room_, {}, *camera_);
     jpeg_ = std::make_shared<const std::vector<std::uint8_t>>(imageio::encode_jpeg(image, 95));
     seen_ = std::make_shared<const features::Appearance>(*eye_.look(*imageio::decode(*jpeg_, "picture")));
@@ -101,6 +102,15 @@ class ExploringTest : public ::testing::Test {
   Pose2 odometry_;
   bool sweeps_ = true;
 };
+
+TEST_F(ExploringTest, ASecondProgramDoesNotExploreIntoTheSameFolder) {
+  ThinkerOptions options;
+  options.folder = folder_.path();
+  const auto second = Exploring::create(options, camera_->config(), eye_);
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, ErrorCode::kConflict);
+  EXPECT_EQ(second.error().where, folder_.path().string());
+}
 
 TEST_F(ExploringTest, WhatItDoesNotHaveItDoesNotGoOnWith) {
   EXPECT_EQ(refusal(order("m1", true)), wire::Reason{ReasonCode::kExplorationUnknown});

@@ -64,6 +64,20 @@ TEST_F(KeptFilesTest, APictureWithoutItsViewDoesNotCountAndIsWrittenOver) {
   EXPECT_EQ(std::filesystem::file_size(again.picture(1)), kJpeg.size());
 }
 
+TEST_F(KeptFilesTest, PlacesThatWereGivenUpAreThereAgainAndAFileOfBeforeHasNone) {
+  KeptFiles files = made("x1");
+  wire::KeptExploration kept = files.kept();
+  kept.given_up = {{0, {0.5, -0.125}}, {3, {0.0, 0.25}}};
+  ASSERT_TRUE(files.keep(kept));
+  EXPECT_EQ(KeptFiles::open(root_.path() / "x1")->kept().given_up, kept.given_up);
+  std::ofstream(root_.path() / "x1" / "exploration.json")
+      << R"({"format": "homeward-kept-exploration", "version": 1, "id": "x1", "begun_us": 5, "fences": [],)"
+         R"( "ended": false, "reason": null, "tour": null})";
+  const auto before = KeptFiles::open(root_.path() / "x1");
+  ASSERT_TRUE(before) << before.error().message;
+  EXPECT_TRUE(before->kept().given_up.empty());
+}
+
 TEST_F(KeptFilesTest, OneIsNotMadeTwice) {
   made("x1");
   EXPECT_EQ(KeptFiles::create(root_.path(), kept_as("x1"), homeward::testing::sphere_camera()).error().code,

@@ -45,8 +45,8 @@ const pipeline::Eye& eye() {
 class ThinkerTest : public ::testing::Test {
  protected:
   ThinkerTest() {
-    exploration::add_box(walls_, -room().half_length_m, -room().half_width_m, room().half_length_m,
-                         room().half_width_m);
+    homeward::testing::add_box(walls_, -room().half_length_m, -room().half_width_m, room().half_length_m,
+                               room().half_width_m);
     start_program();
   }
 
@@ -230,6 +230,20 @@ TEST_F(ThinkerTest, AfterARestartItGoesOnFromWhereItStands) {
   EXPECT_FALSE(said_.over->failed) << said_.over->reason;
   EXPECT_EQ(pictures_told(), report().pictures) << "those of before a restart were told then";
   EXPECT_LT((position_m(first_ * *report().pose) - position_m(truth_)).norm(), 0.15);
+}
+
+TEST_F(ThinkerTest, WhatWasGivenUpStaysGivenUpAfterARestart) {
+  const auto given_up = [&] { return KeptFiles::open(folder_.path() / "x1")->kept().given_up; };
+  order("x1", false);
+  for (int k = 0; k < 3000 && !said_.over && given_up().empty(); ++k) cycle();
+  const auto before = given_up();
+  ASSERT_FALSE(before.empty());
+  start_program();  // as after a kill
+  order("x1", true);
+  explore_to(report().pictures + 1);
+  const auto after = given_up();
+  ASSERT_GE(after.size(), before.size()) << "what is kept is what the explorer has given up";
+  EXPECT_TRUE(std::ranges::equal(before, std::span(after).first(before.size())));
 }
 
 TEST_F(ThinkerTest, WhoWasCarriedAwayMeanwhileSaysSoAndDrivesNowhere) {

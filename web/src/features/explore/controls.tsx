@@ -24,7 +24,7 @@ interface Props {
 
 /** How far it is and why, in words and numbers, with what can be done about it. */
 export function StatusCard({ robot, exploration, stage, barrier, mayOrder }: Props) {
-  const { title, pill, tone } = stageWords(stage, robot.name);
+  const { title, pill, tone } = stageWords(stage, robot.name, exploration);
   const current = connected.value && robot.online;
   const moves = stage === 'starting' || stage === 'exploring' || (stage === 'waiting' && exploresNow(robot));
   return (

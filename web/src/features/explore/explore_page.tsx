@@ -2,12 +2,12 @@
 import { useEffect } from 'preact/hooks';
 import { connection, me } from '../../api/server';
 import type { Exploration, Robot } from '../../api/types';
+import { WhoDrives } from '../../components/lease_prompt';
 import { Notice, Waiting } from '../../components/notice';
 import { Section } from '../../components/section';
 import { choose, connected, robots } from '../../lib/chosen';
 import { atLeast } from '../../lib/roles';
 import { follow } from '../../lib/router';
-import { WhoDrives } from '../go/lease_prompt';
 import { LivePicture } from '../robots/live_picture';
 import { StatusCard } from './controls';
 import { FencesCard, useFences } from './fences';
@@ -47,7 +47,7 @@ function OfRobot({ robot }: { robot: Robot }) {
     <>
       <h1>{stage === 'none' ? `Let ${robot.name} map a building` : `${robot.name} maps a building`}</h1>
       <p class="hidden-text" role="status">
-        {stage !== 'none' && stageWords(stage, robot.name).title}
+        {stage !== 'none' && stageWords(stage, robot.name, exploration).title}
       </p>
       {problem && <Notice tone="bad">How far it is could not be asked. {problem.message}</Notice>}
       <WhoDrives robot={robot} />

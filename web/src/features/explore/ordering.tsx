@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useState } from 'preact/hooks';
-import { me } from '../../api/server';
 import type { ProblemError } from '../../api/problem';
 import type { Robot } from '../../api/types';
+import { LeasePrompt } from '../../components/lease_prompt';
 import { Notice } from '../../components/notice';
 import { useCommand } from '../../lib/command';
 import { withLease } from '../go/driving';
@@ -44,26 +44,13 @@ export function OrderNotice({ robot, orders }: { robot: Robot; orders: Orders })
   const { problem, held, takeOver, forget } = orders;
   if (problem) return <Notice tone="bad">{problem.message}</Notice>;
   if (!held) return null;
-  const holder = robot.lease?.holder;
-  const who = !holder || holder === me.value?.name ? 'Somebody else' : holder;
   return (
-    <Notice tone="warn">
-      <div class="stack">
-        <p role="alert">
-          <strong>
-            {who} is driving {robot.name} just now.
-          </strong>{' '}
-          Take over?
-        </p>
-        <div class="row">
-          <button type="button" class="button main" onClick={takeOver}>
-            Take over
-          </button>
-          <button type="button" class="button" onClick={forget}>
-            Leave it to {who}
-          </button>
-        </div>
-      </div>
-    </Notice>
+    <LeasePrompt
+      holder={robot.lease?.holder}
+      chair={robot.name}
+      question="Take over?"
+      onTakeOver={takeOver}
+      onLeave={forget}
+    />
   );
 }

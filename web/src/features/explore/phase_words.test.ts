@@ -42,9 +42,17 @@ describe('stageOf', () => {
 
 describe('words of an exploration', () => {
   it('name every phase', () => {
-    expect(stageWords('exploring', 'Chair').title).toBe('Chair maps the building by itself');
-    expect(stageWords('paused', 'Chair').tone).toBe('warn');
-    expect(stageWords('uploaded', 'Chair').title).toBe('Its pictures are a tour now');
+    expect(stageWords('exploring', 'Chair', exploration).title).toBe('Chair maps the building by itself');
+    expect(stageWords('starting', 'Chair', null).title).toBe('Chair is about to set out');
+    expect(stageWords('paused', 'Chair', exploration).tone).toBe('warn');
+    const uploaded: Exploration = { ...exploration, phase: 'uploaded', tour: 't1' };
+    expect(stageWords('uploaded', 'Chair', uploaded).title).toBe('Its pictures are a tour now');
+  });
+
+  it('speak of no tour where there is none', () => {
+    const empty: Exploration = { ...exploration, phase: 'uploaded', pictures: 0, tour: null };
+    expect(stageWords('uploaded', 'Chair', empty).title).toBe('It has ended, and no tour came of it');
+    expect(planWords(empty, 'uploaded', 'Chair')).toMatch(/no tour came of it\. 0 pictures/);
   });
 
   it('say why, each reason once', () => {

@@ -36,8 +36,15 @@ const kWords: Readonly<Record<Exclude<Stage, 'none'>, (name: string) => Words>> 
   uploaded: () => ({ title: 'Its pictures are a tour now', pill: 'Done', tone: 'good' }),
 };
 
-export function stageWords(stage: Exclude<Stage, 'none'>, name: string): Words {
-  return kWords[stage](name);
+/** Of one that was ended before its first picture, or that the robot could not read again, there is no tour. */
+const kNoTour: Words = { title: 'It has ended, and no tour came of it', pill: 'Ended', tone: 'warn' };
+
+export function stageWords(
+  stage: Exclude<Stage, 'none'>,
+  name: string,
+  exploration: Exploration | null,
+): Words {
+  return stage === 'uploaded' && exploration?.tour === null ? kNoTour : kWords[stage](name);
 }
 
 /** Why it is so, as sentences, each once: what the exploration says, and how the drive ended that was to go on with it. */
@@ -77,7 +84,7 @@ export function planWords(exploration: Exploration | null, stage: Stage, name: s
   if (!exploration || stage === 'none') return 'Plan of the building: nothing was seen yet.';
   const { pictures, driven_m, loops, fences, floor, pose } = exploration;
   const parts = [
-    `${stageWords(stage, name).title}.`,
+    `${stageWords(stage, name, exploration).title}.`,
     `${count(pictures, 'picture')}, ${metresText(driven_m)} driven,`,
     `${count(loops.length, 'place')} known again, ${count(fences.length, 'fence')}.`,
   ];

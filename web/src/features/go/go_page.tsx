@@ -2,6 +2,7 @@
 import { signal } from '@preact/signals';
 import { connection, graphs, me, wantGraph } from '../../api/server';
 import type { Graph, MapInfo, Robot } from '../../api/types';
+import { LeasePrompt, WhoDrives } from '../../components/lease_prompt';
 import { Notice, Waiting } from '../../components/notice';
 import { RobotPicker } from '../../components/robot_picker';
 import { chosen, chosenGraph, chosenMap, connected } from '../../lib/chosen';
@@ -16,7 +17,6 @@ import { FirstSteps } from './first_steps';
 import { exploresNow, hindrance, journeyOf, type Journey, type Target } from './journey';
 import { JourneyCard } from './journey_card';
 import { announcement } from './journey_words';
-import { LeasePrompt, WhoDrives } from './lease_prompt';
 import { QuestionCard } from './question_card';
 import { mayBeSaid } from './said_place';
 import { SaidPlaceCard } from './said_place_card';
@@ -74,7 +74,9 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
       <div id="go-top" />
       {held && (
         <LeasePrompt
-          held={held}
+          holder={held.holder}
+          chair="the chair"
+          question={`Take over and go to ${held.target.label}?`}
           onTakeOver={() => go(held.target, { take_over: true })}
           onLeave={() => forgetCommand(robot.id)}
         />

@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-import { me } from '../../api/server';
-import type { Robot } from '../../api/types';
-import { Notice } from '../../components/notice';
-import type { Command } from './journey';
+import { me } from '../api/server';
+import type { Robot } from '../api/types';
+import { Notice } from './notice';
 
 interface Props {
-  held: Extract<Command, { kind: 'held' }>;
+  holder: string | null | undefined; // who drives, as far as that is known
+  chair: string; // what they drive, as it is called here
+  question: string;
   onTakeOver: () => void;
   onLeave: () => void;
 }
 
 /** Somebody else is driving: says who, and takes over only when asked to. */
-export function LeasePrompt({ held, onTakeOver, onLeave }: Props) {
-  const who = held.holder ?? 'Somebody else';
+export function LeasePrompt({ holder, chair, question, onTakeOver, onLeave }: Props) {
+  const who = !holder || holder === me.value?.name ? 'Somebody else' : holder;
   return (
     <Notice tone="warn">
       <div class="stack">
         <p role="alert">
-          <strong>{who} is driving the chair just now.</strong> Take over and go to {held.target.label}?
+          <strong>
+            {who} is driving {chair} just now.
+          </strong>{' '}
+          {question}
         </p>
         <div class="row">
           <button type="button" class="button main" onClick={onTakeOver}>
