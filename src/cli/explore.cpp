@@ -193,7 +193,8 @@ Result<std::unique_ptr<recording::Recorder>> recorder_of(const ExploreOptions& o
   record.name = name;
   record.wait_for_disk = true;
   // The exploration's own limits bound it.
-  record.limit_bytes = record.folder_limit_bytes = std::numeric_limits<std::int64_t>::max();
+  record.folder_limit_bytes = std::numeric_limits<std::int64_t>::max();
+  record.limit_bytes = record.folder_limit_bytes / 2;  // none makes room for another
   const features::FeatureConfig& features = explorer.eye.feature_config();
   const recording::Recorder::Robot recorded{
       name_with_version("homeward explore"), explorer.eye.camera().config(), features,

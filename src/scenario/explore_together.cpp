@@ -76,9 +76,9 @@ class TogetherLoop {
 
   void note_picture(std::size_t which) {
     if (which == 0) {
-      join_.first_looks(explorer(0), explorer(1));
+      join_.first_looks(explorer(0), explorer(1), explorer(1).floor_from_robot(robots_[1].robot->odometry()));
     } else {
-      join_.second_looks(explorer(0), explorer(1));
+      join_.second_looks(explorer(0), explorer(1), explorer(0).floor_from_robot(robots_[0].robot->odometry()));
     }
     if (progress_) progress_(which, loops_[which].survey(), loops_[which].so_far());
   }

@@ -10,7 +10,7 @@
 namespace homeward::exploration {
 namespace {
 
-class ExploredFloorTest : public testing::Test {
+class ExploredFloorTest : public ::testing::Test {
  protected:
   void see(const Pose2& pose) {
     const RangeSweep sweep = sweep_of(testing::two_rooms(), pose);

@@ -8,7 +8,7 @@
 namespace homeward::exploration {
 namespace {
 
-class NextViewTest : public testing::Test {
+class NextViewTest : public ::testing::Test {
  protected:
   void take(const Pose2& pose) {
     const RangeSweep sweep = sweep_of(testing::two_rooms(), pose);
