@@ -145,7 +145,7 @@ void FrameJoin::first_looks(const Explorer& first, const Explorer& second, const
   if (!stands) return;
   first_pictures_ = first.views().size();
   const Pose2 second_from_view = inverse(second.poses()[stands->first]) * stands->second;
-  seen_.push_back({first.views().size() - 1, stands->first, inverse(second_from_view)});
+  seen_.push_back({first.views().size() - 1, stands->first, inverse(second_from_view), true});
 }
 
 void FrameJoin::second_looks(const Explorer& first, const Explorer& second, const Pose2& first_from_robot) {
@@ -157,7 +157,8 @@ void FrameJoin::second_looks(const Explorer& first, const Explorer& second, cons
   const auto stands = newest_on(second, first, joined, config_);
   if (!stands) return;
   second_pictures_ = second.views().size();
-  seen_.push_back({stands->first, second.views().size() - 1, inverse(first.poses()[stands->first]) * stands->second});
+  seen_.push_back(
+      {stands->first, second.views().size() - 1, inverse(first.poses()[stands->first]) * stands->second, false});
 }
 
 std::optional<Pose2> FrameJoin::first_from_second(const Explorer& first, const Explorer& second) const {
@@ -169,9 +170,13 @@ std::optional<Pose2> FrameJoin::first_from_second(const Explorer& first, const E
     const Pose2 apart = inverse(said[a] * at) * (said[b] * at);
     return position_m(apart).norm() <= config_.same_m && std::abs(apart.theta_rad) <= config_.same_rad;
   };
+  // Where the robot stood that looked.
+  const auto looked_from_m = [&](const Seen& seen) {
+    const Pose2& first_view = first.poses()[seen.first];
+    return position_m(seen.first_looked ? first_view : first_view * seen.first_from_second);
+  };
   const auto independent = [&](std::size_t a, std::size_t b) {
-    const Eigen::Vector2d at_m = position_m(first.poses()[seen_[a].first]);
-    return (at_m - position_m(first.poses()[seen_[b].first])).norm() >= config_.apart_m;
+    return (looked_from_m(seen_[a]) - looked_from_m(seen_[b])).norm() >= config_.apart_m;
   };
   std::vector<bool> possible;
   for (const Pose2& one : said) possible.push_back(may_be(one, first, second));

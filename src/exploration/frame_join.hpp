@@ -53,6 +53,7 @@ class FrameJoin {
     std::size_t first = 0;
     std::size_t second = 0;
     Pose2 first_from_second;
+    bool first_looked = false;
   };
   /// A key view of one robot, and where the other was then, by the newest of its own.
   struct Moment {
