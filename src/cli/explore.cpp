@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <Eigen/Core>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -6,10 +8,13 @@
 
 #include "cli/command.hpp"
 #include "cli/explore.hpp"
+#include "core/angles.hpp"
 #include "core/version.hpp"
+#include "scenario/exploration_figures.hpp"
 #include "scenario/order_to_explore.hpp"
 #include "scenario/starting_pose.hpp"
 #include "scenario/world_folder.hpp"
+#include "sim/floor.hpp"
 #include "sim/generate/shut_doors.hpp"
 #include "sim/tour_path.hpp"
 
@@ -40,6 +45,27 @@ Result<camera::CameraConfig> camera_of(const ExploreOptions& options) {
   return camera;
 }
 
+Result<ExploringRobot> robot_at(const ExploreOptions& options, sim::LitWorld& world, const camera::CameraConfig& camera,
+                                const sim::RobotProfile& profile, const Pose2& start, std::uint64_t seed) {
+  const auto light = scenario::light_named(options.stage.light);
+  if (!light) return pass_on(light);
+  scenario::prepare_light(world, *light);
+  scenario::SimulatedRobotConfig config;
+  config.camera = camera;
+  config.light = *light;
+  config.profile = profile;
+  config.laser.glass_share = options.glass_share;
+  config.laser.spurious_share = options.spurious_share;
+  config.seed = seed;
+  auto robot = scenario::SimulatedRobot::create(world, config, start);
+  if (!robot) return pass_on(robot);
+  const auto made = camera::Camera::create(camera);
+  if (!made) return pass_on(made);
+  auto eye = pipeline::Eye::create(camera, pipeline::suited_feature_config(**made));
+  if (!eye) return pass_on(eye);
+  return ExploringRobot{std::move(*robot), std::move(*eye), profile};
+}
+
 /// CLI::Range lets "nan" through.
 CLI::Validator share() {
   const auto problem_of = [](const std::string& text) {
@@ -50,10 +76,47 @@ CLI::Validator share() {
   return {problem_of, "SHARE", "share"};
 }
 
+/// A pose from which the second robot sees the first and leaves it room to set out.
+Result<Pose2> start_beside(const sim::World& world, const Pose2& first, const sim::RobotProfile& robot,
+                           std::uint64_t seed) {
+  constexpr int kDirections = 16;
+  const double least_m = 2.0 * swept_radius_m(robot.outline) + 0.4;
+  for (int i = 0; i < kDirections; ++i) {
+    const double direction_rad = first.theta_rad + 2.0 * kPi * i / kDirections;
+    const Eigen::Vector2d point_m =
+        position_m(first) + (least_m + 0.3) * Eigen::Vector2d(std::cos(direction_rad), std::sin(direction_rad));
+    if (!sim::is_set(world.drivable, point_m)) continue;
+    auto pose = scenario::starting_pose(world, point_m, robot, seed);
+    if (!pose) continue;
+    const Eigen::Vector2d at_m = position_m(*pose);
+    if ((at_m - position_m(first)).norm() >= least_m && scenario::in_sight(world, position_m(first), at_m)) return pose;
+  }
+  return fail(ErrorCode::kInvalidInput, "Beside the first robot there is no room for a second one; name a room.",
+              "--start2");
+}
+
+Result<Pose2> second_start_of(const ExploreOptions& options, const sim::World& world, const ExploringRobot& first,
+                              std::uint64_t seed) {
+  const Pose2& there = first.robot.vehicle().pose();
+  if (options.start2.empty()) return start_beside(world, there, first.profile, seed);
+  const auto room_m = sim::room_point(world, options.start2);
+  if (!room_m) return pass_on(room_m);
+  auto pose = scenario::starting_pose(world, *room_m, first.profile, seed);
+  if (!pose) return pose;
+  const double least_m = 2.0 * swept_radius_m(first.profile.outline) + 0.4;
+  if ((position_m(*pose) - position_m(there)).norm() >= least_m) return pose;
+  return start_beside(world, there, first.profile, seed);
+}
+
 /// What one method knows nothing of must not be dropped in silence: a fence least of all.
 Status refuse_of_survey_alone(const ExploreOptions& options) {
+  if (options.robots == 1 && !options.start2.empty())
+    return fail(ErrorCode::kInvalidInput, "There is no second robot; see --robots.", "--start2");
+  if (options.robots == 2 && options.pictures_every > 0)
+    return fail(ErrorCode::kInvalidInput, "The graph so far is drawn of one robot only.", "--pictures-every");
   if (options.method == "survey") return {};
   const char* option = nullptr;
+  if (options.robots != 1) option = "--robots";
   if (options.limit_s) option = "--limit-s";
   if (options.back_after_s) option = "--back-after-s";
   if (!options.fences.empty()) option = "--fence";
@@ -82,7 +145,10 @@ Status run(const ExploreOptions& options) {
   auto explorer = exploring_robot(options, world, *camera);
   if (!explorer) return pass_on(explorer);
   if (options.method == "thesis") return explore_by_thesis(options, *explorer);
-  return explore_by_survey(options, world.world(), *camera, *explorer);
+  if (options.robots == 1) return explore_by_survey(options, world.world(), *camera, *explorer);
+  auto second = second_robot(options, world, *camera, *explorer);
+  if (!second) return pass_on(second);
+  return explore_by_two(options, world.world(), *camera, *explorer, *second);
 }
 
 }  // namespace
@@ -103,37 +169,32 @@ const char* name_of(scenario::ExplorationEnd end) {
 
 Result<ExploringRobot> exploring_robot(const ExploreOptions& options, sim::LitWorld& world,
                                        const camera::CameraConfig& camera) {
-  const auto light = scenario::light_named(options.stage.light);
-  if (!light) return pass_on(light);
   const auto profile = robot_named(options.robot);
   if (!profile) return pass_on(profile);
   const auto start = start_of(options, world.world(), *profile);
   if (!start) return pass_on(start);
-  scenario::prepare_light(world, *light);
-  scenario::SimulatedRobotConfig config;
-  config.camera = camera;
-  config.light = *light;
-  config.profile = *profile;
-  config.laser.glass_share = options.glass_share;
-  config.laser.spurious_share = options.spurious_share;
-  config.seed = options.stage.seed;
-  auto robot = scenario::SimulatedRobot::create(world, config, *start);
-  if (!robot) return pass_on(robot);
-  const auto made = camera::Camera::create(camera);
-  if (!made) return pass_on(made);
-  auto eye = pipeline::Eye::create(camera, pipeline::suited_feature_config(**made));
-  if (!eye) return pass_on(eye);
-  return ExploringRobot{std::move(*robot), std::move(*eye), *profile};
+  return robot_at(options, world, camera, *profile, *start, options.stage.seed);
 }
 
-Result<std::unique_ptr<recording::Recorder>> recorder_of(const ExploreOptions& options,
-                                                         const ExploringRobot& explorer) {
+Result<ExploringRobot> second_robot(const ExploreOptions& options, sim::LitWorld& world,
+                                    const camera::CameraConfig& camera, const ExploringRobot& first) {
+  // Wheels and noise of its own.
+  constexpr std::uint64_t kOther = 1'000'003;
+  const std::uint64_t seed = options.stage.seed + kOther;
+  const auto start = second_start_of(options, world.world(), first, seed);
+  if (!start) return pass_on(start);
+  return robot_at(options, world, camera, first.profile, *start, seed);
+}
+
+Result<std::unique_ptr<recording::Recorder>> recorder_of(const ExploreOptions& options, const ExploringRobot& explorer,
+                                                         const std::string& name) {
   recording::RecordingOptions record;
   record.folder = options.stage.out;
-  record.name = "exploration";
+  record.name = name;
   record.wait_for_disk = true;
   // The exploration's own limits bound it.
-  record.limit_bytes = record.folder_limit_bytes = std::numeric_limits<std::int64_t>::max();
+  record.folder_limit_bytes = std::numeric_limits<std::int64_t>::max();
+  record.limit_bytes = record.folder_limit_bytes / 2;  // none makes room for another
   const features::FeatureConfig& features = explorer.eye.feature_config();
   const recording::Recorder::Robot recorded{
       name_with_version("homeward explore"), explorer.eye.camera().config(), features,
@@ -155,6 +216,15 @@ void register_explore(CLI::App& program) {
   command->add_option("--camera-height-m", options->camera_height_m, "Of the camera above the floor; else its own")
       ->check(CLI::PositiveNumber);
   command->add_option("--start", options->start, "Room to begin in; without it where the world says");
+  command
+      ->add_option(
+          "--robots", options->robots,
+          "1, or 2 that leave each other what one of them sees to; with tour-1, tour-2, plan-1.png, plan-2.png, "
+          "exploration-1.hwrec, exploration-2.hwrec, and one map of both (survey)")
+      ->check(CLI::Range(1, 2))
+      ->capture_default_str();
+  command->add_option("--start2", options->start2,
+                      "Room where the second robot begins; without it in sight of the first (survey)");
   command->add_option("--shut-doors", options->shut_doors, "Share of the doors that are shut, by the seed")
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--robot", options->robot, "disc or chair")->capture_default_str();

@@ -31,6 +31,8 @@ struct ExploreOptions {
   std::string method = "survey";
   ThesisOptions thesis;
   std::string start;
+  int robots = 1;      // of the survey: 1 or 2,
+  std::string start2;  // and the room where the second one begins; empty: beside the first
   std::string robot = "disc";
   double shut_doors = 0.0;                // share
   std::optional<double> camera_height_m;  // nothing: the camera's own
@@ -57,8 +59,13 @@ void add_thesis_options(CLI::App& command, ThesisOptions& options);
 Result<ExploringRobot> exploring_robot(const ExploreOptions& options, sim::LitWorld& world,
                                        const camera::CameraConfig& camera);
 
-/// What records its exploration as exploration.hwrec in the folder `--out`, which it makes. Errors: kIo.
-Result<std::unique_ptr<recording::Recorder>> recorder_of(const ExploreOptions& options, const ExploringRobot& explorer);
+/// A second one, in the room `--start2` or in sight of the first. Errors: as above.
+Result<ExploringRobot> second_robot(const ExploreOptions& options, sim::LitWorld& world,
+                                    const camera::CameraConfig& camera, const ExploringRobot& first);
+
+/// What records its exploration as NAME.hwrec in the folder `--out`, which it makes. Errors: kIo.
+Result<std::unique_ptr<recording::Recorder>> recorder_of(const ExploreOptions& options, const ExploringRobot& explorer,
+                                                         const std::string& name);
 
 /// "complete", "limit" or "stopped".
 const char* name_of(scenario::ExplorationEnd end);
@@ -67,6 +74,10 @@ const char* name_of(scenario::ExplorationEnd end);
 /// into the folder `--out`.
 Status explore_by_survey(const ExploreOptions& options, const sim::World& world, const camera::CameraConfig& camera,
                          ExploringRobot& explorer);
+
+/// `homeward explore --robots 2`: the same of two robots at once; a recording and a tour of each, and one map.
+Status explore_by_two(const ExploreOptions& options, const sim::World& world, const camera::CameraConfig& camera,
+                      ExploringRobot& first, ExploringRobot& second);
 
 /// `homeward explore --method thesis`: writes a recording, states.csv and dissimilarities.csv into the folder
 /// `--out`.

@@ -135,7 +135,7 @@ namespace {
 
 Result<scenario::ThesisExploration> explore_recorded(const ExploreOptions& options, ExploringRobot& explorer,
                                                      const scenario::ThesisPlan& plan) {
-  const auto recorder = recorder_of(options, explorer);
+  const auto recorder = recorder_of(options, explorer, "exploration");
   if (!recorder) return pass_on(recorder);
   return scenario::explore_as_thesis(explorer.robot, scenario::body_of(explorer.profile), explorer.eye, plan, {},
                                      recorder->get());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exploration/explored_floor.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -97,6 +98,24 @@ void ExploredFloor::see(const RangeSweep& sweep, std::span<const geometry::Surfa
   for (const geometry::SurfacePoint& point : surface) {
     const Eigen::Vector2d at_m = position_m(floor_from_robot * Pose2{point.at_m.x(), point.at_m.y(), 0.0});
     add(frame_.cell(at_m), config_.hit);
+  }
+}
+
+void ExploredFloor::believe(const SharedFloor& other, const Pose2& here_from_there) {
+  const FloorFrame& theirs = other.frame;
+  if (theirs.size() == 0) return;
+  for (const FloorCell& corner : {FloorCell{0, 0}, FloorCell{theirs.columns - 1, 0}, FloorCell{0, theirs.rows - 1},
+                                  FloorCell{theirs.columns - 1, theirs.rows - 1}}) {
+    const Eigen::Vector2d at_m = theirs.centre_m(corner);
+    grow_to(position_m(here_from_there * Pose2{at_m.x(), at_m.y(), 0.0}), 0.0);
+  }
+  const Pose2 there_from_here = inverse(here_from_there);
+  const Eigen::Rotation2Dd turn(there_from_here.theta_rad);
+  for (std::size_t cell = 0; cell < evidence_.size(); ++cell) {
+    if (evidence_[cell] != 0) continue;
+    const std::uint8_t said = other.at(turn * frame_.centre_m(frame_.cell_at(cell)) + position_m(there_from_here));
+    if ((said & SharedFloor::kOccupied) != 0) evidence_[cell] = 1;
+    if ((said & SharedFloor::kFree) != 0) evidence_[cell] = -1;
   }
 }
 

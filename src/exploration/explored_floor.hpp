@@ -52,6 +52,21 @@ struct FloorFrame {
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 
+/// What a robot knows of the floor, as it tells another one: plain data, a byte of flags for each cell of `frame`.
+struct SharedFloor {
+  static constexpr std::uint8_t kFree = 1;
+  static constexpr std::uint8_t kOccupied = 2;
+  static constexpr std::uint8_t kCovered = 4;  // by a picture
+  FloorFrame frame;
+  std::vector<std::uint8_t> cells;
+
+  /// The flags at a point of its frame; 0 where it knows nothing.
+  [[nodiscard]] std::uint8_t at(const Eigen::Vector2d& at_m) const {
+    const FloorCell cell = frame.cell(at_m);
+    return frame.holds(cell) ? cells[frame.index(cell)] : std::uint8_t{0};
+  }
+};
+
 struct FloorConfig {
   double cell_m = 0.05;
   double sees_free_m = 5.0;    // farther off, the rays lie too wide apart to call free what is between them
@@ -71,6 +86,8 @@ class ExploredFloor {
 
   void see(const RangeSweep& sweep, std::span<const geometry::SurfacePoint> surface, const Pose2& floor_from_robot);
   void forget() { *this = ExploredFloor(config_); }
+  /// Where this floor knows nothing, it takes another one's word. `here_from_there`: how that one's frame lies in this.
+  void believe(const SharedFloor& other, const Pose2& here_from_there);
 
   [[nodiscard]] const FloorFrame& frame() const { return frame_; }
   [[nodiscard]] bool is_free(std::size_t cell) const { return evidence_[cell] < 0; }

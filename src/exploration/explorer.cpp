@@ -2,6 +2,7 @@
 #include "exploration/explorer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <opencv2/imgproc.hpp>
@@ -13,6 +14,9 @@
 
 namespace homeward::exploration {
 namespace {
+
+/// What is left to another robot is less and less, until there is something to do.
+constexpr std::array kSharesInTurn = {LeftToCompanion::kNearer, LeftToCompanion::kTarget};
 
 double length_m(const Pose2& moved) { return std::hypot(moved.x_m, moved.y_m); }
 
@@ -88,8 +92,14 @@ void Explorer::take(const RangeSweep& sweep, const Pose2& odometry,
 }
 
 Reach Explorer::reach(const Pose2& odometry) const {
-  const std::vector<std::uint8_t> barred = barred_cells();
-  return Reach::from(floor_, position_m(floor_from_robot(odometry)), config_.reach, &barred);
+  const Eigen::Vector2d at_m = position_m(floor_from_robot(odometry));
+  if (companion_) {
+    const ExploredFloor joint = joint_floor(floor_, *companion_);
+    const std::vector<std::uint8_t> barred = barred_cells(joint.frame());
+    return Reach::from(joint, at_m, config_.reach, &barred);
+  }
+  const std::vector<std::uint8_t> barred = barred_cells(floor_.frame());
+  return Reach::from(floor_, at_m, config_.reach, &barred);
 }
 
 Explorer::Spot Explorer::spot_at(const Eigen::Vector2d& at_m) const {
@@ -103,8 +113,8 @@ Eigen::Vector2d Explorer::position_of(const Spot& spot) const {
   return position_m(poses_[spot.view] * Pose2{spot.seen_from_view_m.x(), spot.seen_from_view_m.y(), 0.0});
 }
 
-void Explorer::mark_around(const Spot& spot, double within_m, std::vector<std::uint8_t>& cells) const {
-  const FloorFrame& frame = floor_.frame();
+void Explorer::mark_around(const Spot& spot, double within_m, const FloorFrame& frame,
+                           std::vector<std::uint8_t>& cells) const {
   const int around = static_cast<int>(within_m / frame.cell_m);
   const FloorCell middle = frame.cell(position_of(spot));
   for (int row = middle.row - around; row <= middle.row + around; ++row) {
@@ -114,9 +124,8 @@ void Explorer::mark_around(const Spot& spot, double within_m, std::vector<std::u
 }
 
 /// Fences, as much wider as the body wants, and where ways were blocked.
-std::vector<std::uint8_t> Explorer::barred_cells() const {
+std::vector<std::uint8_t> Explorer::barred_cells(const FloorFrame& frame) const {
   constexpr double kAroundBlocked_m = 0.2;
-  const FloorFrame& frame = floor_.frame();
   std::vector<std::uint8_t> cells(frame.size(), 0);
   if (cells.empty()) return cells;
   cv::Mat canvas(frame.rows, frame.columns, CV_8UC1, cells.data());
@@ -135,21 +144,42 @@ std::vector<std::uint8_t> Explorer::barred_cells() const {
     const cv::Size size(2 * wider + 1, 2 * wider + 1);
     cv::dilate(canvas, canvas, cv::getStructuringElement(cv::MORPH_ELLIPSE, size));
   }
-  for (const Spot& spot : blocked_) mark_around(spot, kAroundBlocked_m, cells);
+  for (const Spot& spot : blocked_) mark_around(spot, kAroundBlocked_m, frame, cells);
   return cells;
 }
 
-std::vector<std::uint8_t> Explorer::given_up_cells() const {
+std::vector<std::uint8_t> Explorer::given_up_cells(const FloorFrame& frame) const {
   constexpr double kAround_m = 0.3;
-  std::vector<std::uint8_t> cells(floor_.frame().size(), 0);
+  std::vector<std::uint8_t> cells(frame.size(), 0);
   for (const auto* spots : {&given_up_, &put_off_}) {
-    for (const Spot& spot : *spots) mark_around(spot, kAround_m, cells);
+    for (const Spot& spot : *spots) mark_around(spot, kAround_m, frame, cells);
   }
   return cells;
 }
 
 std::optional<NextView> Explorer::next(const Reach& reach, const std::optional<DrivenTo>& driven_to) const {
-  return next_view(floor_, reach, coverage_, given_up_cells(), driven_to, config_.view);
+  if (companion_) return next_beside(*companion_, reach, driven_to, kSharesInTurn);
+  return next_view(floor_, reach, coverage_, given_up_cells(floor_.frame()), driven_to, config_.view);
+}
+
+std::optional<NextView> Explorer::next_beside(const Companion& companion, const Reach& reach,
+                                              const std::optional<DrivenTo>& driven_to,
+                                              std::span<const LeftToCompanion> shares) const {
+  const ExploredFloor joint = joint_floor(floor_, companion);
+  Coverage coverage = coverage_;
+  coverage.follow(joint.frame());
+  const std::vector<std::uint8_t> given_up = given_up_cells(joint.frame());
+  for (const LeftToCompanion share : shares) {
+    std::vector<std::uint8_t> unwanted = given_up;
+    mark_left(companion, share, joint, reach, config_.reach, config_.companion, unwanted);
+    if (const auto next = next_view(joint, reach, coverage, unwanted, driven_to, config_.view)) return next;
+  }
+  return std::nullopt;
+}
+
+bool Explorer::waits_for_companion(const Reach& reach) const {
+  constexpr std::array kCovered = {LeftToCompanion::kCovered};
+  return companion_ && companion_->report.drives && next_beside(*companion_, reach, std::nullopt, kCovered).has_value();
 }
 
 void Explorer::give_up(const Eigen::Vector2d& at_m) { given_up_.push_back(spot_at(at_m)); }

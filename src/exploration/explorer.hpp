@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/pose2.hpp"
 #include "core/range_sweep.hpp"
+#include "exploration/companion.hpp"
 #include "exploration/explored_floor.hpp"
 #include "exploration/next_view.hpp"
 #include "exploration/pose_graph.hpp"
@@ -25,6 +27,7 @@ struct ExplorerConfig {
   FloorConfig floor;
   ReachConfig reach;
   ViewConfig view;
+  CompanionConfig companion;
   double picture_every_m = 0.38;    // driven on by so much, it takes the next picture
   double aligned_every_m = 0.2;     // and puts its sweep onto those before,
   double aligned_every_rad = 0.35;  // or turned by so much
@@ -106,6 +109,12 @@ class Explorer {
   /// those before. Fewer than three corners fence nothing. What drives the way keeps to it as far as nothing stands
   /// there: it goes round things, and makes room for people.
   void set_fences(std::vector<std::vector<Eigen::Vector2d>> fences_m) { fences_m_ = std::move(fences_m); }
+  /// What another robot knows that explores the same building, and how its floor lies in ours, in place of what was
+  /// known of it before: ways lead over its floor as well, and what is left to it is not wanted (companion.hpp).
+  /// Nothing: this one explores for itself.
+  void set_companion(std::optional<Companion> companion) { companion_ = std::move(companion); }
+  /// Whether anything is wanted but for the other robot, which is at it: while that drives on, this one is not done.
+  [[nodiscard]] bool waits_for_companion(const Reach& reach) const;
   /// The robot's odometry has begun anew, or the robot was moved without it: `now_from_before` takes what it said
   /// before to what it would say of the same place now.
   void move_odometry(const Pose2& now_from_before);
@@ -131,8 +140,12 @@ class Explorer {
   };
   [[nodiscard]] std::optional<Loop> loop_with(int then) const;
   void lay_out_again();
-  [[nodiscard]] std::vector<std::uint8_t> given_up_cells() const;
-  [[nodiscard]] std::vector<std::uint8_t> barred_cells() const;
+  [[nodiscard]] std::vector<std::uint8_t> given_up_cells(const FloorFrame& frame) const;
+  [[nodiscard]] std::vector<std::uint8_t> barred_cells(const FloorFrame& frame) const;
+  /// The next view where a companion has its share.
+  [[nodiscard]] std::optional<NextView> next_beside(const Companion& companion, const Reach& reach,
+                                                    const std::optional<DrivenTo>& driven_to,
+                                                    std::span<const LeftToCompanion> shares) const;
 
   ExplorerConfig config_;
   ExploredFloor floor_;
@@ -144,12 +157,13 @@ class Explorer {
   std::vector<KnownAgain> known_again_;  // one for each loop
   [[nodiscard]] Spot spot_at(const Eigen::Vector2d& at_m) const;
   [[nodiscard]] Eigen::Vector2d position_of(const Spot& spot) const;
-  void mark_around(const Spot& spot, double within_m, std::vector<std::uint8_t>& cells) const;
+  void mark_around(const Spot& spot, double within_m, const FloorFrame& frame, std::vector<std::uint8_t>& cells) const;
 
   std::vector<Spot> given_up_;
   std::vector<Spot> put_off_;
   std::vector<Spot> blocked_;
   std::vector<std::vector<Eigen::Vector2d>> fences_m_;
+  std::optional<Companion> companion_;
   std::vector<Pose2> laid_out_;  // the poses that the floor was put together with
   int layouts_ = 0;
   int standing_sweeps_ = 0;

@@ -66,22 +66,26 @@ bool pictures_agree(const Explorer& explorer, const features::Appearance& appear
 std::optional<Pose2> stand_again(const Explorer& explorer, const RangeSweep& sweep,
                                  const features::Appearance& appearance, const StandAgainConfig& config) {
   if (explorer.views().empty()) return std::nullopt;
-  const Pose2& last = explorer.poses().back();
+  return stand_about(explorer, explorer.poses().back(), sweep, appearance, config);
+}
+
+std::optional<Pose2> stand_about(const Explorer& explorer, const Pose2& about, const RangeSweep& sweep,
+                                 const features::Appearance& appearance, const StandAgainConfig& config) {
   geometry::ReferenceSurface reference;
   for (std::size_t i = 0; i < explorer.views().size(); ++i) {
-    if ((position_m(explorer.poses()[i]) - position_m(last)).norm() <= config.sees_m)
+    if ((position_m(explorer.poses()[i]) - position_m(about)).norm() <= config.sees_m)
       reference.add(explorer.views()[i].surface, explorer.poses()[i]);
   }
   const std::vector<geometry::SurfacePoint> surface = geometry::surface_of(sweep, explorer.config().filter);
   std::vector<Start> found;
   std::vector<Pose2> tried;
-  for (const Start& start : starts_about(last, reference, surface, config)) {
+  for (const Start& start : starts_about(about, reference, surface, config)) {
     if (static_cast<int>(tried.size()) == config.worked_out) break;
     if (std::ranges::any_of(tried, [&](const Pose2& pose) { return about_the_same(pose, start.pose); })) continue;
     tried.push_back(start.pose);
     const auto aligned = geometry::align(reference, surface, {start.pose, 0.5, 0.2}, explorer.config().alignment);
     if (!aligned || aligned->agreement < config.agreement) continue;
-    if ((position_m(aligned->reference_from_robot) - position_m(last)).norm() > 1.5 * config.within_m) continue;
+    if ((position_m(aligned->reference_from_robot) - position_m(about)).norm() > 1.5 * config.within_m) continue;
     found.push_back({aligned->reference_from_robot, aligned->agreement});
   }
   std::ranges::stable_sort(found, std::greater<>(), &Start::agreement);

@@ -25,4 +25,8 @@ struct StandAgainConfig {
 std::optional<Pose2> stand_again(const Explorer& explorer, const RangeSweep& sweep,
                                  const features::Appearance& appearance, const StandAgainConfig& config = {});
 
+/// The same about any pose of the floor, in place of where it was last.
+std::optional<Pose2> stand_about(const Explorer& explorer, const Pose2& about, const RangeSweep& sweep,
+                                 const features::Appearance& appearance, const StandAgainConfig& config = {});
+
 }  // namespace homeward::exploration

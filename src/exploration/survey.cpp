@@ -95,6 +95,11 @@ void Survey::go_on_anew(const std::optional<Pose2>& odometry_moved) {
   end_noted_ = false;
 }
 
+CompanionReport Survey::report(const Pose2& odometry) const {
+  return {shared_floor(explorer_.floor(), explorer_.coverage()), explorer_.floor_from_robot(odometry), target_m_,
+          !ended_};
+}
+
 void Survey::end_at_limit(const Pose2& odometry) {
   ended_ = SurveyEnd::kLimit;
   note_end(odometry);
@@ -135,6 +140,7 @@ void Survey::go_home(const Reach& reach, const Pose2& odometry) {
 void Survey::choose(const Pose2& odometry, std::int64_t now_ms) {
   chosen_ms_ = now_ms;
   goal_m_.reset();
+  waits_for_companion_ = false;
   if (layouts_ != explorer_.layouts()) target_m_.reset();
   layouts_ = explorer_.layouts();
   const Reach reach = explorer_.reach(odometry);
@@ -153,6 +159,8 @@ void Survey::choose(const Pose2& odometry, std::int64_t now_ms) {
     }
     return note_next(*next, before_m, odometry);
   }
+  waits_for_companion_ = explorer_.waits_for_companion(reach);
+  if (waits_for_companion_) return;
   if (tried_ < config_.tries && explorer_.try_blocked_again()) {
     ++tried_;
     chosen_ms_.reset();
@@ -192,7 +200,7 @@ void Survey::leave_target(bool reached, const Pose2& odometry) {
 
 /// Without anywhere to drive to it waits a while, for whoever stands around it to go.
 void Survey::note_waiting(std::int64_t now_ms) {
-  if (ended_ || goal_m_) return waiting_since_ms_.reset();
+  if (ended_ || goal_m_ || waits_for_companion_) return waiting_since_ms_.reset();
   waiting_since_ms_ = waiting_since_ms_.value_or(now_ms);
   if (now_ms - *waiting_since_ms_ > config_.waits_ms) ended_ = SurveyEnd::kStuck;
 }

@@ -47,6 +47,10 @@ class Survey {
   void need_not_be_back() { back_by_ms_.reset(); }
   /// See Explorer::set_fences.
   void set_fences(std::vector<std::vector<Eigen::Vector2d>> fences_m);
+  /// See Explorer::set_companion. While nothing is left but what the other is at, it stands and waits.
+  void set_companion(std::optional<Companion> companion) { explorer_.set_companion(std::move(companion)); }
+  /// What it tells that one.
+  [[nodiscard]] CompanionReport report(const Pose2& odometry) const;
   /// It goes on after a pause, or after it has ended: what was blocked may be free. `odometry_moved`: see
   /// Explorer::move_odometry.
   void go_on_anew(const std::optional<Pose2>& odometry_moved);
@@ -89,6 +93,7 @@ class Survey {
   std::optional<std::int64_t> back_by_ms_;
   bool goes_home_ = false;
   bool all_seen_ = false;
+  bool waits_for_companion_ = false;
   std::optional<std::int64_t> waiting_since_ms_;
   int layouts_ = 0;
   int tried_ = 0;
