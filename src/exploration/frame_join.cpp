@@ -12,7 +12,7 @@
 namespace homeward::exploration {
 namespace {
 
-struct Candidate {
+struct JoinCandidate {
   double order = 0.0;  // least first
   std::size_t view = 0;
 };
@@ -26,15 +26,16 @@ double colours_apart(const features::Appearance& a, const features::Appearance& 
   return sum;
 }
 
-void keep_first(std::vector<Candidate>& candidates, int count) {
-  std::ranges::stable_sort(candidates, {}, &Candidate::order);
+void keep_first(std::vector<JoinCandidate>& candidates, int count) {
+  std::ranges::stable_sort(candidates, {}, &JoinCandidate::order);
   candidates.resize(std::min(candidates.size(), static_cast<std::size_t>(count)));
 }
 
 /// Which pictures of the other may show the place of our newest one: by where it lies, or else by their colours.
-std::vector<Candidate> candidates_among(const Explorer& ours, const Explorer& theirs,
-                                        const std::optional<Pose2>& theirs_from_ours, const FrameJoinConfig& config) {
-  std::vector<Candidate> candidates;
+std::vector<JoinCandidate> candidates_among(const Explorer& ours, const Explorer& theirs,
+                                            const std::optional<Pose2>& theirs_from_ours,
+                                            const FrameJoinConfig& config) {
+  std::vector<JoinCandidate> candidates;
   const features::Appearance& newest = *ours.views().back().appearance;
   for (std::size_t i = 0; i < theirs.views().size(); ++i) {
     if (!theirs.views()[i].appearance) continue;
@@ -53,7 +54,7 @@ std::vector<Candidate> candidates_among(const Explorer& ours, const Explorer& th
 /// Whether most pictures farther off lie in the direction in which they should from a pose on the other's floor.
 bool directions_agree(const Explorer& theirs, const features::Appearance& newest, const Pose2& stands,
                       const FrameJoinConfig& config) {
-  std::vector<Candidate> around;
+  std::vector<JoinCandidate> around;
   for (std::size_t i = 0; i < theirs.views().size(); ++i) {
     const double apart_m = (position_m(theirs.poses()[i]) - position_m(stands)).norm();
     if (theirs.views()[i].appearance && apart_m >= config.directed_from_m && apart_m <= config.directed_to_m)
@@ -63,7 +64,7 @@ bool directions_agree(const Explorer& theirs, const features::Appearance& newest
   keep_first(around, kCompared);
   int agree = 0;
   int disagree = 0;
-  for (const Candidate& candidate : around) {
+  for (const JoinCandidate& candidate : around) {
     const auto seen = matching::verify(newest, *theirs.views()[candidate.view].appearance, {}, 1);
     if (!seen) continue;
     const Pose2 there = inverse(stands) * theirs.poses()[candidate.view];
@@ -96,13 +97,13 @@ std::optional<std::pair<std::size_t, Pose2>> newest_on(const Explorer& ours, con
                                                        const FrameJoinConfig& config) {
   if (ours.views().empty() || !ours.views().back().appearance) return std::nullopt;
   const KeyView& newest = ours.views().back();
-  std::vector<Candidate> agreeing;
-  for (const Candidate& candidate : candidates_among(ours, theirs, theirs_from_ours, config)) {
+  std::vector<JoinCandidate> agreeing;
+  for (const JoinCandidate& candidate : candidates_among(ours, theirs, theirs_from_ours, config)) {
     const auto seen = matching::verify(*newest.appearance, *theirs.views()[candidate.view].appearance, {}, 1);
     if (seen) agreeing.push_back({-static_cast<double>(seen->pose.inliers.size()), candidate.view});
   }
   keep_first(agreeing, config.worked_out);
-  for (const Candidate& candidate : agreeing) {
+  for (const JoinCandidate& candidate : agreeing) {
     const auto stands =
         stand_about(theirs, theirs.poses()[candidate.view], newest.sweep, *newest.appearance, config.stands);
     if (stands && directions_agree(theirs, *newest.appearance, *stands, config))
