@@ -56,6 +56,7 @@ class Exploration(unittest.TestCase):
 
     def test_its_map_has_no_wrong_ways_and_is_one_piece(self):
         self.assertEqual(self.told["wrong_edges"], 0, self.told)
+        self.assertEqual(self.told["mixed_places"], 0, self.told)
         inspected = json.loads(homeward("map", "inspect", self.out / "map.hwmap", "--json"))
         self.assertEqual(len(inspected["places"]), self.told["nodes"])
         beside = {}
