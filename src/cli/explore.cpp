@@ -36,7 +36,11 @@ Result<Pose2> start_of(const ExploreOptions& options, const sim::World& world, c
     if (!room_m) return pass_on(room_m);
     point_m = *room_m;
   }
-  return scenario::starting_pose(world, point_m, robot, options.stage.seed);
+  auto pose = scenario::starting_pose(world, point_m, robot, options.stage.seed);
+  if (pose || options.start.empty()) return pose;
+  return fail(ErrorCode::kInvalidInput,
+              "In that room the robot finds no place to begin: its door is shut, or it is full.",
+              "--start " + options.start);
 }
 
 Result<camera::CameraConfig> camera_of(const ExploreOptions& options) {
@@ -76,6 +80,15 @@ CLI::Validator share() {
   return {problem_of, "SHARE", "share"};
 }
 
+CLI::Validator seconds() {
+  const auto problem_of = [](const std::string& text) {
+    double value = 0.0;
+    const bool fits = CLI::detail::lexical_cast(text, value) && value >= 1.0 && value <= 1e6;
+    return fits ? std::string() : text + " are no seconds: 1 to 1000000.";
+  };
+  return {problem_of, "SECONDS", "seconds"};
+}
+
 /// A pose from which the second robot sees the first and leaves it room to set out.
 Result<Pose2> start_beside(const sim::World& world, const Pose2& first, const sim::RobotProfile& robot,
                            std::uint64_t seed) {
@@ -105,7 +118,8 @@ Result<Pose2> second_start_of(const ExploreOptions& options, const sim::World& w
   if (!pose) return pose;
   const double least_m = 2.0 * swept_radius_m(first.profile.outline) + 0.4;
   if ((position_m(*pose) - position_m(there)).norm() >= least_m) return pose;
-  return start_beside(world, there, first.profile, seed);
+  return fail(ErrorCode::kInvalidInput, "The room's point is too near to the first robot; name another room.",
+              "--start2 " + options.start2);
 }
 
 /// What one method knows nothing of must not be dropped in silence: a fence least of all.
@@ -226,7 +240,7 @@ void register_explore(CLI::App& program) {
   command->add_option("--start2", options->start2,
                       "Room where the second robot begins; without it in sight of the first (survey)");
   command->add_option("--shut-doors", options->shut_doors, "Share of the doors that are shut, by the seed")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(share());
   command->add_option("--robot", options->robot, "disc or chair")->capture_default_str();
   command
       ->add_option("--glass-share", options->glass_share,
@@ -244,11 +258,11 @@ void register_explore(CLI::App& program) {
   command
       ->add_option("--limit-s", options->limit_s,
                    "Simulated time after which it ends, wherever it is; else two hours (survey)")
-      ->check(CLI::Range(1.0, 1e6));
+      ->check(seconds());
   command
       ->add_option("--back-after-s", options->back_after_s,
                    "Time after which it is to be back where it began: it turns home before (survey)")
-      ->check(CLI::Range(1.0, 1e6));
+      ->check(seconds());
   command->add_option(
       "--fence", options->fences,
       "Corners of floor that no way leads over, in metres of the world: \"1,2 3,2 3,4\"; once for each (survey)");

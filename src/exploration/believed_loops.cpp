@@ -60,6 +60,8 @@ SettledLoops settle_loops(std::vector<Pose2> poses, const std::vector<PoseLink>&
   const std::vector<PoseLink> all = with_loops(steps, loops, weighed);
   double looseness = 1.0;
   for (const PoseLink& link : all) looseness = std::max(looseness, strain(first.poses, link));
+  constexpr double kLoosest = 1e6;  // a pose that is no number must not loosen for ever
+  looseness = std::min(looseness, kLoosest);
   std::vector<Pose2> anew = first.poses;
   for (; looseness > 1.0; looseness /= 2.0) settle(anew, all, looseness);
   SettledLoops second = settled(std::move(anew), steps, loops, std::move(weighed));

@@ -179,7 +179,9 @@ std::optional<NextView> Explorer::next_beside(const Companion& companion, const 
 
 bool Explorer::waits_for_companion(const Reach& reach) const {
   constexpr std::array kCovered = {LeftToCompanion::kCovered};
-  return companion_ && companion_->report.drives && next_beside(*companion_, reach, std::nullopt, kCovered).has_value();
+  if (!companion_ || !companion_->report.drives) return false;
+  // While the other drives somewhere, what it finds may be ours to see: it may stand in the only way there.
+  return companion_->report.target_m.has_value() || next_beside(*companion_, reach, std::nullopt, kCovered).has_value();
 }
 
 void Explorer::give_up(const Eigen::Vector2d& at_m) { given_up_.push_back(spot_at(at_m)); }

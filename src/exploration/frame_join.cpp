@@ -87,7 +87,8 @@ InView looked_for(const RangeSweep& sweep, const Pose2& at, const FrameJoinConfi
   const auto middle = static_cast<std::size_t>(std::lround(ray));
   if (middle >= sweep.ranges_m.size()) return InView::kUnknown;
   const auto range_m = static_cast<double>(sweep.ranges_m[middle]);
-  if (!std::isfinite(range_m) || range_m < distance_m - config.body_m) return InView::kUnknown;
+  if (!std::isfinite(range_m) || range_m >= sweep.range_max_m || range_m < distance_m - config.body_m)
+    return InView::kUnknown;
   return range_m > distance_m + config.body_m ? InView::kMissed : InView::kSeen;
 }
 

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
-#include <limits>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "core/index.hpp"
@@ -20,25 +21,44 @@ namespace {
 
 constexpr double kNear_m = 4.0;  // hits farther off say nothing about doorways in a place
 
+/// The image of `others` that `image` looks most like; of those that nobody has compared with it, the one nearest on
+/// the tours. Precondition: `others` is not empty.
+int most_like(const MappingInput& input, int image, std::span<const int> others) {
+  return *std::ranges::min_element(others, {}, [&](int other) {
+    return std::tuple(input.pairs->distance(image, other), input.tour_of[at(image)] != input.tour_of[at(other)],
+                      std::abs(image - other));
+  });
+}
+
 /// Where the images of a place were taken, one beside the other: each sweep is put onto those before.
 class PlacePoses {
  public:
   PlacePoses(const MappingInput& input, std::span<const int> images) : input_(input), poses_(images.size()) {
-    std::vector<std::size_t> left;
+    std::vector<Waiting> waiting;
     for (std::size_t i = 0; i < images.size(); ++i) {
       surfaces_.push_back(input.sweeps[at(images[i])] != nullptr ? geometry::surface_of(*input.sweeps[at(images[i])])
                                                                  : std::vector<geometry::SurfacePoint>());
-      if (!surfaces_.back().empty()) left.push_back(i);
+      if (!surfaces_.back().empty()) waiting.push_back({i, 0});
     }
-    if (left.empty()) return;
-    put(left.front(), {});
-    left.erase(left.begin());
+    if (waiting.empty()) return;
+    const std::size_t first = waiting.front().image;
+    put(first, {});
+    waiting.erase(waiting.begin());
+    for (Waiting& one : waiting) one.known = first;
+    const auto distance = [&](const Waiting& one) {
+      return input.pairs->distance(images[one.image], images[one.known]);
+    };
     // The one first that looks most like one that is there.
-    while (!left.empty()) {
-      const auto next = std::ranges::min_element(left, {}, [&](std::size_t i) { return nearest(images, i).first; });
-      const std::size_t image = *next;
-      left.erase(next);
-      if (const auto pose = pose_by(images, image, nearest(images, image).second)) put(image, *pose);
+    while (!waiting.empty()) {
+      const auto next = std::ranges::min_element(waiting, {}, distance);
+      const Waiting one = *next;
+      waiting.erase(next);
+      const auto pose = pose_by(images, one.image, one.known);
+      if (!pose) continue;
+      put(one.image, *pose);
+      for (Waiting& other : waiting) {
+        if (input.pairs->distance(images[other.image], images[one.image]) < distance(other)) other.known = one.image;
+      }
     }
   }
 
@@ -57,19 +77,16 @@ class PlacePoses {
   }
 
  private:
-  void put(std::size_t i, const Pose2& pose) {
-    poses_[i] = pose;
-    reference_.add(surfaces_[i], pose);
-  }
+  /// An image that has no pose yet, and the one with a pose that it looks most like.
+  struct Waiting {
+    std::size_t image = 0;
+    std::size_t known = 0;
+  };
 
-  /// The one of those put already that an image looks most like, and how much.
-  [[nodiscard]] std::pair<float, std::size_t> nearest(std::span<const int> images, std::size_t i) const {
-    std::pair<float, std::size_t> best(std::numeric_limits<float>::max(), 0);
-    for (std::size_t other = 0; other < images.size(); ++other) {
-      if (!poses_[other]) continue;
-      best = std::min(best, {input_.pairs->distance(images[i], images[other]), other});
-    }
-    return best;
+  void put(std::size_t i, const Pose2& pose) {
+    constexpr int kReferences = 12;  // sweeps show a place; more of them only take longer
+    poses_[i] = pose;
+    if (references_++ < kReferences) reference_.add(surfaces_[i], pose);
   }
 
   [[nodiscard]] std::optional<Pose2> pose_by(std::span<const int> images, std::size_t i, std::size_t known) const {
@@ -118,13 +135,17 @@ class PlacePoses {
   std::vector<std::vector<geometry::SurfacePoint>> surfaces_;
   std::vector<std::optional<Pose2>> poses_;
   geometry::ReferenceSurface reference_;
+  int references_ = 0;
 };
 
-/// On which side of a doorway's wall: -1, 1, or 0 in the wall's thickness.
+/// On which side of a doorway's wall: -1, 1, or 0 on the threshold.
 int side_of(const Doorway& doorway, const Eigen::Vector2d& at_m) {
   constexpr double kThreshold_m = 0.04;  // walls are found to 0.03 m: docs/experiments/doorways.md
+  constexpr double kBeside_m = 0.3;
   const double off_m = doorway.normal.dot(at_m - doorway.middle_m);
-  if (std::abs(off_m) < kThreshold_m) return 0;
+  const double along_m =
+      std::abs(Eigen::Vector2d(-doorway.normal.y(), doorway.normal.x()).dot(at_m - doorway.middle_m));
+  if (std::abs(off_m) < kThreshold_m && along_m <= 0.5 * doorway.width_m + kBeside_m) return 0;
   return off_m > 0.0 ? 1 : -1;
 }
 
@@ -161,9 +182,7 @@ std::vector<std::vector<int>> sides_of_doorways(const MappingInput& input, std::
     placed.push_back(images[i]);
   }
   for (const int image : without) {
-    const int like =
-        *std::ranges::min_element(placed, {}, [&](int other) { return input.pairs->distance(image, other); });
-    groups[key_of[like]].push_back(image);
+    groups[key_of[most_like(input, image, placed)]].push_back(image);
   }
   std::vector<std::vector<int>> sides;
   for (auto& [key, members] : groups) {

@@ -359,6 +359,10 @@ class WrongUse(CliTest):
         for share in ("-0.1", "1.5", "nan", "some"):
             self.assert_refused(2, ["glass-share", share], *explore, "--glass-share", share, "--out", "new")
             self.assert_refused(2, ["spurious-share", share], *explore, "--spurious-share", share, "--out", "new")
+            self.assert_refused(2, ["shut-doors", share], *explore, "--shut-doors", share, "--out", "new")
+        self.assert_refused(2, ["limit-s", "nan"], *explore, "--limit-s", "nan", "--out", "new")
+        self.assert_refused(2, ["start2", "robots"], *explore, "--start2", "office_1", "--out", "new")
+        self.assert_refused(2, ["start", "office_1"], *explore, "--shut-doors", "1", "--start", "office_1", "--out", "new")
         for fence in ("1,2 3", "1,2 3,4", "1,2 3,2 3,4 5", "1,2 3,2 3,4 5,", "1,2 3,2 3,4x", "1,2 3,2 1e300,4"):
             self.assert_refused(2, ["fence"], *explore, "--fence", fence, "--out", "new")
         self.assert_refused(2, ["fence", "survey"], *explore, "--method", "thesis", "--fence", "1,2 3,2 3,4", "--out", "new")

@@ -56,8 +56,8 @@ class KeptSurvey {
   };
   /// `blocked`: the robot does not get on to the leg's goal.
   Next see(const Sensed& sensed, bool blocked);
-  /// The places that are given up are on disk. To be called after `see` and `take`; it writes where that is new.
-  /// Errors: kIo; then what was kept before stays.
+  /// The places that are given up are on disk. To be called after `see`; what a picture takes back is written with the
+  /// next. It writes where that is new. Errors: kIo; then what was kept before stays.
   Status keep_given_up();
   /// The picture that was asked for. Errors: kIo, kInvalidInput (a sweep that could not be read again); then it is as
   /// if there had been none.
