@@ -11,7 +11,7 @@
 #include "exploration/survey.hpp"
 #include "pipeline/eye.hpp"
 #include "recording/recorder.hpp"
-#include "scenario/exploration_run.hpp"
+#include "scenario/exploration_result.hpp"
 #include "scenario/simulated_robot.hpp"
 
 namespace homeward::scenario {
