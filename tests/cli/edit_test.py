@@ -56,13 +56,14 @@ class Edit(CliTest):
         self.assertEqual(same["right_before"], same["right_after"])
         self.assertGreater(same["right_before"], same["pictures"] / 2)
         places = self.graph("good.map")["places"]
-        self.edit({"kind": "merge", "place": places[-1]["id"], "into": places[0]["id"]})
+        far = max(places, key=lambda place: max(place["members"]))
+        self.edit({"kind": "merge", "place": far["id"], "into": places[0]["id"]})
         done = self.run_program("map", "check", "--map", "edited.map", "--before", "good.map", "--tour", self.shared / "tour")
         self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
         self.assertIn("worse", done.stderr)
         unedited = self.run_program("map", "check", "--map", "edited.map", "--tour", self.shared / "tour")
         self.assertEqual([unedited.returncode, unedited.stdout], [4, done.stdout], "without its edits it is what it was")
-        self.assertIn(places[-1]["prototype"], done.stdout)
+        self.assertIn(far["prototype"], done.stdout)
 
     def test_what_is_refused_names_the_edit_and_writes_nothing(self):
         self.good_map()
