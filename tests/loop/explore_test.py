@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A robot explores a building that looks alike all over, by itself; the map of it covers what it can reach.
+"""A robot explores a building that looks alike all over, with some of its doors shut, by itself; the map of it covers what
+it can reach.
 
 usage: explore_test.py BIN_FOLDER WEB_FOLDER
 """
@@ -43,7 +44,8 @@ class Exploration(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory(prefix="homeward-explore-")
         cls.folder = pathlib.Path(cls.temporary.name)
         cls.out = cls.folder / "offices"
-        cls.told = json.loads(homeward("explore", "--world", "offices:41", "--seed", 41, "--out", cls.out, "--json"))
+        cls.told = json.loads(homeward("explore", "--world", "offices:2301", "--seed", 2301, "--shut-doors", 0.3, "--out", cls.out,
+                                       "--json"))
 
     @classmethod
     def tearDownClass(cls):
