@@ -18,13 +18,13 @@ using Groups = std::vector<std::vector<int>>;
 class PlaceSides : public ::testing::Test {
  protected:
   /// Taken one after the other on a tour of their own.
-  void drive(const std::vector<Pose2>& poses) {
+  void drive(const std::vector<Pose2>& poses, const std::vector<testing::DrawnWall>& walls = testing::two_rooms()) {
     for (const Pose2& pose : poses) {
       images_.push_back({ImageId("t/" + std::to_string(images_.size())), std::nullopt,
                          Pose2{1.0, 2.0, 0.7} * inverse(poses.front()) * pose});
       tour_of_.push_back(tours_);
       truth_.push_back(pose);
-      sweeps_.push_back(sweep_of(testing::two_rooms(), pose));
+      sweeps_.push_back(sweep_of(walls, pose));
       appearances_.push_back(testing::random_appearance(3, static_cast<unsigned>(images_.size())));
     }
     ++tours_;
@@ -34,7 +34,7 @@ class PlaceSides : public ::testing::Test {
     const int count = static_cast<int>(images_.size());
     pairs_ = PairTable(count);
     for (int a = 0; a < count; ++a) {
-      for (int b = a + 1; b < count; ++b) {
+      for (int b = a + 1; compared_ && b < count; ++b) {
         const Pose2 seen = inverse(truth_[at(a)]) * truth_[at(b)];
         PairRelation relation;
         relation.distance = static_cast<float>(0.1 + position_m(seen).norm());
@@ -61,6 +61,7 @@ class PlaceSides : public ::testing::Test {
   std::vector<Pose2> truth_;
   std::vector<RangeSweep> sweeps_;
   std::set<int> without_;
+  bool compared_ = true;
   std::vector<const RangeSweep*> pointers_;
   PairTable pairs_{0};
   int tours_ = 0;
@@ -98,6 +99,36 @@ TEST_F(PlaceSides, OneWithoutASweepGoesWithWhatItLooksMostLike) {
   drive({{4.4, 2.0, 0.0}, {4.75, 2.0, 0.1}, {5.15, 2.05, 0.0}, {5.5, 2.0, 0.0}});
   without_ = {3};
   EXPECT_EQ(groups(), (Groups{{0, 1}, {2, 3}}));
+}
+
+TEST_F(PlaceSides, PicturesThatNobodyComparedArePartedByWheelsAndSweeps) {
+  drive({{4.2, 2.0, 0.0}, {4.4, 2.0, 0.0}, {4.75, 2.0, 0.1}, {5.15, 2.05, 0.0}, {5.5, 2.0, 0.0}});
+  compared_ = false;
+  EXPECT_EQ(groups(), (Groups{{0, 1, 2}, {3, 4}}));
+  without_ = {0};
+  EXPECT_EQ(groups(), (Groups{{0, 1, 2}, {3, 4}}));
+}
+
+TEST_F(PlaceSides, APlaceOfMoreSweepsThanAreNeededIsPartedAlike) {
+  std::vector<Pose2> there;
+  for (int i = 0; i < 20; ++i) there.push_back({4.05 + 0.1 * i, 2.0, 0.0});
+  drive(there);
+  Groups expected(2);
+  for (int i = 0; i < 20; ++i) expected[there[at(i)].x_m < 5.0 ? 0 : 1].push_back(i);
+  EXPECT_EQ(groups(), expected);
+}
+
+TEST_F(PlaceSides, OneInLineWithADoorsWallButFarFromTheDoorIsNotOnItsThreshold) {
+  std::vector<testing::DrawnWall> walls;
+  testing::add_box(walls, 0.0, 0.0, 10.0, 7.0);
+  testing::add_box(walls, 7.5, 3.0, 8.5, 4.2);
+  walls.push_back({{5.0, 0.0}, {5.0, 0.5}});
+  walls.push_back({{5.0, 1.5}, {5.0, 3.0}});
+  drive({{4.4, 1.0, 0.0}, {5.4, 1.0, 0.5}, {5.3, 2.5, 1.5}, {5.01, 4.6, 1.5}}, walls);
+  const Groups found = groups();
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].front(), 0);
+  EXPECT_EQ(found[1], (std::vector{1, 2, 3}));
 }
 
 TEST_F(PlaceSides, APlaceKeepsTheSideOfItsPrototypeAndTheOthersBecomePlaces) {
