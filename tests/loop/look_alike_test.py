@@ -20,8 +20,8 @@ def build(folder, order, seed):
     rooms = ["corridor"] + [f"office_{number}" for number in order] + ["corridor"]
     tour = folder / f"tour{seed}"
     file = folder / f"{seed}.map"
-    subprocess.run([BIN / "homeward", "simulate", "tour", "--world", "offices:1", "--rooms", ",".join(rooms), "--seed",
-                    str(seed), "--out", tour], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([BIN / "homeward", "simulate", "tour", "--world", "offices:1", "--rooms", ",".join(rooms), "--step-m", "0.6",
+                    "--seed", str(seed), "--out", tour], check=True, stdout=subprocess.DEVNULL)
     truth = tour / "poses.csv"
     with open(truth, newline="") as table:
         room_of = {row["filename"]: row["room"] for row in csv.DictReader(table)}
