@@ -119,14 +119,26 @@ TEST(Obstacles, AreMeasuredExactlyAndInCellsNearlySo) {
   int clear = 0;
   for (int k = 0; k < 400; ++k) {
     const Pose2 pose{across_m(random), across_m(random), heading_rad(random)};
+    const Pose2 robot_from_world = inverse(pose);
     for (const RobotProfile& robot : {disc_profile(), chair_profile()}) {
       double nearest_m = 1e9;
       for (const auto& [from_m, to_m] : walls) {
-        for (int i = 0; i <= 4000; ++i) {
-          const Eigen::Vector2d at_m = from_m + (to_m - from_m) * i / 4000.0;
-          const Pose2 seen = inverse(pose) * Pose2{at_m.x(), at_m.y(), 0.0};
-          nearest_m = std::min(nearest_m, distance_m(robot.outline, {seen.x_m, seen.y_m}));
+        const auto from_robot_m = [&](double share) {
+          const Eigen::Vector2d at_m = from_m + (to_m - from_m) * share;
+          return distance_m(robot.outline, position_m(robot_from_world * Pose2{at_m.x(), at_m.y(), 0.0}));
+        };
+        // The outline is convex, and so is its distance along a straight line.
+        double low = 0.0;
+        double high = 1.0;
+        for (int i = 0; i < 40; ++i) {
+          const double third = (high - low) / 3.0;
+          if (from_robot_m(low + third) < from_robot_m(high - third)) {
+            high -= third;
+          } else {
+            low += third;
+          }
         }
+        nearest_m = std::min({nearest_m, from_robot_m(0.0), from_robot_m(low), from_robot_m(1.0)});
       }
       if (nearest_m < -0.02) continue;  // how deep in a wall does not matter
       ++clear;
