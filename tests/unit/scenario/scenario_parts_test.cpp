@@ -27,7 +27,7 @@ TEST_P(StartingPose, LeavesRoomInEveryRoomOfAHouseAlsoWhereFurnitureWasMoved) {
     const sim::Obstacles obstacles(*world);
     for (const sim::Room& room : world->rooms) {
       for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        const auto pose = starting_pose(*world, {room.x_m, room.y_m}, robot_, seed);
+        const auto pose = starting_pose(*world, obstacles, {room.x_m, room.y_m}, robot_, seed);
         ASSERT_TRUE(pose) << room.name << ": " << pose.error().message;
         EXPECT_GE(obstacles.clearance_of_cells_m(robot_, *pose), kStartClearance_m) << room.name << " " << seed;
       }
