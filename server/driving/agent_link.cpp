@@ -42,17 +42,25 @@ void AgentLink::send(const wire::ServerMessage& message, bool first) {
 }
 
 void AgentLink::relay(const wire::CompanionView& view) {
+  const auto open = socket();
+  if (!open) return;
   Outgoing next = outgoing(view);
-  const std::scoped_lock lock(mutex_);
-  if (socket_ && relayed_.put_view(std::move(next))) socket_->wake();
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!relayed_.put_view(std::move(next))) return;
+  }
+  open->wake();
 }
 
 void AgentLink::relay(const wire::CompanionState& state) {
+  const auto open = socket();
+  if (!open) return;
   Outgoing next = outgoing(state);
-  const std::scoped_lock lock(mutex_);
-  if (!socket_) return;
-  relayed_.put_state(std::move(next));
-  socket_->wake();
+  {
+    const std::scoped_lock lock(mutex_);
+    relayed_.put_state(std::move(next));
+  }
+  open->wake();
 }
 
 void AgentLink::forget_relayed() {
@@ -61,8 +69,12 @@ void AgentLink::forget_relayed() {
 }
 
 void AgentLink::send_what_is_due() {
-  const std::scoped_lock lock(mutex_);
-  if (socket_ && !relayed_.empty()) socket_->wake();
+  std::shared_ptr<Socket> open;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!relayed_.empty()) open = socket_;
+  }
+  if (open) open->wake();
 }
 
 void AgentLink::close(std::uint16_t code, const std::string& reason) {
