@@ -136,15 +136,16 @@ bool unpack_sweep(std::span<const std::uint8_t> bytes, RecordedSweep& sweep) {
 }
 
 std::string_view message_type(const wire::ServerMessage& message) {
-  constexpr std::array<std::string_view, 10> kNames = {"welcome", "mission", "permit", "stop",   "belief",
-                                                       "answer",  "explore", "fences", "finish", "error"};
+  constexpr std::array<std::string_view, 13> kNames = {
+      "welcome", "mission", "permit",    "stop",           "belief",          "answer", "explore",
+      "fences",  "finish",  "companion", "companion_view", "companion_state", "error"};
   static_assert(std::variant_size_v<wire::ServerMessage> == kNames.size());
   return kNames[message.index()];
 }
 
 std::string_view message_type(const wire::AgentMessage& message) {
-  constexpr std::array<std::string_view, 6> kNames = {"hello",   "frame",           "status",
-                                                      "stopped", "mission_refused", "explored"};
+  constexpr std::array<std::string_view, 8> kNames = {
+      "hello", "frame", "status", "stopped", "mission_refused", "explored", "companion_view", "companion_state"};
   static_assert(std::variant_size_v<wire::AgentMessage> == kNames.size());
   return kNames[message.index()];
 }

@@ -7,6 +7,11 @@ namespace {
 // An agent that takes nothing for this many messages (permits come twenty times a second) is given up.
 constexpr std::size_t kMostWaiting = 100;
 
+Outgoing outgoing(const wire::ServerMessage& message) {
+  const std::vector<std::uint8_t> bytes = wire::encode(message);
+  return {std::make_shared<const std::string>(bytes.begin(), bytes.end()), false};
+}
+
 }  // namespace
 
 std::shared_ptr<Socket> AgentLink::socket() {
@@ -15,16 +20,15 @@ std::shared_ptr<Socket> AgentLink::socket() {
 }
 
 void AgentLink::send(const wire::ServerMessage& message, bool first) {
-  const std::vector<std::uint8_t> bytes = wire::encode(message);
-  Outgoing outgoing{std::make_shared<const std::string>(bytes.begin(), bytes.end()), false};
+  Outgoing next = outgoing(message);
   bool full = false;
   std::shared_ptr<Socket> socket;
   {
     const std::scoped_lock lock(mutex_);
     if (first) {
-      waiting_.push_front(std::move(outgoing));
+      waiting_.push_front(std::move(next));
     } else {
-      waiting_.push_back(std::move(outgoing));
+      waiting_.push_back(std::move(next));
     }
     full = waiting_.size() > kMostWaiting;
     socket = socket_;
@@ -35,6 +39,42 @@ void AgentLink::send(const wire::ServerMessage& message, bool first) {
   } else {
     socket->wake();
   }
+}
+
+void AgentLink::relay(const wire::CompanionView& view) {
+  const auto open = socket();
+  if (!open) return;
+  Outgoing next = outgoing(view);
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!relayed_.put_view(std::move(next))) return;
+  }
+  open->wake();
+}
+
+void AgentLink::relay(const wire::CompanionState& state) {
+  const auto open = socket();
+  if (!open) return;
+  Outgoing next = outgoing(state);
+  {
+    const std::scoped_lock lock(mutex_);
+    relayed_.put_state(std::move(next));
+  }
+  open->wake();
+}
+
+void AgentLink::forget_relayed() {
+  const std::scoped_lock lock(mutex_);
+  relayed_.clear();
+}
+
+void AgentLink::send_what_is_due() {
+  std::shared_ptr<Socket> open;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!relayed_.empty()) open = socket_;
+  }
+  if (open) open->wake();
 }
 
 void AgentLink::close(std::uint16_t code, const std::string& reason) {
@@ -67,7 +107,7 @@ void AgentLink::on_message(std::span<const std::uint8_t> bytes, bool text) {
 
 std::optional<Outgoing> AgentLink::next_message() {
   const std::scoped_lock lock(mutex_);
-  if (waiting_.empty()) return std::nullopt;
+  if (waiting_.empty()) return relayed_.next(clock_.steady());
   Outgoing next = std::move(waiting_.front());
   waiting_.pop_front();
   return next;
@@ -78,6 +118,7 @@ void AgentLink::on_closed() {
     const std::scoped_lock lock(mutex_);
     socket_.reset();
     waiting_.clear();
+    relayed_.clear();
   }
   listener_.closed(shared_from_this());
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 
+#include "server/driving/relay_queue.hpp"
 #include "server/time/clock.hpp"
 #include "server/ws/socket.hpp"
 #include "wire/link_messages.hpp"
@@ -22,7 +23,8 @@ class LinkListener {
   virtual void closed(const std::shared_ptr<AgentLink>& link) = 0;
 };
 
-/// The connection to one robot: CBOR messages both ways. A stop overtakes everything that waits to be sent.
+/// The connection to one robot: CBOR messages both ways. A stop overtakes everything that waits to be sent, and
+/// everything overtakes what other robots say to this one.
 class AgentLink : public SocketHandler, public std::enable_shared_from_this<AgentLink> {
  public:
   AgentLink(LinkListener& listener, RobotId robot, const Clock& clock)
@@ -30,6 +32,13 @@ class AgentLink : public SocketHandler, public std::enable_shared_from_this<Agen
 
   /// From any thread. `first`: before all that waits.
   void send(const wire::ServerMessage& message, bool first = false);
+  /// What the robot that this one explores with says to it: after all else, and dropped where too much waits.
+  void relay(const wire::CompanionView& view);
+  void relay(const wire::CompanionState& state);
+  /// Nothing of what was relayed and still waits goes out.
+  void forget_relayed();
+  /// To be called every now and then: relayed views may have to wait (RelayQueue).
+  void send_what_is_due();
   void close(std::uint16_t code, const std::string& reason);
   [[nodiscard]] const RobotId& robot() const { return robot_; }
   /// Whether its hello has come.
@@ -55,6 +64,7 @@ class AgentLink : public SocketHandler, public std::enable_shared_from_this<Agen
   std::mutex mutex_;
   std::shared_ptr<Socket> socket_;
   std::deque<Outgoing> waiting_;
+  RelayQueue relayed_;
 };
 
 }  // namespace homeward::server

@@ -105,6 +105,10 @@ class Driving : public LinkListener {
   Result<std::shared_ptr<const wire::ExplorationReport>> exploration(const RobotId& id);
   /// What it keeps off from now on, in place of all fences before. Errors: kNotFound, kLeaseHeld, kRobotOffline.
   Status set_fences(const RobotId& id, const std::string& lease_id, const std::vector<wire::Fence>& fences_m);
+  /// Its exploration is shared from now on with the one that `other` has now, or with none; what they say to each other
+  /// is relayed once each names the other. Errors: kNotFound (also of `other`), kInvalidInput (itself), kLeaseHeld,
+  /// kRobotOffline, kConflict (one of the two has no exploration that goes on).
+  Status set_companion(const RobotId& id, const std::string& lease_id, const std::optional<RobotId>& other);
   /// Ends a paused one with what it has. Errors: kNotFound, kLeaseHeld, kRobotOffline, kConflict (it explores just
   /// now).
   Status finish_exploration(const RobotId& id, const std::string& lease_id);
@@ -141,6 +145,11 @@ class Driving : public LinkListener {
 
   void received_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello);
   void received_status(const Unit& unit, wire::AgentStatus status);
+  // Where to pass on what the robot of `link` says of its exploration `said` to the one that explores with it; null
+  // where their latest reports do not name each other.
+  std::shared_ptr<AgentLink> link_of_companion(const Unit& unit, const std::shared_ptr<AgentLink>& link,
+                                               const ExplorationId& said);
+  void received_explored(RobotUnit& unit, wire::ExplorationReport report);
   // With the unit locked: its mission failed, as it told just now; what may be tried after that, or the end.
   void received_failure(const Unit& unit, const wire::Reason& why, bool lifted);
   // After one more picture of a robot that was lifted, or is not known where after a drive that failed; with the unit

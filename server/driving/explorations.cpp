@@ -29,13 +29,6 @@ SteadyTime latest_end(const Driving::ExplorationRequest& request, SteadyTime now
   return now + std::chrono::milliseconds(std::llround(1000.0 * limit_s)) + kBeyondLimit;
 }
 
-// What nobody may do but who drives a robot that is there.
-Status may_order(const RobotUnit& unit, const std::string& lease_id, SteadyTime now) {
-  if (const Status lease = unit.holds_lease(lease_id, now); !lease) return lease;
-  if (!unit.online()) return fail(ErrorCode::kRobotOffline, "The robot is not connected.", where_of(unit));
-  return {};
-}
-
 Status has_told(const RobotUnit& unit) {
   if (unit.exploration) return {};
   return fail(ErrorCode::kNotFound, "The robot has told of no exploration.", where_of(unit));
@@ -43,13 +36,13 @@ Status has_told(const RobotUnit& unit) {
 
 // What changes an exploration: who drives a robot that is there and has told of one.
 Status may_change(const RobotUnit& unit, const std::string& lease_id, SteadyTime now) {
-  if (const Status status = may_order(unit, lease_id, now); !status) return status;
+  if (const Status status = unit.may_be_ordered(lease_id, now); !status) return status;
   return has_told(unit);
 }
 
 // What forbids an exploration now, with the unit locked.
 Status may_explore(const RobotUnit& unit, const Driving::ExplorationRequest& request, SteadyTime now) {
-  if (const Status status = may_order(unit, request.lease_id, now); !status) return status;
+  if (const Status status = unit.may_be_ordered(request.lease_id, now); !status) return status;
   if (!unit.hello.explores)
     return fail(ErrorCode::kConflict, wire::english(wire::Reason{ReasonCode::kDoesNotExplore}), where_of(unit));
   if (!request.exploration) return {};

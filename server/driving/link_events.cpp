@@ -48,6 +48,14 @@ void Driving::received(const std::shared_ptr<AgentLink>& link, wire::AgentMessag
   const auto found = find(link->robot());
   if (!found) return link->close(kClosePolicy, "this robot was removed");
   if (auto* hello = std::get_if<wire::Hello>(&message)) return received_hello(*found, link, std::move(*hello));
+  if (const auto* view = std::get_if<wire::CompanionView>(&message)) {
+    if (const auto to = link_of_companion(*found, link, view->exploration)) to->relay(*view);
+    return;
+  }
+  if (const auto* state = std::get_if<wire::CompanionState>(&message)) {
+    if (const auto to = link_of_companion(*found, link, state->exploration)) to->relay(*state);
+    return;
+  }
   RobotUnit& unit = **found;
   const std::scoped_lock lock(unit.mutex);
   if (unit.link != link) return;  // an older connection, on its way out
@@ -60,11 +68,20 @@ void Driving::received(const std::shared_ptr<AgentLink>& link, wire::AgentMessag
   } else if (auto* refusal = std::get_if<wire::MissionRefused>(&message)) {
     received_refusal(unit, *refusal);
   } else if (auto* explored = std::get_if<wire::Explored>(&message)) {
-    unit.exploration = std::make_shared<const wire::ExplorationReport>(std::move(explored->exploration));
-    events_.publish(wire::ExplorationView{unit.id, unit.exploration});
+    received_explored(unit, std::move(explored->exploration));
   } else if (auto* stopped = std::get_if<wire::Stopped>(&message)) {
     spdlog::info("robot {} has stopped for stop {}", unit.id.str(), stopped->stop_id);
   }
+}
+
+void Driving::received_explored(RobotUnit& unit, wire::ExplorationReport report) {
+  const auto with = [](const wire::ExplorationReport& one) {
+    return one.companion ? std::optional(one.companion->exploration) : std::nullopt;
+  };
+  // What still waits for it is of an exploration that it has nothing to do with any more.
+  if (unit.exploration && with(*unit.exploration) != with(report)) unit.link->forget_relayed();
+  unit.exploration = std::make_shared<const wire::ExplorationReport>(std::move(report));
+  events_.publish(wire::ExplorationView{unit.id, unit.exploration});
 }
 
 void Driving::received_hello(const Unit& unit, const std::shared_ptr<AgentLink>& link, wire::Hello hello) {

@@ -224,6 +224,7 @@ void Driving::tick(SteadyTime now) {
       unit.link->close(kClosePolicy, "nothing was heard for too long");
       continue;
     }
+    unit.link->send_what_is_due();
     if (!unit.under_way || !unit.online() || unit.looking_for_detour) continue;
     if (now > unit.mission_ends) {
       stop_robot(unit, "", {ReasonCode::kTooLong}, "server");

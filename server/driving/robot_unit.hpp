@@ -130,6 +130,12 @@ struct RobotUnit {
   [[nodiscard]] bool sent_to_explore() const { return mission && mission->kind == wire::MissionKind::kExplore; }
   [[nodiscard]] bool explores() const { return under_way && sent_to_explore(); }
   [[nodiscard]] bool online() const { return link != nullptr && welcomed; }
+  /// What nobody may do but who drives a robot that is there. Errors: kLeaseHeld, kRobotOffline.
+  [[nodiscard]] Status may_be_ordered(const std::string& lease_id, SteadyTime now) const {
+    if (const Status lease_status = holds_lease(lease_id, now); !lease_status) return lease_status;
+    if (!online()) return fail(ErrorCode::kRobotOffline, "The robot is not connected.", "robots/" + id.str());
+    return {};
+  }
   /// Whether this lease is the one that lives. Errors: kLeaseHeld.
   [[nodiscard]] Status holds_lease(const std::string& lease_id, SteadyTime now) const {
     const bool lives = lease && now < lease->expires;

@@ -51,6 +51,21 @@ Response set_fences(Driving& driving, const Request& request) {
   return sent ? empty_response(202) : problem_of(sent);
 }
 
+Response set_companion(Driving& driving, const Request& request) {
+  const auto body = json_body(request);
+  if (!body) return not_json(body.error());
+  wire::ObjectReader reader(*body, "body");
+  const std::string lease = reader.text("lease_id", 100);
+  std::optional<RobotId> other;
+  if (!reader.value("robot").is_null()) {
+    other = RobotId(reader.text("robot", 100));
+    if (other->empty()) reader.problem("robot", "The id of the other robot, or null.");
+  }
+  if (const Status status = reader.finish(); !status) return problem_of(status);
+  const Status sent = driving.set_companion(robot_in(request), lease, other);
+  return sent ? empty_response(202) : problem_of(sent);
+}
+
 Response finish_exploration(Driving& driving, const Request& request) {
   const auto body = json_body(request);
   if (!body) return not_json(body.error());
@@ -68,6 +83,7 @@ void add_exploration_routes(Router& router, Driving& driving) {
   router.add({operation("start_exploration"), [d](Request& request) { return start_exploration(*d, request); }});
   router.add({operation("get_exploration"), [d](Request& request) { return get_exploration(*d, request); }});
   router.add({operation("set_fences"), [d](Request& request) { return set_fences(*d, request); }});
+  router.add({operation("set_companion"), [d](Request& request) { return set_companion(*d, request); }});
   router.add({operation("finish_exploration"), [d](Request& request) { return finish_exploration(*d, request); }});
 }
 

@@ -6,7 +6,7 @@
 
 namespace homeward::server {
 
-/// Explorations of robots: begin or go on, how far it is, fences, the end.
+/// Explorations of robots: begin or go on, how far it is, fences, with whom, the end.
 void add_exploration_routes(Router& router, Driving& driving);
 
 }  // namespace homeward::server

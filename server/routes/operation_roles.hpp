@@ -113,6 +113,8 @@ inline constexpr std::array kOperations = [] {
       Operation{"get_exploration", "GET", "/api/v1/robots/{robot}/exploration", kViewer, Lane::kWork, kMaxJsonBody},
       Operation{"set_fences", "PUT", "/api/v1/robots/{robot}/exploration/fences", kInstaller, Lane::kWork,
                 kMaxJsonBody},
+      Operation{"set_companion", "PUT", "/api/v1/robots/{robot}/exploration/companion", kInstaller, Lane::kWork,
+                kMaxJsonBody},
       Operation{"finish_exploration", "POST", "/api/v1/robots/{robot}/exploration/finish", kInstaller, Lane::kWork,
                 kMaxJsonBody},
       Operation{"get_mission", "GET", "/api/v1/robots/{robot}/missions/{mission}", kViewer, Lane::kWork, kMaxJsonBody},

@@ -99,6 +99,9 @@ class OrderHandler {
   // Of an exploration; whoever leads it takes them.
   void operator()(const wire::Fences&) const {}
   void operator()(const wire::Finish&) const {}
+  void operator()(const wire::Companion&) const {}
+  void operator()(const wire::CompanionView&) const {}
+  void operator()(const wire::CompanionState&) const {}
   void operator()(const wire::LinkError&) const {}
 
  private:

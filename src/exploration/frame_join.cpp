@@ -136,10 +136,12 @@ bool FrameJoin::may_be(const Pose2& first_from_second, const Explorer& first, co
   return missed <= config_.passed_over && missed <= seen;
 }
 
-void FrameJoin::first_looks(const Explorer& first, const Explorer& second, const Pose2& second_from_robot) {
+void FrameJoin::first_looks(const Explorer& first, const Explorer& second,
+                            const std::optional<Pose2>& second_from_robot) {
   if (first.views().empty() || second.views().empty()) return;
   const std::size_t last = second.views().size() - 1;
-  moments_.push_back({true, first.views().size() - 1, last, inverse(second.poses()[last]) * second_from_robot});
+  if (second_from_robot)
+    moments_.push_back({true, first.views().size() - 1, last, inverse(second.poses()[last]) * *second_from_robot});
   const auto joined = first_from_second(first, second);
   if (!is_due(first.views().size() - first_pictures_, joined)) return;
   const auto second_from_first = joined ? std::optional(inverse(*joined)) : std::nullopt;
@@ -150,10 +152,12 @@ void FrameJoin::first_looks(const Explorer& first, const Explorer& second, const
   seen_.push_back({first.views().size() - 1, stands->first, inverse(second_from_view), true});
 }
 
-void FrameJoin::second_looks(const Explorer& first, const Explorer& second, const Pose2& first_from_robot) {
+void FrameJoin::second_looks(const Explorer& first, const Explorer& second,
+                             const std::optional<Pose2>& first_from_robot) {
   if (first.views().empty() || second.views().empty()) return;
   const std::size_t last = first.views().size() - 1;
-  moments_.push_back({false, second.views().size() - 1, last, inverse(first.poses()[last]) * first_from_robot});
+  if (first_from_robot)
+    moments_.push_back({false, second.views().size() - 1, last, inverse(first.poses()[last]) * *first_from_robot});
   const auto joined = first_from_second(first, second);
   if (!is_due(second.views().size() - second_pictures_, joined)) return;
   const auto stands = newest_on(second, first, joined, config_);

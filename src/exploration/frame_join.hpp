@@ -38,10 +38,10 @@ class FrameJoin {
   explicit FrameJoin(const FrameJoinConfig& config = {}) : config_(config) {}
 
   /// The first robot has taken its newest picture, and holds it against those of the second, which stands at
-  /// `second_from_robot` of its own floor.
-  void first_looks(const Explorer& first, const Explorer& second, const Pose2& second_from_robot);
+  /// `second_from_robot` of its own floor; nothing: nobody knows where it stood then.
+  void first_looks(const Explorer& first, const Explorer& second, const std::optional<Pose2>& second_from_robot);
   /// The other way about.
-  void second_looks(const Explorer& first, const Explorer& second, const Pose2& first_from_robot);
+  void second_looks(const Explorer& first, const Explorer& second, const std::optional<Pose2>& first_from_robot);
   /// How the second one's floor lies in the first one's by all that has been seen; nothing: not known.
   [[nodiscard]] std::optional<Pose2> first_from_second(const Explorer& first, const Explorer& second) const;
   /// So many agreements have been found, right or wrong.

@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario/explore_together.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "scenario/exploration_loop.hpp"
 
 namespace homeward::scenario {
 namespace {
-
-/// What one robot is to another: no smaller than its body, however it is turned to its heading.
-sim::Box box_of(const SimulatedRobot& robot) {
-  const Outline& outline = robot.vehicle().profile().outline;
-  sim::Box box;
-  box.pose = robot.vehicle().pose() * Pose2{0.5 * (outline.front_m - outline.back_m), 0.0, 0.0};
-  box.side_m = 2.0 * outline.radius_m + std::max(outline.front_m + outline.back_m, 2.0 * outline.side_m);
-  return box;
-}
 
 class TogetherLoop {
  public:

@@ -103,6 +103,14 @@ driving::Scan SimulatedRobot::sweep() {
   return scan;
 }
 
+sim::Box box_of(const SimulatedRobot& robot) {
+  const Outline& outline = robot.vehicle().profile().outline;
+  sim::Box box;
+  box.pose = robot.vehicle().pose() * Pose2{0.5 * (outline.front_m - outline.back_m), 0.0, 0.0};
+  box.side_m = 2.0 * outline.radius_m + std::max(outline.front_m + outline.back_m, 2.0 * outline.side_m);
+  return box;
+}
+
 driving::Body body_of(const sim::RobotProfile& profile) {
   driving::Body body;
   body.outline = profile.outline;

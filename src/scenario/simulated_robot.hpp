@@ -98,6 +98,9 @@ class SimulatedRobot {
   std::uint64_t readings_ = 0;
 };
 
+/// What a robot is to another one: no smaller than its body, however it is turned to its heading.
+sim::Box box_of(const SimulatedRobot& robot);
+
 /// The body of a simulated robot as the agent knows it.
 driving::Body body_of(const sim::RobotProfile& profile);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "files/read_file.hpp"
+#include "scenario/shared_world.hpp"
 #include "scenario/usual_cameras.hpp"
 #include "scenario/world_folder.hpp"
 #include "sim/tour_path.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kPicturePeriod = std::chrono::milliseconds(100);
+constexpr auto kSharedPeriod = std::chrono::milliseconds(100);
 constexpr auto kTruthPeriod = std::chrono::milliseconds(30);
 constexpr double kPictureLife_s = 0.12;
 // A motion command expires by itself: the wheels stop when the loop above them hangs.
@@ -26,11 +28,12 @@ constexpr auto kCommandLife = std::chrono::milliseconds(100);
 class SimulatorDriver final : public driving::Driver {
  public:
   SimulatorDriver(std::unique_ptr<sim::LitWorld> world, SimulatedRobot robot, SimulatedRobotConfig config,
-                  const driving::Body& body, const SimulatorDriverConfig& driver)
+                  const driving::Body& body, std::optional<SharedWorld> shared, const SimulatorDriverConfig& driver)
       : world_(std::move(world)),
         robot_(std::move(robot)),
         config_(std::move(config)),
         body_(body),
+        shared_(std::move(shared)),
         rider_(driver.rider) {
     const std::string& truth_file = driver.truth_file;
     if (!truth_file.empty()) truth_.open(truth_file, std::ios::app);
@@ -52,6 +55,7 @@ class SimulatorDriver final : public driving::Driver {
     if (moves_) seconds = std::min(seconds, until_picture_s_);
     until_picture_s_ -= seconds;
     if (seconds > 0.0) robot_.advance(seconds);
+    see_others(now);
     tell_truth(now);
     return {simulated_ms(), robot_.odometry(), robot_.vehicle().motion().speed_mps,
             robot_.sweep(), std::nullopt,      rider_ ? rider_(simulated_ms()) : std::nullopt};
@@ -89,6 +93,12 @@ class SimulatorDriver final : public driving::Driver {
     if (moved != moves_) tell_truth(now);
   }
 
+  void see_others(Clock::time_point now) {
+    if (!shared_ || now - shared_at_ < kSharedPeriod) return;
+    shared_at_ = now;
+    robot_.set_boxes(shared_->exchange(box_of(robot_)));
+  }
+
   void tell_truth(Clock::time_point now) {
     if (!truth_.is_open() || now - reported_ < kTruthPeriod) return;
     reported_ = now;
@@ -112,6 +122,7 @@ class SimulatorDriver final : public driving::Driver {
   SimulatedRobot robot_;
   SimulatedRobotConfig config_;
   driving::Body body_;
+  std::optional<SharedWorld> shared_;
   std::function<std::optional<driving::JoystickReading>(driving::Milliseconds)> rider_;
   std::ofstream truth_;
   std::mutex mutex_;
@@ -120,6 +131,7 @@ class SimulatorDriver final : public driving::Driver {
   Clock::time_point commanded_ = Clock::now();
   Clock::time_point pictured_ = Clock::now();
   Clock::time_point reported_;
+  Clock::time_point shared_at_;
   driving::Motion commanded_motion_;
   bool moves_ = false;
   double until_picture_s_ = kPictureLife_s;  // that simulated time may still pass before the next picture
@@ -158,7 +170,14 @@ Result<std::unique_ptr<driving::Driver>> make_simulator_driver(const SimulatorDr
   auto robot = SimulatedRobot::create(*world, robot_config, start);
   if (!robot) return pass_on(robot);
   const driving::Body body = body_of(robot_config.profile);
-  return std::make_unique<SimulatorDriver>(std::move(world), std::move(*robot), std::move(robot_config), body, config);
+  std::optional<SharedWorld> shared;
+  if (!config.shared_world.empty()) {
+    auto joined = SharedWorld::join(config.shared_world);
+    if (!joined) return pass_on(joined);
+    shared.emplace(std::move(*joined));
+  }
+  return std::make_unique<SimulatorDriver>(std::move(world), std::move(*robot), std::move(robot_config), body,
+                                           std::move(shared), config);
 }
 
 }  // namespace homeward::scenario

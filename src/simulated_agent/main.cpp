@@ -35,6 +35,9 @@ void add_simulator_options(CLI::App& command, scenario::SimulatorDriverConfig& s
       ->excludes("--start-room");
   command.add_option("--people", simulator.people, "Simulator: people who walk about")->check(CLI::Range(0, 50));
   command.add_option("--seed", simulator.seed, "Simulator: seed of noise and people");
+  command.add_option(
+      "--shared-world", simulator.shared_world,
+      "Simulator: folder of a world with several robots: programs that name the same one see each other's");
   command.add_option("--truth-file", simulator.truth_file, "Simulator: append true poses to this file");
 }
 

@@ -17,6 +17,7 @@ using nlohmann::json;
 constexpr EnumNames<ExplorationPhase, 5> kPhases({"waiting", "exploring", "paused", "ended", "uploaded"});
 constexpr double kFarthest_m = 1e5;
 constexpr double kMostHeading_rad = 3.2;
+constexpr std::int64_t kMostPictures = 100'000;
 constexpr std::size_t kMostNodes = 20'000;
 constexpr int kMostCells = 1000;  // of a row or a column
 constexpr std::size_t kMostRuns = 200'000;
@@ -89,6 +90,17 @@ std::optional<Pose2> read_pose(ObjectReader& outer) {
   return pose;
 }
 
+std::optional<SharedExploration> read_shared(ObjectReader& outer) {
+  const json& value = outer.value("companion");
+  if (value.is_null()) return std::nullopt;
+  ObjectReader reader(value, outer.path_of("companion"));
+  SharedExploration shared{ExplorationId(reader.text("exploration", 100)), reader.boolean("joined"),
+                           reader.integer("pictures", 0, kMostPictures)};
+  if (shared.exploration.empty()) reader.problem("exploration", "'exploration' must not be empty.");
+  outer.close(reader);
+  return shared;
+}
+
 std::vector<std::array<int, 2>> read_loops(ObjectReader& reader, std::size_t nodes) {
   std::vector<std::array<int, 2>> loops;
   for (const json& item : reader.array("loops", kMostNodes)) {
@@ -146,16 +158,21 @@ json exploration_to_json(const ExplorationReport& report) {
                 {"floor", nullptr},
                 {"fences", fences_to_json(report.fences_m)},
                 {"uploaded", report.uploaded},
-                {"tour", or_null(report.tour)}};
+                {"tour", or_null(report.tour)},
+                {"companion", nullptr}};
   if (report.pose)
     value["pose"] = {{"x_m", report.pose->x_m}, {"y_m", report.pose->y_m}, {"theta_rad", report.pose->theta_rad}};
   if (report.target_m) value["target"] = point_to_json(*report.target_m);
+  if (report.companion) {
+    value["companion"] = {{"exploration", report.companion->exploration.str()},
+                          {"joined", report.companion->joined},
+                          {"pictures", report.companion->pictures}};
+  }
   if (report.floor) value["floor"] = floor_to_json(*report.floor);
   return value;
 }
 
 Result<ExplorationReport> exploration_from_json(const json& value, const std::string& path) {
-  constexpr std::int64_t kMostPictures = 100'000;
   ObjectReader reader(value, path);
   ExplorationReport report;
   report.id = ExplorationId(reader.text("id", 100));
@@ -181,6 +198,7 @@ Result<ExplorationReport> exploration_from_json(const json& value, const std::st
   report.fences_m = reader.take(fences_from_json(reader.value("fences"), reader.path_of("fences")));
   report.uploaded = reader.number("uploaded", 0.0, 1.0);
   if (!reader.value("tour").is_null()) report.tour = TourId(reader.text("tour", 100));
+  report.companion = read_shared(reader);
   if (report.id.empty()) reader.problem("id", "'id' must not be empty.");
   if (const Status status = reader.finish(); !status) return pass_on(status);
   return report;

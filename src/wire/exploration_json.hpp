@@ -38,6 +38,13 @@ struct FloorReport {
   std::vector<FloorKind> cells;
 };
 
+/// Another robot's exploration with which one is shared.
+struct SharedExploration {
+  ExplorationId exploration;
+  bool joined = false;        // how its floor lies is known
+  std::int64_t pictures = 0;  // of it that have arrived
+};
+
 /// How far a robot is that explores (proto/schemas/exploration.schema.json). Metres of the exploration's own frame: the
 /// robot began at the origin, looking along x.
 struct ExplorationReport {
@@ -56,6 +63,7 @@ struct ExplorationReport {
   std::vector<Fence> fences_m;
   double uploaded = 0.0;  // share of the pictures
   std::optional<TourId> tour;
+  std::optional<SharedExploration> companion;  // nothing: it is shared with none
 };
 
 nlohmann::json exploration_to_json(const ExplorationReport& report);

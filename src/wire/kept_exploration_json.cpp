@@ -15,7 +15,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kVersion = 2;  // of an exploration in which places are given up; else 1
+// Of an exploration that is shared; of another one in which places are given up; else 1.
+constexpr int kSharedVersion = 3;
+constexpr int kGivenUpVersion = 2;
 constexpr int kViewVersion = 1;
 constexpr std::size_t kMostGivenUp = 100'000;
 constexpr std::size_t kLongestId = 100;
@@ -58,8 +60,12 @@ std::vector<KeptSpot> read_given_up(ObjectReader& outer) {
     outer.close(reader);
     given_up.push_back(spot);
   }
-  if (given_up.empty()) outer.problem("given_up", "An exploration in which no place is given up has version 1.");
   return given_up;
+}
+
+int version_of(const KeptExploration& kept) {
+  if (kept.companion) return kSharedVersion;
+  return kept.given_up.empty() ? 1 : kGivenUpVersion;
 }
 
 }  // namespace
@@ -73,14 +79,15 @@ bool can_name_folder(const ExplorationId& id) {
 
 json kept_exploration_to_json(const KeptExploration& kept) {
   json value = {{"format", "homeward-kept-exploration"},
-                {"version", kept.given_up.empty() ? 1 : kVersion},
+                {"version", version_of(kept)},
                 {"id", kept.id.str()},
                 {"begun_us", kept.begun_us},
                 {"fences", fences_to_json(kept.fences_m)},
                 {"ended", kept.ended},
                 {"reason", reason_to_json(kept.reason)},
                 {"tour", or_null(kept.tour)}};
-  if (!kept.given_up.empty()) value["given_up"] = given_up_to_json(kept.given_up);
+  if (kept.companion) value["companion"] = kept.companion->str();
+  if (version_of(kept) >= kGivenUpVersion) value["given_up"] = given_up_to_json(kept.given_up);
   return value;
 }
 
@@ -97,17 +104,23 @@ json kept_view_to_json(const KeptView& view) {
 
 Result<KeptExploration> kept_exploration_from_json(const json& value, const std::string& path) {
   ObjectReader reader(value, path);
-  const int version = reader.format("homeward-kept-exploration", 1, kVersion);
+  const int version = reader.format("homeward-kept-exploration", 1, kSharedVersion);
   KeptExploration kept;
   kept.id = ExplorationId(reader.text("id", kLongestId));
   if (!can_name_folder(kept.id)) reader.problem("id", "'id' must be of letters, digits, '_' and '-'.");
   kept.begun_us = reader.integer("begun_us", 0, std::numeric_limits<std::int64_t>::max());
   kept.fences_m = reader.take(fences_from_json(reader.value("fences"), reader.path_of("fences")));
-  if (version >= 2) kept.given_up = read_given_up(reader);
+  if (version >= kGivenUpVersion) kept.given_up = read_given_up(reader);
+  if (version == kGivenUpVersion && kept.given_up.empty())
+    reader.problem("given_up", "An exploration that is not shared and in which no place is given up has version 1.");
   kept.ended = reader.boolean("ended");
   if (const json& reason = reader.value("reason"); !reason.is_null())
     kept.reason = reader.take(reason_from_json(reason, reader.path_of("reason")));
   if (!reader.value("tour").is_null()) kept.tour = TourId(reader.text("tour", 100));
+  if (version >= kSharedVersion) {
+    kept.companion = ExplorationId(reader.text("companion", kLongestId));
+    if (kept.companion->empty()) reader.problem("companion", "'companion' must not be empty.");
+  }
   if (const Status status = reader.finish(); !status) return pass_on(status);
   return kept;
 }

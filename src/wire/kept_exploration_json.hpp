@@ -31,8 +31,9 @@ struct KeptExploration {
   std::vector<Fence> fences_m;
   std::vector<KeptSpot> given_up;  // in the order in which they were
   bool ended = false;
-  std::optional<Reason> reason;  // why it ended
-  std::optional<TourId> tour;    // that its pictures are on the server
+  std::optional<Reason> reason;                 // why it ended
+  std::optional<TourId> tour;                   // that its pictures are on the server
+  std::optional<ExplorationId> companion = {};  // of another robot, with which it is shared
 };
 
 /// What it keeps of one picture of it (proto/schemas/kept_view.schema.json).

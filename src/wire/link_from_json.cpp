@@ -5,6 +5,7 @@
 
 #include "wire/camera_json.hpp"
 #include "wire/json_reader.hpp"
+#include "wire/link_companion.hpp"
 #include "wire/link_messages.hpp"
 #include "wire/reason_json.hpp"
 
@@ -332,6 +333,8 @@ Result<AgentMessage> agent_message_from_json(const json& value) {
     if (type == "explored") {
       return Explored{r.take(exploration_from_json(r.value("exploration"), r.path_of("exploration")))};
     }
+    if (type == "companion_view") return read_companion_view(r);
+    if (type == "companion_state") return read_companion_state(r);
     return std::nullopt;
   });
 }
@@ -355,6 +358,9 @@ Result<ServerMessage> server_message_from_json(const json& value) {
         if (type == "explore") return read_explore(r);
         if (type == "fences") return read_fences(r);
         if (type == "finish") return Finish{ExplorationId(read_id(r, "exploration"))};
+        if (type == "companion") return read_companion(r);
+        if (type == "companion_view") return read_companion_view(r);
+        if (type == "companion_state") return read_companion_state(r);
         if (type == "error") return LinkError{r.text("code", 100), r.text("message")};
         return std::nullopt;
       });

@@ -16,6 +16,7 @@
 #include "core/result.hpp"
 #include "core/time.hpp"
 #include "wire/exploration_json.hpp"
+#include "wire/kept_exploration_json.hpp"
 #include "wire/lease_durations.hpp"
 #include "wire/reason.hpp"
 
@@ -23,8 +24,9 @@ namespace homeward::wire {
 
 /// The agent link (proto/asyncapi.yaml): each message one CBOR map in one binary WebSocket message, with "type" and
 /// "v".
-inline constexpr int kLinkVersion = 3;
-/// Version 1, which older recordings hold, has words instead of reasons; version 2 knows no explorations.
+inline constexpr int kLinkVersion = 4;
+/// Version 1, which older recordings hold, has words instead of reasons; version 2 knows no explorations, version 3 no
+/// companions.
 inline constexpr int kOldestLinkVersion = 1;
 inline constexpr std::size_t kMaxLinkMessageBytes = 32UL * 1024 * 1024;
 
@@ -120,6 +122,28 @@ struct MissionRefused {
 /// How far an exploration is.
 struct Explored {
   ExplorationReport exploration;
+};
+
+// From the agent of a robot to that of its companion: the server passes them on as they are.
+
+inline constexpr std::size_t kMostCompanionBytes = 2UL * 1024 * 1024;  // of an appearance
+
+/// A picture of the sender's exploration.
+struct CompanionView {
+  ExplorationId exploration;
+  std::int64_t index = 0;  // in it, from 0
+  KeptView view;
+  std::vector<std::uint8_t> appearance;  // appearance_blob.hpp; empty: not told
+};
+
+/// Where the sender is, and what it has got.
+struct CompanionState {
+  ExplorationId exploration;
+  std::int64_t pictures = 0;                // that the sender has taken
+  Pose2 odometry;                           // as that of its newest picture
+  std::optional<Eigen::Vector2d> target_m;  // driven to, its own frame; nothing: none
+  bool drives = false;                      // it explores, and has not ended
+  std::int64_t has = 0;                     // of the receiver's pictures, from the first on without a gap
 };
 
 // From the server.
@@ -235,14 +259,21 @@ struct Finish {
   ExplorationId exploration;
 };
 
+/// With whose exploration that of the robot is shared from now on.
+struct Companion {
+  ExplorationId exploration;
+  std::optional<ExplorationId> with;  // nothing: with none
+};
+
 struct LinkError {
   std::string code;
   std::string message;
 };
 
-using AgentMessage = std::variant<Hello, Frame, AgentStatus, Stopped, MissionRefused, Explored>;
+using AgentMessage =
+    std::variant<Hello, Frame, AgentStatus, Stopped, MissionRefused, Explored, CompanionView, CompanionState>;
 using ServerMessage = std::variant<Welcome, MissionOrder, Permit, StopOrder, BeliefReport, Answer, ExploreOrder, Fences,
-                                   Finish, LinkError>;
+                                   Finish, Companion, CompanionView, CompanionState, LinkError>;
 
 std::vector<std::uint8_t> encode(const AgentMessage& message);
 std::vector<std::uint8_t> encode(const ServerMessage& message);

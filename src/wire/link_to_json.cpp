@@ -4,6 +4,7 @@
 
 #include "wire/camera_json.hpp"
 #include "wire/json_write.hpp"
+#include "wire/link_companion.hpp"
 #include "wire/link_messages.hpp"
 #include "wire/reason_json.hpp"
 
@@ -215,6 +216,24 @@ json write(const Fences& m) {
 json write(const Finish& m) {
   json value = start("finish");
   value["exploration"] = m.exploration.str();
+  return value;
+}
+
+json write(const Companion& m) {
+  json value = start("companion");
+  add_fields(value, m);
+  return value;
+}
+
+json write(const CompanionView& m) {
+  json value = start("companion_view");
+  add_fields(value, m);
+  return value;
+}
+
+json write(const CompanionState& m) {
+  json value = start("companion_state");
+  add_fields(value, m);
   return value;
 }
 

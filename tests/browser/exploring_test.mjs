@@ -12,6 +12,7 @@ const status = (page) => page.getByTestId('status');
 const stage = (page, phase) => page.locator(`[data-testid=status][data-phase=${phase}]`).waitFor();
 const plan = (page) => page.getByTestId('plan');
 const fences = (page) => page.getByRole('region', { name: 'Fences' });
+const together = (page) => page.getByRole('region', { name: 'Together with' });
 const press = (scope, name) => scope.getByRole('button', { name, exact: true }).click();
 const kNarrow = { width: 360, height: 780 };
 
@@ -26,6 +27,37 @@ async function start(page, house) {
   await press(page, 'Start: Chair maps the building');
   await stage(page, 'exploring');
 }
+
+/** Another robot, of which the page hears as of every other one. */
+function addRobot(house, name) {
+  const robot = house.newRobot(name, 'm1');
+  house.robots.push(robot);
+  house.tellRobot(robot);
+  return robot;
+}
+
+/** Somebody lets it map the building from another window, and goes on watching. */
+async function startElsewhere(page, house, robot) {
+  const headers = { origin: new URL(page.url()).origin };
+  const root = `/api/v1/robots/${robot.id}`;
+  const taken = await page.request.post(`${root}/lease`, { data: { take_over: true }, headers });
+  const { lease } = await taken.json();
+  await page.request.post(`${root}/explorations`, { data: { lease_id: lease.id }, headers });
+  watch(house, robot, 'anna');
+}
+
+function watch(house, robot, holder) {
+  robot.lease = { id: 'elsewhere', holder, epoch: 7, until_ms: Date.now() + 600_000 };
+  house.tellRobot(robot);
+}
+
+async function bond(page, kind, pill) {
+  await page.locator(`[data-testid=together][data-bond=${kind}]`).waitFor();
+  await together(page).getByText(pill, { exact: true }).waitFor();
+}
+
+const companionOf = async (page, robot) =>
+  (await (await page.request.get(`/api/v1/robots/${robot.id}/exploration`)).json()).companion;
 
 /** Until it has taken so many pictures, as the page tells. */
 async function pictures(page, least) {
@@ -226,6 +258,68 @@ const checks = [
     }),
   ],
   [
+    'two robots map the building together: chosen once for both, joined, not heard of, and each by itself again',
+    withHouse(async (page, house) => {
+      house.stands = 2;
+      await start(page, house);
+      assert.equal(await together(page).count(), 0, 'there is no other robot');
+      const bruno = addRobot(house, 'Bruno');
+      await together(page).getByText('No other robot maps the building now.').waitFor();
+      await startElsewhere(page, house, bruno);
+      await together(page).getByText('Maps the building, 2 pictures.').waitFor();
+      await press(together(page), 'Map together with Bruno');
+      await together(page)
+        .getByText(/^Sent\. \w+ has not said yet that it knows\.$/)
+        .waitFor();
+      await bond(page, 'looking', 'Not joined yet');
+      await together(page).getByText('Chair has 2 pictures of Bruno').waitFor();
+      assert.ok(await companionOf(page, bruno), 'Bruno was told as well');
+      watch(house, bruno, 'anna');
+      house.stands = 8;
+      await bond(page, 'joined', 'Joined');
+      await page.getByRole('heading', { name: 'Together with Bruno' }).waitFor();
+      await together(page).getByText('It has 8 pictures of it').waitFor();
+      bruno.online = false;
+      house.tellRobot(bruno);
+      await bond(page, 'silent', 'Not heard of');
+      await together(page).getByText('Nothing is heard of Bruno.').waitFor();
+      bruno.online = true;
+      house.tellRobot(bruno);
+      await bond(page, 'joined', 'Joined');
+      await press(together(page), 'Each by itself again');
+      await together(page).getByText('Two robots at once').waitFor();
+      assert.deepEqual(
+        [await companionOf(page, house.robots[0]), await companionOf(page, bruno)],
+        [null, null],
+      );
+    }),
+  ],
+  [
+    'a robot that somebody else drives is not taken from them: the page says what is left to do, and does it later',
+    withHouse(async (page, house) => {
+      await start(page, house);
+      const bruno = addRobot(house, 'Bruno');
+      await startElsewhere(page, house, bruno);
+      watch(house, bruno, 'ben');
+      await press(together(page), 'Map together with Bruno');
+      await bond(page, 'one_sided', 'Half done');
+      await together(page)
+        .getByText(/^ben is driving Bruno: ask ben to choose Chair/)
+        .waitFor();
+      assert.equal(bruno.lease.holder, 'ben');
+      assert.equal(await together(page).getByRole('button', { name: 'Tell Bruno too' }).count(), 0);
+      await together(page).getByRole('link', { name: 'To the page of Bruno' }).click();
+      assert.equal(new URL(page.url()).pathname, `/robots/${bruno.id}/explore`);
+      await together(page).getByText('shares with this one already').waitFor();
+      await page.goBack();
+      bruno.lease = null;
+      house.tellRobot(bruno);
+      await press(together(page), 'Tell Bruno too');
+      watch(house, bruno, 'anna');
+      await bond(page, 'joined', 'Joined');
+    }),
+  ],
+  [
     'somebody else who drives is asked about, and a robot that is not connected is not started',
     withHouse(async (page, house) => {
       house.steer({ do: 'hold', holder: 'ben' });
@@ -325,6 +419,19 @@ const checks = [
         await drawFence(page);
         await see('drawing');
         await press(fences(page), 'Close the fence');
+        const bruno = addRobot(house, 'Bruno with a name that is long');
+        await startElsewhere(page, house, bruno);
+        await together(page).scrollIntoViewIfNeeded();
+        await see('offers');
+        watch(house, bruno, 'ben');
+        await press(together(page), `Map together with ${bruno.name}`);
+        await bond(page, 'one_sided', 'Half done');
+        await see('half');
+        watch(house, bruno, 'anna');
+        await press(together(page), `Tell ${bruno.name} too`);
+        watch(house, bruno, 'anna');
+        await bond(page, 'joined', 'Joined');
+        await see('joined');
         await press(fences(page), 'Remove fence 1');
         await see('fences');
         await press(fences(page), 'Keep');
@@ -363,6 +470,34 @@ const checks = [
       await stage(page, 'uploaded');
       await page.evaluate(() => scrollTo(0, 0));
       await see('explore-uploaded');
+    }),
+  ],
+  [
+    'two robots together at every width and in light and dark are accessible and fit',
+    inEveryLook(withHouse, out, async (page, house, see) => {
+      house.stands = 3;
+      await start(page, house);
+      await pictures(page, 3);
+      const bruno = addRobot(house, 'Bruno');
+      const look = async (name) => {
+        await together(page).scrollIntoViewIfNeeded();
+        await see(`explore-together-${name}`);
+      };
+      await startElsewhere(page, house, bruno);
+      await together(page).getByText('Maps the building, 3 pictures.').waitFor();
+      await look('offers');
+      watch(house, bruno, 'ben');
+      await press(together(page), 'Map together with Bruno');
+      await bond(page, 'one_sided', 'Half done');
+      await look('half');
+      watch(house, bruno, 'anna');
+      await press(together(page), 'Tell Bruno too');
+      watch(house, bruno, 'anna');
+      await bond(page, 'looking', 'Not joined yet');
+      house.stands = 12;
+      await bond(page, 'joined', 'Joined');
+      await together(page).getByText('It has 12 pictures of it').waitFor();
+      await look('joined');
     }),
   ],
 ];

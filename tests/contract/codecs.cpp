@@ -96,7 +96,8 @@ std::map<std::string, Recode> all_codecs() {
     return scenario ? Result<json>(value) : pass_on(scenario);
   };
   // The link speaks CBOR: there and back through the bytes.
-  for (const char* name : {"hello", "frame", "status", "stopped", "mission_refused", "explored"}) {
+  for (const char* name :
+       {"hello", "frame", "status", "stopped", "mission_refused", "explored", "companion_view", "companion_state"}) {
     codecs[std::string("link_") + name] = [](const json& value) -> Result<json> {
       const auto message = wire::decode_agent_message(json::to_cbor(with_bytes(value)));
       if (!message) return pass_on(message);
@@ -105,8 +106,8 @@ std::map<std::string, Recode> all_codecs() {
       return with_base64(wire::to_json(*again));
     };
   }
-  for (const char* name :
-       {"welcome", "mission", "permit", "stop", "belief", "answer", "explore", "fences", "finish", "error"}) {
+  for (const char* name : {"welcome", "mission", "permit", "stop", "belief", "answer", "explore", "fences", "finish",
+                           "companion", "error"}) {
     codecs[std::string("link_") + name] = [](const json& value) -> Result<json> {
       const auto message = wire::decode_server_message(json::to_cbor(with_bytes(value)));
       if (!message) return pass_on(message);

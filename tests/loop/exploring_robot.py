@@ -21,14 +21,15 @@ AT_REST_RAD = 0.001
 
 
 class ExploringRobot:
-    """`data` is a folder of its own, `web` the dashboard's or None."""
+    """`data` is a folder of its own, `web` the dashboard's or None. `beside`: another one, whose server is this one's too."""
 
-    def __init__(self, binaries, web, port, data):
+    def __init__(self, binaries, web, port, data, beside=None):
         self.binaries, self.web, self.port = pathlib.Path(binaries).resolve(), web, port
         self.data = pathlib.Path(data)
         self.truth_file = self.data / "truth"
         self.server = Server(f"http://127.0.0.1:{port}")
         self.watching = Server(self.server.address)
+        self.beside = beside
         self.processes = {}
         self.lease = None
         self.ends = threading.Event()
@@ -40,10 +41,11 @@ class ExploringRobot:
             raise
 
     def set_up(self):
-        self.start_server()
-        self.server.call("POST", "/api/v1/setup", {"token": setup_token(self.data / "setup-link"), **LOGIN})
+        if self.beside is None:
+            self.start_server()
+            self.server.call("POST", "/api/v1/setup", {"token": setup_token(self.data / "setup-link"), **LOGIN})
         self.sign_in()
-        made = self.server.call("POST", "/api/v1/robots", {"name": "Chair"})
+        made = self.server.call("POST", "/api/v1/robots", {"name": "Chair" if self.beside is None else "Second chair"})
         self.id = made["id"]
         self.robot = f"/api/v1/robots/{self.id}"
         self.token = self.data / "token"
@@ -174,9 +176,18 @@ class ExploringRobot:
         self.take_lease()
         return self.server.call("POST", f"{self.robot}/explorations", {"lease_id": self.lease, **more})
 
-    def build_map(self, tour):
+    def share_with(self, other):
+        """This one's exploration is shared with the other's; that one's with this one's, once that says so too."""
+        self.server.call("PUT", f"{self.robot}/exploration/companion", {"lease_id": self.lease, "robot": other.id})
+
+    def joined(self):
+        """The report once it knows how the other's floor lies to its own."""
+        report = self.report()
+        return report if report and report["companion"] and report["companion"]["joined"] else None
+
+    def build_map(self, *tours):
         """Gives the map's id. Raises Failed when it cannot be built."""
-        answer = self.server.call("POST", "/api/v1/maps", {"name": "House", "tours": [tour]})
+        answer = self.server.call("POST", "/api/v1/maps", {"name": "House", "tours": list(tours)})
         path = f"/api/v1/jobs/{answer['job']['id']}"
         self.until("the map is built", lambda: self.server.call("GET", path)["state"] not in ("queued", "running"), 300)
         job = self.server.call("GET", path)

@@ -185,6 +185,45 @@ describe('the mock server', () => {
     expect((await ask('GET', `tours/${(await now()).tour}`)).body.state).toBe('complete');
   });
 
+  it('answers of explorations that are shared as the schemas say', async () => {
+    const { house } = mock;
+    const robots = ['Bruno', 'Carla', 'Dora'].map((name) => house.newRobot(name, 'm1'));
+    house.robots.push(...robots);
+    const [bruno, carla, dora] = robots.map((one) => one.id);
+    const order = {};
+    for (const one of [bruno, carla]) {
+      const { body } = await ask('POST', `robots/${one}/lease`, { take_over: true });
+      order[one] = { lease_id: body.lease.id };
+    }
+    const share = (of, robot, more = order[of]) =>
+      ask('PUT', `robots/${of}/exploration/companion`, { ...more, robot });
+    const refused = async (...args) => {
+      const { status, body } = await share(...args);
+      return [status, body.code, ...problemsOf('problem', body)];
+    };
+    await ask('POST', `robots/${bruno}/explorations`, order[bruno]);
+    expect(await refused('none', bruno, {})).toEqual([404, 'not_found']);
+    expect(await refused(bruno, 'none')).toEqual([404, 'not_found']);
+    expect(await refused(bruno, bruno)).toEqual([422, 'invalid_input']);
+    expect(await refused(bruno, carla)).toEqual([409, 'conflict']);
+    expect(await refused(carla, bruno)).toEqual([409, 'conflict']);
+    await ask('POST', `robots/${carla}/explorations`, order[carla]);
+    expect(await refused(bruno, carla, { lease_id: 'none' })).toEqual([409, 'lease_held']);
+    expect((await share(bruno, carla)).status).toBe(202);
+    const now = async (of) => (await ask('GET', `robots/${of}/exploration`)).body;
+    await expect.poll(async () => (await now(bruno)).companion).not.toBeNull();
+    expect((await now(bruno)).companion).toMatchObject({ joined: false, pictures: 0 });
+    expect((await share(carla, bruno)).status).toBe(202);
+    for (const one of [bruno, carla])
+      await expect.poll(async () => (await now(one)).companion?.joined, { timeout: 5000 }).toBe(true);
+    expect(problemsOf('exploration', await now(bruno))).toEqual([]);
+    house.robots.find((one) => one.id === dora).online = false;
+    expect(await refused(bruno, dora)).toEqual([409, 'conflict']);
+    expect((await share(bruno, null)).status).toBe(202);
+    await expect.poll(async () => (await now(bruno)).companion).toBeNull();
+    for (const one of [bruno, carla]) await ask('POST', `robots/${one}/stop`, {});
+  });
+
   it('answers a report as a page of its own', async () => {
     const answer = await fetch(`${mock.url}/api/v1/maps/m1/report`, { headers: { cookie } });
     expect([answer.status, answer.headers.get('content-type')]).toEqual([200, 'text/html; charset=utf-8']);

@@ -130,6 +130,7 @@ function begin(house, robot) {
     fences: [],
     uploaded: 0,
     tour: null,
+    companion: null,
   };
   const one = { report, cells: new Uint8Array(kSize[0] * kSize[1]), timer: null };
   one.timer = setInterval(() => step(house, robot, one), house.step_ms);
@@ -148,13 +149,29 @@ function tell(house, robot, { report }) {
   });
 }
 
+/** The robot whose exploration a report names as the one that it is shared with. */
+const companionOf = (house, { companion }) =>
+  house.robots.find((one) => companion && explorations.get(one)?.report.id === companion.exploration);
+
+/** What two that name each other and are connected hear of each other; with four pictures of each they find a place that
+ *  both have seen. */
+function hear(house, report) {
+  const other = companionOf(house, report);
+  const theirs = other?.online ? explorations.get(other).report : null;
+  if (theirs?.companion?.exploration !== report.id) return;
+  report.companion.pictures = theirs.pictures;
+  report.companion.joined ||= Math.min(report.pictures, theirs.pictures) >= 4;
+}
+
 const isUnderWay = ({ mission }) =>
   mission?.kind === 'explore' && ['accepted', 'driving'].includes(mission.state);
 
 function step(house, robot, one) {
   const { report } = one;
   if (report.phase === 'ended') return upload(house, robot, one);
-  if (report.phase !== 'exploring') return;
+  if (!robot.online) return;
+  if (report.companion) hear(house, report);
+  if (report.phase !== 'exploring') return report.companion ? tell(house, robot, one) : undefined;
   if (!isUnderWay(robot))
     Object.assign(report, { phase: 'paused', reason: robot.mission.reason, target: null });
   else if (!(robot.lease?.until_ms > Date.now()))
@@ -268,35 +285,73 @@ function explore(house, call) {
 
 function explorationOf(house, { args }) {
   const robot = house.find('robots', args[0]);
+  return { body: toldOf(robot).report };
+}
+
+/** What a robot has told of since it connected. */
+function toldOf(robot) {
   const one = explorations.get(robot);
-  if (!one)
-    throw new Refusal('not_found', 'The robot told of no exploration.', `robots/${robot.id}/exploration`);
-  return { body: one.report };
+  if (!one || !robot.online)
+    throw new Refusal('not_found', 'The robot has told of no exploration.', `robots/${robot.id}/exploration`);
+  return one;
+}
+
+/** The robot hears of it, obeys, and says so a moment later. */
+function obey(house, robot, one, change) {
+  setTimeout(() => {
+    change(one.report);
+    tell(house, robot, one);
+  }, 150);
+  return { status: 202 };
 }
 
 function setFences(house, call) {
   const { robot } = ordered(house, call);
+  const one = toldOf(robot);
+  one.report.fences = call.body.fences;
+  return obey(house, robot, one, () => undefined);
+}
+
+/** The exploration of a robot that can be shared. */
+function shareable(robot) {
+  const cannot = (why) => new Refusal('conflict', `${robot.name} ${why}`, `robots/${robot.id}/exploration`);
+  if (!robot.online) throw cannot('is not connected, so its exploration cannot be shared.');
   const one = explorations.get(robot);
-  if (one) {
-    one.report.fences = call.body.fences;
-    setTimeout(() => tell(house, robot, one), 150);
-  }
-  return { status: 202 };
+  if (!one) throw cannot('has no exploration that could be shared.');
+  if (isUnderWay(robot) && robot.mission.exploration !== one.report.id)
+    throw cannot('has not told of its exploration yet; try again in a moment.');
+  if (['ended', 'uploaded'].includes(one.report.phase))
+    throw cannot('has ended its exploration; there is nothing to share any more.');
+  return one;
+}
+
+function setCompanion(house, call) {
+  const robot = house.find('robots', call.args[0]);
+  const { robot: other } = call.body;
+  if (other === robot.id)
+    throw new Refusal('invalid_input', 'A robot cannot share its exploration with itself.', 'body/robot');
+  const exploration = other === null ? null : shareable(house.find('robots', other)).report.id;
+  ordered(house, call);
+  return obey(house, robot, shareable(robot), (report) => {
+    if (report.companion?.exploration === exploration) return;
+    report.companion = exploration && { exploration, joined: false, pictures: 0 };
+  });
 }
 
 function finish(house, call) {
   const { robot } = ordered(house, call);
-  const one = explorations.get(robot);
-  if (one?.report.phase !== 'paused')
+  const one = toldOf(robot);
+  if (isUnderWay(robot))
     throw new Refusal(
       'conflict',
       'The robot explores just now; stop it first.',
       `robots/${robot.id}/exploration`,
     );
-  Object.assign(one.report, {
-    phase: 'ended',
-    reason: { code: 'exploration_ended_by_hand', parameters: {} },
-  });
+  if (one.report.phase === 'paused')
+    Object.assign(one.report, {
+      phase: 'ended',
+      reason: { code: 'exploration_ended_by_hand', parameters: {} },
+    });
   return { status: 202 };
 }
 
@@ -304,5 +359,6 @@ export const kExplorationRoutes = [
   [/^POST robots\/([^/]+)\/explorations$/, 'installer', explore],
   [/^GET robots\/([^/]+)\/exploration$/, 'viewer', explorationOf],
   [/^PUT robots\/([^/]+)\/exploration\/fences$/, 'installer', setFences],
+  [/^PUT robots\/([^/]+)\/exploration\/companion$/, 'installer', setCompanion],
   [/^POST robots\/([^/]+)\/exploration\/finish$/, 'installer', finish],
 ];

@@ -42,12 +42,10 @@ function takeLease(house, { user, body, args }) {
   const now = leaseOf(robot);
   if (now && now.holder !== user.name && !body.take_over)
     throw new Refusal('lease_held', `${now.holder} is driving.`, ofLease(robot));
-  robot.lease = {
-    id: house.newId('l'),
-    holder: user.name,
-    epoch: (now?.epoch ?? 0) + 1,
-    until_ms: Date.now() + kLeaseMs,
-  };
+  const until_ms = Date.now() + kLeaseMs;
+  // The same person again has the same one, in whichever window.
+  if (now?.holder === user.name) now.until_ms = until_ms;
+  else robot.lease = { id: house.newId('l'), holder: user.name, epoch: (now?.epoch ?? 0) + 1, until_ms };
   house.tellRobot(robot);
   return { body: { lease: shownLease(robot.lease) } };
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "files/write_file.hpp"
@@ -21,6 +22,8 @@ constexpr driving::Milliseconds kHeldUp_ms = 2000;
 // or where it says that the robot moved faster than any.
 constexpr double kJump_m = 0.3;
 constexpr double kJump_rad = 0.8;
+constexpr std::size_t kMostFromCompanion = 16;  // messages that the thread has not got to
+constexpr std::size_t kMostToCompanion = 16;    // and that the loop has not
 
 bool explores(const driving::DrivingState& state) {
   return state.mission && state.mission->explores && state.drive == wire::DriveState::kDriving;
@@ -83,6 +86,8 @@ void Exploring::note_orders(const driving::Inputs& inputs, const driving::Drivin
       to_.commands.emplace_back(*fences);
     } else if (const auto* finish = std::get_if<wire::Finish>(&message)) {
       to_.commands.emplace_back(*finish);
+    } else if (const auto* companion = std::get_if<wire::Companion>(&message)) {
+      to_.commands.emplace_back(*companion);
     } else if (std::holds_alternative<wire::Welcome>(message)) {
       welcomed_ = true;
     }
@@ -138,6 +143,20 @@ void Exploring::follow(const driving::Inputs& inputs, const recording::PictureBy
   if (new_sweep_ || to_.commands.size() != commands) came_.notify_one();
 }
 
+void Exploring::hear(std::vector<FromCompanion> told) {
+  if (told.empty()) return;
+  const std::lock_guard lock(mutex_);
+  std::ranges::move(told, std::back_inserter(to_.companion));
+  if (to_.companion.size() > kMostFromCompanion)
+    to_.companion.erase(to_.companion.begin(), to_.companion.end() - kMostFromCompanion);
+  came_.notify_one();
+}
+
+std::vector<std::vector<std::uint8_t>> Exploring::take_to_companion() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(from_.to_companion, {});
+}
+
 bool Exploring::wants_features() const {
   const std::lock_guard lock(mutex_);
   return from_.wants_features;
@@ -170,8 +189,12 @@ void Exploring::run(const std::stop_token& stop) {
     const std::lock_guard lock(mutex_);
     std::vector<wire::StateRow> rows = std::exchange(from_.rows, {});
     rows.insert(rows.end(), said.rows.begin(), said.rows.end());
+    auto to_companion = std::exchange(from_.to_companion, {});
+    std::ranges::move(said.to_companion, std::back_inserter(to_companion));
+    if (to_companion.size() > kMostToCompanion) to_companion.clear();  // nobody takes them
     from_ = std::move(said);
     from_.rows = std::move(rows);
+    from_.to_companion = std::move(to_companion);
     if (report) new_report_ = std::move(report);
   };
   thinker_.take_up_kept(tell, stop);
@@ -180,8 +203,10 @@ void Exploring::run(const std::stop_token& stop) {
     {
       std::unique_lock lock(mutex_);
       constexpr auto kLooksUpEvery = std::chrono::milliseconds(500);
-      came_.wait_for(lock, stop, kLooksUpEvery, [this] { return new_sweep_ || !to_.commands.empty(); });
+      came_.wait_for(lock, stop, kLooksUpEvery,
+                     [this] { return new_sweep_ || !to_.commands.empty() || !to_.companion.empty(); });
       mail.commands = std::exchange(to_.commands, {});
+      mail.companion = std::exchange(to_.companion, {});
       mail.picture = std::exchange(to_.picture, std::nullopt);
       mail.link_up = to_.link_up;
       mail.sweeps = to_.sweeps;

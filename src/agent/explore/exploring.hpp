@@ -37,11 +37,15 @@ class Exploring {
   /// `now_ms`: of the step.
   void follow(const driving::Inputs& inputs, const recording::PictureBytes& picture, const driving::DrivingState& state,
               driving::Milliseconds now_ms);
+  /// What the companion told (take_from_companion). Of much at once the oldest is lost.
+  void hear(std::vector<FromCompanion> told);
   /// Whether a picture with its features is of use now.
   [[nodiscard]] bool wants_features() const;
   /// How far it is, as a message of the link (wire::Explored, encoded), where that is new or the server has welcomed
   /// the robot since; null otherwise.
   std::shared_ptr<const std::vector<std::uint8_t>> take_report();
+  /// What the companion is to be told, encoded, since this was called last.
+  std::vector<std::vector<std::uint8_t>> take_to_companion();
   /// The rows of the table of states since this was called last, for a recording: before the step.
   std::vector<wire::StateRow> take_rows();
 

@@ -150,6 +150,12 @@ Status KeptSurvey::set_fences(const std::vector<wire::Fence>& fences_m) {
   return files_.keep(kept);
 }
 
+Status KeptSurvey::share_with(const std::optional<ExplorationId>& companion) {
+  wire::KeptExploration kept = files_.kept();
+  kept.companion = companion;
+  return files_.keep(kept);
+}
+
 Status KeptSurvey::uploaded(const TourId& tour) {
   wire::KeptExploration kept = files_.kept();
   kept.tour = tour;
@@ -164,6 +170,17 @@ bool KeptSurvey::soon_wants_picture() const {
          survey_.explorer().since_picture_m(*odometry_) >= kSoon * survey_.explorer().config().picture_every_m;
 }
 
+std::optional<Pose2> KeptSurvey::floor_from_robot() const {
+  if (!odometry_ || survey_.explorer().views().empty()) return std::nullopt;
+  return survey_.explorer().floor_from_robot(*odometry_);
+}
+
+Pose2 KeptSurvey::odometry_of_pictures() const {
+  if (survey_.explorer().views().empty()) return {};
+  if (!odometry_) return survey_.explorer().views().back().odometry;
+  return odometry_moved_ ? inverse(*odometry_moved_) * *odometry_ : *odometry_;
+}
+
 wire::ExplorationReport KeptSurvey::report() const {
   wire::ExplorationReport report;
   report.id = files_.kept().id;
@@ -176,7 +193,8 @@ wire::ExplorationReport KeptSurvey::report() const {
   report.tour = files_.kept().tour;
   report.uploaded = report.tour ? 1.0 : 0.0;
   describe(survey_.explorer(), report);
-  if (odometry_ && !survey_.explorer().views().empty()) report.pose = survey_.explorer().floor_from_robot(*odometry_);
+  report.pose = floor_from_robot();
+  if (files_.kept().companion) report.companion = wire::SharedExploration{*files_.kept().companion, false, 0};
   if (phase_ == ExplorationPhase::kExploring) report.target_m = survey_.target_m();
   return report;
 }

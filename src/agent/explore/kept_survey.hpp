@@ -70,6 +70,11 @@ class KeptSurvey {
   Status end(const std::optional<wire::Reason>& reason);
   /// They hold from now on. Errors: kIo; then they do not outlive a restart.
   Status set_fences(const std::vector<wire::Fence>& fences_m);
+  /// It is shared with that exploration of another robot from now on; nothing: with none. Errors: kIo; then it is as
+  /// before.
+  Status share_with(const std::optional<ExplorationId>& companion);
+  /// See Survey::set_companion.
+  void set_companion(std::optional<exploration::Companion> companion) { survey_.set_companion(std::move(companion)); }
   /// It has ended without a picture.
   void nothing_to_upload() { phase_ = wire::ExplorationPhase::kUploaded; }
   /// Its pictures are on the server. Errors: kIo.
@@ -78,6 +83,10 @@ class KeptSurvey {
   [[nodiscard]] const KeptFiles& files() const { return files_; }
   [[nodiscard]] const exploration::Survey& survey() const { return survey_; }
   [[nodiscard]] wire::ExplorationReport report() const;
+  /// Where the robot is on its floor; nothing: not known.
+  [[nodiscard]] std::optional<Pose2> floor_from_robot() const;
+  /// Its odometry, as it would have gone on from the newest picture.
+  [[nodiscard]] Pose2 odometry_of_pictures() const;
   /// Whether a picture will be wanted before long: it may take a moment to be ready.
   [[nodiscard]] bool soon_wants_picture() const;
 

@@ -15,9 +15,10 @@ using wire::ExplorationPhase;
 using wire::ReasonCode;
 
 constexpr auto kReportEvery = std::chrono::seconds(1);
-constexpr int kLooksToStandAgain = 5;  // pictures
-constexpr int kMostUnmatched = 30;     // pictures
-constexpr double kLegShare = 0.6;      // of the distance at which a place counts as reached: the leg goes on to that
+constexpr int kLooksToStandAgain = 5;                          // pictures
+constexpr int kMostUnmatched = 30;                             // pictures
+constexpr auto kTellsBeforeUpload = std::chrono::seconds(15);  // at most: the companion what it lacks
+constexpr double kLegShare = 0.6;  // of the distance at which a place counts as reached: the leg goes on to that
 
 TimeUs now_us() {
   return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
@@ -32,6 +33,7 @@ wire::ExplorationReport report_of(const KeptFiles& files, ExplorationPhase phase
   report.reason = files.kept().reason;
   report.pictures = static_cast<std::int64_t>(files.size());
   report.fences_m = files.kept().fences_m;
+  if (files.kept().companion) report.companion = wire::SharedExploration{*files.kept().companion, false, 0};
   return report;
 }
 
@@ -81,12 +83,39 @@ void Thinker::take_up_kept(const Tell& tell, const std::stop_token& stop) {
 
 void Thinker::think(const ToThinker& mail, const Tell& tell, const std::stop_token& stop) {
   for (const ExploringCommand& command : mail.commands) std::visit([this](const auto& what) { obey(what); }, command);
+  share(mail);
   if (order_ && !said_.over && mail.commands.empty()) explore(mail);
   if (current_) said_.rows = recording::to_recorded(current_->take_rows());
   tell_now(tell, !mail.commands.empty());
   const bool idle = !order_ || said_.over;
-  if (idle && mail.link_up && !to_upload_.empty() && Clock::now() - tried_upload_at_ >= options_.upload_again_after)
+  if (idle && mail.link_up && !to_upload_.empty() && options_.now() - tried_upload_at_ >= options_.upload_again_after &&
+      may_upload())
     upload(tell, stop);
+}
+
+/// What goes to and fro between the robots that explore together.
+void Thinker::share(const ToThinker& mail) {
+  const auto before = sharing_.progress();
+  const bool drives = order_ && taken_up_ && !said_.over;
+  sharing_.hear(mail.companion);
+  auto to_say = sharing_.share(current_ ? &*current_ : nullptr, drives, options_.now());
+  if (mail.link_up) said_.to_companion = std::move(to_say);
+  const auto& now = sharing_.progress();
+  if (now && (!before || before->joined != now->joined || before->pictures != now->pictures)) changed_ = true;
+}
+
+/// An upload takes a while in which nothing is told.
+bool Thinker::may_upload() const {
+  return !current_ || !sharing_.has_more_to_tell(*current_, options_.now()) ||
+         options_.now() - ended_at_ >= kTellsBeforeUpload;
+}
+
+wire::ExplorationReport Thinker::report_of_current() const {
+  wire::ExplorationReport report = current_->report();
+  const auto& progress = sharing_.progress();
+  if (report.companion && progress && progress->exploration == report.companion->exploration)
+    report.companion = progress;
+  return report;
 }
 
 void Thinker::obey(const OrderObeyed& obeyed) {
@@ -150,6 +179,14 @@ void Thinker::obey(const wire::Finish& finish) {
   changed_ = true;
 }
 
+void Thinker::obey(const wire::Companion& companion) {
+  if (!current_ || current_->files().kept().id != companion.exploration) return;
+  if (companion.with == companion.exploration) return;
+  if (const Status kept = current_->share_with(companion.with); !kept)
+    options_.log("with whom is explored is not kept: " + kept.error().message + " " + kept.error().where);
+  changed_ = true;
+}
+
 /// It stands, says why, and can go on once what was wrong is mended.
 void Thinker::broken(const Error& error) {
   options_.log("the exploration cannot go on: " + error.message + " " + error.where);
@@ -167,6 +204,7 @@ void Thinker::end_by(const driving::ExplorationOver& over) {
 }
 
 Status Thinker::end_current(const std::optional<wire::Reason>& reason) {
+  ended_at_ = options_.now();
   if (Status ended = current_->end(reason); !ended) return ended;
   said_.exploration.reset();
   if (current_->files().size() > 0) {
@@ -216,7 +254,8 @@ void Thinker::take_picture(const ToThinker& mail) {
   wants_picture_since_ms_.reset();
   const Status taken = current_->take(
       {*sweep, mail.picture->seen.odometry, mail.picture->seen.appearance, mail.picture->bytes, now_us()});
-  if (!taken) broken(taken.error());
+  if (!taken) return broken(taken.error());
+  sharing_.took_picture(*current_, options_.now());
 }
 
 void Thinker::explore(const ToThinker& mail) {
@@ -243,11 +282,11 @@ void Thinker::upload(const Tell& tell, const std::stop_token& stop) {
   const bool is_current = current_ && current_->files().kept().id == files.kept().id;
   // Of one that is over nothing is told while there is one to go on with.
   const bool is_told = is_current || !current_ || current_->files().kept().ended;
-  auto report = is_current ? current_->report() : report_of(files, ExplorationPhase::kEnded);
+  auto report = is_current ? report_of_current() : report_of(files, ExplorationPhase::kEnded);
   report.reason = files.kept().reason;
   const auto tell_report = [&] {
     if (is_told) said_.report = report;
-    told_at_ = Clock::now();
+    told_at_ = options_.now();
     tell(said_);
     said_.report.reset();
   };
@@ -255,11 +294,11 @@ void Thinker::upload(const Tell& tell, const std::stop_token& stop) {
   tell_report();
   const auto tour = options_.upload(files, "Exploration " + files.kept().id.str(), [&](double share) {
     report.uploaded = std::clamp(share, 0.0, 1.0);
-    if (Clock::now() - told_at_ >= kReportEvery) tell_report();
+    if (options_.now() - told_at_ >= kReportEvery) tell_report();
     return !stop.stop_requested();
   });
   said_.uploads = false;
-  tried_upload_at_ = Clock::now();
+  tried_upload_at_ = options_.now();
   if (!tour) {
     options_.log("the pictures of an exploration do not get to the server: " + tour.error().message);
     report.reason = wire::reason_with(ReasonCode::kExplorationNotUploaded, "because", wire::reason_of(tour.error()));
@@ -279,16 +318,17 @@ void Thinker::upload(const Tell& tell, const std::stop_token& stop) {
 }
 
 void Thinker::tell_now(const Tell& tell, bool forced) {
-  const bool due = changed_ && (forced || said_.over || Clock::now() - told_at_ >= kReportEvery);
+  const bool due = changed_ && (forced || said_.over || options_.now() - told_at_ >= kReportEvery);
   if (due && current_) {
-    said_.report = current_->report();
+    said_.report = report_of_current();
     if (order_ && !taken_up_ && !said_.over) said_.report->phase = ExplorationPhase::kWaiting;
     changed_ = false;
-    told_at_ = Clock::now();
+    told_at_ = options_.now();
   }
   tell(said_);
   said_.report.reset();
   said_.rows.clear();
+  said_.to_companion.clear();
 }
 
 }  // namespace homeward::agent

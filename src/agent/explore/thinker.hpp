@@ -11,6 +11,7 @@
 
 #include "agent/explore/exploring_mail.hpp"
 #include "agent/explore/kept_survey.hpp"
+#include "agent/explore/sharing.hpp"
 #include "camera/camera_config.hpp"
 #include "core/result.hpp"
 #include "exploration/explorer.hpp"
@@ -28,6 +29,8 @@ struct ThinkerOptions {
       upload;
   std::function<void(const std::string&)> log;
   std::chrono::milliseconds upload_again_after{10'000};
+  /// The steady clock, but in tests.
+  std::function<std::chrono::steady_clock::time_point()> now = [] { return std::chrono::steady_clock::now(); };
 };
 
 /// Explores as it is ordered, and brings what was explored to the server: everything about explorations but driving. It
@@ -39,7 +42,10 @@ class Thinker {
 
   /// `eye` has to outlive it.
   Thinker(ThinkerOptions options, camera::CameraConfig camera, const pipeline::Eye& eye)
-      : options_(std::move(options)), camera_(std::move(camera)), eye_(eye) {}
+      : options_(std::move(options)),
+        camera_(std::move(camera)),
+        eye_(eye),
+        sharing_(options_.explorer, options_.log) {}
 
   /// At first: what is on disk. It tells what it does while it does so.
   void take_up_kept(const Tell& tell, const std::stop_token& stop);
@@ -53,6 +59,10 @@ class Thinker {
   void obey(const OrderEnded& ended);
   void obey(const wire::Fences& fences);
   void obey(const wire::Finish& finish);
+  void obey(const wire::Companion& companion);
+  void share(const ToThinker& mail);
+  [[nodiscard]] bool may_upload() const;
+  [[nodiscard]] wire::ExplorationReport report_of_current() const;
   void explore(const ToThinker& mail);
   void take_up(const ToThinker& mail);
   void take_picture(const ToThinker& mail);
@@ -68,6 +78,7 @@ class Thinker {
   camera::CameraConfig camera_;
   const pipeline::Eye& eye_;
   std::optional<KeptSurvey> current_;
+  Sharing sharing_;  // of the current one
   std::deque<KeptFiles> to_upload_;
   std::optional<wire::ExploreOrder> order_;  // that is followed
   bool taken_up_ = false;                // the survey follows it; else it is still looked for where the robot stands
@@ -80,6 +91,7 @@ class Thinker {
   bool changed_ = true;
   Clock::time_point told_at_;
   Clock::time_point tried_upload_at_;
+  Clock::time_point ended_at_;  // the latest exploration
 };
 
 }  // namespace homeward::agent

@@ -178,6 +178,14 @@ void show_as_often_as_asked(const std::vector<wire::ServerMessage>& messages, Lo
   }
 }
 
+/// What the server says. What another robot told goes to what leads an exploration, and nowhere else.
+std::vector<wire::ServerMessage> received(LinkClient& link, Exploring* exploring) {
+  std::vector<wire::ServerMessage> messages = link.take_messages();
+  auto told = take_from_companion(messages);
+  if (exploring != nullptr) exploring->hear(std::move(told));
+  return messages;
+}
+
 /// What leads an exploration has its say before a step.
 void lead(const Exploring* exploring, driving::Inputs& inputs, const driving::DrivingState& state) {
   if (exploring != nullptr) return exploring->prepare(inputs, state);
@@ -196,6 +204,7 @@ bool follow(Exploring* exploring, const driving::Inputs& inputs, const recording
     exploring->follow(inputs, picture, state, now);
     if (link.up()) {
       if (const auto report = exploring->take_report()) link.send_encoded(*report);
+      for (auto& message : exploring->take_to_companion()) link.send_encoded(std::move(message));
     }
   }
   if (state.mission && state.mission->explores) return exploring != nullptr && exploring->wants_features();
@@ -268,7 +277,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
     driving::Inputs inputs = sensed(reading);
     inputs.rider = joystick_reading(reading, joystick->get(), config.body);
     inputs.link_up = link.up();
-    inputs.messages = link.take_messages();
+    inputs.messages = received(link, exploring->get());
     recording::PictureBytes picture;
     if (auto looked_at = looker.take()) {
       inputs.picture = std::move(looked_at->seen);

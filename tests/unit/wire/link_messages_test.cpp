@@ -16,6 +16,21 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
+CompanionView companion_view() {
+  CompanionView view{ExplorationId("x2"), 17, {}, {1, 2, 3}};
+  view.view.t_us = 1'763'700'000'000'000;
+  view.view.odometry = {1.5, -0.25, 3.0};
+  view.view.odometry_moved = Pose2{-1.0, 0.5, 0.25};
+  view.view.sweep = {{3.5F, 2.25F}, -1.5, 0.25, 12.0, {0.25, 0.0, 0.0}};
+  view.view.driven_m = 7.5;
+  view.view.explored_s = 30.25;
+  return view;
+}
+
+CompanionState companion_state() {
+  return {ExplorationId("x2"), 18, {1.5, -0.25, 3.0}, Eigen::Vector2d(2.5, 0.75), true, 12};
+}
+
 std::vector<AgentMessage> agent_messages() {
   AgentStatus driving;
   driving.seq = 3;
@@ -44,7 +59,9 @@ std::vector<AgentMessage> agent_messages() {
           stopped,
           Stopped{"s1", 12},
           MissionRefused{MissionId("m1"), {2, 9}, Reason{ReasonCode::kRiderSteers}},
-          Frame{8, 13, {0xFF}, Pose2{1.5, -2.25, 0.5}}};
+          Frame{8, 13, {0xFF}, Pose2{1.5, -2.25, 0.5}},
+          companion_view(),
+          companion_state()};
 }
 
 Surroundings surroundings() {
@@ -84,7 +101,10 @@ std::vector<ServerMessage> server_messages() {
           BeliefReport{8, std::nullopt, 0.0, true},
           LinkError{"invalid_input", "'seq' is missing."},
           Answer{MissionId("m1"), 2, true},
-          placed};
+          placed,
+          Companion{ExplorationId("x1"), ExplorationId("x2")},
+          companion_view(),
+          companion_state()};
 }
 
 TEST(LinkMessages, ComeBackAsTheyWere) {
@@ -126,7 +146,7 @@ void expect_same(const Pose2& pose, const Pose2& expected) {
 }
 
 TEST(LinkMessages, KeepEveryFieldOfTheSurroundingsOfAMission) {
-  const auto decoded = decode_server_message(encode(server_messages().back()));
+  const auto decoded = decode_server_message(encode(server_messages()[8]));
   ASSERT_TRUE(decoded) << decoded.error().message << " at " << decoded.error().where;
   const auto& around = std::get<MissionOrder>(*decoded).surroundings;
   ASSERT_TRUE(around);
@@ -147,7 +167,7 @@ TEST(LinkMessages, KeepEveryFieldOfTheSurroundingsOfAMission) {
 }
 
 TEST(LinkMessages, RefuseSurroundingsThatDoNotFit) {
-  const json mission = to_json(server_messages().back());
+  const json mission = to_json(server_messages()[8]);
   const auto expect_refused = [&](const char* pointer, const json& wrong, const std::string& where) {
     json changed = mission;
     changed[json::json_pointer("/surroundings" + std::string(pointer))] = wrong;
@@ -324,6 +344,51 @@ TEST(LinkMessages, AStopWhoseReasonCannotBeReadIsStillAStop) {
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(std::get<StopOrder>(*read).reason, std::nullopt);
   }
+}
+
+TEST(LinkMessages, KeepEveryFieldOfWhatCompanionsTell) {
+  const auto view = std::get<CompanionView>(decode_server_message(encode(AgentMessage(companion_view()))).value());
+  EXPECT_EQ(view.exploration, ExplorationId("x2"));
+  EXPECT_EQ(view.index, 17);
+  EXPECT_EQ(view.appearance, (std::vector<std::uint8_t>{1, 2, 3}));
+  EXPECT_EQ(kept_view_to_json(view.view), kept_view_to_json(companion_view().view));
+  const auto state = std::get<CompanionState>(decode_server_message(encode(AgentMessage(companion_state()))).value());
+  EXPECT_EQ(state.exploration, ExplorationId("x2"));
+  EXPECT_EQ(state.pictures, 18);
+  EXPECT_EQ(state.odometry.theta_rad, 3.0);
+  EXPECT_EQ(state.target_m, Eigen::Vector2d(2.5, 0.75));
+  EXPECT_TRUE(state.drives);
+  EXPECT_EQ(state.has, 12);
+}
+
+TEST(LinkMessages, AnExplorationMayBeSharedWithNoneAndACompanionDriveNowhere) {
+  const ServerMessage alone = Companion{ExplorationId("x1"), std::nullopt};
+  EXPECT_EQ(std::get<Companion>(decode_server_message(encode(alone)).value()).with, std::nullopt);
+  CompanionState stands = companion_state();
+  stands.target_m.reset();
+  stands.drives = false;
+  const auto read = decode_agent_message(encode(AgentMessage(stands)));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_FALSE(std::get<CompanionState>(*read).target_m);
+  EXPECT_FALSE(std::get<CompanionState>(*read).drives);
+}
+
+TEST(LinkMessages, RefuseOfACompanionWhatIsOutOfAllMeasure) {
+  json view = to_json(AgentMessage(companion_view()));
+  view["appearance"] = json::binary(std::vector<std::uint8_t>(kMostCompanionBytes + 1));
+  EXPECT_EQ(decode_agent_message(json::to_cbor(view)).error().where, "message/appearance");
+  view = to_json(AgentMessage(companion_view()));
+  view["index"] = 100'000;
+  EXPECT_EQ(decode_agent_message(json::to_cbor(view)).error().where, "message/index");
+  view = to_json(AgentMessage(companion_view()));
+  view["exploration"] = "";
+  EXPECT_EQ(decode_agent_message(json::to_cbor(view)).error().where, "message/exploration");
+  json state = to_json(AgentMessage(companion_state()));
+  state["target"] = {2e5, 0.0};
+  EXPECT_EQ(decode_agent_message(json::to_cbor(state)).error().where, "message/target");
+  state = to_json(AgentMessage(companion_state()));
+  state["odometry"]["theta_rad"] = 4.0;
+  EXPECT_EQ(decode_agent_message(json::to_cbor(state)).error().where, "message/odometry/theta_rad");
 }
 
 TEST(LinkMessages, RefuseBytesThatAreNoMessage) {

@@ -146,6 +146,9 @@ export const explore = (robot: string, body: Limits & { lease_id: string; explor
   call<Mission>(`/robots/${id(robot)}/explorations`, { method: 'POST', body });
 export const setFences = (robot: string, body: { lease_id: string; fences: Fences }) =>
   call<unknown>(`/robots/${id(robot)}/exploration/fences`, { method: 'PUT', body });
+/** `robot` of the body is the other one, whose exploration is shared from now on; null: none. */
+export const setCompanion = (robot: string, body: { lease_id: string; robot: string | null }) =>
+  call<unknown>(`/robots/${id(robot)}/exploration/companion`, { method: 'PUT', body });
 export const finishExploration = (robot: string, lease_id: string) =>
   call<unknown>(`/robots/${id(robot)}/exploration/finish`, { method: 'POST', body: { lease_id } });
 export const robots = () => call<{ robots: Robot[] }>('/robots');

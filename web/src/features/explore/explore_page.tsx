@@ -14,7 +14,9 @@ import { FencesCard, useFences } from './fences';
 import { Intro } from './intro';
 import { barrierOf, planWords, stageOf, stageWords, type Stage } from './phase_words';
 import { Plan, PlanLegend } from './plan';
+import { TogetherCard } from './together';
 import { useExploration } from './use_exploration';
+import { useOthers } from './use_others';
 
 /** A robot maps a building by itself while a person watches. */
 export function ExplorePage({ id }: { id: string }) {
@@ -88,6 +90,10 @@ function Watching({ robot, exploration, stage, barrier, mayOrder }: WatchingProp
   const handle = useFences(robot, exploration);
   const fenced = exploration !== null && stage !== 'ended' && stage !== 'uploaded';
   const drawing = fenced && handle.drawn !== null;
+  const others = useOthers(robot.id);
+  const withFences = fenced && (mayOrder || handle.fences.length > 0);
+  const shared = (exploration?.companion ?? null) !== null;
+  const together = fenced && (shared || (mayOrder && others.length > 0));
   return (
     <div class="explore">
       <StatusCard
@@ -108,14 +114,27 @@ function Watching({ robot, exploration, stage, barrier, mayOrder }: WatchingProp
         />
         {!drawing && <PlanLegend />}
       </section>
-      {fenced && (mayOrder || handle.fences.length > 0) && (
-        <FencesCard
-          robot={robot}
-          exploration={exploration}
-          handle={handle}
-          barrier={barrier}
-          mayOrder={mayOrder}
-        />
+      {(withFences || together) && (
+        <div class="explore-orders">
+          {withFences && (
+            <FencesCard
+              robot={robot}
+              exploration={exploration}
+              handle={handle}
+              barrier={barrier}
+              mayOrder={mayOrder}
+            />
+          )}
+          {together && (
+            <TogetherCard
+              robot={robot}
+              exploration={exploration}
+              others={others}
+              barrier={barrier}
+              mayOrder={mayOrder}
+            />
+          )}
+        </div>
       )}
       <section class="card explore-picture" aria-label={`Camera of ${robot.name}`}>
         <LivePicture robot={robot} />

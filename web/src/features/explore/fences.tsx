@@ -73,7 +73,7 @@ export function FencesCard({ robot, exploration, handle, barrier, mayOrder }: Pr
   }, [drawn]);
   const off = orders.busy || barrier !== null;
   return (
-    <section class="card stack explore-fences" aria-labelledby="explore-fences">
+    <section class="card stack" aria-labelledby="explore-fences">
       <h2 id="explore-fences">Fences</h2>
       {drawn === null && (
         <p class="soft">

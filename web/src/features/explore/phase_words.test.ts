@@ -19,6 +19,7 @@ const exploration: Exploration = {
   fences: [],
   uploaded: 0,
   tour: null,
+  companion: null,
 };
 const mission = (state: Mission['state'], reason: Mission['reason'] = null) =>
   ({ kind: 'explore', exploration: 'x1', state, reason }) as Mission;

@@ -82,6 +82,15 @@ export async function withLease<T>(
   }
 }
 
+/**
+ * Does once what needs the lease of a robot that is driven elsewhere or not at all. It is not kept: another window of the same
+ * person has the same one and keeps it, and one that nobody had ends by itself. Never takes it from somebody else.
+ */
+export async function withLeaseOnce<T>(robot: string, work: (lease_id: string) => Promise<T>): Promise<T> {
+  const held = leases.get(robot);
+  return work(held ? held.lease.id : (await calls.takeLease(robot, false)).lease.id);
+}
+
 /** Says whether the robot is where it asks about. Takes the lease when nobody has it, never from somebody else. */
 export async function answer(robot: string, mission: string, question: number, here: boolean): Promise<void> {
   const lease_id = await ensureLease(robot, false);
