@@ -15,9 +15,9 @@ import small_mirror
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
 PORT = 18493
-WORLD = "offices:1"
-# Beside each other in the corridor: x, y, heading.
-STARTS = ((7.755, 0.887, -0.307), (9.229, 0.563, -1.023))
+WORLD = "house:1"
+# One behind the other in the hall: x, y, heading.
+STARTS = ((9.3, 0.9, 0.0), (7.9, 0.9, 0.0))
 LIMIT_M = 6.0
 
 
@@ -48,8 +48,8 @@ class ExploringTogether(unittest.TestCase):
         self.assertIsNone(second.report()["companion"], "one word is not enough")
         second.share_with(first)
         for robot in self.robots:
-            robot.until("the floors are joined", robot.joined)
-        done = [robot.until("its pictures are on the server", robot.uploaded) for robot in self.robots]
+            robot.until("the floors are joined", robot.joined, 150)
+        done = [robot.until("its pictures are on the server", robot.uploaded, 150) for robot in self.robots]
         for robot, other in zip(self.robots, reversed(done)):
             all_of_it = {"exploration": other["id"], "joined": True, "pictures": other["pictures"]}
             robot.until("it has all of the other's pictures", lambda: robot.report()["companion"] == all_of_it)

@@ -54,6 +54,8 @@ class Sharing {
   void say_state(const KeptSurvey& ours, bool drives, Time now, std::vector<std::vector<std::uint8_t>>& out);
   void say_picture(const KeptSurvey& ours, Time now, std::vector<std::vector<std::uint8_t>>& out);
   void complain(const std::string& what, Time now);
+  /// Whether pictures may be held against each other now, which then takes a moment.
+  bool may_look(Time now);
 
   exploration::ExplorerConfig explorer_;
   std::function<void(const std::string&)> log_;
@@ -62,6 +64,7 @@ class Sharing {
   PicturesTold told_;
   std::deque<wire::CompanionView> views_;  // that came and are not taken in yet
   std::optional<wire::SharedExploration> progress_;
+  std::optional<Time> looked_at_;
   std::optional<Time> informed_at_;
   std::optional<Time> said_at_;
   std::int64_t said_has_ = 0;
