@@ -129,7 +129,7 @@ class ExploringRobot:
         return math.hypot(after[0] - before[0], after[1] - before[1]), abs(turned)
 
     def logs(self):
-        return {file.stem: file.read_text(errors="replace")[-1500:] for file in self.data.glob("*.log")}
+        return {file.stem: file.read_text(errors="replace")[-9000:] for file in self.data.glob("*.log")}
 
     def until(self, what, is_so, for_s=BY_NOW_S):
         """Gives what that gave that was so. Raises Failed when it was not in time."""

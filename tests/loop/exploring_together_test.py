@@ -15,10 +15,10 @@ import small_mirror
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
 PORT = 18493
-WORLD = "house:1"
-# One behind the other in the hall: x, y, heading.
-STARTS = ((9.3, 0.9, 0.0), (7.9, 0.9, 0.0))
-LIMIT_M = 6.0
+WORLD = "laboratory:1"
+# Beside each other: x, y, heading.
+STARTS = ((0.78, 0.78, -0.307), (2.314, 1.001, -1.023))
+LIMIT_M = 9.0
 
 
 class ExploringTogether(unittest.TestCase):
@@ -34,7 +34,7 @@ class ExploringTogether(unittest.TestCase):
             data.mkdir()
             robot = exploring_robot.ExploringRobot(BIN, None, PORT, data, beside=self.robots[0] if self.robots else None)
             self.addCleanup(robot.close)
-            robot.start_simulated_agent(WORLD, "--shared-world", self.shared, "--camera", camera, "--seed", str(number + 1),
+            robot.start_simulated_agent(WORLD, "--shared-world", self.shared, "--seed", str(number + 1),
                                         "--start-pose", *(str(value) for value in start))
             self.robots.append(robot)
 
