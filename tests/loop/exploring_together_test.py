@@ -18,7 +18,7 @@ PORT = 18493
 WORLD = "laboratory:1"
 # Beside each other: x, y, heading.
 STARTS = ((0.78, 0.78, -0.307), (2.314, 1.001, -1.023))
-LIMIT_M = 9.0
+LIMIT_M = 12.0
 
 
 class ExploringTogether(unittest.TestCase):
