@@ -15,9 +15,6 @@ constexpr std::size_t kMostWaiting = 8;  // pictures
 constexpr auto kInformedEvery = milliseconds(500);
 constexpr auto kSaidEvery = milliseconds(500);           // while anything changes
 constexpr auto kSaidStandingEvery = milliseconds(3000);  // else
-// Measured, on one core of a machine with two: to hold a picture against those of the other takes 0.1 to 0.5 s, and one
-// comes about every second from each robot. Who drives has to think of its way meanwhile.
-constexpr auto kLooksEvery = milliseconds(1000);
 constexpr auto kComplainsEvery = std::chrono::seconds(10);
 
 std::int64_t in_ms(Sharing::Time time) {
@@ -34,12 +31,6 @@ void Sharing::complain(const std::string& what, Time now) {
   if (complained_at_ && now - *complained_at_ < kComplainsEvery) return;
   complained_at_ = now;
   log_(what);
-}
-
-bool Sharing::may_look(Time now) {
-  if (looked_at_ && now - *looked_at_ < kLooksEvery) return false;
-  looked_at_ = now;
-  return true;
 }
 
 /// Begins anew where it is another exploration, of ours or of the other robot.
@@ -89,8 +80,7 @@ bool Sharing::take_in(const wire::CompanionView& view, const KeptSurvey& ours, b
     complain("a picture of the companion is not taken: " + taken.error().message + " " + taken.error().where, now);
     return false;
   }
-  if (!drives || may_look(now))
-    companion_->look_from_theirs(explorer_of(ours), drives ? ours.floor_from_robot() : std::nullopt, in_ms(now));
+  companion_->look_from_theirs(explorer_of(ours), drives ? ours.floor_from_robot() : std::nullopt, in_ms(now));
   return true;
 }
 
@@ -148,7 +138,7 @@ std::vector<std::vector<std::uint8_t>> Sharing::share(KeptSurvey* ours, bool dri
 }
 
 void Sharing::took_picture(const KeptSurvey& ours, Time now) {
-  if (companion_ && may_look(now)) companion_->look_from_ours(explorer_of(ours), in_ms(now));
+  if (companion_) companion_->look_from_ours(explorer_of(ours), in_ms(now));
 }
 
 bool Sharing::has_more_to_tell(const KeptSurvey& ours, Time now) const {

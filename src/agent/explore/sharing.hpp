@@ -36,7 +36,8 @@ class Sharing {
   /// What came. Of more pictures than it may hold the later ones are lost, and will be told again.
   void hear(std::vector<FromCompanion> told);
   /// To be called often; `ours`: the present exploration, null without one; `drives`: it is under way. Gives what is to
-  /// be sent, encoded. One picture of the companion is taken in at most where we drive, as that takes a moment.
+  /// be sent, encoded. One picture of the companion is taken in at most where we drive: until the floors are joined
+  /// that takes 0.1 to 0.5 s (measured on a machine of two cores at work), in which no new way is thought of.
   std::vector<std::vector<std::uint8_t>> share(KeptSurvey* ours, bool drives, Time now);
   /// We have taken a picture.
   void took_picture(const KeptSurvey& ours, Time now);
@@ -54,8 +55,6 @@ class Sharing {
   void say_state(const KeptSurvey& ours, bool drives, Time now, std::vector<std::vector<std::uint8_t>>& out);
   void say_picture(const KeptSurvey& ours, Time now, std::vector<std::vector<std::uint8_t>>& out);
   void complain(const std::string& what, Time now);
-  /// Whether pictures may be held against each other now, which then takes a moment.
-  bool may_look(Time now);
 
   exploration::ExplorerConfig explorer_;
   std::function<void(const std::string&)> log_;
@@ -64,7 +63,6 @@ class Sharing {
   PicturesTold told_;
   std::deque<wire::CompanionView> views_;  // that came and are not taken in yet
   std::optional<wire::SharedExploration> progress_;
-  std::optional<Time> looked_at_;
   std::optional<Time> informed_at_;
   std::optional<Time> said_at_;
   std::int64_t said_has_ = 0;
