@@ -208,6 +208,9 @@ TEST_F(CompanionsTest, NobodySpeaksForAnExplorationThatIsNotItsOwn) {
     EXPECT_FALSE(heard(carla, state_of(other), bruno)) << other;
     EXPECT_FALSE(heard(chair, state_of(other), bruno)) << other;
   }
+  tell(bruno, "x2", "x3");
+  EXPECT_FALSE(heard(chair, state_of("x3"), bruno)) << "not even where that is what the other waits for";
+  tell(bruno, "x2", "x1");
   tell(chair, "x4");  // begun anew
   EXPECT_FALSE(heard(chair, state_of("x4"), bruno));
   EXPECT_FALSE(heard(chair, state_of("x1"), bruno));
