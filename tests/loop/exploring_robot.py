@@ -180,11 +180,6 @@ class ExploringRobot:
         """This one's exploration is shared with the other's; that one's with this one's, once that says so too."""
         self.server.call("PUT", f"{self.robot}/exploration/companion", {"lease_id": self.lease, "robot": other.id})
 
-    def joined(self):
-        """The report once it knows how the other's floor lies to its own."""
-        report = self.report()
-        return report if report and report["companion"] and report["companion"]["joined"] else None
-
     def build_map(self, *tours):
         """Gives the map's id. Raises Failed when it cannot be built."""
         answer = self.server.call("POST", "/api/v1/maps", {"name": "House", "tours": list(tours)})

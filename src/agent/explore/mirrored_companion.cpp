@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/explore/mirrored_companion.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -17,8 +15,7 @@ Result<std::shared_ptr<const features::Appearance>> appearance_of(const wire::Co
   if (view.appearance.empty()) return std::shared_ptr<const features::Appearance>();
   auto appearance = wire::decode_appearance(view.appearance, "picture " + std::to_string(view.index));
   if (!appearance) return pass_on(appearance);
-  const bool finite = std::ranges::all_of(appearance->colour_moments, [](float value) { return std::isfinite(value); });
-  if (!finite || appearance->size() > most_features) return std::shared_ptr<const features::Appearance>();
+  if (appearance->size() > most_features) return std::shared_ptr<const features::Appearance>();
   return std::make_shared<const features::Appearance>(std::move(*appearance));
 }
 
