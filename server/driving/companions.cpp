@@ -59,14 +59,20 @@ std::shared_ptr<AgentLink> Driving::link_of_companion(const Unit& unit, const st
     if (report.id != said || !report.companion) return nullptr;
     with = report.companion->exploration;
   }
+  // Which of two robots that tell of one exploration it is, nobody knows: neither is believed.
+  std::shared_ptr<AgentLink> to;
+  int of_that = 0;
   for (const Unit& other : units()) {
     if (other == unit) continue;
     const std::scoped_lock lock(other->mutex);
     if (!other->online() || !other->exploration) continue;
     const wire::ExplorationReport& report = *other->exploration;
-    if (report.id == with && report.companion && report.companion->exploration == said) return other->link;
+    if (report.id == said) return nullptr;
+    if (report.id != with) continue;
+    ++of_that;
+    if (report.companion && report.companion->exploration == said) to = other->link;
   }
-  return nullptr;
+  return of_that == 1 ? to : nullptr;
 }
 
 }  // namespace homeward::server

@@ -191,7 +191,8 @@ void Exploring::run(const std::stop_token& stop) {
     rows.insert(rows.end(), said.rows.begin(), said.rows.end());
     auto to_companion = std::exchange(from_.to_companion, {});
     std::ranges::move(said.to_companion, std::back_inserter(to_companion));
-    if (to_companion.size() > kMostToCompanion) to_companion.clear();  // nobody takes them
+    // Nobody takes them, or they would be old by the time that the link is up again.
+    if (to_companion.size() > kMostToCompanion || !to_.link_up) to_companion.clear();
     from_ = std::move(said);
     from_.rows = std::move(rows);
     from_.to_companion = std::move(to_companion);
@@ -205,6 +206,7 @@ void Exploring::run(const std::stop_token& stop) {
       constexpr auto kLooksUpEvery = std::chrono::milliseconds(500);
       came_.wait_for(lock, stop, kLooksUpEvery,
                      [this] { return new_sweep_ || !to_.commands.empty() || !to_.companion.empty(); });
+      mail.only_heard = !new_sweep_ && !to_.companion.empty();
       mail.commands = std::exchange(to_.commands, {});
       mail.companion = std::exchange(to_.companion, {});
       mail.picture = std::exchange(to_.picture, std::nullopt);

@@ -40,6 +40,7 @@ struct ToThinker {
   std::deque<Sensed> sweeps;  // the latest, the newest last
   std::optional<SeenByCamera> picture;
   std::vector<FromCompanion> companion;  // what that told, in its order
+  bool only_heard = false;               // of the companion, and nothing that was sensed since the mail before
   bool link_up = false;
   bool blocked = false;  // it has not got on to a leg's goal since the last mail
   int odometry_epoch = 0;

@@ -177,8 +177,8 @@ std::optional<Pose2> KeptSurvey::floor_from_robot() const {
 
 Pose2 KeptSurvey::odometry_of_pictures() const {
   if (survey_.explorer().views().empty()) return {};
-  if (!odometry_) return survey_.explorer().views().back().odometry;
-  return odometry_moved_ ? inverse(*odometry_moved_) * *odometry_ : *odometry_;
+  const Pose2& latest = odometry_ ? *odometry_ : survey_.explorer().views().back().odometry;
+  return odometry_moved_ ? inverse(*odometry_moved_) * latest : latest;
 }
 
 wire::ExplorationReport KeptSurvey::report() const {

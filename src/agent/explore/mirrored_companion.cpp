@@ -8,23 +8,23 @@
 #include "wire/appearance_blob.hpp"
 
 namespace homeward::agent {
-namespace {
 
-/// Features as they are told; null where they are not, or are too many to be compared.
-Result<std::shared_ptr<const features::Appearance>> appearance_of(const wire::CompanionView& view, int most_features) {
-  if (view.appearance.empty()) return std::shared_ptr<const features::Appearance>();
+Result<std::shared_ptr<const features::Appearance>> MirroredCompanion::appearance_of(
+    const wire::CompanionView& view) const {
+  if (view.appearance.empty() || bytes_ + view.appearance.size() > limits_.bytes)
+    return std::shared_ptr<const features::Appearance>();
   auto appearance = wire::decode_appearance(view.appearance, "picture " + std::to_string(view.index));
   if (!appearance) return pass_on(appearance);
-  if (appearance->size() > most_features) return std::shared_ptr<const features::Appearance>();
+  if (appearance->size() > limits_.features) return std::shared_ptr<const features::Appearance>();
   return std::make_shared<const features::Appearance>(std::move(*appearance));
 }
-
-}  // namespace
 
 void MirroredCompanion::hear(const wire::CompanionState& state, std::int64_t now_ms) {
   if (state.pictures < has()) {
     mirror_ = exploration::Explorer(config_);
     join_ = exploration::FrameJoin();
+    bytes_ = 0;
+    takes_no_more_ = false;
   }
   state_ = state;
   told_ms_ = now_ms;
@@ -45,7 +45,8 @@ Status MirroredCompanion::acceptable(const wire::CompanionView& view) const {
   if (view.view.odometry_moved) before = *view.view.odometry_moved * before;
   const Pose2 moved = inverse(before) * view.view.odometry;
   const Pose2 about = mirror_.poses().back() * moved;
-  if (!(position_m(moved).norm() <= limits_.between_m))
+  // Carried, it may know far away where it is.
+  if (!view.view.odometry_moved && !(position_m(moved).norm() <= limits_.between_m))
     return fail(ErrorCode::kInvalidInput, "The picture lies too far from the one before.", where);
   if (!(position_m(about).norm() <= limits_.from_start_m))
     return fail(ErrorCode::kInvalidInput, "The picture lies too far from the first one.", where);
@@ -53,9 +54,17 @@ Status MirroredCompanion::acceptable(const wire::CompanionView& view) const {
 }
 
 Status MirroredCompanion::hear(const wire::CompanionView& view) {
+  Status taken = take_in(view);
+  // Told once more it would be refused once more.
+  if (taken || taken.error().code != ErrorCode::kConflict) takes_no_more_ = !taken;
+  return taken;
+}
+
+Status MirroredCompanion::take_in(const wire::CompanionView& view) {
   if (Status fits = acceptable(view); !fits) return fits;
-  auto appearance = appearance_of(view, limits_.features);
+  auto appearance = appearance_of(view);
   if (!appearance) return pass_on(appearance);
+  if (*appearance) bytes_ += view.appearance.size();
   // As KeptSurvey::restore does it, so that the poses come out as on the other robot.
   if (view.view.odometry_moved) mirror_.move_odometry(*view.view.odometry_moved);
   mirror_.take(view.view.sweep, view.view.odometry, std::move(*appearance));
@@ -63,14 +72,14 @@ Status MirroredCompanion::hear(const wire::CompanionView& view) {
 }
 
 std::optional<Pose2> MirroredCompanion::drives_at(std::int64_t now_ms) const {
-  if (!state_ || !state_->drives || now_ms - told_ms_ > limits_.lately_ms) return std::nullopt;
+  if (!is_caught_up() || !state_->drives || now_ms - told_ms_ > limits_.lately_ms) return std::nullopt;
   return mirror_.floor_from_robot(state_->odometry);
 }
 
 void MirroredCompanion::look_from_theirs(const exploration::Explorer& ours, const std::optional<Pose2>& ours_drives_at,
                                          std::int64_t now_ms) {
   // One that is told belatedly was taken when we were elsewhere.
-  const bool is_newest = state_ && now_ms - told_ms_ <= limits_.lately_ms && has() >= state_->pictures;
+  const bool is_newest = is_caught_up() && now_ms - told_ms_ <= limits_.lately_ms;
   join_.second_looks(ours, mirror_, is_newest ? ours_drives_at : std::nullopt);
 }
 
@@ -90,7 +99,7 @@ std::optional<exploration::Companion> MirroredCompanion::companion(const explora
   companion.floor_from_theirs = *joined;
   companion.report.floor = exploration::shared_floor(mirror_.floor(), mirror_.coverage());
   companion.report.floor_from_robot =
-      mirror_.floor_from_robot(state_ ? state_->odometry : mirror_.views().back().odometry);
+      is_caught_up() ? mirror_.floor_from_robot(state_->odometry) : mirror_.poses().back();
   const wire::CompanionState* told = lately_told(now_ms);
   companion.report.drives = told != nullptr && told->drives;
   if (companion.report.drives) companion.report.target_m = told->target_m;

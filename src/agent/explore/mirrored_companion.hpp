@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "core/ids.hpp"
 #include "core/pose2.hpp"
@@ -16,8 +19,9 @@ namespace homeward::agent {
 /// What is taken in of another robot's exploration: whoever sends it must not be able to fill the memory.
 struct MirrorLimits {
   std::int64_t pictures = 3000;
-  int features = 6000;               // of a picture; one with more counts as not looked at
-  double between_m = 25.0;           // from a picture to the next
+  int features = 1500;               // of a picture; one with more counts as not looked at,
+  std::size_t bytes = 256UL << 20U;  // and so does what comes once so much was told
+  double between_m = 25.0;           // from a picture to the next, unless odometry began anew
   double from_start_m = 150.0;       // from the first one
   double range_max_m = 100.0;        // of a sweep,
   std::size_t rays = 4000;           // and so many
@@ -48,6 +52,8 @@ class MirroredCompanion {
   /// So many of its pictures have arrived, from the first on.
   [[nodiscard]] std::int64_t has() const { return static_cast<std::int64_t>(mirror_.views().size()); }
   [[nodiscard]] const exploration::Explorer& mirror() const { return mirror_; }
+  /// A picture was refused that will not become any better: it need not tell more.
+  [[nodiscard]] bool takes_no_more() const { return takes_no_more_; }
   /// What it told last; nothing: nothing yet, or too long ago.
   [[nodiscard]] const wire::CompanionState* lately_told(std::int64_t now_ms) const;
   /// For our survey; nothing: its floor is not joined to ours.
@@ -56,6 +62,12 @@ class MirroredCompanion {
 
  private:
   [[nodiscard]] Status acceptable(const wire::CompanionView& view) const;
+  /// The features that it told; null where there are none, or more than are compared.
+  [[nodiscard]] Result<std::shared_ptr<const features::Appearance>> appearance_of(
+      const wire::CompanionView& view) const;
+  Status take_in(const wire::CompanionView& view);
+  /// Whether what it told last is of the frame that its newest picture here is of.
+  [[nodiscard]] bool is_caught_up() const { return state_ && has() >= state_->pictures; }
   /// Where it drives now, on its own floor; nothing: it stands, or has not said so lately.
   [[nodiscard]] std::optional<Pose2> drives_at(std::int64_t now_ms) const;
 
@@ -66,6 +78,8 @@ class MirroredCompanion {
   exploration::FrameJoin join_;  // ours is the first
   std::optional<wire::CompanionState> state_;
   std::int64_t told_ms_ = 0;
+  std::size_t bytes_ = 0;  // of features that were told
+  bool takes_no_more_ = false;
 };
 
 }  // namespace homeward::agent

@@ -11,7 +11,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t kMostWaiting = 8;  // pictures
+constexpr std::size_t kMostWaiting = 8;                // pictures
+constexpr std::size_t kMostTold_bytes = 200UL * 1024;  // of features; the server passes no larger picture on
 constexpr auto kInformedEvery = milliseconds(500);
 constexpr auto kSaidEvery = milliseconds(500);           // while anything changes
 constexpr auto kSaidStandingEvery = milliseconds(3000);  // else
@@ -107,7 +108,9 @@ void Sharing::say_state(const KeptSurvey& ours, bool drives, Time now, std::vect
   state.odometry = ours.odometry_of_pictures();
   if (drives) state.target_m = ours.survey().target_m();
   state.drives = drives;
-  state.has = companion_->has();
+  // Where no more is taken in, no more need be told.
+  const wire::CompanionState* told = companion_->lately_told(in_ms(now));
+  state.has = told != nullptr && companion_->takes_no_more() ? told->pictures : companion_->has();
   out.push_back(wire::encode(wire::AgentMessage(state)));
 }
 
@@ -120,7 +123,7 @@ void Sharing::say_picture(const KeptSurvey& ours, Time now, std::vector<std::vec
   wire::CompanionView told{ours_, *index, std::move(*view), {}};
   const auto& appearance = explorer_of(ours).views()[static_cast<std::size_t>(*index)].appearance;
   if (appearance) told.appearance = wire::encode_appearance(*appearance);
-  if (told.appearance.size() > wire::kMostCompanionBytes) told.appearance.clear();
+  if (told.appearance.size() > kMostTold_bytes) told.appearance.clear();
   out.push_back(wire::encode(wire::AgentMessage(std::move(told))));
 }
 
@@ -129,7 +132,7 @@ std::vector<std::vector<std::uint8_t>> Sharing::share(KeptSurvey* ours, bool dri
   std::vector<std::vector<std::uint8_t>> out;
   if (!companion_) return out;
   for (bool goes_on = true; goes_on && !views_.empty(); views_.pop_front())
-    goes_on = !take_in(views_.front(), *ours, drives, now) || !drives;
+    goes_on = !take_in(views_.front(), *ours, drives, now);
   progress_->pictures = companion_->has();
   inform(*ours, now);
   say_state(*ours, drives, now, out);

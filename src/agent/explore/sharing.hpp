@@ -36,8 +36,8 @@ class Sharing {
   /// What came. Of more pictures than it may hold the later ones are lost, and will be told again.
   void hear(std::vector<FromCompanion> told);
   /// To be called often; `ours`: the present exploration, null without one; `drives`: it is under way. Gives what is to
-  /// be sent, encoded. One picture of the companion is taken in at most where we drive: until the floors are joined
-  /// that takes 0.1 to 0.5 s (measured on a machine of two cores at work), in which no new way is thought of.
+  /// be sent, encoded. One picture of the companion is taken in at most: until the floors are joined that takes 0.1 to
+  /// 0.5 s (measured on a machine of two cores at work), in which nothing else is thought of.
   std::vector<std::vector<std::uint8_t>> share(KeptSurvey* ours, bool drives, Time now);
   /// We have taken a picture.
   void took_picture(const KeptSurvey& ours, Time now);

@@ -83,8 +83,13 @@ void Thinker::take_up_kept(const Tell& tell, const std::stop_token& stop) {
 
 void Thinker::think(const ToThinker& mail, const Tell& tell, const std::stop_token& stop) {
   for (const ExploringCommand& command : mail.commands) std::visit([this](const auto& what) { obey(what); }, command);
-  share(mail);
-  if (order_ && !said_.over && mail.commands.empty()) explore(mail);
+  if (mail.commands.empty()) {
+    share(mail);
+  } else {
+    // What it voids must not be driven on while a picture of the companion is looked at.
+    sharing_.hear(mail.companion);
+  }
+  if (order_ && !said_.over && mail.commands.empty() && !mail.only_heard) explore(mail);
   if (current_) said_.rows = recording::to_recorded(current_->take_rows());
   tell_now(tell, !mail.commands.empty());
   const bool idle = !order_ || said_.over;

@@ -149,6 +149,49 @@ TEST_F(MirroredCompanionTest, WhoeverWouldStandInPlainViewUnseenIsElsewhereButOn
   EXPECT_TRUE(late.companion(ours_, now_ms_));
 }
 
+TEST_F(MirroredCompanionTest, WhileItIsNotCaughtUpWithNobodyKnowsWhereItIs) {
+  tell_all();
+  const Pose2 at_last = theirs_.mirror().poses().back();
+  theirs_.hear(state(5, {0.3, 0.0, 0.0}), now_ms_);
+  const auto now = theirs_.companion(ours_, now_ms_);
+  ASSERT_TRUE(now);
+  EXPECT_GT(position_m(inverse(at_last) * now->report.floor_from_robot).norm(), 0.5) << "by its odometry";
+  theirs_.hear(state(6, {70.0, 0.0, 0.0}), now_ms_);  // of an odometry that began anew with the sixth
+  const auto later = theirs_.companion(ours_, now_ms_);
+  ASSERT_TRUE(later);
+  EXPECT_EQ(position_m(later->report.floor_from_robot), position_m(at_last));
+  EXPECT_TRUE(later->report.drives);
+}
+
+TEST_F(MirroredCompanionTest, OneThatWasCarriedFarAndKnowsWhereItIsIsFollowed) {
+  ASSERT_TRUE(theirs_.hear(view(0, 4.3)));
+  wire::CompanionView carried = view(1, 3.2);
+  carried.view.odometry_moved = Pose2{-40.0, 0.0, 0.0};
+  EXPECT_TRUE(theirs_.hear(carried));
+  EXPECT_FALSE(theirs_.takes_no_more());
+}
+
+TEST_F(MirroredCompanionTest, WhatWouldBeRefusedAgainNeedNotBeToldAgain) {
+  ASSERT_TRUE(theirs_.hear(view(0, 4.3)));
+  EXPECT_TRUE(refused(view(2, 3.2)));
+  EXPECT_FALSE(theirs_.takes_no_more()) << "that one is the next but one";
+  wire::CompanionView far = view(1, 3.2);
+  far.view.odometry.x_m = 900.0;
+  EXPECT_TRUE(refused(far));
+  EXPECT_TRUE(theirs_.takes_no_more());
+  ASSERT_TRUE(theirs_.hear(view(1, 3.2)));
+  EXPECT_FALSE(theirs_.takes_no_more());
+}
+
+TEST_F(MirroredCompanionTest, MoreFeaturesThanItHoldsCountAsNotLookedAt) {
+  MirrorLimits limits;
+  limits.bytes = view(0, 4.3).appearance.size() * 3 / 2;
+  MirroredCompanion theirs(kTheirs, ExplorerConfig{}, limits);
+  for (std::int64_t index : {0, 1}) ASSERT_TRUE(theirs.hear(view(index, 4.3 - 0.5 * static_cast<double>(index))));
+  EXPECT_NE(theirs.mirror().views()[0].appearance, nullptr);
+  EXPECT_EQ(theirs.mirror().views()[1].appearance, nullptr);
+}
+
 TEST_F(MirroredCompanionTest, WhatIsNotTheNextPictureIsRefused) {
   EXPECT_EQ(refused(view(1, 4.3))->code, ErrorCode::kConflict);
   ASSERT_TRUE(theirs_.hear(view(0, 4.3)));

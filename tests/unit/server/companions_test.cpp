@@ -217,6 +217,19 @@ TEST_F(CompanionsTest, NobodySpeaksForAnExplorationThatIsNotItsOwn) {
   EXPECT_FALSE(heard(bruno, state_of("x2"), chair));
 }
 
+TEST_F(CompanionsTest, OfTwoRobotsThatTellOfOneExplorationNeitherIsBelieved) {
+  share_with_each_other();
+  ASSERT_TRUE(heard(chair, state_of("x1"), bruno));
+  tell(carla, "x2", "x1");
+  EXPECT_FALSE(heard(carla, state_of("x2"), chair));
+  EXPECT_FALSE(heard(bruno, state_of("x2"), chair));
+  EXPECT_FALSE(heard(chair, view_of("x1"), bruno));
+  EXPECT_FALSE(comes_at_once<wire::CompanionView>(*carla.agent));
+  tell(carla, "x3");
+  EXPECT_TRUE(heard(bruno, state_of("x2"), chair));
+  EXPECT_TRUE(heard(chair, view_of("x1"), bruno));
+}
+
 TEST_F(CompanionsTest, OneThatWasAwayIsHeardAgainOnceItHasSaidWhatItHas) {
   share_with_each_other();
   ASSERT_TRUE(heard(chair, state_of("x1"), bruno));
@@ -245,7 +258,7 @@ TEST_F(CompanionsTest, ViewsThatComeTooFastFollowAsTimePasses) {
 
 TEST_F(CompanionsTest, WhatStillWaitsIsForgottenWhenTheReceiverNamesItNoMore) {
   share_with_each_other();
-  for (std::int64_t index : {0, 1}) chair.agent->say(view_of("x1", index, RelayQueue::kPerSecond_bytes));
+  for (std::int64_t index : {0, 1}) chair.agent->say(view_of("x1", index, RelayQueue::kPerSecond_bytes / 2));
   let_work_off(*chair.agent);
   EXPECT_TRUE(comes_at_once<wire::CompanionView>(*bruno.agent));
   tell(bruno, "x2");
@@ -255,7 +268,9 @@ TEST_F(CompanionsTest, WhatStillWaitsIsForgottenWhenTheReceiverNamesItNoMore) {
 
 TEST_F(CompanionsTest, AViewThatIsTooLargeEndsTheLinkOfWhoSentItAndReachesNobody) {
   share_with_each_other();
-  EXPECT_TRUE(heard(chair, view_of("x1", 0, wire::kMostCompanionBytes), bruno)) << "the largest that may be";
+  EXPECT_FALSE(heard(chair, view_of("x1", 0, RelayQueue::kMostView_bytes), bruno)) << "one that keeps a stop waiting";
+  EXPECT_FALSE(heard(chair, view_of("x1", 0, wire::kMostCompanionBytes), bruno));
+  EXPECT_TRUE(heard(chair, view_of("x1", 0, RelayQueue::kMostView_bytes / 2), bruno));
   chair.agent->say(view_of("x1", 1, wire::kMostCompanionBytes + 1));
   const auto refused = chair.agent->await<wire::LinkError>();
   ASSERT_TRUE(refused);

@@ -43,14 +43,28 @@ TEST(RelayQueue, OfTooManyViewsTheFirstStayInTheirOrder) {
   EXPECT_TRUE(queue.empty());
 }
 
-TEST(RelayQueue, HoldsNoMoreBytesThanItMayAndStillTakesOneLargeView) {
+TEST(RelayQueue, HoldsNoMoreBytesThanItMayAndNoLargeView) {
   RelayQueue queue;
-  EXPECT_TRUE(queue.put_view(message("large", 2 * RelayQueue::kMost_bytes)));
-  EXPECT_FALSE(queue.put_view(message("small")));
-  EXPECT_EQ(first_word(queue.next(kNow)), "large");
-  EXPECT_TRUE(queue.put_view(message("half", RelayQueue::kMost_bytes / 2)));
-  EXPECT_FALSE(queue.put_view(message("more", RelayQueue::kMost_bytes / 2)));
-  EXPECT_TRUE(queue.put_view(message("rest", RelayQueue::kMost_bytes / 4)));
+  EXPECT_FALSE(queue.put_view(message("large", RelayQueue::kMostView_bytes)));
+  EXPECT_TRUE(queue.empty());
+  for (const char* name : {"1", "2", "3", "4"})
+    EXPECT_TRUE(queue.put_view(message(name, RelayQueue::kMostView_bytes - 100)));
+  EXPECT_FALSE(queue.put_view(message("more", RelayQueue::kMostView_bytes / 2)));
+  EXPECT_EQ(first_word(queue.next(kNow)), "1");
+  EXPECT_TRUE(queue.put_view(message("more", RelayQueue::kMostView_bytes / 2)));
+}
+
+TEST(RelayQueue, HoweverSmallTheyAreTheyLeaveSomeWhileApart) {
+  RelayQueue queue;
+  for (const char* name : {"first", "second"}) EXPECT_TRUE(queue.put_view(message(name)));
+  queue.put_state(message("state"));
+  EXPECT_EQ(first_word(queue.next(kNow)), "state");
+  EXPECT_EQ(first_word(queue.next(kNow)), "first");
+  queue.put_state(message("next state"));
+  EXPECT_EQ(first_word(queue.next(kNow + RelayQueue::kViewsApart / 2)), "nothing");
+  EXPECT_EQ(first_word(queue.next(kNow + RelayQueue::kViewsApart)), "second");
+  EXPECT_EQ(first_word(queue.next(kNow + RelayQueue::kStatesApart / 2)), "nothing");
+  EXPECT_EQ(first_word(queue.next(kNow + RelayQueue::kStatesApart)), "next state");
 }
 
 TEST(RelayQueue, ViewsGoOutNoFasterThanTheRateAndStatesDoNotWaitForThem) {
@@ -67,11 +81,11 @@ TEST(RelayQueue, ViewsGoOutNoFasterThanTheRateAndStatesDoNotWaitForThem) {
 TEST(RelayQueue, WhatWasForgottenDoesNotGoOut) {
   RelayQueue queue;
   queue.put_state(message("state"));
-  EXPECT_TRUE(queue.put_view(message("view", RelayQueue::kMost_bytes)));
+  EXPECT_TRUE(queue.put_view(message("view", RelayQueue::kMostView_bytes / 2)));
   queue.clear();
   EXPECT_TRUE(queue.empty());
   EXPECT_EQ(first_word(queue.next(kLater)), "nothing");
-  EXPECT_TRUE(queue.put_view(message("next", RelayQueue::kMost_bytes))) << "and there is room again";
+  EXPECT_TRUE(queue.put_view(message("next", RelayQueue::kMostView_bytes / 2))) << "and there is room again";
   EXPECT_EQ(first_word(queue.next(kLater)), "next");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { useState } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
 import { me } from '../../api/server';
 import type { Exploration, Robot } from '../../api/types';
@@ -29,10 +29,18 @@ interface Props {
   mayOrder: boolean;
 }
 
+/** So long it is waited for what a robot makes of what it was told: that may have got lost on the way. */
+const WAITS_MS = 10_000;
+
 /** With which other robot it maps the building: choosing one, how far the two are, and parting again. */
 export function TogetherCard({ robot, exploration, others, barrier, mayOrder }: Props) {
   const orders = useOrders(robot.id);
   const [sent, setSent] = useState<readonly Told[]>([]);
+  useEffect(() => {
+    if (sent.length === 0) return;
+    const over = setTimeout(() => setSent([]), WAITS_MS);
+    return () => clearTimeout(over);
+  }, [sent]);
   const own = { robot, exploration };
   const bond = bondOf(exploration, others);
   const waited = unheard(sent, [own, ...others]);
@@ -62,6 +70,9 @@ export function TogetherCard({ robot, exploration, others, barrier, mayOrder }: 
         {words && <span class={`pill ${words.tone}`}>{words.pill}</span>}
       </div>
       {words && <p role="status">{words.says}</p>}
+      {(bond.kind === 'looking' || bond.kind === 'joined') && (
+        <p class="soft small">A fence of one does not hold the other: draw it for both.</p>
+      )}
       {waited !== null && <Notice>Sent. {waited} has not said yet that it knows.</Notice>}
       {waited === null && alone && mayOrder && (
         <Offers
@@ -152,6 +163,11 @@ function OtherHalf({ robot, other }: { robot: Robot; other: Party }) {
         <Notice tone="warn" still>
           {holder} is driving {name}: ask {holder} to choose {robot.name} on the page of {name}, or take over
           there, which stops it.
+        </Notice>
+      )}
+      {holder === null && !isFree(other) && (
+        <Notice tone="warn" still>
+          {name} shares with another robot, and parts from that when it is told.
         </Notice>
       )}
       <div class="row">

@@ -79,6 +79,8 @@ describe('the words of two that map a building', () => {
     const joined = words(shared('x2', true, 12), [bruno(shared('x1'))]);
     expect([joined?.pill, joined?.tone]).toEqual(['Joined', 'good']);
     expect(joined?.says).toMatch(/It has 12 pictures of it, and leaves to Bruno/);
+    const standing = words(shared('x2', true, 12), [bruno(shared('x1'), { phase: 'paused' })]);
+    expect(standing?.says).toMatch(/and sees to all that Bruno, which stands, has not covered\.$/);
   });
 
   it('say that one is not heard of which is not connected, or is at something else', () => {
@@ -88,7 +90,7 @@ describe('the words of two that map a building', () => {
       'Nothing is heard of Bruno. Until it is, Chair goes on by itself.',
     ]);
     expect(words(shared('x9', true), [bruno(shared('x1'))])?.says).toMatch(
-      /^Nothing is heard of the other robot\./,
+      /^Nothing is heard of the other robot\. It is gone, or has begun another exploration/,
     );
     const over = words(shared('x2', true), [bruno(shared('x1'), { phase: 'uploaded' })]);
     expect([over?.pill, over?.says]).toEqual(['Over', 'Bruno is done. Chair goes on by itself.']);

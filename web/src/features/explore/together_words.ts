@@ -54,7 +54,9 @@ export function bondWords(bond: Bond, name: string, exploration: Exploration): B
         : {
             pill: 'Not heard of',
             tone: 'warn',
-            says: `Nothing is heard of ${who}. Until it is, ${name} goes on by itself.`,
+            says: bond.other
+              ? `Nothing is heard of ${who}. Until it is, ${name} goes on by itself.`
+              : `Nothing is heard of the other robot. It is gone, or has begun another exploration: choose it anew. ${name} goes on by itself.`,
           };
     case 'one_sided':
       return {
@@ -68,12 +70,17 @@ export function bondWords(bond: Bond, name: string, exploration: Exploration): B
         tone: 'warn',
         says: `${name} has ${pictures} of ${who} and looks for a place that both have seen. Until it has found one, it goes on by itself.`,
       };
-    case 'joined':
+    case 'joined': {
+      const drives = bond.other.exploration?.phase === 'exploring';
+      const leaves = drives
+        ? `leaves to ${who} what that one sees to`
+        : `sees to all that ${who}, which stands, has not covered`;
       return {
         pill: 'Joined',
         tone: 'good',
-        says: `${name} knows how the floor of ${who} lies in its own. It has ${pictures} of it, and leaves to ${who} what that one sees to.`,
+        says: `${name} knows how the floor of ${who} lies in its own. It has ${pictures} of it, and ${leaves}.`,
       };
+    }
   }
 }
 
