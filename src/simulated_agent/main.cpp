@@ -37,7 +37,7 @@ void add_simulator_options(CLI::App& command, scenario::SimulatorDriverConfig& s
   command.add_option("--seed", simulator.seed, "Simulator: seed of noise and people");
   command.add_option(
       "--shared-world", simulator.shared_world,
-      "Simulator: folder of a world with several robots: programs that name the same one see each other's");
+      "Simulator: folder of a world with several robots: programs that name the same one see each other's robots");
   command.add_option("--truth-file", simulator.truth_file, "Simulator: append true poses to this file");
 }
 

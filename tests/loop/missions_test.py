@@ -19,7 +19,7 @@ DOCKED_WITHIN_RAD = math.radians(3)
 
 
 def scenario(missions, robot):
-    return {"world": "house:1", "camera": small_mirror.CAMERA, **robot, "format": "homeward-scenario", "version": 1,
+    return {"world": "house:1", "camera": {"model": "hyperbolic_mirror"}, **robot, "format": "homeward-scenario", "version": 1,
             "seed": 1,
             "tour": {"rooms": ["hall", "kitchen", "living_room", "bathroom", "hall"], "light": "day"},
             "missions": missions}

@@ -51,7 +51,7 @@ TEST_P(MovedHouse, HasTheFloorOfItsScene) {
   EXPECT_EQ(moved->world.drivable.robot_radius_m, house_.drivable.robot_radius_m);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, MovedHouse, ::testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(Seeds, MovedHouse, ::testing::Values(1, 2, 3));
 
 TEST(MovedFurniture, IsTheSameForTheSameSeedAndAnotherForAnother) {
   const World offices = generate_offices(1);
