@@ -59,6 +59,11 @@ async function bond(page, kind, pill) {
 const companionOf = async (page, robot) =>
   (await (await page.request.get(`/api/v1/robots/${robot.id}/exploration`)).json()).companion;
 
+/** Until a robot knows with which one it shares; what is asked of it before that hangs on the lease of who asked. */
+async function knowsItsCompanion(page, robot) {
+  while (!(await companionOf(page, robot))) await page.waitForTimeout(100);
+}
+
 /** Until it has taken so many pictures, as the page tells. */
 async function pictures(page, least) {
   await page.waitForFunction(
@@ -311,10 +316,12 @@ const checks = [
       await together(page).getByRole('link', { name: 'To the page of Bruno' }).click();
       assert.equal(new URL(page.url()).pathname, `/robots/${bruno.id}/explore`);
       await together(page).getByText('shares with this one already').waitFor();
+      await pictures(page, 4); // from so many on they can be joined; it may stop while nobody drives it
       await page.goBack();
       bruno.lease = null;
       house.tellRobot(bruno);
       await press(together(page), 'Tell Bruno too');
+      await knowsItsCompanion(page, bruno);
       watch(house, bruno, 'anna');
       await bond(page, 'joined', 'Joined');
     }),
