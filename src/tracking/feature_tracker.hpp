@@ -25,7 +25,7 @@ struct FeatureTrackerConfig {
   double least_scale = 0.4;  // size against the reference's
   double most_scale = 2.5;
   double most_from_guess_px = 48.0;  // a feature found farther from where it was looked for is another one
-  PatchChanges changes;
+  PatchChanges changes{};
 };
 /// Empty when valid; lists all problems.
 std::vector<std::string> problems(const FeatureTrackerConfig& config);

@@ -82,12 +82,6 @@ std::vector<std::string> problems(const PyramidConfig& config) {
   return found;
 }
 
-GreyLevel::GreyLevel(int width, int height)
-    : width_px(width),
-      height_px(height),
-      stride(width + 2 * kBorder_px),
-      grey(static_cast<std::size_t>(stride) * static_cast<std::size_t>(height + 2 * kBorder_px) + kSpare) {}
-
 Result<ImagePyramid> ImagePyramid::build(const Image& picture, const PyramidConfig& config) {
   if (const auto wrong = problems(config); !wrong.empty()) return fail(ErrorCode::kInvalidInput, wrong.front());
   if (const Status fits = check(picture); !fits) return pass_on(fits);

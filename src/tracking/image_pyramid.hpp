@@ -29,7 +29,11 @@ struct GreyLevel {
   std::vector<float> grey;
 
   GreyLevel() = default;
-  GreyLevel(int width, int height);
+  GreyLevel(int width, int height)
+      : width_px(width),
+        height_px(height),
+        stride(width + 2 * kBorder_px),
+        grey(static_cast<std::size_t>(stride) * static_cast<std::size_t>(height + 2 * kBorder_px) + kSpare) {}
   /// Pixel 0 of a row, -kBorder_px to height_px + kBorder_px - 1.
   [[nodiscard]] const float* row(int v) const { return grey.data() + (v + kBorder_px) * stride + kBorder_px; }
   [[nodiscard]] float* row(int v) { return grey.data() + (v + kBorder_px) * stride + kBorder_px; }
