@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/support/wavy_picture.hpp"
+#include "support/wavy_picture.hpp"
 
 namespace homeward::tracking::feature_tracker_test {
 namespace {

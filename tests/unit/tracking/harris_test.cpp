@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "tests/support/wavy_picture.hpp"
+#include "support/wavy_picture.hpp"
 
 namespace homeward::tracking::harris_test {
 namespace {

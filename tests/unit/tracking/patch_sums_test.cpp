@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
-#include "tests/support/vector_targets.hpp"
+#include "support/vector_targets.hpp"
 
 namespace homeward::tracking::patch_sums_test {
 namespace {
