@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/drawn_walls.hpp"
 #include "support/landmarks.hpp"
 
@@ -77,6 +79,31 @@ TEST_F(FrameJoinTest, InRoomsOfTheSameShapeThatLookOtherwiseNothingIsJoined) {
   second_drives({4.3, 3.2, 2.8, 1.4, 1.0}, landmarks(77));
   EXPECT_EQ(join_.agreements(), 0U);
   EXPECT_FALSE(join_.first_from_second(first_, second_));
+}
+
+TEST_F(FrameJoinTest, WhatAnotherFoundJoinsTheFloorsAtTheSamePose) {
+  second_drives({4.3, 3.2, 2.8, 1.4, 1.0}, landmarks_);
+  ASSERT_TRUE(join_.first_from_second(first_, second_));
+  FrameJoin other;
+  for (int again = 0; again < 2; ++again)
+    for (const JoinAgreement& told : join_.found()) other.take_told(told, first_, second_);
+  EXPECT_EQ(other.agreements(), 0U);
+  const auto joined = other.first_from_second(first_, second_);
+  ASSERT_TRUE(joined);
+  EXPECT_LT(position_m(inverse(inverse(kFirst) * kSecond) * *joined).norm(), 0.1);
+}
+
+TEST_F(FrameJoinTest, NonsenseThatIsToldIsPassedOver) {
+  second_drives({4.3, 1.0}, landmarks_);
+  FrameJoin other;
+  for (std::size_t view : {0U, 1U}) {
+    other.take_told({view, 99, {}, true}, first_, second_);
+    other.take_told({view + 99, view, {}, true}, first_, second_);
+    other.take_told({view, view, {std::nan(""), 0.0, 0.0}, true}, first_, second_);
+    other.take_told({view, view, {0.0, 0.0, std::nan("")}, true}, first_, second_);
+    other.take_told({view, view, {1e9, 0.0, 0.0}, true}, first_, second_);
+  }
+  EXPECT_FALSE(other.first_from_second(first_, second_));
 }
 
 TEST_F(FrameJoinTest, WithoutPicturesNothingIsJoined) {
