@@ -106,6 +106,15 @@ TEST_F(FrameJoinTest, NonsenseThatIsToldIsPassedOver) {
   EXPECT_FALSE(other.first_from_second(first_, second_));
 }
 
+TEST_F(FrameJoinTest, WhatIsToldOtherwiseThanWasFoundMoreOftenIsOutvoted) {
+  second_drives({4.3, 3.2, 2.8, 1.4, 1.0}, landmarks_);
+  ASSERT_TRUE(join_.first_from_second(first_, second_));
+  join_.take_told({0, 0, {0.0, 3.0, 1.0}, true}, first_, second_);
+  const auto joined = join_.first_from_second(first_, second_);
+  ASSERT_TRUE(joined);
+  EXPECT_LT(position_m(inverse(inverse(kFirst) * kSecond) * *joined).norm(), 0.1);
+}
+
 TEST_F(FrameJoinTest, WithoutPicturesNothingIsJoined) {
   second_.take(sweep_of(testing::two_rooms(), kSecond), {}, nullptr);
   join_.second_looks(first_, second_, kAway);
