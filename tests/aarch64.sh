@@ -40,6 +40,7 @@ sources=(
   src/matching/nearest_columns.cpp
   src/matching/nearest_portable.cpp
   src/sim/sensor.cpp
+  src/tracking/patch_sums.cpp
   tests/unit/features/blur_strips_test.cpp
   tests/unit/features/direction_histogram_test.cpp
   tests/unit/features/extremum_rows_test.cpp
@@ -49,6 +50,7 @@ sources=(
   tests/unit/matching/nearest_columns_test.cpp
   tests/unit/matching/nearest_test.cpp
   tests/unit/sim/sensor_test.cpp
+  tests/unit/tracking/patch_sums_test.cpp
   "$googletest/src/gtest-all.cc"
   "$googletest/src/gtest_main.cc"
 )

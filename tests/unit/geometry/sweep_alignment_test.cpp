@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "core/angles.hpp"
 #include "support/drawn_walls.hpp"
 
 namespace homeward::geometry {
@@ -54,6 +59,35 @@ TEST(SweepAlignmentTest, TheOtherSideOfAWallIsAnotherSurface) {
   reference.add(surface_of(sweep_of(wall, {0.0, 0.0, 0.0})), {});
   const auto behind = surface_of(sweep_of(wall, {2.0, 0.0, 0.0}));
   EXPECT_EQ(agreement(reference, behind, {2.0, 0.0, 0.0}, 0.1), 0.0);
+}
+
+TEST(SweepAlignmentTest, ThePartnerIsTheNearestPointOfAllThatFaceTheSameWay) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> at_m(-1.5, 1.5);
+  std::uniform_real_distribution<double> turned_rad(-kPi, kPi);
+  const auto drawn = [&] {
+    const double rad = turned_rad(random);
+    return SurfacePoint{{at_m(random), at_m(random)}, {std::cos(rad), std::sin(rad)}};
+  };
+  std::vector<SurfacePoint> surface(300);
+  std::ranges::generate(surface, drawn);
+  ReferenceSurface reference;
+  reference.add(surface, {});
+  int partners = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const SurfacePoint seen = drawn();
+    const double most_m = 0.01 + 0.4 * (n % 3);
+    double least_m = most_m;
+    for (const SurfacePoint& point : surface)
+      if (point.normal.dot(seen.normal) >= 0.5) least_m = std::min(least_m, (point.at_m - seen.at_m).norm());
+    const SurfacePoint* nearest = reference.nearest(seen, most_m);
+    ASSERT_EQ(nearest != nullptr, least_m < most_m) << n;
+    if (nearest == nullptr) continue;
+    EXPECT_NEAR((nearest->at_m - seen.at_m).norm(), least_m, 1e-12) << n;
+    EXPECT_GE(nearest->normal.dot(seen.normal), 0.5);
+    ++partners;
+  }
+  EXPECT_GT(partners, 500);
 }
 
 }  // namespace
