@@ -167,22 +167,32 @@ void FrameJoin::second_looks(const Explorer& first, const Explorer& second,
       {stands->first, second.views().size() - 1, inverse(first.poses()[stands->first]) * stands->second, false});
 }
 
-void FrameJoin::take_told(const JoinAgreement& told, const Explorer& first, const Explorer& second) {
-  if (told_.size() >= config_.most_told || told.first >= first.views().size() || told.second >= second.views().size())
-    return;
-  const Pose2& apart = told.first_from_second;
-  if (!(position_m(apart).norm() <= config_.told_within_m) || !std::isfinite(apart.theta_rad)) return;
-  const auto is_told = [&](const JoinAgreement& one) {
-    return one.first == told.first && one.second == told.second && one.first_looked == told.first_looked;
+void FrameJoin::set_told(std::span<const JoinAgreement> told) {
+  told_.clear();
+  for (const JoinAgreement& one : told.last(std::min(told.size(), config_.most_told))) {
+    const Pose2& apart = one.first_from_second;
+    if (!(position_m(apart).norm() <= config_.told_within_m) || !std::isfinite(apart.theta_rad)) continue;
+    told_.push_back(one);
+    told_.back().first_from_second.theta_rad = wrap_angle(apart.theta_rad);
+  }
+}
+
+std::vector<JoinAgreement> FrameJoin::counted(const Explorer& first, const Explorer& second) const {
+  std::vector<JoinAgreement> all;
+  const auto is_there = [&](const JoinAgreement& told) {
+    const auto same = [&](const JoinAgreement& one) {
+      return one.first == told.first && one.second == told.second && one.first_looked == told.first_looked;
+    };
+    return std::ranges::any_of(found_, same) || std::ranges::any_of(all, same);
   };
-  if (std::ranges::any_of(found_, is_told) || std::ranges::any_of(told_, is_told)) return;
-  told_.push_back(told);
-  told_.back().first_from_second.theta_rad = wrap_angle(apart.theta_rad);
+  for (const JoinAgreement& one : told_)
+    if (one.first < first.views().size() && one.second < second.views().size() && !is_there(one)) all.push_back(one);
+  all.insert(all.end(), found_.begin(), found_.end());
+  return all;
 }
 
 std::optional<Pose2> FrameJoin::first_from_second(const Explorer& first, const Explorer& second) const {
-  std::vector<JoinAgreement> all = told_;
-  all.insert(all.end(), found_.begin(), found_.end());
+  const std::vector<JoinAgreement> all = counted(first, second);
   std::vector<Pose2> said;
   for (const JoinAgreement& seen : all)
     said.push_back(first.poses()[seen.first] * seen.first_from_second * inverse(second.poses()[seen.second]));

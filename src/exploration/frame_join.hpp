@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/pose2.hpp"
@@ -52,10 +53,10 @@ class FrameJoin {
   void first_looks(const Explorer& first, const Explorer& second, const std::optional<Pose2>& second_from_robot);
   /// The other way about.
   void second_looks(const Explorer& first, const Explorer& second, const std::optional<Pose2>& first_from_robot);
-  /// Takes in what another has found about the same two, beside what was found here and by the same rules. Passed over:
-  /// what is here already, what names views that are not here (yet), what lies nowhere or too far away, and more than
-  /// is taken in.
-  void take_told(const JoinAgreement& told, const Explorer& first, const Explorer& second);
+  /// What another has found about the same two, in place of what it told before: it counts beside what was found here
+  /// and by the same rules. Passed over: what lies nowhere or too far away, and the first ones of more than are taken
+  /// in; as long as their views are not here, those that name such; and what was found here as well.
+  void set_told(std::span<const JoinAgreement> told);
   /// What was found here, oldest first: none that was told.
   [[nodiscard]] const std::vector<JoinAgreement>& found() const { return found_; }
   /// How the second one's floor lies in the first one's by all that has been seen; nothing: not known.
@@ -72,6 +73,8 @@ class FrameJoin {
     Pose2 view_from_other;
   };
   [[nodiscard]] bool may_be(const Pose2& first_from_second, const Explorer& first, const Explorer& second) const;
+  /// What was told and found, each once, whose views are here.
+  [[nodiscard]] std::vector<JoinAgreement> counted(const Explorer& first, const Explorer& second) const;
   [[nodiscard]] bool is_due(std::size_t pictures_since, const std::optional<Pose2>& joined) const;
 
   FrameJoinConfig config_;
