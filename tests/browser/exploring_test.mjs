@@ -61,7 +61,11 @@ const companionOf = async (page, robot) =>
 
 /** Until a robot knows with which one it shares; what is asked of it before that hangs on the lease of who asked. */
 async function knowsItsCompanion(page, robot) {
-  while (!(await companionOf(page, robot))) await page.waitForTimeout(100);
+  const until_ms = Date.now() + 30_000;
+  while (!(await companionOf(page, robot))) {
+    assert.ok(Date.now() < until_ms, `${robot.name} was not told with whom it shares`);
+    await page.waitForTimeout(100);
+  }
 }
 
 /** Until it has taken so many pictures, as the page tells. */

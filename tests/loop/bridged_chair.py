@@ -22,6 +22,12 @@ UNDER_WAY_MPS = 0.2
 FULL = 32767
 
 
+def at_rest(truth):
+    """Whether it stands, and is told to."""
+    return (abs(truth["speed_mps"]) <= AT_REST and abs(truth["turn_radps"]) <= AT_REST
+            and truth["commanded_mps"] == 0 and truth["commanded_radps"] == 0)
+
+
 class BridgedChair:
     def __init__(self, binaries, web, port, base_timeout_s, under_way_mps=UNDER_WAY_MPS):
         self.under_way_mps = under_way_mps
@@ -173,8 +179,7 @@ class BridgedChair:
         after = self.truths(since_us)
         if not after:
             raise Failed("the robot tells nothing any more")
-        return [t for t in after if abs(t["speed_mps"]) > AT_REST or abs(t["turn_radps"]) > AT_REST
-                or t["commanded_mps"] != 0 or t["commanded_radps"] != 0]
+        return [t for t in after if not at_rest(t)]
 
     def stood(self, since_us, seconds=2.5):
         """Seconds until the robot was told to stand for good, and until it stood, since then."""

@@ -210,7 +210,7 @@ void draw(const Tour& tour, int most, const std::string& file) {
 }  // namespace
 }  // namespace homeward::bench
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   using namespace homeward::bench;
   if (argc < 2) {
     std::fprintf(stderr, "usage: homeward_bench_feature_tracks TOUR [WIDTH [MOST [DRAWN]]]\n");
@@ -220,6 +220,11 @@ int main(int argc, char** argv) {
   const int width_px = argc > 2 ? std::stoi(argv[2]) : 640;
   const int most = argc > 3 ? std::stoi(argv[3]) : 200;
   const Tour tour = read_tour(argv[1], width_px);
+  if (tour.grey.size() <= static_cast<std::size_t>(kAges.back())) {
+    std::fprintf(stderr, "%s: %d pictures and more are followed, and it has %zu\n", argv[1], kAges.back() + 1,
+                 tour.grey.size());
+    return 1;
+  }
   double sum = 0.0;
   int starts = 0;
   for (std::size_t first = 0; first + kAges.back() < tour.grey.size(); first += kEvery, ++starts) {
@@ -233,4 +238,10 @@ int main(int argc, char** argv) {
   for (const NamedFollower& named : all_followers()) measure(tour, named, most);
   if (argc > 4) draw(tour, most, argv[4]);
   return 0;
+} catch (const tl::bad_expected_access<homeward::Error>& stopped) {
+  std::fprintf(stderr, "%s: %s\n", stopped.error().where.c_str(), stopped.error().message.c_str());
+  return 1;
+} catch (const std::exception& stopped) {
+  std::fprintf(stderr, "%s\n", stopped.what());
+  return 1;
 }
