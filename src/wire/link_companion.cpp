@@ -15,7 +15,9 @@ constexpr double kFarthestOdometry_m = 1e6;
 constexpr double kFarthestAgreement_m = 1e3;
 constexpr int kAgreementsFrom = 5;  // version of the link
 
-json pose_to_json(const Pose2& pose) { return {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"theta_rad", pose.theta_rad}}; }
+json companion_pose_to_json(const Pose2& pose) {
+  return {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"theta_rad", pose.theta_rad}};
+}
 
 ExplorationId read_exploration_of(ObjectReader& reader, const std::string& key) {
   ExplorationId id(reader.text(key, 100));
@@ -77,7 +79,7 @@ void add_fields(json& value, const CompanionView& m) {
 void add_fields(json& value, const CompanionState& m) {
   value["exploration"] = m.exploration.str();
   value["pictures"] = m.pictures;
-  value["odometry"] = pose_to_json(m.odometry);
+  value["odometry"] = companion_pose_to_json(m.odometry);
   value["target"] = nullptr;
   if (m.target_m) value["target"] = {m.target_m->x(), m.target_m->y()};
   value["drives"] = m.drives;
@@ -86,7 +88,7 @@ void add_fields(json& value, const CompanionState& m) {
   for (const CompanionAgreement& one : m.agreements)
     value["agreements"].push_back({{"own", one.own},
                                    {"others", one.others},
-                                   {"own_from_others", pose_to_json(one.own_from_others)},
+                                   {"own_from_others", companion_pose_to_json(one.own_from_others)},
                                    {"own_looked", one.own_looked}});
 }
 

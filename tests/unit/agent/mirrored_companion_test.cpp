@@ -46,7 +46,7 @@ class MirroredCompanionTest : public ::testing::Test {
     return view(index, {x_m, 1.8, 2.9}, kTheirStart);
   }
   [[nodiscard]] static wire::CompanionState state(std::int64_t pictures, const Pose2& odometry = {}) {
-    return {kTheirs, pictures, odometry, Eigen::Vector2d(3.0, 1.0), true, 0};
+    return {kTheirs, pictures, odometry, Eigen::Vector2d(3.0, 1.0), true, 0, {}};
   }
   /// It drives through both rooms, and tells it at once.
   void tell_all(const std::vector<double>& to_m = {4.3, 3.2, 2.8, 1.4, 1.0}) {
