@@ -108,7 +108,10 @@ const checks = [
         before,
       );
       await page.keyboard.press('0');
-      assert.equal(await width(), before);
+      await page.waitForFunction(
+        (was) => document.querySelector('.matrix-sheet img').clientWidth === was,
+        before,
+      );
       await page.getByLabel('A, along the top').fill('24');
       await page.getByLabel('B, down the side').fill('cellar');
       await page.keyboard.press('Enter');
