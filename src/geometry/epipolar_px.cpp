@@ -23,13 +23,42 @@ double weight(double error_px, double outlier_px) {
   return share * share;
 }
 
-double cost_of(const EpipolarPixels& error, std::span<const PointPair> pairs, double outlier_px) {
-  double sum = 0.0;
-  for (const PointPair& pair : pairs) sum += robust(error(pair), outlier_px);
-  return sum;
-}
+/// What refine() makes least.
+struct Sum {
+  std::span<const PointPair> pairs;
+  double outlier_px;
+  const std::optional<DrivingPrior>& driving;
+  double spread_px;
+
+  [[nodiscard]] double operator()(const ViewMotion& motion) const {
+    const EpipolarPixels error(motion);
+    double sum = spread_px * spread_px * unlike_driving(motion, driving);
+    for (const PointPair& pair : pairs) sum += robust(error(pair), outlier_px);
+    return sum;
+  }
+};
 
 }  // namespace
+
+double unlike_driving(const ViewMotion& motion, const std::optional<DrivingPrior>& driving) {
+  if (!driving) return 0.0;
+  Eigen::Matrix<double, 4, 5> slope;
+  return EpipolarPixels(motion).unlike_driving(*driving, slope).squaredNorm();
+}
+
+Eigen::Vector4d EpipolarPixels::unlike_driving(const DrivingPrior& driving, Eigen::Matrix<double, 4, 5>& slope) const {
+  const Eigen::Matrix3d& turn = motion_.current_from_target;
+  const Eigen::Vector3d up = turn.col(2);
+  const Eigen::Vector3d& along = motion_.target_in_current;
+  slope.setZero();
+  // By a turn w about the target's axes: turn * (w x up of the target).
+  slope.block<2, 1>(0, 0) = -turn.col(1).head<2>() / driving.tilt_rad;
+  slope.block<2, 1>(0, 1) = turn.col(0).head<2>() / driving.tilt_rad;
+  slope.block<1, 2>(2, 3) = across_.row(2) / driving.climb_rad;
+  slope.block<1, 2>(3, 3) = across_.row(1) / driving.swerve_rad;
+  return {up.x() / driving.tilt_rad, up.y() / driving.tilt_rad, along.z() / driving.climb_rad,
+          along.y() / driving.swerve_rad};
+}
 
 EpipolarPixels::EpipolarPixels(const ViewMotion& motion) : motion_(motion) {
   across_.col(0) = motion.target_in_current.unitOrthogonal();
@@ -81,10 +110,12 @@ ViewMotion EpipolarPixels::moved(const MotionStep& by) const {
   return motion;
 }
 
-RefinedMotion refine(const ViewMotion& motion, std::span<const PointPair> pairs, double outlier_px) {
+RefinedMotion refine(const ViewMotion& motion, std::span<const PointPair> pairs, double outlier_px,
+                     const std::optional<DrivingPrior>& driving, double spread_px) {
+  const Sum sum{pairs, outlier_px, driving, spread_px};
   RefinedMotion best;
   best.motion = motion;
-  best.cost = cost_of(EpipolarPixels(motion), pairs, outlier_px);
+  best.cost = sum(motion);
   double damping = 1e-3;
   for (int i = 0; i < kSteps; ++i) {
     const EpipolarPixels error(best.motion);
@@ -97,13 +128,19 @@ RefinedMotion refine(const ViewMotion& motion, std::span<const PointPair> pairs,
       best.information += weighs * slope * slope.transpose();
       gradient += weighs * off * slope;
     }
+    if (driving) {
+      Eigen::Matrix<double, 4, 5> unlike_slope;
+      const Eigen::Vector4d unlike = error.unlike_driving(*driving, unlike_slope);
+      best.information += spread_px * spread_px * unlike_slope.transpose() * unlike_slope;
+      gradient += spread_px * spread_px * unlike_slope.transpose() * unlike;
+    }
     Eigen::Matrix<double, 5, 5> damped = best.information;
     damped.diagonal() *= 1.0 + damping;
     damped.diagonal().array() += 1e-9;
     const MotionStep step = -damped.ldlt().solve(gradient);
     if (!step.allFinite()) break;
     const ViewMotion tried = error.moved(step);
-    const double cost = cost_of(EpipolarPixels(tried), pairs, outlier_px);
+    const double cost = sum(tried);
     if (cost > best.cost) {
       damping *= 10.0;
       continue;

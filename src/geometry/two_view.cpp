@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geometry/two_view.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/median.hpp"
-#include "geometry/epipolar_px.hpp"
+#include "geometry/error_mixture.hpp"
 #include "geometry/turn_alone.hpp"
 
 namespace homeward::geometry {
 namespace {
 
-constexpr double kSpreadOfMedian = 1.4826;  // standard deviation of normal errors over the median of their sizes
-constexpr double kSureParallax = 3.0;       // spreads: rays that part by more do not meet
-constexpr double kMostNearness = 5.0;       // a point is at least a fifth of the baseline away
-constexpr int kRounds = 4;                  // of telling right from wrong and fitting again
+constexpr double kSureParallax = 3.0;        // spreads: rays that part by more do not meet
+constexpr double kMostNearness = 5.0;        // a point is at least a fifth of the baseline away
+constexpr double kSameDirection_rad = 0.15;  // motions nearer to each other are no rivals
+constexpr int kRounds = 4;                   // of telling right from wrong and fitting again
 
 double radians_per_px(const SeenPoint& seen) {
   return std::sqrt(std::sqrt(std::max((seen.bearing_per_px.transpose() * seen.bearing_per_px).determinant(), 0.0)));
@@ -46,6 +48,12 @@ double cost(const ViewMotion& motion, std::span<const PointPair> pairs, double m
   return sum;
 }
 
+/// The turn about the vertical alone.
+Eigen::Matrix3d level_turn(const Eigen::Matrix3d& turn) {
+  const double turn_rad = std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
+  return Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
 /// Of a motion and the one in the opposite direction the one whose rays meet.
 ViewMotion in_front(ViewMotion motion, std::span<const PointPair> pairs, double most_px) {
   ViewMotion back = motion;
@@ -53,39 +61,46 @@ ViewMotion in_front(ViewMotion motion, std::span<const PointPair> pairs, double 
   return cost(back, pairs, most_px) < cost(motion, pairs, most_px) ? back : motion;
 }
 
-double spread_of(std::vector<double> sizes_px, const TwoViewConfig& config) {
-  const auto count = static_cast<double>(sizes_px.size());
-  const double few = 1.0 + 5.0 / std::max(count - 5.0, 1.0);  // Rousseeuw & Leroy 1987, ch. 5
-  return std::max(kSpreadOfMedian * few * median(std::move(sizes_px)), config.least_spread_px);
-}
-
 struct Fit {
   RefinedMotion refined;
-  double spread_px = 0.0;
+  ErrorMixture errors;
 };
+
+/// The errors of pairs by size; infinite for those whose rays part.
+std::vector<double> sizes_px(const ViewMotion& motion, std::span<const PointPair> pairs, double spread_px) {
+  const EpipolarPixels error(motion);
+  std::vector<double> sizes;
+  for (const PointPair& pair : pairs) {
+    const bool meets = meeting(motion, pair, spread_px).has_value();
+    sizes.push_back(meets ? std::abs(error(pair)) : std::numeric_limits<double>::infinity());
+  }
+  return sizes;
+}
 
 /// A motion fitted to the pairs that agree with it, and again to those that then do. Wrong pairs are left out and not
 /// only weighed down: each would pull the motion towards one of its points, where it agrees with anything.
 Fit fitted(const ViewMotion& start, std::span<const PointPair> pairs, const TwoViewConfig& config) {
   Fit fit;
   fit.refined.motion = start;
+  fit.errors.spread_px = config.search_error_px;
   for (int round = 0; round < kRounds; ++round) {
-    const EpipolarPixels error(fit.refined.motion);
-    std::vector<double> sizes_px;
-    for (const PointPair& pair : pairs) sizes_px.push_back(std::abs(error(pair)));
-    fit.spread_px = spread_of(sizes_px, config);
-    const double most_px = config.inlier_spreads * fit.spread_px;
+    const auto sizes = sizes_px(fit.refined.motion, pairs, fit.errors.spread_px);
+    fit.errors = error_mixture(sizes, config.least_spread_px, config.wrong_reach_px);
+    const double most_px = config.inlier_spreads * fit.errors.spread_px;
     std::vector<PointPair> agreeing;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      if (sizes_px[i] <= most_px && meeting(fit.refined.motion, pairs[i], fit.spread_px)) agreeing.push_back(pairs[i]);
+      if (sizes[i] <= most_px) agreeing.push_back(pairs[i]);
     }
-    fit.refined = refine(fit.refined.motion, agreeing, most_px);
+    fit.refined = refine(fit.refined.motion, agreeing, most_px, config.driving, fit.errors.spread_px);
   }
+  const auto sizes = sizes_px(fit.refined.motion, pairs, fit.errors.spread_px);
+  fit.errors = error_mixture(sizes, config.least_spread_px, config.wrong_reach_px);
   return fit;
 }
 
-std::optional<Fit> search(std::span<const PointPair> pairs, const TwoViewConfig& config, std::uint64_t seed,
-                          const std::optional<ViewMotion>& expected) {
+/// What a motion can be near: that of samples, the one expected, and driving straight.
+std::vector<ViewMotion> starts_of(std::span<const PointPair> pairs, const TwoViewConfig& config, std::uint64_t seed,
+                                  const std::optional<ViewMotion>& expected, const TurnAlone& turn) {
   std::vector<Correspondence> matches;
   std::vector<double> scales;
   for (const PointPair& pair : pairs) {
@@ -95,18 +110,47 @@ std::optional<Fit> search(std::span<const PointPair> pairs, const TwoViewConfig&
   const double most_px = config.search_error_px;
   std::vector<ViewMotion> starts;
   if (expected) starts.push_back(*expected);
+  if (config.driving) {
+    const ViewMotion ahead{level_turn(turn.current_from_target), Eigen::Vector3d::UnitX()};
+    starts.push_back(in_front(ahead, pairs, most_px));
+  }
   const FivePointConfig five{config.max_iterations, config.sure_enough, most_px * median(scales)};
   for (const EssentialCandidate& candidate : search_essentials(matches, five, seed)) {
     for (const ViewMotion& motion : motions_of(candidate.essential)) starts.push_back(in_front(motion, pairs, most_px));
   }
-  std::optional<Fit> best;
-  double least = 0.0;
+  return starts;
+}
+
+/// A motion fitted, with how likely it is by pairs and prior, and the best other one.
+struct Likeliest {
+  Fit fit;
+  double log_likelihood = 0.0;
+  double lead = std::numeric_limits<double>::infinity();
+  double rival_rad = 0.0;  // between the directions
+};
+
+double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+std::optional<Likeliest> likeliest(std::span<const ViewMotion> starts, std::span<const PointPair> pairs,
+                                   const TwoViewConfig& config) {
+  std::vector<Likeliest> fits;
   for (const ViewMotion& start : starts) {
-    Fit fit = fitted(start, pairs, config);
-    const double now = cost(fit.refined.motion, pairs, most_px);
-    if (best && now >= least) continue;
-    least = now;
-    best = std::move(fit);
+    Likeliest one;
+    one.fit = fitted(start, pairs, config);
+    one.log_likelihood = one.fit.errors.log_likelihood - 0.5 * unlike_driving(one.fit.refined.motion, config.driving);
+    fits.push_back(std::move(one));
+  }
+  if (fits.empty()) return std::nullopt;
+  Likeliest best = *std::ranges::max_element(fits, {}, &Likeliest::log_likelihood);
+  for (const Likeliest& other : fits) {
+    const double apart_rad =
+        angle_between(best.fit.refined.motion.target_in_current, other.fit.refined.motion.target_in_current);
+    const double lead = best.log_likelihood - other.log_likelihood;
+    if (apart_rad < kSameDirection_rad || lead >= best.lead) continue;
+    best.lead = lead;
+    best.rival_rad = apart_rad;
   }
   return best;
 }
@@ -148,8 +192,7 @@ TwoViewEstimate judged(const RefinedMotion& refined, std::span<const PointPair> 
 TwoViewEstimate judged(const TurnAlone& turn, std::span<const PointPair> pairs, const TwoViewConfig& config) {
   TwoViewEstimate estimate;
   estimate.motion.current_from_target = turn.current_from_target;
-  // Of two coordinates: the median of their length is 1.177 standard deviations, that of one coordinate's size 0.6745.
-  estimate.spread_px = spread_of(turn.off_px, config);
+  estimate.spread_px = error_mixture(turn.off_px, config.least_spread_px, config.wrong_reach_px).spread_px;
   double sum_px2 = 0.0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (!(turn.off_px[i] <= std::max(config.inlier_spreads * estimate.spread_px, config.least_parallax_px))) continue;
@@ -188,6 +231,11 @@ std::vector<std::string> problems(const TwoViewConfig& config) {
   expect(config.search_error_px > 0.0, "search_error_px is not positive");
   expect(config.least_spread_px > 0.0, "least_spread_px is not positive");
   expect(config.inlier_spreads > 0.0, "inlier_spreads is not positive");
+  expect(config.most_direction_spread_rad > 0.0, "most_direction_spread_rad is not positive");
+  expect(config.wrong_reach_px > 2.0 * config.least_spread_px, "wrong_reach_px is less than two least_spread_px");
+  const auto& driving = config.driving;
+  expect(!driving || (driving->tilt_rad > 0.0 && driving->climb_rad > 0.0 && driving->swerve_rad > 0.0),
+         "driving has a spread that is not positive");
   expect(config.least_parallax_px >= 0.0, "least_parallax_px is negative");
   return found;
 }
@@ -199,13 +247,20 @@ Result<TwoViewEstimate> estimate_two_view(std::span<const PointPair> pairs, cons
   if (pairs.size() < fewest) return fail(ErrorCode::kTooLittleSupport, "Too few points are seen in both views.");
   const TurnAlone turn = fit_turn(pairs, config.search_error_px, seed);
   TwoViewEstimate by_turn = judged(turn, pairs, config);
-  const auto found = search(pairs, config, seed, expected);
+  const auto found = likeliest(starts_of(pairs, config, seed, expected, turn), pairs, config);
   TwoViewEstimate estimate = by_turn;
   if (found) {
-    estimate = judged(found->refined, pairs, found->spread_px, config);
+    estimate = judged(found->fit.refined, pairs, found->fit.errors.spread_px, config);
+    estimate.lead = found->lead;
+    // One of two: the likelier one, or with the rest of the probability its rival.
+    const double rival_share = 1.0 / (1.0 + std::exp(std::min(found->lead, 100.0)));
+    estimate.direction_spread_rad =
+        std::hypot(estimate.direction_spread_rad, std::sqrt(rival_share) * found->rival_rad);
     estimate.parallax_px = upper_quarter(estimate.inliers, turn.off_px);
     by_turn.parallax_px = estimate.parallax_px;
-    if (estimate.parallax_px < config.least_parallax_px) estimate = std::move(by_turn);
+    const bool turn_explains = 5 * by_turn.inliers.size() >= 4 * estimate.inliers.size();
+    const bool is_blind = estimate.direction_spread_rad > config.most_direction_spread_rad && turn_explains;
+    if (estimate.parallax_px < config.least_parallax_px || is_blind) estimate = std::move(by_turn);
   }
   if (estimate.inliers.size() < fewest) return fail(ErrorCode::kTooLittleSupport, "Too few points agree on a motion.");
   return estimate;

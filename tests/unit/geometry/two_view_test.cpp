@@ -8,6 +8,7 @@
 #include "core/angles.hpp"
 #include "core/median.hpp"
 #include "geometry/epipolar_px.hpp"
+#include "geometry/error_mixture.hpp"
 #include "support/pinhole_scene.hpp"
 
 namespace homeward::geometry::two_view_test {
@@ -129,6 +130,88 @@ TEST(TwoView, RefinementComesToRestAtTheTruthOfExactPairs) {
   const RefinedMotion refined = refine(start, scene.pairs, 100.0);
   EXPECT_LT(turn_off_deg(refined.motion, truth), 1e-4);
   EXPECT_LT(direction_off_deg(refined.motion, truth), 1e-3);
+}
+
+/// Of a plane there are two motions that show it so, and wrong pairs decide between them.
+TEST(TwoView, WhatIsLikeDrivingDecidesWhereAPlaneDoesNot) {
+  const ViewMotion truth = motion_of({1.0, 0.05, 0.0}, 0.02);
+  ViewMotion level = truth;
+  level.current_from_target = Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  int right_with = 0;
+  int right_without = 0;
+  constexpr int kScenes = 20;
+  for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
+    PinholeScene scene = pinhole_scene(level, {.count = 400, .noise_px = 0.1, .baseline = 0.2, .seed = seed});
+    // Those near a wall that is seen at a slant, moved onto it.
+    const Eigen::Vector3d normal = Eigen::Vector3d(-0.8, 0.6, 0.0);
+    std::vector<PointPair> pairs;
+    for (std::size_t i = 0; i < scene.points.size() && pairs.size() < 40; ++i) {
+      const double along = -1.6 / normal.dot(scene.points[i].normalized());
+      if (!(along > 1.0) || along > 6.0) continue;
+      const Eigen::Vector3d onto = along * scene.points[i].normalized();
+      const Eigen::Vector3d moved = level.current_from_target.transpose() * (onto - 0.2 * level.target_in_current);
+      const Eigen::Vector2d off(0.05 * std::sin(7.0 * static_cast<double>(i)),
+                                0.05 * std::cos(5.0 * static_cast<double>(i)));
+      pairs.push_back({testing::pinhole_point(testing::pinhole_pixel(onto)),
+                       testing::pinhole_point(testing::pinhole_pixel(moved) + off)});
+    }
+    TwoViewConfig config;
+    const auto without = estimate_two_view(pairs, config, seed);
+    config.driving = DrivingPrior{};
+    const auto with = estimate_two_view(pairs, config, seed);
+    ASSERT_TRUE(with && without);
+    right_with += with->has_baseline && direction_off_deg(with->motion, level) < 5.0 ? 1 : 0;
+    right_without += without->has_baseline && direction_off_deg(without->motion, level) < 5.0 ? 1 : 0;
+  }
+  EXPECT_EQ(right_with, kScenes);
+  EXPECT_LT(right_without, kScenes);
+}
+
+TEST(TwoView, AMotionUnlikeDrivingIsFoundWhereThePairsSaySo) {
+  ViewMotion aside = motion_of({0.0, 1.0, 0.3}, 0.0);
+  aside.current_from_target = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  TwoViewConfig config;
+  config.driving = DrivingPrior{};
+  const auto found = estimate_two_view(pinhole_scene(aside, {.wrong_share = 0.2}).pairs, config, 1);
+  ASSERT_TRUE(found && found->has_baseline);
+  EXPECT_LT(direction_off_deg(found->motion, aside), 2.0);
+  EXPECT_LT(turn_off_deg(found->motion, aside), 0.4);
+}
+
+TEST(EpipolarPixels, SlopesAreThoseOfDifferences) {
+  const ViewMotion motion = motion_of({1.0, 0.3, 0.1}, 0.15);
+  const EpipolarPixels error(motion);
+  constexpr double kStep = 1e-6;
+  const DrivingPrior driving;
+  Eigen::Matrix<double, 4, 5> prior_slope;
+  EXPECT_TRUE(error.unlike_driving(driving, prior_slope).allFinite());
+  for (int k = 0; k < 5; ++k) {
+    const EpipolarPixels after(error.moved(kStep * MotionStep::Unit(k)));
+    const EpipolarPixels before(error.moved(-kStep * MotionStep::Unit(k)));
+    for (const PointPair& pair : pinhole_scene(motion, {.count = 20, .noise_px = 2.0}).pairs) {
+      MotionStep slope;
+      EXPECT_NEAR(error(pair, slope), error(pair), 1e-12);
+      EXPECT_NEAR(slope[k], (after(pair) - before(pair)) / (2.0 * kStep), 1e-5 * (1.0 + std::abs(slope[k])));
+    }
+    Eigen::Matrix<double, 4, 5> ignored;
+    const Eigen::Vector4d change =
+        (after.unlike_driving(driving, ignored) - before.unlike_driving(driving, ignored)) / (2.0 * kStep);
+    EXPECT_LT((change - prior_slope.col(k)).norm(), 1e-5 * (1.0 + change.norm()));
+  }
+}
+
+TEST(ErrorMixture, FindsTheSpreadAndShareOfRightPairs) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> right(0.0, 0.2);
+  std::uniform_real_distribution<double> wrong(0.0, 10.0);
+  std::vector<double> sizes;
+  for (int i = 0; i < 200; ++i) sizes.push_back(std::abs(right(random)));
+  for (int i = 0; i < 80; ++i) sizes.push_back(wrong(random));
+  for (int i = 0; i < 20; ++i) sizes.push_back(std::numeric_limits<double>::infinity());
+  const ErrorMixture mixture = error_mixture(sizes, 0.05, 10.0);
+  EXPECT_NEAR(mixture.spread_px, 0.2, 0.03);
+  EXPECT_NEAR(mixture.right_share, 2.0 / 3.0, 0.06);
+  EXPECT_EQ(error_mixture(std::vector<double>(10, 0.0), 0.05, 10.0).spread_px, 0.05);
 }
 
 TEST(TwoView, NamesWhatItCannotDo) {
