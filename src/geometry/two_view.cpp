@@ -192,7 +192,7 @@ TwoViewEstimate judged(const RefinedMotion& refined, std::span<const PointPair> 
 TwoViewEstimate judged(const TurnAlone& turn, std::span<const PointPair> pairs, const TwoViewConfig& config) {
   TwoViewEstimate estimate;
   estimate.motion.current_from_target = turn.current_from_target;
-  estimate.spread_px = error_mixture(turn.off_px, config.least_spread_px, config.wrong_reach_px).spread_px;
+  estimate.spread_px = error_mixture_on_plane(turn.off_px, config.least_spread_px, config.wrong_reach_px).spread_px;
   double sum_px2 = 0.0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (!(turn.off_px[i] <= std::max(config.inlier_spreads * estimate.spread_px, config.least_parallax_px))) continue;
@@ -207,6 +207,17 @@ TwoViewEstimate judged(const TurnAlone& turn, std::span<const PointPair> pairs, 
   estimate.error_px = std::sqrt(sum_px2 / (2.0 * count));
   estimate.direction_spread_rad = 1.6;
   return estimate;
+}
+
+/// Whether a turn is the likelier of the two models: wrong pairs agree with some direction as easily as right ones do
+/// when there is none, but not with one turn (the choice of models after Torr 1997, by likelihood and Schwarz 1978).
+bool is_likelier(const TurnAlone& turn, const ErrorMixture& across_lines, const TwoViewConfig& config) {
+  constexpr double kMoreUnknowns = 2.0;
+  const double reach_px = config.wrong_reach_px;
+  const std::size_t count = turn.off_px.size();
+  const double by_turn = error_mixture_on_plane(turn.off_px, config.least_spread_px, reach_px).log_likelihood;
+  const double penalty = 0.5 * kMoreUnknowns * std::log(static_cast<double>(count));
+  return by_turn > log_likelihood_on_plane(across_lines, count, reach_px) - penalty;
 }
 
 double upper_quarter(const std::vector<int>& of, const std::vector<double>& values) {
@@ -260,7 +271,9 @@ Result<TwoViewEstimate> estimate_two_view(std::span<const PointPair> pairs, cons
     by_turn.parallax_px = estimate.parallax_px;
     const bool turn_explains = 5 * by_turn.inliers.size() >= 4 * estimate.inliers.size();
     const bool is_blind = estimate.direction_spread_rad > config.most_direction_spread_rad && turn_explains;
-    if (estimate.parallax_px < config.least_parallax_px || is_blind) estimate = std::move(by_turn);
+    if (estimate.parallax_px < config.least_parallax_px || is_blind || is_likelier(turn, found->fit.errors, config)) {
+      estimate = std::move(by_turn);
+    }
   }
   if (estimate.inliers.size() < fewest) return fail(ErrorCode::kTooLittleSupport, "Too few points agree on a motion.");
   return estimate;

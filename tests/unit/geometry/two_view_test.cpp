@@ -93,6 +93,18 @@ TEST(TwoView, ATurnIsNoBaseline) {
   }
 }
 
+/// Wrong pairs agree with some direction as easily as right ones do where there is none.
+TEST(TwoView, WrongPairsDoNotMakeATurnAWay) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const ViewMotion truth = motion_of(Eigen::Vector3d::UnitX(), 0.3);
+    const auto scene = pinhole_scene(truth, {.count = 40, .wrong_share = 0.4, .baseline = 0.0, .seed = seed});
+    const auto found = estimate_two_view(scene.pairs, {}, seed);
+    ASSERT_TRUE(found);
+    EXPECT_FALSE(found->has_baseline) << seed;
+    EXPECT_LT(turn_off_deg(found->motion, truth), 0.2) << seed;
+  }
+}
+
 TEST(TwoView, TheErrorGrowsWithTheNoise) {
   const ViewMotion truth = motion_of({1.0, 0.4, 0.0}, 0.1);
   double before = 0.0;
@@ -212,6 +224,24 @@ TEST(ErrorMixture, FindsTheSpreadAndShareOfRightPairs) {
   EXPECT_NEAR(mixture.spread_px, 0.2, 0.03);
   EXPECT_NEAR(mixture.right_share, 2.0 / 3.0, 0.06);
   EXPECT_EQ(error_mixture(std::vector<double>(10, 0.0), 0.05, 10.0).spread_px, 0.05);
+}
+
+TEST(ErrorMixture, OnThePlaneExactPointsAreLikelierThanExactLines) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> off(0.0, 0.2);
+  std::vector<double> distances;
+  std::vector<double> across;
+  for (int i = 0; i < 100; ++i) {
+    across.push_back(std::abs(off(random)));
+    distances.push_back(std::hypot(across.back(), off(random)));
+  }
+  const ErrorMixture plane = error_mixture_on_plane(distances, 0.05, 10.0);
+  EXPECT_NEAR(plane.spread_px, 0.2, 0.03);
+  const ErrorMixture line = error_mixture(across, 0.05, 10.0);
+  EXPECT_GT(plane.log_likelihood, log_likelihood_on_plane(line, across.size(), 10.0) + 100.0);
+  for (double& distance : distances) distance += 5.0;  // along the lines
+  const ErrorMixture moved = error_mixture_on_plane(distances, 0.05, 10.0);
+  EXPECT_LT(moved.log_likelihood, log_likelihood_on_plane(line, across.size(), 10.0) - 100.0);
 }
 
 TEST(TwoView, NamesWhatItCannotDo) {
