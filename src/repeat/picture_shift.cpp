@@ -8,8 +8,8 @@
 namespace homeward::repeat {
 namespace {
 
-constexpr int kWidthShare = 3;
-constexpr int kHeightShare = 8;
+constexpr double kOfWidth = 0.6;  // a turn of 40 degrees seen by a lens of 70
+constexpr double kOfHeight = 0.125;
 constexpr int kMostWidth_px = 80;  // of what is compared
 constexpr double kPlain = 1.0;     // squared grey levels: correlation says nothing of what varies less
 
@@ -83,8 +83,10 @@ std::optional<Eigen::Vector2d> picture_shift(const tracking::ImagePyramid& first
   const Coarse b = coarse(second);
   double best = 0.0;
   std::optional<Eigen::Vector2d> shift_px;
-  for (int dv = -a.height_px / kHeightShare; dv <= a.height_px / kHeightShare; ++dv) {
-    for (int du = -a.width_px / kWidthShare; du <= a.width_px / kWidthShare; ++du) {
+  const int across = static_cast<int>(kOfWidth * a.width_px);
+  const int down = static_cast<int>(kOfHeight * a.height_px);
+  for (int dv = -down; dv <= down; ++dv) {
+    for (int du = -across; du <= across; ++du) {
       const auto now = correlation(a, b, du, dv);
       if (!now || *now <= best) continue;
       best = *now;

@@ -46,7 +46,8 @@ class Subrange {
   [[nodiscard]] int next_feature() const { return next_feature_; }
   [[nodiscard]] int carried() const { return carried_; }
 
-  /// A picture as it is seen from the key image, features looked for where the latest kept view has them, plus a shift.
+  /// A picture as it is seen from the key image, features looked for where the latest kept view has them, turned by
+  /// what shifts the middle of the picture by `shift_px`.
   [[nodiscard]] SubrangeView look(const NumberedPicture& picture, const TeachConfig& config,
                                   const Eigen::Vector2d& shift_px = Eigen::Vector2d::Zero()) const;
   /// Goes on from a view; what is lost in it is not looked for again.

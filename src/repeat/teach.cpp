@@ -17,6 +17,7 @@ std::optional<ArcEnd> against(const SubrangeView& view, int fewest, const TeachC
   if (view.tracked < fewest) return ArcEnd::kTooFewFeatures;
   if (!view.geometry) return ArcEnd::kNoGeometry;
   if (view.agreeing() < fewest) return ArcEnd::kTooFewFeatures;
+  if (view.agreeing() < config.least_agreeing * view.tracked) return ArcEnd::kNoGeometry;
   if (view.geometry->error_px > config.most_error_px) return ArcEnd::kErrorTooLarge;
   return std::nullopt;
 }
