@@ -137,7 +137,7 @@ void print_all(const PerspectiveTour& tour, const TaughtPath& path, const repeat
   figures.print("scale off, ln", figures.scales_off, "%.3f");
   const double per_second = 1e3 * static_cast<double>(tour.grey.size()) / ms;
   std::printf(
-      "row | %d | %.1f | %.1f | %d | %zu | %d | %zu | %.0f, %.0f | %.2f, %.2f | %.2f | %.2f, %.2f, %.2f | %.1f, "
+      "row | %d | %.2f | %.1f | %d | %zu | %d | %zu | %.0f, %.0f | %.2f, %.2f | %.2f | %.2f, %.2f, %.2f | %.1f, "
       "%.1f, %.1f | %.3f, %.3f, %.3f | %d | %.0f |\n",
       config.least_features, config.most_error_px, config.tracker.most_residual, tour.camera.width_px, path.arcs.size(),
       figures.turns, path.cuts.size(), at_share(figures.features, 0.5), fewest, at_share(figures.errors_px, 0.5),
