@@ -145,7 +145,7 @@ TEST_F(Teaching, AQuickTurnIsFollowed) {
   std::vector<Pose2> poses = bend(6);
   Pose2 turned = poses.back();
   for (int i = 0; i < 5; ++i) {
-    turned.theta_rad += 0.1 + 0.12 * i;  // at last by 33 degrees of 70
+    turned.theta_rad += 0.1 + 0.08 * i;  // at last by 24 degrees of 70
     poses.push_back(turned);
   }
   const auto path = shown(all_in({}, poses)).path();
