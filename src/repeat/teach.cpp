@@ -89,7 +89,8 @@ TaughtPicture Teacher::take(NumberedPicture picture) {
     view = look(picture);
     fate = PictureFate::kAfterKey;
   }
-  const auto why = against(view, config_.fewest_features, config_);
+  const int kept = static_cast<int>(std::ceil(config_.least_kept * static_cast<double>(subrange_->features().size())));
+  const auto why = against(view, std::max(config_.fewest_features, kept), config_);
   if (!why) return keep(std::move(picture), std::move(view), fate);
   return wait_or_cut(std::move(picture), *why);
 }

@@ -13,6 +13,7 @@ std::vector<std::string> problems(const TeachConfig& config) {
   expect(config.least_features >= config.fewest_features, "least_features is less than fewest_features");
   expect(config.least_share > 0.0 && config.least_share <= 1.0, "least_share is not above 0, to 1");
   expect(config.least_agreeing >= 0.0 && config.least_agreeing <= 1.0, "least_agreeing is not 0 to 1");
+  expect(config.least_kept >= 0.0 && config.least_kept <= 1.0, "least_kept is not 0 to 1");
   expect(config.least_common >= 0, "least_common is negative");
   expect(config.fewest_scaled >= 1, "fewest_scaled is not positive");
   expect(config.retry_share >= 0.0 && config.retry_share <= 1.0, "retry_share is not 0 to 1");

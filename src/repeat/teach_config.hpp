@@ -34,12 +34,13 @@ struct TeachConfig {
   double least_share = 0.5;     // an arc that begins with fewer than n / least_share goes on while it keeps that share
   int fewest_features = 15;     // with fewer in an arc's second picture its key image is lost
   double least_agreeing = 0.5;  // of the features that are tracked: with a smaller share on the geometry there is none
-  int least_common = 10;        // features of the arc before: fewer left end an arc (there: at least one)
-  int fewest_scaled = 5;        // common points that a scale ratio is taken from
-  int most_skipped = 3;         // pictures in a row that nothing can be followed into; more cut the path
-  double retry_share = 0.7;     // where less of what agreed before does so again, features are looked for by the shift
-                                // of the whole picture, too
-  int most_features = 500;      // of a key image
+  double least_kept = 0.15;  // of a key image's features: a smaller share agreeing in an arc's second picture is chance
+  int least_common = 10;     // features of the arc before: fewer left end an arc (there: at least one)
+  int fewest_scaled = 5;     // common points that a scale ratio is taken from
+  int most_skipped = 3;      // pictures in a row that nothing can be followed into; more cut the path
+  double retry_share = 0.7;  // where less of what agreed before does so again, features are looked for by the shift
+                             // of the whole picture, too
+  int most_features = 500;   // of a key image
   tracking::HarrisConfig corners = key_corners();
   tracking::FeatureTrackerConfig tracker{};  // most_residual is R, there
   geometry::TwoViewConfig geometry = driving_geometry();
