@@ -55,7 +55,7 @@ inline PinholeScene pinhole_scene(const geometry::ViewMotion& motion, const Pinh
   std::uniform_real_distribution<double> across(-kPinholeHalfWidth_px, kPinholeHalfWidth_px);
   std::uniform_real_distribution<double> down(-kPinholeHalfHeight_px, kPinholeHalfHeight_px);
   std::uniform_real_distribution<double> away(options.nearest, options.farthest);
-  std::normal_distribution<double> noise(0.0, options.noise_px);
+  std::normal_distribution<double> noise(0.0, 1.0);
   PinholeScene scene;
   const auto inside = [](const Eigen::Vector2d& pixel) {
     return std::abs(pixel.x()) < kPinholeHalfWidth_px && std::abs(pixel.y()) < kPinholeHalfHeight_px;
@@ -69,7 +69,7 @@ inline PinholeScene pinhole_scene(const geometry::ViewMotion& motion, const Pinh
     const bool wrong = static_cast<double>(scene.pairs.size()) < options.wrong_share * options.count;
     const Eigen::Vector2d moved_px = wrong ? Eigen::Vector2d(across(random), down(random)) : pinhole_pixel(moved);
     const auto noisy = [&](const Eigen::Vector2d& pixel) {
-      return pinhole_point(pixel + Eigen::Vector2d(noise(random), noise(random)));
+      return pinhole_point(pixel + options.noise_px * Eigen::Vector2d(noise(random), noise(random)));
     };
     scene.pairs.push_back({noisy(seen_px), noisy(moved_px)});
     scene.points.push_back(point);

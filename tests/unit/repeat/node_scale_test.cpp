@@ -17,7 +17,7 @@ struct TwoArcs {
 TwoArcs arcs_with(int common, double after_m, double noise, std::uint64_t seed = 1) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> away_m(1.0, 5.0);
-  std::normal_distribution<double> off(0.0, noise);
+  std::normal_distribution<double> off(0.0, 1.0);
   constexpr double kBefore_m = 0.5;
   TwoArcs arcs;
   arcs.before.has_baseline = true;
@@ -27,10 +27,10 @@ TwoArcs arcs_with(int common, double after_m, double noise, std::uint64_t seed =
     ArcMatch match;
     match.feature = i;
     match.distance_spread = noise + 0.01;
-    match.to_nearness = kBefore_m / distance_m * std::exp(off(random));
+    match.to_nearness = kBefore_m / distance_m * std::exp(noise * off(random));
     arcs.before.matches.push_back(match);
     match.feature = i < common ? i : 100 + i;
-    match.from_nearness = after_m / distance_m * std::exp(off(random));
+    match.from_nearness = after_m / distance_m * std::exp(noise * off(random));
     arcs.after.matches.push_back(match);
   }
   return arcs;
