@@ -149,7 +149,7 @@ void FrameJoin::first_looks(const Explorer& first, const Explorer& second,
   if (!stands) return;
   first_pictures_ = first.views().size();
   const Pose2 second_from_view = inverse(second.poses()[stands->first]) * stands->second;
-  seen_.push_back({first.views().size() - 1, stands->first, inverse(second_from_view), true});
+  found_.push_back({first.views().size() - 1, stands->first, inverse(second_from_view), true});
 }
 
 void FrameJoin::second_looks(const Explorer& first, const Explorer& second,
@@ -163,43 +163,68 @@ void FrameJoin::second_looks(const Explorer& first, const Explorer& second,
   const auto stands = newest_on(second, first, joined, config_);
   if (!stands) return;
   second_pictures_ = second.views().size();
-  seen_.push_back(
+  found_.push_back(
       {stands->first, second.views().size() - 1, inverse(first.poses()[stands->first]) * stands->second, false});
 }
 
+void FrameJoin::set_told(std::span<const JoinAgreement> told) {
+  told_.clear();
+  for (const JoinAgreement& one : told.last(std::min(told.size(), config_.most_told))) {
+    const Pose2& apart = one.first_from_second;
+    if (!(position_m(apart).norm() <= config_.told_within_m) || !std::isfinite(apart.theta_rad)) continue;
+    told_.push_back(one);
+    told_.back().first_from_second.theta_rad = wrap_angle(apart.theta_rad);
+  }
+}
+
+std::vector<JoinAgreement> FrameJoin::counted(const Explorer& first, const Explorer& second) const {
+  std::vector<JoinAgreement> all;
+  const auto is_there = [&](const JoinAgreement& told) {
+    const auto same = [&](const JoinAgreement& one) {
+      return one.first == told.first && one.second == told.second && one.first_looked == told.first_looked;
+    };
+    return std::ranges::any_of(found_, same) || std::ranges::any_of(all, same);
+  };
+  for (const JoinAgreement& one : told_)
+    if (one.first < first.views().size() && one.second < second.views().size() && !is_there(one)) all.push_back(one);
+  all.insert(all.end(), found_.begin(), found_.end());
+  return all;
+}
+
 std::optional<Pose2> FrameJoin::first_from_second(const Explorer& first, const Explorer& second) const {
+  const std::vector<JoinAgreement> all = counted(first, second);
   std::vector<Pose2> said;
-  for (const Seen& seen : seen_)
+  for (const JoinAgreement& seen : all)
     said.push_back(first.poses()[seen.first] * seen.first_from_second * inverse(second.poses()[seen.second]));
   const auto same = [&](std::size_t a, std::size_t b) {
-    const Pose2& at = second.poses()[seen_[a].second];
+    const Pose2& at = second.poses()[all[a].second];
     const Pose2 apart = inverse(said[a] * at) * (said[b] * at);
     return position_m(apart).norm() <= config_.same_m && std::abs(apart.theta_rad) <= config_.same_rad;
   };
   // Where the robot stood that looked.
-  const auto looked_from_m = [&](const Seen& seen) {
+  const auto looked_from_m = [&](const JoinAgreement& seen) {
     const Pose2& first_view = first.poses()[seen.first];
     return position_m(seen.first_looked ? first_view : first_view * seen.first_from_second);
   };
   const auto independent = [&](std::size_t a, std::size_t b) {
-    return (looked_from_m(seen_[a]) - looked_from_m(seen_[b])).norm() >= config_.apart_m;
+    return (looked_from_m(all[a]) - looked_from_m(all[b])).norm() >= config_.apart_m;
   };
   std::vector<bool> possible;
   for (const Pose2& one : said) possible.push_back(may_be(one, first, second));
-  std::vector<int> support(seen_.size(), 0);
-  std::vector<bool> independent_support(seen_.size(), false);
-  for (std::size_t a = 0; a < seen_.size(); ++a) {
-    for (std::size_t b = 0; b < seen_.size(); ++b) {
+  std::vector<int> support(all.size(), 0);
+  std::vector<bool> independent_support(all.size(), false);
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    for (std::size_t b = 0; b < all.size(); ++b) {
       if (!possible[a] || !same(a, b)) continue;
       ++support[a];
       if (independent(a, b)) independent_support[a] = true;
     }
   }
   std::optional<std::size_t> best;  // the newest of those with most
-  for (std::size_t i = 0; i < seen_.size(); ++i)
+  for (std::size_t i = 0; i < all.size(); ++i)
     if (possible[i] && (!best || support[i] >= support[*best])) best = i;
   if (!best || !independent_support[*best]) return std::nullopt;
-  for (std::size_t i = 0; i < seen_.size(); ++i)
+  for (std::size_t i = 0; i < all.size(); ++i)
     if (possible[i] && support[i] >= support[*best] && !same(*best, i)) return std::nullopt;
   return said[*best];
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/pose2.hpp"
@@ -25,6 +26,16 @@ struct FrameJoinConfig {
   double in_view_m = 6.0;           // nearer than that, a robot in plain view of the other is seen,
   double body_m = 0.6;              // not farther from where it should be than this
   int passed_over = 2;              // so often it may be missed, and as often as it was seen
+  std::size_t most_told = 32;       // of another's agreements so many are taken in,
+  double told_within_m = 10.0;      // whose views lie no farther from each other
+};
+
+/// A key view of each robot, by its number, and how they lie to each other: it moves with them.
+struct JoinAgreement {
+  std::size_t first = 0;
+  std::size_t second = 0;
+  Pose2 first_from_second;
+  bool first_looked = false;
 };
 
 /// How the floors of two explorations lie to each other: found by the sweep and the picture of one robot, held against
@@ -42,19 +53,18 @@ class FrameJoin {
   void first_looks(const Explorer& first, const Explorer& second, const std::optional<Pose2>& second_from_robot);
   /// The other way about.
   void second_looks(const Explorer& first, const Explorer& second, const std::optional<Pose2>& first_from_robot);
+  /// What another has found about the same two, in place of what it told before: it counts beside what was found here
+  /// and by the same rules. Passed over: what lies nowhere or too far away, and the first ones of more than are taken
+  /// in; as long as their views are not here, those that name such; and what was found here as well.
+  void set_told(std::span<const JoinAgreement> told);
+  /// What was found here, oldest first: none that was told.
+  [[nodiscard]] const std::vector<JoinAgreement>& found() const { return found_; }
   /// How the second one's floor lies in the first one's by all that has been seen; nothing: not known.
   [[nodiscard]] std::optional<Pose2> first_from_second(const Explorer& first, const Explorer& second) const;
-  /// So many agreements have been found, right or wrong.
-  [[nodiscard]] std::size_t agreements() const { return seen_.size(); }
+  /// So many agreements have been found here, right or wrong.
+  [[nodiscard]] std::size_t agreements() const { return found_.size(); }
 
  private:
-  /// A key view of each, and how they lie to each other: it moves with them.
-  struct Seen {
-    std::size_t first = 0;
-    std::size_t second = 0;
-    Pose2 first_from_second;
-    bool first_looked = false;
-  };
   /// A key view of one robot, and where the other was then, by the newest of its own.
   struct Moment {
     bool first_looks = false;
@@ -63,10 +73,13 @@ class FrameJoin {
     Pose2 view_from_other;
   };
   [[nodiscard]] bool may_be(const Pose2& first_from_second, const Explorer& first, const Explorer& second) const;
+  /// What was told and found, each once, whose views are here.
+  [[nodiscard]] std::vector<JoinAgreement> counted(const Explorer& first, const Explorer& second) const;
   [[nodiscard]] bool is_due(std::size_t pictures_since, const std::optional<Pose2>& joined) const;
 
   FrameJoinConfig config_;
-  std::vector<Seen> seen_;
+  std::vector<JoinAgreement> found_;
+  std::vector<JoinAgreement> told_;
   std::vector<Moment> moments_;
   std::size_t first_pictures_ = 0;  // where the latest agreement was found
   std::size_t second_pictures_ = 0;

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "core/pose2.hpp"
@@ -20,9 +19,24 @@ class ReferenceSurface {
   void add(std::span<const SurfacePoint> surface, const Pose2& reference_from_robot);
   /// The nearest point within `most_m` that faces about the same way; null where there is none.
   [[nodiscard]] const SurfacePoint* nearest(const SurfacePoint& seen, double most_m) const;
+  /// Whether there is such a point: sooner answered than which one is the nearest.
+  [[nodiscard]] bool has_near(const SurfacePoint& seen, double most_m) const;
 
  private:
-  std::unordered_map<std::int64_t, std::vector<SurfacePoint>> cells_;
+  struct Cell {
+    std::int64_t key = 0;
+    std::vector<SurfacePoint> points;
+  };
+  /// Where a cell's number is in `slots_`, or else would be. There is a free one.
+  [[nodiscard]] std::size_t slot_of(std::int64_t key) const;
+  [[nodiscard]] Cell& cell_with(std::int64_t key);
+  /// Calls `see` with the points of each cell that reaches within `most_m` of a point, until it gives true; whether it
+  /// did.
+  template <class See>
+  bool any_cell_near(const Eigen::Vector2d& at_m, double most_m, const See& see) const;
+
+  std::vector<Cell> cells_;
+  std::vector<std::int32_t> slots_;  // a power of two of them, at most half of them taken: numbers of cells, or kFree
 };
 
 struct AlignmentConfig {

@@ -11,6 +11,13 @@ namespace {
 using nlohmann::json;
 
 constexpr std::int64_t kMostCompanionPictures = 100'000;
+constexpr double kFarthestOdometry_m = 1e6;
+constexpr double kFarthestAgreement_m = 1e3;
+constexpr int kAgreementsFrom = 5;  // version of the link
+
+json companion_pose_to_json(const Pose2& pose) {
+  return {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"theta_rad", pose.theta_rad}};
+}
 
 ExplorationId read_exploration_of(ObjectReader& reader, const std::string& key) {
   ExplorationId id(reader.text(key, 100));
@@ -18,14 +25,31 @@ ExplorationId read_exploration_of(ObjectReader& reader, const std::string& key) 
   return id;
 }
 
-Pose2 read_companion_odometry(ObjectReader& outer) {
-  constexpr double kFarthest_m = 1e6;
+Pose2 read_companion_pose(ObjectReader& outer, const std::string& key, double farthest_m) {
   constexpr double kMostHeading_rad = 3.2;
-  ObjectReader reader(outer.value("odometry"), outer.path_of("odometry"));
-  const Pose2 pose{reader.number("x_m", -kFarthest_m, kFarthest_m), reader.number("y_m", -kFarthest_m, kFarthest_m),
+  ObjectReader reader(outer.value(key), outer.path_of(key));
+  const Pose2 pose{reader.number("x_m", -farthest_m, farthest_m), reader.number("y_m", -farthest_m, farthest_m),
                    reader.number("theta_rad", -kMostHeading_rad, kMostHeading_rad)};
   outer.close(reader);
   return pose;
+}
+
+std::vector<CompanionAgreement> read_companion_agreements(ObjectReader& reader) {
+  std::vector<CompanionAgreement> agreements;
+  const json& version = reader.value("v");
+  if (version.is_number_integer() && version < kAgreementsFrom) return agreements;
+  const std::vector<json> items = reader.array("agreements", kMostCompanionAgreements);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    ObjectReader item(items[i], reader.path_of("agreements") + "/" + std::to_string(i));
+    CompanionAgreement one;
+    one.own = item.integer("own", 0, kMostCompanionPictures - 1);
+    one.others = item.integer("others", 0, kMostCompanionPictures - 1);
+    one.own_from_others = read_companion_pose(item, "own_from_others", kFarthestAgreement_m);
+    one.own_looked = item.boolean("own_looked");
+    reader.close(item);
+    agreements.push_back(one);
+  }
+  return agreements;
 }
 
 std::optional<Eigen::Vector2d> read_companion_target(ObjectReader& reader) {
@@ -55,11 +79,17 @@ void add_fields(json& value, const CompanionView& m) {
 void add_fields(json& value, const CompanionState& m) {
   value["exploration"] = m.exploration.str();
   value["pictures"] = m.pictures;
-  value["odometry"] = {{"x_m", m.odometry.x_m}, {"y_m", m.odometry.y_m}, {"theta_rad", m.odometry.theta_rad}};
+  value["odometry"] = companion_pose_to_json(m.odometry);
   value["target"] = nullptr;
   if (m.target_m) value["target"] = {m.target_m->x(), m.target_m->y()};
   value["drives"] = m.drives;
   value["has"] = m.has;
+  value["agreements"] = json::array();
+  for (const CompanionAgreement& one : m.agreements)
+    value["agreements"].push_back({{"own", one.own},
+                                   {"others", one.others},
+                                   {"own_from_others", companion_pose_to_json(one.own_from_others)},
+                                   {"own_looked", one.own_looked}});
 }
 
 Companion read_companion(ObjectReader& reader) {
@@ -87,10 +117,11 @@ CompanionState read_companion_state(ObjectReader& reader) {
   CompanionState m;
   m.exploration = read_exploration_of(reader, "exploration");
   m.pictures = reader.integer("pictures", 0, kMostCompanionPictures);
-  m.odometry = read_companion_odometry(reader);
+  m.odometry = read_companion_pose(reader, "odometry", kFarthestOdometry_m);
   m.target_m = read_companion_target(reader);
   m.drives = reader.boolean("drives");
   m.has = reader.integer("has", 0, kMostCompanionPictures);
+  m.agreements = read_companion_agreements(reader);
   return m;
 }
 

@@ -24,9 +24,9 @@ namespace homeward::wire {
 
 /// The agent link (proto/asyncapi.yaml): each message one CBOR map in one binary WebSocket message, with "type" and
 /// "v".
-inline constexpr int kLinkVersion = 4;
+inline constexpr int kLinkVersion = 5;
 /// Version 1, which older recordings hold, has words instead of reasons; version 2 knows no explorations, version 3 no
-/// companions.
+/// companions, version 4 nothing of how their floors lie to each other.
 inline constexpr int kOldestLinkVersion = 1;
 inline constexpr std::size_t kMaxLinkMessageBytes = 32UL * 1024 * 1024;
 
@@ -136,6 +136,17 @@ struct CompanionView {
   std::vector<std::uint8_t> appearance;  // appearance_blob.hpp; empty: not told
 };
 
+inline constexpr std::size_t kMostCompanionAgreements = 32;
+
+/// A picture of the sender's exploration and one of the receiver's, and how the places lie to each other.
+struct CompanionAgreement {
+  std::int64_t own = 0;     // the sender's, from 0
+  std::int64_t others = 0;  // the receiver's
+  Pose2 own_from_others;
+  bool own_looked =
+      false;  // the sender's picture was held against the receiver's earlier ones, else the other way round
+};
+
 /// Where the sender is, and what it has got.
 struct CompanionState {
   ExplorationId exploration;
@@ -144,6 +155,8 @@ struct CompanionState {
   std::optional<Eigen::Vector2d> target_m;  // driven to, its own frame; nothing: none
   bool drives = false;                      // it explores, and has not ended
   std::int64_t has = 0;                     // of the receiver's pictures, from the first on without a gap
+  std::vector<CompanionAgreement>
+      agreements;  // of both floors that it has found itself, oldest first (from version 5 on)
 };
 
 // From the server.

@@ -28,6 +28,8 @@ MISSIONS = {
     "a third covered": fault("camera_occluded", for_s=5, share=0.34),
     "tracking lost": fault("camera_occluded", for_s=2, share=1.0),
     "lost for long": fault("camera_occluded", for_s=12, share=1.0),
+    "covered for good": fault("camera_occluded", for_s=60, share=1.0),
+    "picture frozen": fault("camera_frozen", for_s=60),
     "laser silent": fault("scan_lost", for_s=3),
     "link cut": fault("link_lost", for_s=3),
     "agent frozen": fault("agent_frozen", for_s=2),
@@ -39,6 +41,7 @@ MISSIONS = {
     "kidnapped": fault("kidnapped"),
     "moved furniture": {"from": "kitchen", "to": "hall", "moved_furniture": 1},
 }
+UNSEEING = {"covered for good": "way_not_recognised", "picture frozen": "camera_silent"}
 REASONS = {
     "laser silent": "range_sensor_silent",
     "link cut": "link_lost",
@@ -105,6 +108,14 @@ class Faults(unittest.TestCase):
         result = self.results["lost for long"]
         self.assertGreaterEqual(result["detours"], 1, result)
         self.assertEqual(cause(result["stops"][0]["reason"]), "way_not_recognised")
+
+    def test_without_pictures_it_stops_for_good_and_says_why(self):
+        for name, code in UNSEEING.items():
+            with self.subTest(name):
+                result = self.results[name]
+                self.assertFalse(result["arrived"], result)
+                self.assertEqual(len(result["stops"]), 1, result)
+                self.assertEqual(cause(result["stops"][0]["reason"]), code)
 
     def test_what_must_stop_it_does_and_says_why(self):
         for name, code in REASONS.items():

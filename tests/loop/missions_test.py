@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Closed loops in the generated house, in simulated time: teach, build, drive; and stop when something fails.
+"""Closed loops in the generated house, in simulated time: teach, build, drive. When something fails: faults_test.py.
 
 usage: missions_test.py BIN_FOLDER WEB_FOLDER
 """
@@ -34,13 +34,6 @@ def drive(missions, **robot):
         return [json.loads(line) for line in done.stdout.splitlines()]
 
 
-def cause(reason):
-    """The code of what was wrong first."""
-    while "because" in reason["parameters"]:
-        reason = reason["parameters"]["because"]
-    return reason["code"]
-
-
 class Missions(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -48,32 +41,21 @@ class Missions(unittest.TestCase):
             {"from": "hall", "to": "kitchen"},
             {"from": "kitchen", "to": "bathroom"},
             {"from": "bathroom", "to": "living_room", "people": 2},
-            {"from": "hall", "to": "kitchen", "faults": [{"kind": "camera_occluded", "at_s": 4, "for_s": 60, "share": 1.0}]},
-            {"from": "hall", "to": "kitchen", "faults": [{"kind": "camera_frozen", "at_s": 4, "for_s": 60}]},
         ])
 
     def test_missions_arrive_where_the_destination_was_taught(self):
-        for result in self.results[:3]:
+        for result in self.results:
             with self.subTest(to=result["to"]):
                 self.assertTrue(result["arrived"], result)
                 self.assertLessEqual(result["final_error_m"], ARRIVED_WITHIN_M, result)
 
     def test_the_chair_takes_up_the_taught_heading(self):
-        for result in self.results[:3]:
+        for result in self.results:
             self.assertLessEqual(result["final_error_rad"], DOCKED_WITHIN_RAD, result)
 
     def test_nothing_is_touched(self):
         for result in self.results:
             self.assertEqual(result["collisions"], 0, result)
-
-    def test_every_failure_ends_in_a_stop_that_says_why(self):
-        # Link, range sensor and stop: faults_test.py.
-        codes = ["way_not_recognised", "camera_silent"]
-        for result, code in zip(self.results[3:], codes, strict=True):
-            with self.subTest(reason=code):
-                self.assertFalse(result["arrived"], result)
-                self.assertEqual(len(result["stops"]), 1, result)
-                self.assertEqual(cause(result["stops"][0]["reason"]), code)
 
 
 class OtherRobots(unittest.TestCase):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """In a hospital whose halves look alike the chair never says that it has arrived where it is not, and says so when it was
-carried off.
+carried off. Many missions in many hospitals: tests/bench/quality/wards_missions.py.
 
 usage: wards_test.py BIN_FOLDER WEB_FOLDER
 """
@@ -15,7 +15,6 @@ BIN = pathlib.Path(sys.argv[1]).resolve()
 THERE_M = 0.5
 MISSIONS = [
     {"from": "ward_1", "to": "ward_7"},  # two wards of which each has its like in the other half
-    {"from": "ward_6", "to": "ward_2"},
     {"from": "ward_7", "to": "ward_1", "faults": [{"kind": "kidnapped", "at_s": 10}]},
 ]
 SCENARIO = {
@@ -50,12 +49,10 @@ class Wards(unittest.TestCase):
                     self.assertTrue(result["stops"] and result["stops"][-1]["reason"], result)
 
     def test_undisturbed_it_arrives(self):
-        for result in self.results[:2]:
-            with self.subTest(start=result["from"], to=result["to"]):
-                self.assertTrue(result["arrived"], result)
+        self.assertTrue(self.results[0]["arrived"], self.results[0])
 
     def test_carried_off_to_a_place_that_looks_alike_it_says_so(self):
-        result = self.results[2]
+        result = self.results[1]
         self.assertIn("kidnapped_at_s", result)
         self.assertIsNotNone(result["told_after_s"], result)
         self.assertLessEqual(result["told_after_s"], 5.0, result)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/explore/mirrored_companion.hpp"
 
+#include <algorithm>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -26,8 +28,22 @@ void MirroredCompanion::hear(const wire::CompanionState& state, std::int64_t now
     bytes_ = 0;
     takes_no_more_ = false;
   }
+  std::vector<exploration::JoinAgreement> told;  // ours is the first
+  for (const wire::CompanionAgreement& one : state.agreements)
+    told.push_back({static_cast<std::size_t>(one.others), static_cast<std::size_t>(one.own),
+                    inverse(one.own_from_others), !one.own_looked});
+  join_.set_told(told);
   state_ = state;
   told_ms_ = now_ms;
+}
+
+std::vector<wire::CompanionAgreement> MirroredCompanion::agreements() const {
+  const std::span<const exploration::JoinAgreement> found = join_.found();
+  std::vector<wire::CompanionAgreement> told;
+  for (const exploration::JoinAgreement& one : found.last(std::min(found.size(), wire::kMostCompanionAgreements)))
+    told.push_back({static_cast<std::int64_t>(one.first), static_cast<std::int64_t>(one.second), one.first_from_second,
+                    one.first_looked});
+  return told;
 }
 
 Status MirroredCompanion::acceptable(const wire::CompanionView& view) const {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/ids.hpp"
 #include "core/pose2.hpp"
@@ -37,7 +38,9 @@ class MirroredCompanion {
                     const MirrorLimits& limits = {})
       : exploration_(std::move(exploration)), config_(config), limits_(limits), mirror_(config) {}
 
-  /// It told where it is. Where it has fewer pictures than it told, it has lost some, and all of it is told again.
+  /// It told where it is, and what it has found of how both floors lie to each other, which counts as if it had been
+  /// found here: both hold the same pictures against each other, but not the same ones at the same time. Where it has
+  /// fewer pictures than it told, it has lost some, and all of it is told again.
   void hear(const wire::CompanionState& state, std::int64_t now_ms);
   /// The next picture of it. Errors: kConflict (another one than the next), kInvalidInput (what none of its pictures
   /// can be, or more than is taken in); then nothing has changed.
@@ -56,6 +59,8 @@ class MirroredCompanion {
   [[nodiscard]] bool takes_no_more() const { return takes_no_more_; }
   /// What it told last; nothing: nothing yet, or too long ago.
   [[nodiscard]] const wire::CompanionState* lately_told(std::int64_t now_ms) const;
+  /// How both floors lie to each other at single pictures, as found here: to be told to it, the newest of too many.
+  [[nodiscard]] std::vector<wire::CompanionAgreement> agreements() const;
   /// For our survey; nothing: its floor is not joined to ours.
   [[nodiscard]] std::optional<exploration::Companion> companion(const exploration::Explorer& ours,
                                                                 std::int64_t now_ms) const;

@@ -108,6 +108,7 @@ void Sharing::say_state(const KeptSurvey& ours, bool drives, Time now, std::vect
   state.odometry = ours.odometry_of_pictures();
   if (drives) state.target_m = ours.survey().target_m();
   state.drives = drives;
+  state.agreements = companion_->agreements();
   // Where no more is taken in, no more need be told.
   const wire::CompanionState* told = companion_->lately_told(in_ms(now));
   state.has = told != nullptr && companion_->takes_no_more() ? told->pictures : companion_->has();

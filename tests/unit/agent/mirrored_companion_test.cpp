@@ -46,7 +46,7 @@ class MirroredCompanionTest : public ::testing::Test {
     return view(index, {x_m, 1.8, 2.9}, kTheirStart);
   }
   [[nodiscard]] static wire::CompanionState state(std::int64_t pictures, const Pose2& odometry = {}) {
-    return {kTheirs, pictures, odometry, Eigen::Vector2d(3.0, 1.0), true, 0};
+    return {kTheirs, pictures, odometry, Eigen::Vector2d(3.0, 1.0), true, 0, {}};
   }
   /// It drives through both rooms, and tells it at once.
   void tell_all(const std::vector<double>& to_m = {4.3, 3.2, 2.8, 1.4, 1.0}) {
@@ -119,6 +119,28 @@ TEST_F(MirroredCompanionTest, OurPicturesJoinTheFloorsAsWell) {
     theirs_.look_from_ours(ours, now_ms_);
   }
   EXPECT_TRUE(theirs_.companion(ours, now_ms_)) << "and where it was then does not matter, as it has not said so";
+}
+
+TEST_F(MirroredCompanionTest, WhatTheOtherFoundJoinsOurFloorsAtTheSamePose) {
+  tell_all();
+  const auto here = theirs_.companion(ours_, now_ms_);
+  ASSERT_TRUE(here);
+  // As the other one sees it: ours is its companion, and it has not looked at all.
+  MirroredCompanion ours{ExplorationId("x1"), ExplorerConfig{}};
+  std::int64_t index = 0;
+  for (const double x_m : {1.0, 1.8, 2.6, 3.4, 4.2}) {
+    wire::CompanionView told = view(index++, {x_m, 2.0, 0.2}, kOurs);
+    ASSERT_TRUE(ours.hear(told));
+  }
+  EXPECT_FALSE(ours.companion(theirs_.mirror(), now_ms_));
+  wire::CompanionState told{ExplorationId("x1"), 5, {}, std::nullopt, false, 5, theirs_.agreements()};
+  ours.hear(told, now_ms_);
+  const auto there = ours.companion(theirs_.mirror(), now_ms_);
+  ASSERT_TRUE(there);
+  const Pose2 around = here->floor_from_theirs * there->floor_from_theirs;
+  EXPECT_LT(position_m(around).norm(), 1e-6) << "there and back";
+  EXPECT_NEAR(around.theta_rad, 0.0, 1e-6);
+  EXPECT_TRUE(ours.agreements().empty()) << "what was told is not told back";
 }
 
 TEST_F(MirroredCompanionTest, WhereItDrivesCountsForFiveSecondsAndWhatItHasSeenForEver) {

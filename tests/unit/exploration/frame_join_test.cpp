@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/drawn_walls.hpp"
 #include "support/landmarks.hpp"
 
@@ -77,6 +79,66 @@ TEST_F(FrameJoinTest, InRoomsOfTheSameShapeThatLookOtherwiseNothingIsJoined) {
   second_drives({4.3, 3.2, 2.8, 1.4, 1.0}, landmarks(77));
   EXPECT_EQ(join_.agreements(), 0U);
   EXPECT_FALSE(join_.first_from_second(first_, second_));
+}
+
+TEST_F(FrameJoinTest, WhatAnotherFoundJoinsTheFloorsAtTheSamePose) {
+  second_drives({4.3, 3.2, 2.8, 1.4, 1.0}, landmarks_);
+  const auto found = join_.first_from_second(first_, second_);
+  ASSERT_TRUE(found);
+  FrameJoin other;
+  other.set_told(join_.found());
+  EXPECT_TRUE(other.found().empty()) << "and is not told back as its own";
+  const auto joined = other.first_from_second(first_, second_);
+  ASSERT_TRUE(joined);
+  EXPECT_LT(position_m(inverse(*found) * *joined).norm(), 1e-9);
+  EXPECT_LT(position_m(inverse(inverse(kFirst) * kSecond) * *joined).norm(), 0.1);
+  other.set_told({});
+  EXPECT_FALSE(other.first_from_second(first_, second_)) << "what is told later stands in its place";
+}
+
+TEST_F(FrameJoinTest, WhatIsToldOfViewsThatAreNotHereYetCountsOnceTheyAre) {
+  second_drives({4.3, 3.2, 2.8, 1.4, 1.0}, landmarks_);
+  FrameJoin other;
+  other.set_told(join_.found());
+  EXPECT_FALSE(other.first_from_second(first_, Explorer{ExplorerConfig{}}));
+  EXPECT_TRUE(other.first_from_second(first_, second_));
+}
+
+TEST_F(FrameJoinTest, WhatIsToldOfNowhereIsPassedOver) {
+  second_drives({4.3, 3.2, 2.8, 1.4, 1.0}, landmarks_);
+  std::vector<JoinAgreement> told = join_.found();
+  for (JoinAgreement& one : told) one.first_from_second.x_m = std::nan("");
+  FrameJoin other;
+  other.set_told(told);
+  EXPECT_FALSE(other.first_from_second(first_, second_));
+  told = join_.found();
+  for (JoinAgreement& one : told) one.first_from_second.theta_rad = std::nan("");
+  other.set_told(told);
+  EXPECT_FALSE(other.first_from_second(first_, second_));
+  // All the same, so that they would be joined by what they say.
+  told = join_.found();
+  for (JoinAgreement& one : told) one.first_from_second = {1e3, 0.0, 0.0};
+  other.set_told(told);
+  EXPECT_FALSE(other.first_from_second(first_, second_));
+}
+
+TEST_F(FrameJoinTest, OfMoreThanAreTakenInTheNewestCount) {
+  second_drives({4.3, 3.2, 2.8, 1.4, 1.0}, landmarks_);
+  std::vector<JoinAgreement> told(200, JoinAgreement{0, 0, {0.0, 3.0, 1.0}, true});
+  for (std::size_t i = 0; i < told.size(); ++i) told[i].first = i;  // none is another one again
+  told.insert(told.end(), join_.found().begin(), join_.found().end());
+  FrameJoin other;
+  other.set_told(told);
+  EXPECT_TRUE(other.first_from_second(first_, second_));
+}
+
+TEST_F(FrameJoinTest, WhatIsToldOtherwiseThanWasFoundMoreOftenIsOutvoted) {
+  second_drives({4.3, 3.2, 2.8, 1.4, 1.0}, landmarks_);
+  ASSERT_TRUE(join_.first_from_second(first_, second_));
+  join_.set_told(std::vector<JoinAgreement>{{0, 0, {0.0, 3.0, 1.0}, true}});
+  const auto joined = join_.first_from_second(first_, second_);
+  ASSERT_TRUE(joined);
+  EXPECT_LT(position_m(inverse(inverse(kFirst) * kSecond) * *joined).norm(), 0.1);
 }
 
 TEST_F(FrameJoinTest, WithoutPicturesNothingIsJoined) {

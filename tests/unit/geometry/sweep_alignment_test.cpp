@@ -73,6 +73,8 @@ TEST(SweepAlignmentTest, ThePartnerIsTheNearestPointOfAllThatFaceTheSameWay) {
   std::ranges::generate(surface, drawn);
   ReferenceSurface reference;
   reference.add(surface, {});
+  EXPECT_EQ(ReferenceSurface().nearest(surface[0], 0.5), nullptr);
+  EXPECT_FALSE(ReferenceSurface().has_near(surface[0], 0.5));
   int partners = 0;
   for (int n = 0; n < 2000; ++n) {
     const SurfacePoint seen = drawn();
@@ -82,6 +84,7 @@ TEST(SweepAlignmentTest, ThePartnerIsTheNearestPointOfAllThatFaceTheSameWay) {
       if (point.normal.dot(seen.normal) >= 0.5) least_m = std::min(least_m, (point.at_m - seen.at_m).norm());
     const SurfacePoint* nearest = reference.nearest(seen, most_m);
     ASSERT_EQ(nearest != nullptr, least_m < most_m) << n;
+    ASSERT_EQ(reference.has_near(seen, most_m), least_m < most_m) << n;
     if (nearest == nullptr) continue;
     EXPECT_NEAR((nearest->at_m - seen.at_m).norm(), least_m, 1e-12) << n;
     EXPECT_GE(nearest->normal.dot(seen.normal), 0.5);

@@ -28,7 +28,13 @@ CompanionView companion_view() {
 }
 
 CompanionState companion_state() {
-  return {ExplorationId("x2"), 18, {1.5, -0.25, 3.0}, Eigen::Vector2d(2.5, 0.75), true, 12};
+  return {ExplorationId("x2"),
+          18,
+          {1.5, -0.25, 3.0},
+          Eigen::Vector2d(2.5, 0.75),
+          true,
+          12,
+          {{17, 4, {0.4, -0.1, 3.1}, true}}};
 }
 
 std::vector<AgentMessage> agent_messages() {
@@ -359,6 +365,23 @@ TEST(LinkMessages, KeepEveryFieldOfWhatCompanionsTell) {
   EXPECT_EQ(state.target_m, Eigen::Vector2d(2.5, 0.75));
   EXPECT_TRUE(state.drives);
   EXPECT_EQ(state.has, 12);
+  ASSERT_EQ(state.agreements.size(), 1U);
+  EXPECT_EQ(state.agreements[0].own, 17);
+  EXPECT_EQ(state.agreements[0].others, 4);
+  EXPECT_EQ(state.agreements[0].own_from_others.theta_rad, 3.1);
+  EXPECT_TRUE(state.agreements[0].own_looked);
+}
+
+TEST(LinkMessages, ACompanionOfVersion4HasFoundNothingOfHowTheFloorsLie) {
+  json state = to_json(AgentMessage(companion_state()));
+  state["v"] = 4;
+  EXPECT_EQ(agent_message_from_json(state).error().where, "message/agreements") << "which it did not know";
+  state.erase("agreements");
+  const auto read = agent_message_from_json(state);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_TRUE(std::get<CompanionState>(*read).agreements.empty());
+  state["v"] = 5;
+  EXPECT_EQ(agent_message_from_json(state).error().where, "message/agreements");
 }
 
 TEST(LinkMessages, AnExplorationMayBeSharedWithNoneAndACompanionDriveNowhere) {
@@ -383,6 +406,13 @@ TEST(LinkMessages, RefuseOfACompanionWhatIsOutOfAllMeasure) {
   view = to_json(AgentMessage(companion_view()));
   view["exploration"] = "";
   EXPECT_EQ(decode_agent_message(json::to_cbor(view)).error().where, "message/exploration");
+  CompanionState agrees = companion_state();
+  agrees.agreements.resize(kMostCompanionAgreements + 1);
+  EXPECT_EQ(decode_agent_message(encode(AgentMessage(agrees))).error().where, "message/agreements");
+  agrees.agreements.resize(1);
+  agrees.agreements[0].own_from_others.x_m = 1e4;
+  EXPECT_EQ(decode_agent_message(encode(AgentMessage(agrees))).error().where,
+            "message/agreements/0/own_from_others/x_m");
   json state = to_json(AgentMessage(companion_state()));
   state["target"] = {2e5, 0.0};
   EXPECT_EQ(decode_agent_message(json::to_cbor(state)).error().where, "message/target");
