@@ -6,21 +6,16 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
-#include <filesystem>
 #include <opencv2/core.hpp>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "camera/camera.hpp"
 #include "core/pose2.hpp"
 #include "feature_followers.hpp"
-#include "files/csv.hpp"
-#include "files/read_file.hpp"
-#include "files/tour_folder.hpp"
 #include "files/write_file.hpp"
 #include "imageio/decode.hpp"
+#include "perspective_tour.hpp"
 #include "tracking/harris.hpp"
 
 namespace homeward::bench {
@@ -33,54 +28,21 @@ constexpr std::array<std::size_t, 2> kStatesAt{0, 2};  // of kAges
 constexpr std::array<int, 2> kDrawnAges{10, 30};
 constexpr double kLeastBaseline_m = 0.05;  // nearer, the epipolar line says nothing
 
-struct Tour {
-  std::vector<Image> grey;
-  std::vector<Pose2> poses;
-  camera::Intrinsics intrinsics;
-  Eigen::Matrix3d robot_from_camera;
-};
-
-Image grey_of(const Image& rgb) {
-  Image grey(rgb.width_px, rgb.height_px, 1);
-  for (std::size_t i = 0; i < grey.data.size(); ++i) {
-    const std::uint8_t* at = rgb.data.data() + 3 * i;
-    grey.data[i] = static_cast<std::uint8_t>(std::lround(0.299 * at[0] + 0.587 * at[1] + 0.114 * at[2]));
-  }
-  return grey;
-}
-
-Tour read_tour(const std::filesystem::path& folder, int width_px) {
-  Tour tour;
-  const auto camera = files::read_camera(folder / "camera.json").value();
-  const double shrunk = static_cast<double>(width_px) / camera.width_px;
-  const auto& full = std::get<camera::Pinhole>(camera.model).intrinsics;
-  tour.intrinsics = {full.fx_px * shrunk, full.fy_px * shrunk, (full.cx_px + 0.5) * shrunk - 0.5,
-                     (full.cy_px + 0.5) * shrunk - 0.5};
-  tour.robot_from_camera = camera.robot_from_camera_rotation.toRotationMatrix();
-  const auto poses = files::read_csv(folder / "poses.csv").value();
-  for (const auto& row : poses.rows) {
-    tour.poses.push_back({std::stod(row[1]), std::stod(row[2]), std::stod(row[3])});
-    const Image picture = files::read_picture(folder / row[0]).value();
-    tour.grey.push_back(grey_of(imageio::shrink_to_fit(picture, width_px, picture.height_px)));
-  }
-  return tour;
-}
-
 /// How far a point is from where the true motion allows it; negative where the motion is too small to say.
-double error_px(const Tour& tour, std::size_t first, const Eigen::Vector2d& first_px, std::size_t now,
+double error_px(const PerspectiveTour& tour, std::size_t first, const Eigen::Vector2d& first_px, std::size_t now,
                 const Eigen::Vector2d& now_px) {
   const Pose2& a = tour.poses[first];
   const Pose2& b = tour.poses[now];
   const Eigen::Vector3d moved(b.x_m - a.x_m, b.y_m - a.y_m, 0.0);
   if (moved.norm() < kLeastBaseline_m) return -1.0;
   const auto turn = [](double theta) { return Eigen::AngleAxisd(theta, Eigen::Vector3d::UnitZ()).toRotationMatrix(); };
-  const auto& k = tour.intrinsics;
+  const auto& k = std::get<camera::Pinhole>(tour.camera.model).intrinsics;
+  const Eigen::Matrix3d robot_from_camera = tour.camera.robot_from_camera_rotation.toRotationMatrix();
   const auto ray = [&](const Eigen::Vector2d& pixel) {
     return Eigen::Vector3d((pixel.x() - k.cx_px) / k.fx_px, (pixel.y() - k.cy_px) / k.fy_px, 1.0);
   };
-  const Eigen::Vector3d seen = turn(a.theta_rad) * tour.robot_from_camera * ray(first_px);
-  const Eigen::Vector3d normal =
-      (turn(b.theta_rad) * tour.robot_from_camera).transpose() * moved.cross(seen).normalized();
+  const Eigen::Vector3d seen = turn(a.theta_rad) * robot_from_camera * ray(first_px);
+  const Eigen::Vector3d normal = (turn(b.theta_rad) * robot_from_camera).transpose() * moved.cross(seen).normalized();
   return std::abs(normal.dot(ray(now_px))) / std::hypot(normal.x() / k.fx_px, normal.y() / k.fy_px);
 }
 
@@ -91,19 +53,6 @@ struct Age {
   int wrong = 0;
   std::vector<double> errors_px;
 };
-
-double cpu_ms() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-double at_share(std::vector<double> values, double share) {
-  if (values.empty()) return std::nan("");
-  const auto k = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
-  return values[k];
-}
 
 std::vector<Eigen::Vector2d> corners(const Image& grey, int most) {
   tracking::HarrisConfig config;
@@ -117,7 +66,7 @@ std::vector<Eigen::Vector2d> corners(const Image& grey, int most) {
   return points;
 }
 
-void measure(const Tour& tour, const NamedFollower& named, int most) {
+void measure(const PerspectiveTour& tour, const NamedFollower& named, int most) {
   std::array<Age, kAges.size()> ages;
   std::vector<double> first_ms;
   double life = 0.0;
@@ -166,7 +115,7 @@ void measure(const Tour& tour, const NamedFollower& named, int most) {
 
 /// Green: tracked; red: lost by residual; yellow: diverged; blue: off the picture; magenta: contrast; white: never
 /// taken.
-void draw(const Tour& tour, int most, const std::string& file) {
+void draw(const PerspectiveTour& tour, int most, const std::string& file) {
   constexpr int kAcross = 3;
   const int width_px = tour.grey.front().width_px;
   const int height_px = tour.grey.front().height_px;
@@ -219,7 +168,7 @@ int main(int argc, char** argv) try {
   cv::setNumThreads(1);
   const int width_px = argc > 2 ? std::stoi(argv[2]) : 640;
   const int most = argc > 3 ? std::stoi(argv[3]) : 200;
-  const Tour tour = read_tour(argv[1], width_px);
+  const PerspectiveTour tour = read_perspective_tour(argv[1], width_px);
   if (tour.grey.size() <= static_cast<std::size_t>(kAges.back())) {
     std::fprintf(stderr, "%s: %d pictures and more are followed, and it has %zu\n", argv[1], kAges.back() + 1,
                  tour.grey.size());

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "repeat/subrange.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/index.hpp"
+#include "repeat/seen.hpp"
+
+namespace homeward::repeat {
+namespace {
+
+using tracking::FeatureState;
+
+bool is_tracked(const tracking::TrackedFeature& feature) { return feature.state == FeatureState::kTracked; }
+
+/// Where the pixels of a picture are after a turn that shifts its middle. What is turned out of the picture stays in
+/// it, and is not found there.
+class Turned {
+ public:
+  Turned(const camera::Camera& camera, const Eigen::Vector2d& shift_px) : camera_(camera), shift_px_(shift_px) {
+    if (shift_px.isZero()) return;
+    const camera::CameraConfig& config = camera.config();
+    const Eigen::Vector2d middle_px(0.5 * (config.width_px - 1), 0.5 * (config.height_px - 1));
+    const auto before = camera.bearing(middle_px - 0.5 * shift_px);
+    const auto after = camera.bearing(middle_px + 0.5 * shift_px);
+    if (before && after) turn_ = Eigen::Quaterniond::FromTwoVectors(*before, *after);
+  }
+  [[nodiscard]] Eigen::Vector2d operator()(const Eigen::Vector2d& pixel_px) const {
+    if (!turn_) return pixel_px + shift_px_;
+    const auto bearing = camera_.bearing(pixel_px);
+    if (!bearing) return pixel_px + shift_px_;
+    return camera_.pixel(*turn_ * *bearing).value_or(pixel_px + shift_px_);
+  }
+
+ private:
+  const camera::Camera& camera_;
+  Eigen::Vector2d shift_px_;
+  std::optional<Eigen::Quaterniond> turn_;
+};
+
+}  // namespace
+
+Result<Subrange> Subrange::begin(NumberedPicture key, std::span<const KeyFeature> carried, int next_feature,
+                                 std::shared_ptr<const camera::Camera> camera, const TeachConfig& config) {
+  auto tracker = tracking::FeatureTracker::create(config.tracker);
+  if (!tracker) return pass_on(tracker);
+  Subrange subrange(std::move(key), *std::move(tracker), std::move(camera));
+  subrange.take(carried);
+  subrange.carried_ = static_cast<int>(subrange.features_.size());
+  std::vector<Eigen::Vector2d> occupied_px;
+  for (const KeyFeature& feature : subrange.features_) occupied_px.push_back(feature.pixel_px);
+  subrange.next_feature_ = next_feature;
+  const int room = config.most_features - subrange.carried_;
+  if (room <= 0) return subrange;
+  tracking::HarrisConfig corners = config.corners;
+  corners.most = room;
+  const auto found = tracking::harris_corners(subrange.key_.pyramid, corners, occupied_px);
+  if (!found) return pass_on(found);
+  std::vector<KeyFeature> fresh;
+  for (const tracking::Corner& corner : *found) fresh.push_back({subrange.next_feature_++, corner.pixel_px});
+  subrange.take(fresh);
+  return subrange;
+}
+
+void Subrange::take(std::span<const KeyFeature> features) {
+  for (const KeyFeature& feature : features) {
+    const auto seen = seen_at(*camera_, feature.pixel_px);
+    if (!seen) continue;
+    const auto states = tracker_.add(key_.pyramid, std::span(&feature.pixel_px, 1));
+    if (states.front() != tracking::ReferenceState::kTaken) continue;
+    features_.push_back(feature);
+    seen_.push_back(*seen);
+  }
+}
+
+SubrangeView Subrange::look(const NumberedPicture& picture, const TeachConfig& config,
+                            const Eigen::Vector2d& shift_px) const {
+  SubrangeView view;
+  const Turned turned(*camera_, shift_px);
+  std::vector<tracking::FeatureGuess> guesses;
+  std::vector<std::size_t> guessed;
+  for (std::size_t i = 0; i < features_.size(); ++i) {
+    tracking::TrackedFeature last;
+    last.pixel_px = features_[i].pixel_px;
+    last.state = FeatureState::kTracked;
+    if (latest_) last = latest_->features[i];
+    view.features.push_back(last);
+    if (!is_tracked(last)) continue;
+    guesses.push_back({i, turned(last.pixel_px), last.scale});
+    guessed.push_back(i);
+  }
+  const auto found = tracker_.track(picture.pyramid, guesses);
+  std::vector<geometry::PointPair> pairs;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    view.features[guessed[i]] = found[i];
+    if (!is_tracked(found[i])) continue;
+    ++view.tracked;
+    const auto seen = seen_at(*camera_, found[i].pixel_px);
+    if (!seen) continue;
+    pairs.push_back({seen_[guessed[i]], *seen});
+    view.paired.push_back(static_cast<int>(guessed[i]));
+  }
+  std::optional<geometry::ViewMotion> expected;
+  if (latest_ && latest_->geometry && latest_->geometry->has_baseline) expected = latest_->geometry->motion;
+  const std::uint64_t seed = config.seed + static_cast<std::uint64_t>(picture.number);
+  auto geometry = geometry::estimate_two_view(pairs, config.geometry, seed, expected);
+  if (!geometry) return view;
+  view.geometry = *std::move(geometry);
+  for (const int inlier : view.geometry->inliers) view.common += view.paired[at(inlier)] < carried_ ? 1 : 0;
+  return view;
+}
+
+Arc Subrange::arc(int from, ArcEnd ended_by) const {
+  const geometry::TwoViewEstimate& geometry = *latest_->geometry;
+  Arc arc;
+  arc.from = from;
+  arc.has_baseline = geometry.has_baseline;
+  arc.motion = geometry.motion;
+  arc.error_px = geometry.error_px;
+  arc.parallax_px = geometry.parallax_px;
+  arc.direction_spread_rad = geometry.direction_spread_rad;
+  arc.lead = geometry.lead;
+  arc.ended_by = ended_by;
+  for (std::size_t i = 0; i < geometry.inliers.size(); ++i) {
+    const std::size_t of = at(latest_->paired[at(geometry.inliers[i])]);
+    const geometry::MeetingRays& rays = geometry.rays[i];
+    ArcMatch match;
+    match.feature = features_[of].feature;
+    match.from_px = features_[of].pixel_px;
+    match.to_px = latest_->features[of].pixel_px;
+    match.from_bearing = rays.current;
+    match.to_bearing = rays.target;
+    match.from_nearness = rays.nearness;
+    match.to_nearness = rays.from_target;
+    const double radians_per_px = seen_[of].bearing_per_px.norm() / std::sqrt(2.0);
+    if (rays.parallax_rad > 0.0) match.distance_spread = geometry.spread_px * radians_per_px / rays.parallax_rad;
+    arc.matches.push_back(match);
+  }
+  return arc;
+}
+
+std::vector<KeyFeature> Subrange::agreeing_in_latest() const {
+  std::vector<KeyFeature> agreeing;
+  for (const int inlier : latest_->geometry->inliers) {
+    const std::size_t of = at(latest_->paired[at(inlier)]);
+    agreeing.push_back({features_[of].feature, latest_->features[of].pixel_px});
+  }
+  return agreeing;
+}
+
+}  // namespace homeward::repeat

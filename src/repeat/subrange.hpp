@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "camera/camera.hpp"
+#include "core/result.hpp"
+#include "geometry/two_view.hpp"
+#include "repeat/taught_path.hpp"
+#include "repeat/teach_config.hpp"
+#include "tracking/feature_tracker.hpp"
+#include "tracking/image_pyramid.hpp"
+
+namespace homeward::repeat {
+
+/// A picture as it was made ready, with its number among those that were shown.
+struct NumberedPicture {
+  int number = 0;
+  tracking::ImagePyramid pyramid;
+};
+
+/// What of a key image was found in a later picture.
+struct SubrangeView {
+  std::vector<tracking::TrackedFeature> features;  // of the key image's, in their order; the lost ones stay lost
+  int tracked = 0;
+  std::vector<int> paired;                            // features that the geometry was asked about, rising
+  std::optional<geometry::TwoViewEstimate> geometry;  // its inliers are indices into `paired`
+  int common = 0;                                     // inliers that are in the arc before, too
+  [[nodiscard]] int agreeing() const { return geometry ? static_cast<int>(geometry->inliers.size()) : 0; }
+};
+
+/// A key image and the pictures that follow it: its features are tracked against how they look in it (Segvic et al.
+/// 2007, §2.1). A value; copies are independent.
+class Subrange {
+ public:
+  /// A key image with `carried` (features of the arc that ends in it, where they are in it) and new corners beside
+  /// them, numbered on from `next_feature`. Errors: those of harris_corners and of the tracker's configuration.
+  static Result<Subrange> begin(NumberedPicture key, std::span<const KeyFeature> carried, int next_feature,
+                                std::shared_ptr<const camera::Camera> camera, const TeachConfig& config);
+
+  [[nodiscard]] const NumberedPicture& key() const { return key_; }
+  [[nodiscard]] const std::vector<KeyFeature>& features() const { return features_; }
+  [[nodiscard]] int next_feature() const { return next_feature_; }
+  [[nodiscard]] int carried() const { return carried_; }
+
+  /// A picture as it is seen from the key image, features looked for where the latest kept view has them, turned by
+  /// what shifts the middle of the picture by `shift_px`.
+  [[nodiscard]] SubrangeView look(const NumberedPicture& picture, const TeachConfig& config,
+                                  const Eigen::Vector2d& shift_px = Eigen::Vector2d::Zero()) const;
+  /// Goes on from a view; what is lost in it is not looked for again.
+  void keep(SubrangeView view) { latest_ = std::move(view); }
+  /// None before the second picture of the subrange was kept.
+  [[nodiscard]] const std::optional<SubrangeView>& latest() const { return latest_; }
+
+  /// The arc to the latest view, from key image `from`. Precondition: there is one, with a geometry.
+  [[nodiscard]] Arc arc(int from, ArcEnd ended_by) const;
+  /// The arc's features where they are in the latest view. Precondition: the same.
+  [[nodiscard]] std::vector<KeyFeature> agreeing_in_latest() const;
+
+ private:
+  Subrange(NumberedPicture key, tracking::FeatureTracker tracker, std::shared_ptr<const camera::Camera> camera)
+      : key_(std::move(key)), tracker_(std::move(tracker)), camera_(std::move(camera)) {}
+  void take(std::span<const KeyFeature> features);
+
+  NumberedPicture key_;
+  tracking::FeatureTracker tracker_;
+  std::shared_ptr<const camera::Camera> camera_;
+  std::vector<KeyFeature> features_;       // as many as the tracker has references, in their order
+  std::vector<geometry::SeenPoint> seen_;  // the same in the key image
+  int carried_ = 0;                        // the first so many are in the arc before, too
+  int next_feature_ = 0;
+  std::optional<SubrangeView> latest_;
+};
+
+}  // namespace homeward::repeat

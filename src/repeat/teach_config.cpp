@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "repeat/teach_config.hpp"
+
+namespace homeward::repeat {
+
+std::vector<std::string> problems(const TeachConfig& config) {
+  std::vector<std::string> found;
+  const auto expect = [&](bool holds, const char* problem) {
+    if (!holds) found.emplace_back(problem);
+  };
+  expect(config.most_error_px > 0.0, "most_error_px is not positive");
+  expect(config.fewest_features >= config.geometry.fewest_pairs, "fewest_features is less than geometry.fewest_pairs");
+  expect(config.least_features >= config.fewest_features, "least_features is less than fewest_features");
+  expect(config.least_share > 0.0 && config.least_share <= 1.0, "least_share is not above 0, to 1");
+  expect(config.least_agreeing >= 0.0 && config.least_agreeing <= 1.0, "least_agreeing is not 0 to 1");
+  expect(config.least_kept >= 0.0 && config.least_kept <= 1.0, "least_kept is not 0 to 1");
+  expect(config.least_common >= 0, "least_common is negative");
+  expect(config.fewest_scaled >= 1, "fewest_scaled is not positive");
+  expect(config.retry_share >= 0.0 && config.retry_share <= 1.0, "retry_share is not 0 to 1");
+  expect(config.most_skipped >= 0, "most_skipped is negative");
+  expect(config.most_features >= config.least_features, "most_features is less than least_features");
+  for (const auto& problem : tracking::problems(config.corners)) found.push_back("corners: " + problem);
+  for (const auto& problem : tracking::problems(config.tracker)) found.push_back("tracker: " + problem);
+  for (const auto& problem : geometry::problems(config.geometry)) found.push_back("geometry: " + problem);
+  return found;
+}
+
+}  // namespace homeward::repeat

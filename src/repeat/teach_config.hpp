@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/two_view.hpp"
+#include "tracking/feature_tracker.hpp"
+#include "tracking/harris.hpp"
+
+namespace homeward::repeat {
+
+/// The corners of a key image. A stricter sensitivity than usual: corners that an edge makes with what is behind it are
+/// like edges, and slide along it (docs/experiments/teaching_a_path.md). `most` is what TeachConfig leaves.
+inline tracking::HarrisConfig key_corners() {
+  tracking::HarrisConfig corners;
+  corners.spacing_px = 5.0;
+  corners.sensitivity = 0.08;
+  corners.least_strength = 10.0;
+  return corners;
+}
+
+/// Of something that drives on a floor.
+inline geometry::TwoViewConfig driving_geometry() {
+  geometry::TwoViewConfig geometry;
+  geometry.driving = geometry::DrivingPrior{};
+  return geometry;
+}
+
+struct TeachConfig {
+  double most_error_px = 4.0;   // sigma of Segvic et al. 2007, 2.1: reprojection error above which no arc goes on
+  int least_features = 50;      // n, there: fewer agreeing with the geometry end an arc
+  double least_share = 0.5;     // an arc that begins with fewer than n / least_share goes on while it keeps that share
+  int fewest_features = 15;     // with fewer in an arc's second picture its key image is lost
+  double least_agreeing = 0.5;  // of the features that are tracked: with a smaller share on the geometry there is none
+  double least_kept = 0.15;  // of a key image's features: a smaller share agreeing in an arc's second picture is chance
+  int least_common = 10;     // features of the arc before: fewer left end an arc (there: at least one)
+  int fewest_scaled = 5;     // common points that a scale ratio is taken from
+  int most_skipped = 3;      // pictures in a row that nothing can be followed into; more cut the path
+  double retry_share = 0.7;  // where less of what agreed before does so again, features are looked for by the shift
+                             // of the whole picture, too
+  int most_features = 500;   // of a key image
+  tracking::HarrisConfig corners = key_corners();
+  tracking::FeatureTrackerConfig tracker{};  // most_residual is R, there
+  geometry::TwoViewConfig geometry = driving_geometry();
+  std::uint64_t seed = 1;
+};
+/// Empty when valid; lists all problems.
+std::vector<std::string> problems(const TeachConfig& config);
+
+}  // namespace homeward::repeat
