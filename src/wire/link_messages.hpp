@@ -143,20 +143,18 @@ struct CompanionAgreement {
   std::int64_t own = 0;     // the sender's, from 0
   std::int64_t others = 0;  // the receiver's
   Pose2 own_from_others;
-  bool own_looked =
-      false;  // the sender's picture was held against the receiver's earlier ones, else the other way round
+  bool own_looked = false;  // the sender's was held against the receiver's earlier ones, else the other way round
 };
 
 /// Where the sender is, and what it has got.
 struct CompanionState {
   ExplorationId exploration;
-  std::int64_t pictures = 0;                // that the sender has taken
-  Pose2 odometry;                           // as that of its newest picture
-  std::optional<Eigen::Vector2d> target_m;  // driven to, its own frame; nothing: none
-  bool drives = false;                      // it explores, and has not ended
-  std::int64_t has = 0;                     // of the receiver's pictures, from the first on without a gap
-  std::vector<CompanionAgreement>
-      agreements;  // of both floors that it has found itself, oldest first (from version 5 on)
+  std::int64_t pictures = 0;                   // that the sender has taken
+  Pose2 odometry;                              // as that of its newest picture
+  std::optional<Eigen::Vector2d> target_m;     // driven to, its own frame; nothing: none
+  bool drives = false;                         // it explores, and has not ended
+  std::int64_t has = 0;                        // of the receiver's pictures, from the first on without a gap
+  std::vector<CompanionAgreement> agreements;  // that the sender has found, oldest first (from version 5 on)
 };
 
 // From the server.

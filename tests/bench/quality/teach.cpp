@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <opencv2/core.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -174,8 +175,12 @@ int main(int argc, char** argv) try {
   bench::print_all(tour, path, config, bench::cpu_ms() - before_ms);
   return 0;
 } catch (const tl::bad_expected_access<homeward::Error>& stopped) {
-  std::fprintf(stderr, "%s: %s\n", stopped.error().where.c_str(), stopped.error().message.c_str());
+  const std::string& where = stopped.error().where;
+  std::fprintf(stderr, "%s%s%s\n", where.c_str(), where.empty() ? "" : ": ", stopped.error().message.c_str());
   return 1;
+} catch (const std::logic_error&) {  // of std::stoi and its like
+  std::fprintf(stderr, "N, SIGMA, R, WIDTH and SEED are numbers. Without further words this tells the usage.\n");
+  return 2;
 } catch (const std::exception& stopped) {
   std::fprintf(stderr, "%s\n", stopped.what());
   return 1;
