@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kEnding = ".robot";
+constexpr int kVersion = 2;  // of the file: its version, the pose, the outline and the height
 constexpr auto kGoneAfter = std::chrono::seconds(2);
 
 std::string random_name() {
@@ -32,11 +33,17 @@ std::string random_name() {
 std::optional<sim::Box> read_box(const fs::path& file) {
   constexpr double kLargest_m = 5.0;
   std::ifstream stream(file);
+  int version = 0;
   sim::Box box;
-  if (!(stream >> box.pose.x_m >> box.pose.y_m >> box.pose.theta_rad >> box.side_m >> box.height_m))
+  Outline& foot = box.foot;
+  if (!(stream >> version >> box.pose.x_m >> box.pose.y_m >> box.pose.theta_rad >> foot.radius_m >> foot.back_m >>
+        foot.front_m >> foot.side_m >> box.height_m) ||
+      version != kVersion)
     return std::nullopt;
+  const auto length = [](double value_m) { return value_m >= 0.0 && value_m <= kLargest_m; };
   const bool sound = std::isfinite(box.pose.x_m) && std::isfinite(box.pose.y_m) && std::isfinite(box.pose.theta_rad) &&
-                     box.side_m > 0.0 && box.side_m <= kLargest_m && box.height_m > 0.0 && box.height_m <= kLargest_m;
+                     length(foot.radius_m) && length(foot.back_m) && length(foot.front_m) && length(foot.side_m) &&
+                     box.height_m > 0.0 && length(box.height_m) && swept_radius_m(foot) > 0.0;
   return sound ? std::optional(box) : std::nullopt;
 }
 
@@ -62,8 +69,9 @@ std::vector<sim::Box> SharedWorld::exchange(const sim::Box& ours) {
   {
     std::ofstream stream(part, std::ios::trunc);
     stream.precision(std::numeric_limits<double>::max_digits10);
-    stream << ours.pose.x_m << ' ' << ours.pose.y_m << ' ' << ours.pose.theta_rad << ' ' << ours.side_m << ' '
-           << ours.height_m << '\n';
+    stream << kVersion << ' ' << ours.pose.x_m << ' ' << ours.pose.y_m << ' ' << ours.pose.theta_rad << ' '
+           << ours.foot.radius_m << ' ' << ours.foot.back_m << ' ' << ours.foot.front_m << ' ' << ours.foot.side_m
+           << ' ' << ours.height_m << '\n';
   }
   fs::rename(part, file_, error);
   std::vector<fs::path> others;

@@ -104,10 +104,9 @@ driving::Scan SimulatedRobot::sweep() {
 }
 
 sim::Box box_of(const SimulatedRobot& robot) {
-  const Outline& outline = robot.vehicle().profile().outline;
   sim::Box box;
-  box.pose = robot.vehicle().pose() * Pose2{0.5 * (outline.front_m - outline.back_m), 0.0, 0.0};
-  box.side_m = 2.0 * outline.radius_m + std::max(outline.front_m + outline.back_m, 2.0 * outline.side_m);
+  box.pose = robot.vehicle().pose();
+  box.foot = robot.vehicle().profile().outline;
   return box;
 }
 

@@ -4,15 +4,17 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "core/outline.hpp"
 #include "core/pose2.hpp"
 #include "sim/scene.hpp"
 
 namespace homeward::sim {
 
-/// A thing as large as a chair that somebody left standing on the floor: an upright box around `pose`.
+/// A thing that stands on the floor where nobody expects it, upright: a box as large as a chair that somebody left
+/// there, or another robot, which covers of the floor exactly what it touches.
 struct Box {
   Pose2 pose;
-  double side_m = 0.5;  // of its square foot
+  Outline foot{0.0, 0.25, 0.25, 0.25};
   double height_m = 0.9;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "sim/triangles.hpp"
@@ -74,15 +75,20 @@ FloorPlan::FloorPlan(const Scene& scene, double lowest_m, double highest_m) {
 }
 
 void FloorPlan::add(const Box& box) {
-  const double half_m = 0.5 * box.side_m;
-  const auto corner = [&](double along, double across) {
-    const Pose2 at = box.pose * Pose2{along * half_m, across * half_m, 0.0};
-    return Eigen::Vector2d(at.x_m, at.y_m);
-  };
-  add_edge(corner(1, 1), corner(-1, 1));
-  add_edge(corner(-1, 1), corner(-1, -1));
-  add_edge(corner(-1, -1), corner(1, -1));
-  add_edge(corner(1, -1), corner(1, 1));
+  constexpr int kChords = 16;  // of a rounded corner; one of 0.35 m is then cut short by 0.5 mm at most
+  const int chords = box.foot.radius_m > 0.0 ? kChords : 0;
+  std::vector<Eigen::Vector2d> around_m;
+  for (int corner = 0; corner < 4; ++corner) {
+    const double x_m = corner == 0 || corner == 3 ? box.foot.front_m : -box.foot.back_m;
+    const double y_m = corner < 2 ? box.foot.side_m : -box.foot.side_m;
+    for (int i = 0; i <= chords; ++i) {
+      const double angle_rad = 0.5 * std::numbers::pi * (corner + (chords > 0 ? static_cast<double>(i) / chords : 0.0));
+      const Pose2 at = box.pose * Pose2{x_m + box.foot.radius_m * std::cos(angle_rad),
+                                        y_m + box.foot.radius_m * std::sin(angle_rad), 0.0};
+      around_m.emplace_back(at.x_m, at.y_m);
+    }
+  }
+  for (std::size_t i = 0; i < around_m.size(); ++i) add_edge(around_m[i], around_m[(i + 1) % around_m.size()]);
 }
 
 void FloorPlan::add_edge(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) {

@@ -9,7 +9,6 @@
 #include <bit>
 #include <cmath>
 #include <mutex>
-#include <numbers>
 
 #include "sim/hash.hpp"
 #include "sim/sensor.hpp"
@@ -60,8 +59,8 @@ Cylinder around(const Person& person) {
 }
 Cylinder around(const Box& box) {
   constexpr double kMargin_m = 0.01;
-  const double corner_m = std::numbers::sqrt2 * 0.5 * box.side_m + kMargin_m;
-  return {static_cast<float>(box.pose.x_m), static_cast<float>(box.pose.y_m), static_cast<float>(corner_m)};
+  return {static_cast<float>(box.pose.x_m), static_cast<float>(box.pose.y_m),
+          static_cast<float>(swept_radius_m(box.foot) + kMargin_m)};
 }
 
 /// Whether the line of any ray of a packet meets a cylinder; hit_person() asks the same of its body.

@@ -14,8 +14,8 @@ namespace {
 class SharedWorldTest : public ::testing::Test {
  protected:
   homeward::testing::ScratchFolder folder_;
-  const sim::Box first_{{1.5, -2.25, 0.5}, 0.75, 1.25};
-  const sim::Box second_{{-4.0, 0.125, 3.0}, 0.5, 0.9};
+  const sim::Box first_{{1.5, -2.25, 0.5}, {0.1, 0.2, 0.8, 0.3}, 1.25};
+  const sim::Box second_{{-4.0, 0.125, 3.0}, Outline{}, 0.9};
 };
 
 TEST_F(SharedWorldTest, EachSeesTheOthersWhereTheyStandAndNotItself) {
@@ -26,7 +26,7 @@ TEST_F(SharedWorldTest, EachSeesTheOthersWhereTheyStandAndNotItself) {
   ASSERT_EQ(seen.size(), 1U);
   EXPECT_EQ(position_m(seen[0].pose), position_m(first_.pose));
   EXPECT_EQ(seen[0].pose.theta_rad, first_.pose.theta_rad);
-  EXPECT_EQ(seen[0].side_m, first_.side_m);
+  EXPECT_EQ(seen[0].foot, first_.foot);
   EXPECT_EQ(seen[0].height_m, first_.height_m);
   sim::Box moved = second_;
   moved.pose.x_m = -3.5;
@@ -44,7 +44,7 @@ TEST_F(SharedWorldTest, WhoEndsIsThereNoMoreAndWhoWasKilledNotForLong) {
   }
   EXPECT_TRUE(first.exchange(first_).empty());
   const auto killed = folder_.path() / "killed.robot";
-  std::ofstream(killed) << "1 2 0 0.5 0.9\n";
+  std::ofstream(killed) << "2 1 2 0 0.35 0 0 0 0.9\n";
   EXPECT_EQ(first.exchange(first_).size(), 1U);
   std::filesystem::last_write_time(killed, std::filesystem::file_time_type::clock::now() - std::chrono::seconds(3));
   EXPECT_TRUE(first.exchange(first_).empty());
@@ -52,10 +52,14 @@ TEST_F(SharedWorldTest, WhoEndsIsThereNoMoreAndWhoWasKilledNotForLong) {
 
 TEST_F(SharedWorldTest, WhatIsNoRobotIsPassedOver) {
   auto first = *SharedWorld::join(folder_.path());
-  std::ofstream(folder_.path() / "half.robot") << "1.0 2.0";
-  std::ofstream(folder_.path() / "huge.robot") << "1 2 0 500 0.9\n";
+  std::ofstream(folder_.path() / "half.robot") << "2 1.0 2.0";
+  std::ofstream(folder_.path() / "huge.robot") << "2 1 2 0 0.35 0 500 0 0.9\n";
   std::ofstream(folder_.path() / "words.robot") << "nan here\n";
-  std::ofstream(folder_.path() / "other.txt") << "1 2 0 0.5 0.9\n";
+  std::ofstream(folder_.path() / "nothing.robot") << "2 1 2 0 0 0 0 0 0.9\n";
+  std::ofstream(folder_.path() / "thin_air.robot") << "2 1 2 0 -0.35 0 0 0 0.9\n";
+  std::ofstream(folder_.path() / "older.robot") << "1 2 0 0.5 0.9\n";
+  std::ofstream(folder_.path() / "newer.robot") << "3 1 2 0 0.35 0 0 0 0.9\n";
+  std::ofstream(folder_.path() / "other.txt") << "2 1 2 0 0.35 0 0 0 0.9\n";
   EXPECT_TRUE(first.exchange(first_).empty());
 }
 

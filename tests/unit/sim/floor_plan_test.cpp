@@ -51,6 +51,15 @@ TEST(FloorPlan, MeasuresWallsToTheMillimetreWhateverTheirDirection) {
   }
 }
 
+TEST(FloorPlan, MeasuresARobotThatStandsThereByItsOwnOutline) {
+  FloorPlan plan{Scene()};
+  plan.add(Box{{1.0, 0.0, 0.7}, kDisc, 0.9});
+  EXPECT_NEAR(plan.clearance_m(kDisc, {0.18, 0.0, 0.0}, kFar_m), 0.12, 0.001) << "a square about it would be touched";
+  plan.add(Box{{-2.0, 0.0, kPi}, kRectangle, 0.9});
+  EXPECT_NEAR(plan.clearance_m(kDisc, {-1.0, 0.0, 0.0}, kFar_m), 0.4, 0.001) << "its back is here";
+  EXPECT_NEAR(plan.clearance_m(kDisc, {-3.5, 0.0, 0.0}, kFar_m), 0.3, 0.001) << "its front is here";
+}
+
 TEST(FloorPlan, SaysNoMoreThanHowFarItWasToLook) {
   const FloorPlan plan(quads({wall({2.0, -3.0}, {2.0, 3.0})}));
   EXPECT_NEAR(plan.clearance_m(kDisc, {0.0, 0.0, 0.0}, kFar_m), 1.65, 1e-6);
