@@ -87,8 +87,8 @@ TEST(FloorPlan, LeavesOutWhatIsOverheadOrCanBeDrivenOver) {
 
 TEST(FloorPlan, HoldsBoxesInsideAndOutsideItsWalls) {
   FloorPlan plan(quads({wall({-1.0, 2.0}, {1.0, 2.0})}));
-  plan.add({{0.0, 0.0, 0.25 * kPi}, 0.5, 0.9});
-  plan.add({{6.0, 0.0, 0.0}, 0.5, 0.9});
+  plan.add(Box{{0.0, 0.0, 0.25 * kPi}});
+  plan.add(Box{{6.0, 0.0, 0.0}});
   EXPECT_NEAR(plan.clearance_m(kDisc, {-1.0, 0.0, 0.0}, kFar_m), 1.0 - 0.5 * std::sqrt(0.5) - 0.35, 1e-6);
   EXPECT_NEAR(plan.clearance_m(kRectangle, {4.0, 0.0, 0.0}, kFar_m), 6.0 - 0.25 - 4.85, 1e-6);
 }

@@ -159,7 +159,7 @@ TEST(Obstacles, AreFeltAtTheRearCornersAndWherePeopleAndBoxesAre) {
   EXPECT_NEAR(obstacles.clearance_m(chair, {0.0, 0.0, 0.0}, beside), 0.02, 1e-9);
   EXPECT_NEAR(obstacles.clearance_m(chair, {0.0, 1.5 - 0.335, 0.0}, {}), 0.01, 1e-6);
   EXPECT_NEAR(obstacles.clearance_m(chair, {0.0, 0.0, 0.0}, {}), 2.0 - 0.85, 1e-6);
-  obstacles.set_boxes({{{-0.55, 0.0, 0.0}, 0.5, 0.9}});
+  obstacles.set_boxes({Box{{-0.55, 0.0, 0.0}}});
   EXPECT_NEAR(obstacles.clearance_m(chair, {0.0, 0.0, 0.0}, {}), 0.05, 1e-6);
   obstacles.set_boxes({});
   EXPECT_NEAR(obstacles.clearance_m(chair, {0.0, 0.0, 0.0}, {}), 2.0 - 0.85, 1e-6);
