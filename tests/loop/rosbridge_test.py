@@ -37,7 +37,7 @@ class Rosbridge(unittest.TestCase):
 
     PROFILE = "disc"
     BODY = {"radius_m": 0.35}
-    ROOMS = sys.argv[3:] or ("kitchen", "living_room")
+    ROOMS = sys.argv[3:] or ("living_room",)
     SERVER = f"http://127.0.0.1:{PORT}"
     BRIDGE = f"ws://127.0.0.1:{BRIDGE_PORT}"
 
@@ -149,7 +149,7 @@ class Wheelchair(Rosbridge):
 
     PROFILE = "chair"
     BODY = {"rectangle": {"front_m": 0.85, "back_m": 0.25, "width_m": 0.65}}
-    ROOMS = sys.argv[3:] or ("study", "living_room")
+    ROOMS = sys.argv[3:] or ("study",)
     SERVER = f"https://localhost:{SERVER_TLS_PORT}"
     BRIDGE = f"wss://localhost:{BRIDGE_TLS_PORT}"
     test_2_a_silent_robot_ends_the_mission_and_nothing_moves_when_it_speaks_again = None
