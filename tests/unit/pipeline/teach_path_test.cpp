@@ -17,12 +17,23 @@ namespace {
 using homeward::testing::bend;
 using homeward::testing::PaintedRoom;
 
-/// A drive through a painted room; some of its pictures cannot be read.
+/// The pictures of a drive through a painted room.
+std::vector<Image> drive(const std::vector<Pose2>& poses, const camera::Camera& camera) {
+  std::vector<Image> pictures;
+  for (const Pose2& pose : poses) {
+    const Image grey = homeward::testing::lens_picture(PaintedRoom{}, pose, camera);
+    Image& rgb = pictures.emplace_back(grey.width_px, grey.height_px, 3);
+    for (std::size_t i = 0; i < rgb.data.size(); ++i) rgb.data[i] = grey.data[i / 3];
+  }
+  return pictures;
+}
+
+/// The first so many of them as a tour; some cannot be read.
 class RoomTour final : public TourSource {
  public:
-  RoomTour(const std::vector<Pose2>& poses, std::shared_ptr<const camera::Camera> camera, bool odometry)
-      : poses_(poses), camera_(std::move(camera)) {
-    for (std::size_t i = 0; i < poses.size(); ++i) {
+  RoomTour(const std::vector<Image>& pictures, const std::vector<Pose2>& poses, std::size_t count, bool odometry)
+      : pictures_(pictures) {
+    for (std::size_t i = 0; i < count; ++i) {
       images_.push_back({ImageId("room/" + std::to_string(100 + i) + ".png"), std::nullopt,
                          odometry ? std::optional(poses[i]) : std::nullopt});
     }
@@ -31,19 +42,15 @@ class RoomTour final : public TourSource {
   [[nodiscard]] const std::vector<TourMark>& marks() const override { return marks_; }
   [[nodiscard]] Result<Image> read(std::size_t index) const override {
     if (broken_.contains(index)) return fail(ErrorCode::kTruncatedImage, "Half a picture.");
-    const Image grey = homeward::testing::lens_picture(PaintedRoom{}, poses_[index], *camera_);
-    Image rgb(grey.width_px, grey.height_px, 3);
-    for (std::size_t i = 0; i < rgb.data.size(); ++i) rgb.data[i] = grey.data[i / 3];
-    return rgb;
+    return pictures_[index];
   }
 
   std::vector<TourMark> marks_;
   std::set<std::size_t> broken_;
 
  private:
-  std::vector<Pose2> poses_;
+  const std::vector<Image>& pictures_;
   std::vector<TourImage> images_;
-  std::shared_ptr<const camera::Camera> camera_;
 };
 
 class TeachPath : public ::testing::Test {
@@ -59,17 +66,25 @@ class TeachPath : public ::testing::Test {
     return teach_path(tour, camera_, "room", config_, bytes);
   }
 
+  static void SetUpTestSuite() {
+    poses_ = bend(16);
+    pictures_ = drive(poses_, *camera::Camera::create(homeward::testing::small_lens_camera()).value());
+  }
+  [[nodiscard]] static RoomTour tour(std::size_t count = 16, bool odometry = true) {
+    return {pictures_, poses_, count, odometry};
+  }
+
+  static inline std::vector<Pose2> poses_;
+  static inline std::vector<Image> pictures_;
   camera::CameraConfig camera_ = homeward::testing::small_lens_camera();
-  std::shared_ptr<const camera::Camera> model_ = camera::Camera::create(camera_).value();
   repeat::TeachConfig config_;
-  std::vector<Pose2> poses_ = bend(16);
 };
 
 TEST_F(TeachPath, MakesAMapOfKeyImagesWithTheirPicturesAndArcs) {
-  RoomTour tour(poses_, model_, true);
-  tour.marks_ = {{"115.png", "window"}};
-  tour.broken_ = {3};
-  const auto made = teach(tour);
+  RoomTour room = tour();
+  room.marks_ = {{"115.png", "window"}};
+  room.broken_ = {3};
+  const auto made = teach(room);
   ASSERT_TRUE(made) << made.error().message;
   const map::TopologicalMap& map = made->map;
   ASSERT_TRUE(map.path);
@@ -93,6 +108,7 @@ TEST_F(TeachPath, MakesAMapOfKeyImagesWithTheirPicturesAndArcs) {
   }
   EXPECT_EQ(members, map.images.size());
   ASSERT_EQ(map.edges.size(), 2 * path.taught.arcs.size());
+  int with_bearing = 0;
   for (std::size_t i = 0; i < path.taught.arcs.size(); ++i) {
     const map::Edge& there = map.edges[2 * i];
     const map::Edge& back = map.edges[2 * i + 1];
@@ -103,11 +119,16 @@ TEST_F(TeachPath, MakesAMapOfKeyImagesWithTheirPicturesAndArcs) {
     EXPECT_NEAR(there.length_m, (position_m(to) - position_m(from)).norm(), 1e-9);
     EXPECT_NEAR(*there.turn_rad, to.theta_rad - from.theta_rad, 0.02);
     EXPECT_EQ(*back.turn_rad, -*there.turn_rad);
+    ASSERT_EQ(there.bearing_rad.has_value(), path.taught.arcs[i].has_baseline);
+    ASSERT_EQ(back.bearing_rad.has_value(), path.taught.arcs[i].has_baseline);
+    if (!there.bearing_rad) continue;
+    ++with_bearing;
     const Pose2 seen = inverse(from) * to;
     EXPECT_NEAR(wrap_angle(*there.bearing_rad - std::atan2(seen.y_m, seen.x_m)), 0.0, 0.1);
     const Pose2 behind = inverse(to) * from;
     EXPECT_NEAR(wrap_angle(*back.bearing_rad - std::atan2(behind.y_m, behind.x_m)), 0.0, 0.1);
   }
+  EXPECT_GE(with_bearing, 1);
   ASSERT_EQ(map.destinations.size(), 1U);
   EXPECT_EQ(map.destinations[0].image.str(), "room/115.png");
   EXPECT_EQ(map.destinations[0].place, map.places.back().id);
@@ -115,37 +136,36 @@ TEST_F(TeachPath, MakesAMapOfKeyImagesWithTheirPicturesAndArcs) {
 }
 
 TEST_F(TeachPath, WithoutOdometryLengthsAreNumbersOfPictures) {
-  const auto made = teach(RoomTour(poses_, model_, false));
+  const auto made = teach(tour(16, false));
   ASSERT_TRUE(made);
   for (const map::Edge& edge : made->map.edges) EXPECT_EQ(edge.length_from, map::LengthSource::kTourImages);
 }
 
 TEST_F(TeachPath, SaysWhatIsWrongAndWhere) {
-  RoomTour tour(poses_, model_, true);
-  tour.marks_ = {{"999.png", "nowhere"}};
-  const auto unmarked = teach(tour);
+  RoomTour room = tour();
+  room.marks_ = {{"999.png", "nowhere"}};
+  const auto unmarked = teach(room);
   ASSERT_FALSE(unmarked);
   EXPECT_EQ(unmarked.error().where, "999.png");
-  tour.marks_.clear();
-  for (std::size_t i = 0; i < poses_.size(); ++i) tour.broken_.insert(i);
-  EXPECT_EQ(teach(tour).error().code, ErrorCode::kTruncatedImage);
-  EXPECT_EQ(teach(RoomTour({}, model_, true)).error().code, ErrorCode::kEmptyInput);
-  EXPECT_EQ(teach(RoomTour({poses_.front()}, model_, true)).error().code, ErrorCode::kTooFewImages);
+  room.marks_.clear();
+  for (std::size_t i = 0; i < poses_.size(); ++i) room.broken_.insert(i);
+  EXPECT_EQ(teach(room).error().code, ErrorCode::kTruncatedImage);
+  EXPECT_EQ(teach(tour(0)).error().code, ErrorCode::kEmptyInput);
+  EXPECT_EQ(teach(tour(1)).error().code, ErrorCode::kTooFewImages);
   camera::CameraConfig wide = camera_;
   wide.width_px = 300;
-  const auto other = teach_path(RoomTour(poses_, model_, true), wide, "room", config_, bytes);
+  const auto other = teach_path(tour(), wide, "room", config_, bytes);
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().code, ErrorCode::kWrongImageSize);
   EXPECT_EQ(other.error().where, "room/100.png");
   const auto unread = [](std::size_t) -> Result<std::vector<std::uint8_t>> {
     return fail(ErrorCode::kIo, "gone", "x");
   };
-  EXPECT_EQ(teach_path(RoomTour(poses_, model_, true), camera_, "room", config_, unread).error().code, ErrorCode::kIo);
+  EXPECT_EQ(teach_path(tour(), camera_, "room", config_, unread).error().code, ErrorCode::kIo);
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_EQ(
-      teach_path(RoomTour(poses_, model_, true), camera_, "room", config_, bytes, {}, stop.get_token()).error().code,
-      ErrorCode::kCancelled);
+  EXPECT_EQ(teach_path(tour(), camera_, "room", config_, bytes, {}, stop.get_token()).error().code,
+            ErrorCode::kCancelled);
 }
 
 }  // namespace
