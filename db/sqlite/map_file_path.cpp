@@ -30,6 +30,13 @@ int count_of(const SQLite::Column& column, const std::string& where) {
   return static_cast<int>(value);
 }
 
+/// The number of a picture that was shown: the map has all of them.
+int shown_of(const SQLite::Column& column, const std::vector<map::MapImage>& images, const std::string& where) {
+  const int shown = count_of(column, where);
+  if (at(shown) >= images.size()) refuse_file("The path names a picture that the map does not hold.", where);
+  return shown;
+}
+
 void put_key_images(SQLite::Database& database, const map::MapPath& path) {
   SQLite::Statement insert(database, "INSERT INTO path_key_images VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (std::size_t i = 0; i < path.taught.key_images.size(); ++i) {
@@ -80,8 +87,8 @@ void get_key_images(SQLite::Database& database, ContentDigest& digest, const std
     if (!features) throw LoadFailure(features.error());
     const auto picture = bytes_of(select.column(2));
     if (picture.empty()) refuse_file("A key image of the path has no picture.", where);
-    map::KeyImage key{count_of(select.column(1), where), *std::move(features), count_of(select.column(4), where),
-                      scale_of(select, where)};
+    map::KeyImage key{shown_of(select.column(1), images, where), *std::move(features),
+                      count_of(select.column(4), where), scale_of(select, where)};
     if (!path.taught.key_images.empty() && key.picture <= path.taught.key_images.back().picture) {
       refuse_file("The key images of the path are not in the order in which they were shown.", where);
     }
@@ -106,13 +113,14 @@ void get_arcs(SQLite::Database& database, ContentDigest& digest, map::TaughtPath
   }
 }
 
-void get_gaps(SQLite::Database& database, ContentDigest& digest, map::TaughtPath& taught) {
+void get_gaps(SQLite::Database& database, ContentDigest& digest, const std::vector<map::MapImage>& images,
+              map::TaughtPath& taught) {
   DigestedRows cuts(database, "SELECT last_shown, next_shown, why FROM path_cuts ORDER BY position", digest);
   while (cuts.step()) {
     const std::string where = "path/cuts/" + std::to_string(taught.cuts.size());
     map::PathCut cut;
-    cut.last_picture = count_of(cuts.column(0), where);
-    if (!cuts.column(1).isNull()) cut.next_picture = count_of(cuts.column(1), where);
+    cut.last_picture = shown_of(cuts.column(0), images, where);
+    if (!cuts.column(1).isNull()) cut.next_picture = shown_of(cuts.column(1), images, where);
     const int why = count_of(cuts.column(2), where);
     if (why > static_cast<int>(map::CutReason::kErrorTooLarge)) {
       refuse_file("The path is cut for a reason that this program does not know.", where);
@@ -121,7 +129,9 @@ void get_gaps(SQLite::Database& database, ContentDigest& digest, map::TaughtPath
     taught.cuts.push_back(cut);
   }
   DigestedRows skipped(database, "SELECT shown FROM path_skipped ORDER BY position", digest);
-  while (skipped.step()) taught.skipped_pictures.push_back(count_of(skipped.column(0), "path/skipped"));
+  while (skipped.step()) {
+    taught.skipped_pictures.push_back(shown_of(skipped.column(0), images, "path/skipped"));
+  }
 }
 
 }  // namespace
@@ -163,7 +173,7 @@ std::shared_ptr<const map::MapPath> get_path(SQLite::Database& database, Content
   map::MapPath path;
   get_key_images(database, digest, images, path);
   get_arcs(database, digest, path.taught);
-  get_gaps(database, digest, path.taught);
+  get_gaps(database, digest, images, path.taught);
   if (path.images.empty()) {
     if (!path.taught.cuts.empty()) refuse_file("The map has cuts of a path that it does not have.", "path");
     return nullptr;

@@ -6,20 +6,15 @@
 
 #include "cli/command.hpp"
 #include "cli/map_output.hpp"
-#include "core/enum_names.hpp"
 #include "core/index.hpp"
 #include "db/map_file.hpp"
 #include "files/read_file.hpp"
 #include "files/tour_folder.hpp"
 #include "pipeline/teach_path.hpp"
+#include "wire/taught_json.hpp"
 
 namespace homeward::cli {
 namespace {
-
-using nlohmann::json;
-
-constexpr EnumNames<map::ArcEnd, 5> kArcEndNames({"features", "error", "common", "geometry", "end"});
-constexpr EnumNames<map::CutReason, 3> kCutReasonNames({"features", "geometry", "error"});
 
 struct TeachOptions {
   std::string images;  // folder
@@ -30,60 +25,18 @@ struct TeachOptions {
   bool json = false;
 };
 
-std::string file_name(const ImageId& image) { return image.str().substr(image.str().rfind('/') + 1); }
-
-json arcs_json(const map::TopologicalMap& made) {
-  json arcs = json::array();
-  const map::MapPath& path = *made.path;
-  for (std::size_t i = 0; i < path.taught.arcs.size(); ++i) {
-    const map::PathArc& arc = path.taught.arcs[i];
-    const map::Edge& edge = made.edges[2 * i];
-    const map::KeyImage& key = path.taught.key_images[at(arc.from)];
-    json line{{"from", file_name(path.images[at(arc.from)])},
-              {"to", file_name(path.images[at(arc.from) + 1])},
-              {"features", arc.matches.size()},
-              {"common", key.common},
-              {"error_px", arc.error_px},
-              {"parallax_px", arc.parallax_px},
-              {"turn_rad", *edge.turn_rad},
-              {"confidence", edge.confidence},
-              {"ended_by", kArcEndNames.name(arc.ended_by)}};
-    line["bearing_rad"] = edge.bearing_rad ? json(*edge.bearing_rad) : json();
-    line["scale"] = key.scale ? json(key.scale->ratio) : json();
-    arcs.push_back(std::move(line));
-  }
-  return arcs;
-}
-
-json cuts_json(const map::TopologicalMap& made) {
-  json cuts = json::array();
-  for (const map::PathCut& cut : made.path->taught.cuts) {
-    json line{{"after", file_name(made.images[at(cut.last_picture)].id)}, {"why", kCutReasonNames.name(cut.why)}};
-    line["on_from"] = cut.next_picture ? json(file_name(made.images[at(*cut.next_picture)].id)) : json();
-    cuts.push_back(std::move(line));
-  }
-  return cuts;
-}
-
 void print(const TeachOptions& options, const pipeline::PathMap& made) {
-  const map::MapPath& path = *made.map.path;
   if (options.json) {
-    json skipped = json::array();
-    for (const Error& error : made.skipped) skipped.push_back({{"where", error.where}, {"message", error.message}});
-    print_json({{"map", options.out},
-                {"pictures", made.map.images.size()},
-                {"key_images", path.images.size()},
-                {"arcs", arcs_json(made.map)},
-                {"cuts", cuts_json(made.map)},
-                {"skipped", skipped}});
+    print_json(wire::taught_to_json(options.out, made.map, made.skipped));
     return;
   }
+  const map::MapPath& path = *made.map.path;
   std::cout << made.map.images.size() << " pictures, " << path.images.size() << " key images, "
             << path.taught.arcs.size() << " arcs: " << options.out << "\n";
   for (const map::PathCut& cut : path.taught.cuts) {
     std::cout << "The path is cut after " << made.map.images[at(cut.last_picture)].id.str();
     if (cut.next_picture) std::cout << " and goes on from " << made.map.images[at(*cut.next_picture)].id.str();
-    std::cout << " (" << kCutReasonNames.name(cut.why) << ").\n";
+    std::cout << " (" << wire::cut_reason_name(cut.why) << ").\n";
   }
 }
 

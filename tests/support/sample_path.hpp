@@ -41,7 +41,7 @@ inline map::MapPath sample_path() {
   map::MapPath path;
   for (int i = 0; i < 3; ++i) {
     map::KeyImage key;
-    key.picture = 2 * i;
+    key.picture = i;
     for (int k = 0; k <= i; ++k) key.features.push_back({10 * i + k, {0.5 + i, 1.0 / 3.0 + k}});
     key.common = 7 * i;
     if (i == 1) key.scale = map::NodeScale{1.0 / 3.0, 9, 0.0625};
@@ -50,8 +50,8 @@ inline map::MapPath sample_path() {
     path.pictures.push_back({std::uint8_t{0xFF}, std::uint8_t{0xD8}, static_cast<std::uint8_t>(i)});
   }
   path.taught.arcs = {sample_arc(0, 1.5, 3), sample_arc(1, 0.7, 0)};
-  path.taught.cuts = {{4, std::nullopt, map::CutReason::kNoGeometry}, {6, 9, map::CutReason::kErrorTooLarge}};
-  path.taught.skipped_pictures = {3, 5};
+  path.taught.cuts = {{2, std::nullopt, map::CutReason::kNoGeometry}, {0, 1, map::CutReason::kErrorTooLarge}};
+  path.taught.skipped_pictures = {1, 2};
   return path;
 }
 

@@ -72,7 +72,7 @@ TEST_F(MapPathFile, GivesBackThePathToTheBit) {
   }
   ASSERT_EQ(path.taught.cuts.size(), 2U);
   EXPECT_FALSE(path.taught.cuts[0].next_picture);
-  EXPECT_EQ(path.taught.cuts[1].next_picture, 9);
+  EXPECT_EQ(path.taught.cuts[1].next_picture, 1);
   EXPECT_EQ(path.taught.cuts[1].why, map::CutReason::kErrorTooLarge);
   EXPECT_EQ(path.taught.skipped_pictures, before.taught.skipped_pictures);
   const std::string first = content();
@@ -124,6 +124,8 @@ TEST_F(MapPathFile, APathThatDoesNotHoldTogetherIsRefusedAndNamed) {
         Damage{"UPDATE path_arcs SET from_key_image = 2 WHERE position = 1", "path/arcs/1"},
         Damage{"UPDATE path_arcs SET arc = x'4857' WHERE position = 0", "path/arcs/0"},
         Damage{"UPDATE path_cuts SET why = 9 WHERE position = 0", "path/cuts/0"},
+        Damage{"UPDATE path_cuts SET last_shown = 3 WHERE position = 1", "path/cuts/1"},
+        Damage{"UPDATE path_key_images SET shown = 3 WHERE position = 2", "path/2"},
         Damage{"UPDATE path_skipped SET shown = 5000000000 WHERE position = 0", "path/skipped"},
         Damage{"PRAGMA foreign_keys = OFF; DELETE FROM path_arcs; DELETE FROM path_key_images", "path"}}) {
     ASSERT_TRUE(save_map(file(), map_, {}));
