@@ -10,6 +10,7 @@
 
 #include "db/sqlite/map_file_digest.hpp"
 #include "db/sqlite/map_file_edits.hpp"
+#include "db/sqlite/map_file_path.hpp"
 #include "db/sqlite/map_file_schema.hpp"
 #include "db/sqlite/map_file_state.hpp"
 #include "map/state.hpp"
@@ -171,6 +172,7 @@ void read_graph_part(SQLite::Database& database, map::TopologicalMap& map) {
   for (std::size_t i = 0; i < map.places.size(); ++i) map.places[i].label = part.places[i].label;
   part.places = std::move(map.places);
   part.images = std::move(map.images);
+  part.path = std::move(map.path);
   map = std::move(part);
   check_references(map);
 }
@@ -182,6 +184,7 @@ MapContents read_contents(SQLite::Database& database) {
   get_meta(database, digest, map);
   get_images(database, digest, map);
   get_graph(database, digest, map);
+  map.path = get_path(database, digest, map.images);
   get_thumbnails(database, digest, contents.stored);
   check_references(map);
   contents.checksum = digest.hexadecimal();

@@ -17,6 +17,7 @@
 #include "db/sqlite/failure_words.hpp"
 #include "db/sqlite/map_file_contents.hpp"
 #include "db/sqlite/map_file_edits.hpp"
+#include "db/sqlite/map_file_path.hpp"
 #include "db/sqlite/map_file_schema.hpp"
 #include "db/sqlite/map_file_state.hpp"
 #include "db/sqlite/map_graph_part.hpp"
@@ -125,6 +126,7 @@ void fill_database(SQLite::Database& database, const map::TopologicalMap& map, c
     put_state(database, MapState::kUnedited, *map.unedited);
     put_what_places_hold(database, MapState::kUnedited, *map.unedited, appearances);
   }
+  if (map.path) put_path(database, *map.path);
   put_thumbnails(database, thumbnails);
   SQLite::Statement checksum(database, kInsertChecksum);
   checksum.bind(1, read_contents(database).checksum);

@@ -11,8 +11,8 @@ namespace homeward::db {
 /// "HWMP" in SQLite's application_id field: what makes an SQLite file a Homeward map.
 inline constexpr int kMapApplicationId = 0x48574D50;
 /// user_version of the map file. A released schema is never edited; a newer file is refused.
-inline constexpr int kMapFileVersion = 7;
-/// Version 6 does not keep how the map was without its edits, what edits found out, which picture an appearance is of,
+inline constexpr int kMapFileVersion = 8;
+/// Version 7 knows no paths that were taught. Version 6 does not keep how the map was without its edits, what edits found out, which picture an appearance is of,
 /// and pictograms; each place has appearances of its own. Version 5 does not say which edits belong to one change.
 /// Version 4 knows no shortcuts. Version 3 is without document frequencies in its appearances
 /// (wire/appearance_blob.hpp). Version 2 is without the checksum, and its edges do not say what their length was taken
@@ -23,6 +23,7 @@ inline constexpr int kFirstVersionWithLengthSource = 3;
 inline constexpr int kFirstVersionWithShortcuts = 5;
 inline constexpr int kFirstVersionWithChanges = 6;
 inline constexpr int kFirstVersionWithStates = 7;
+inline constexpr int kFirstVersionWithPaths = 8;
 
 /// Before the names of the tables that say how the map was without edits.
 inline constexpr std::string_view kUneditedTables = "unedited_";
@@ -82,6 +83,16 @@ CREATE TABLE edit_appearances (
   appearance INTEGER NOT NULL REFERENCES appearances(number), image TEXT NOT NULL,
   PRIMARY KEY (edit, list, position)) STRICT;
 CREATE TABLE thumbnails (image TEXT PRIMARY KEY, jpeg BLOB NOT NULL) STRICT;
+CREATE TABLE path_key_images (
+  position INTEGER PRIMARY KEY, image TEXT NOT NULL REFERENCES images(id), shown INTEGER NOT NULL,
+  picture BLOB NOT NULL, features BLOB NOT NULL, common INTEGER NOT NULL,
+  scale_ratio REAL, scale_common INTEGER, scale_spread REAL) STRICT;
+CREATE TABLE path_arcs (
+  position INTEGER PRIMARY KEY, from_key_image INTEGER NOT NULL UNIQUE REFERENCES path_key_images(position),
+  arc BLOB NOT NULL) STRICT;
+CREATE TABLE path_cuts (
+  position INTEGER PRIMARY KEY, last_shown INTEGER NOT NULL, next_shown INTEGER, why INTEGER NOT NULL) STRICT;
+CREATE TABLE path_skipped (position INTEGER PRIMARY KEY, shown INTEGER NOT NULL) STRICT;
 )sql";
   for (const std::string_view prefix : {std::string_view(), kUneditedTables}) {
     for (const char letter : kStateSchema) letter == '@' ? schema += prefix : schema += letter;

@@ -190,6 +190,8 @@ struct Edit {
   bool operator==(const Edit&) const = default;
 };
 
+struct MapPath;  // taught_path.hpp
+
 /// A map: places joined by drivable edges, and why it is so. Plain data; algorithms are in graph.hpp.
 struct TopologicalMap {
   int version = 1;  // of this structure
@@ -215,6 +217,9 @@ struct TopologicalMap {
   /// nothing was edited. Of its other members none counts.
   std::shared_ptr<const TopologicalMap> unedited = nullptr;
   std::size_t settled_edits = 0;  // how many of the log, the oldest, cannot be told from what was built any more
+  /// Where the map was taught as a path for an ordinary camera: how it is repeated from key image to key image. Null
+  /// elsewhere.
+  std::shared_ptr<const MapPath> path = nullptr;
 };
 
 }  // namespace homeward::map

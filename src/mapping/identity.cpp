@@ -8,6 +8,8 @@
 #include <unordered_set>
 #include <vector>
 
+#include "map/taught_path.hpp"
+
 namespace homeward::mapping {
 namespace {
 
@@ -94,10 +96,19 @@ std::vector<PlaceId> lasting_place_ids(const map::TopologicalMap& map, const map
   return ids;
 }
 
+/// Whether the map has the pictures that a path is made of.
+bool holds_path(const map::TopologicalMap& map, const std::shared_ptr<const map::MapPath>& path) {
+  if (!path) return false;
+  std::unordered_set<ImageId> images;
+  for (const map::MapImage& image : map.images) images.insert(image.id);
+  return std::ranges::all_of(path->images, [&](const ImageId& image) { return images.contains(image); });
+}
+
 }  // namespace
 
 void keep_identity(map::TopologicalMap& map, const map::TopologicalMap* previous) {
   if (previous != nullptr) {
+    if (holds_path(map, previous->path)) map.path = previous->path;
     map.next_place_number = previous->next_place_number;
     map.next_destination_number = previous->next_destination_number;
   }

@@ -7,6 +7,7 @@
 #include "contract/codecs.hpp"
 #include "contract/schema_library.hpp"
 #include "support/sample_map.hpp"
+#include "support/sample_path.hpp"
 #include "wire/build_json.hpp"
 #include "wire/difference_json.hpp"
 #include "wire/doubt_json.hpp"
@@ -22,6 +23,7 @@
 #include "wire/route_json.hpp"
 #include "wire/similarity_json.hpp"
 #include "wire/state_row_json.hpp"
+#include "wire/taught_json.hpp"
 #include "wire/tour_json.hpp"
 
 namespace homeward::wire::encoders_test {
@@ -72,6 +74,19 @@ TEST(Encoders, WriteMapsThatTheSchemasAccept) {
   EXPECT_THAT(schemas().problems("inspect", inspect_to_json(map, 4096)), IsEmpty());
   EXPECT_THAT(schemas().problems("graph", graph_to_json(map, MapId("house"), kLayout)), IsEmpty());
   EXPECT_THAT(schemas().problems("graph", json::parse(export_graph(map, kLayout, ExportFormat::kJson))), IsEmpty());
+}
+
+TEST(Encoders, WriteTaughtPathsThatTheSchemaAccepts) {
+  map::TopologicalMap map = sample_map();
+  map.path = std::make_shared<const map::MapPath>(homeward::testing::sample_path());
+  const json taught =
+      taught_to_json("path.hwmap", map, {{ErrorCode::kTruncatedImage, "It ends too early.", "a/b.jpg"}});
+  EXPECT_THAT(schemas().problems("taught", taught), IsEmpty());
+  EXPECT_EQ(taught["arcs"][0]["from"], "00000.jpg");
+  EXPECT_EQ(taught["arcs"][0]["scale"], json());
+  EXPECT_NEAR(taught["arcs"][0]["bearing_rad"].get<double>(), std::atan2(1.0, 1.5), 1e-12);
+  EXPECT_EQ(taught["arcs"][1]["bearing_rad"], json()) << "a turn on the spot";
+  EXPECT_EQ(taught["cuts"][0], json::parse(R"({"after":"00002.jpg","on_from":null,"why":"geometry"})"));
 }
 
 TEST(Encoders, WriteRoutesThatTheSchemasAccept) {
