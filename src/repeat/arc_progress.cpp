@@ -20,21 +20,22 @@ Eigen::Vector3d way_along(const KeyPose& from, const KeyPose& to) {
 
 }  // namespace
 
-double progress_along(const ArcSurroundings& around, int from_key, const ArcPose& pose) {
-  constexpr double kLeast = 1e-3;      // radians: less leads nowhere
-  constexpr double kTurnsFrom = 3.0;   // times as much is seen of the turn as of the way
+ArcProgress progress_along(const ArcSurroundings& around, int from_key, const ArcPose& pose) {
+  constexpr double kLeast = 1e-3;     // radians: less leads nowhere
+  constexpr double kTurnsFrom = 3.0;  // times as much is seen of the turn as of the way
   const KeyPose& from = around.key(from_key);
   const KeyPose& to = around.key(from_key + 1);
   const Eigen::Vector3d way = way_along(from, to);
   const Eigen::Vector3d turn = turn_vector(from.local_from_key.transpose() * to.local_from_key);
   const double seen_turn = turn.norm();
   const double seen_way = around.nearness * way.norm();
+  ArcProgress progress;
+  if (seen_way > kLeast) progress.of_way = way.dot(pose.position - from.position) / way.squaredNorm();
   if (seen_turn > kTurnsFrom * seen_way && seen_turn > kLeast) {
     const Eigen::Vector3d turned = turn_vector(from.local_from_key.transpose() * pose.local_from_current);
-    return turn.dot(turned) / turn.squaredNorm();
+    progress.of_turn = turn.dot(turned) / turn.squaredNorm();
   }
-  if (!(seen_way > kLeast)) return 1.0;
-  return way.dot(pose.position - from.position) / way.squaredNorm();
+  return progress;
 }
 
 std::optional<double> lateral_of(const ArcSurroundings& around, int from_key, const ArcPose& pose) {

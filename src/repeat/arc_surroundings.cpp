@@ -12,7 +12,19 @@ namespace homeward::repeat {
 namespace {
 
 constexpr double kSkySpread = 0.003;     // nearness in arcs of what shows no parallax: a pixel or so
+constexpr double kLeastLogSpread = 0.01;
 constexpr double kWorstLogSpread = 1.0;  // of a distance: more says no more
+
+// What warns of an arc that is far off (docs/experiments/teaching_a_path.md), and what its distances are worth then.
+constexpr double kDoubtfulSpread_rad = 0.052;
+constexpr double kDoubtfulLead = 10.0;
+constexpr std::size_t kDoubtfulFeatures = 30;
+constexpr double kDoubtfulLogSpread = 0.3;
+
+bool is_doubtful(const Arc& arc) {
+  return arc.direction_spread_rad > kDoubtfulSpread_rad || arc.lead < kDoubtfulLead ||
+         arc.matches.size() < kDoubtfulFeatures;
+}
 
 /// Arcs around one, in one piece of the path.
 struct Range {
@@ -100,7 +112,8 @@ std::vector<KeyPose> key_poses(const TaughtPath& path, const ArcSurroundings& ar
   return keys;
 }
 
-Landmark landmark_of(const ArcMatch& match, const KeyPose& key, const std::optional<double>& unit) {
+Landmark landmark_of(const ArcMatch& match, const KeyPose& key, const std::optional<double>& unit,
+                     double least_log_spread) {
   Landmark landmark;
   landmark.feature = match.feature;
   if (!unit || !key.is_placed) {
@@ -115,7 +128,7 @@ Landmark landmark_of(const ArcMatch& match, const KeyPose& key, const std::optio
   const double farther = point.norm();
   landmark.bearing = point / farther;
   landmark.nearness = nearness / farther;
-  landmark.nearness_spread = std::max(spread, 0.01 * nearness) / farther;
+  landmark.nearness_spread = std::max(spread, least_log_spread * nearness) / farther;
   landmark.has_distance = true;
   return landmark;
 }
@@ -139,8 +152,10 @@ ArcSurroundings surroundings_of(const TaughtPath& path, int arc, int reach, int 
   around.keys = key_poses(path, around, range);
   std::map<int, Landmark> landmarks;
   for (int j = range.first; j <= range.last; ++j) {
+    const double least_log_spread = is_doubtful(path.arcs[at(j)]) ? kDoubtfulLogSpread : kLeastLogSpread;
     for (const ArcMatch& match : path.arcs[at(j)].matches) {
-      Landmark landmark = landmark_of(match, around.keys[at(j - range.first)], around.units[at(j - range.first)]);
+      Landmark landmark = landmark_of(match, around.keys[at(j - range.first)], around.units[at(j - range.first)],
+                                      least_log_spread);
       landmark.in_arc = j == arc;
       const auto [known, is_new] = landmarks.emplace(match.feature, landmark);
       if (is_new) continue;

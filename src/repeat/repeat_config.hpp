@@ -34,6 +34,7 @@ struct RepeatConfig {
   double enough_agreeing = 0.75;  // of the features that are tracked: with fewer the arc's geometry is doubted, and the
                                   // pictures themselves are asked
   double passed = 1.0;            // progress along an arc beyond which it is left
+  double turned = 0.5;            // share of a turn that is enough where the way along the arc is behind
   double back = -0.15;            // progress below which the arc before is gone back to
   int most_transitions = 3;       // in one picture
   double most_from_predicted_px = 12.0;  // a feature found farther from where it was predicted is another one

@@ -224,18 +224,34 @@ int Repeater::predict(const tracking::ImagePyramid& picture, Located& located) {
   return std::max(0, follower_.tracked() - before);
 }
 
+/// Whether the second key image of an arc is passed, and the path goes on there. On a turn that is also where half of
+/// the turn is made and the way is behind: whoever repeats a path may be turned a little less.
+bool Repeater::has_passed(int arc) const {
+  if (!has_joined(arc, arc + 1)) return false;
+  const ArcProgress progress = progress_along(*around_, arc_of(arc).from, pose_);
+  if (progress.value() >= config_.passed) return true;
+  if (!progress.of_turn || *progress.of_turn < config_.turned) return false;
+  if (progress.of_way) return *progress.of_way >= config_.passed;
+  if (!around_->has_key(arc_of(arc).from + 2)) return false;
+  const ArcProgress next = progress_along(*around_, arc_of(arc).from + 1, pose_);
+  return next.of_way && !next.of_turn && *next.of_way > -config_.back;
+}
+
+/// Whether the pose is behind the first key image of an arc, on the one before.
+bool Repeater::is_before(int arc) const {
+  if (!has_joined(arc - 1, arc) || !around_->has_key(arc_of(arc).from - 1)) return false;
+  return progress_along(*around_, arc_of(arc).from, pose_).value() < config_.back && !has_passed(arc - 1);
+}
+
 /// Goes on to the arcs that the pose has come to. By how many.
 Result<int> Repeater::pass_key_images(const tracking::ImagePyramid& picture, Located& located, int& predicted) {
   int passed = 0;
   for (int i = 0; i < config_.most_transitions; ++i) {
     const int arc = around_->arc;
-    const double progress = progress_along(*around_, arc_of(arc).from, pose_);
-    int next = arc;
-    if (progress >= config_.passed && has_joined(arc, arc + 1)) next = arc + 1;
-    const bool is_behind = progress < config_.back && has_joined(arc - 1, arc) && around_->has_key(arc_of(arc - 1).from) &&
-                           progress_along(*around_, arc_of(arc - 1).from, pose_) < config_.passed;
+    int next = has_passed(arc) ? arc + 1 : arc;
+    const bool is_behind = next == arc && is_before(arc);
     behind_ = is_behind ? behind_ + (i == 0 ? 1 : 0) : 0;
-    if (is_behind && behind_ >= 2) next = arc - 1;
+    if (behind_ >= 2) next = arc - 1;
     if (next == arc) break;
     const ArcPose pose = pose_in(surroundings_of(*path_, next, config_.reach, config_.fewest_scaled));
     if (auto gone = go_to(next, pose); !gone) return pass_on(gone);
@@ -289,7 +305,7 @@ Repeated Repeater::answer(const Located& located) const {
   said.expected = follower_.expected(pose_);
   said.error_px = located.error_px;
   said.structure_agrees = located.structure_agrees;
-  said.progress = progress_along(*around_, said.from_key, pose_);
+  said.progress = progress_along(*around_, said.from_key, pose_).value();
   said.lateral = lateral_of(*around_, said.from_key, pose_).value_or(0.0);
   if (arc_of(said.arc).has_baseline) said.bearing_to_next_rad = bearing_of_key(*around_, said.to_key, pose_);
   double sum = 0.0;

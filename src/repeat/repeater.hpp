@@ -101,6 +101,8 @@ class Repeater {
   int predict(const tracking::ImagePyramid& picture, Located& located);
   void drop_what_disagrees(const Located& located);
   Result<int> pass_key_images(const tracking::ImagePyramid& picture, Located& located, int& predicted);
+  [[nodiscard]] bool has_passed(int arc) const;
+  [[nodiscard]] bool is_before(int arc) const;
   [[nodiscard]] Repeated answer(const Located& located) const;
 
   RepeatConfig config_;

@@ -44,6 +44,12 @@ Options options_of(int argc, char** argv) {
     if (name == "--width") options.width_px = std::stoi(next());
     else if (name == "--n") options.teaching.least_features = std::stoi(next());
     else if (name == "--most") options.teaching.most_features = std::stoi(next());
+    else if (name == "--share") options.teaching.least_share = std::stod(next());
+    else if (name == "--strength") options.teaching.corners.least_strength = std::stod(next());
+    else if (name == "--spacing") options.teaching.corners.spacing_px = std::stod(next());
+    else if (name == "--sens") options.teaching.corners.sensitivity = std::stod(next());
+    else if (name == "--texture") options.teaching.tracker.least_texture = options.repeating.tracker.least_texture = std::stod(next());
+    else if (name == "--R") options.teaching.tracker.most_residual = options.repeating.tracker.most_residual = std::stod(next());
     else if (name == "--reach") options.repeating.reach = std::stoi(next());
     else if (name == "--begin") options.begin = std::stoi(next());
     else if (name == "--out") options.out = next();
