@@ -15,7 +15,7 @@ namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr std::array<double, 10> kOutlierSpreads{12.0, 12.0, 8.0, 8.0, 5.0, 4.0, 3.0, 3.0, 3.0, 3.0};
+constexpr std::array<double, 12> kOutlierSpreads{40.0, 40.0, 25.0, 12.0, 12.0, 8.0, 5.0, 4.0, 3.0, 3.0, 3.0, 3.0};
 constexpr double kAtRest = 1e-6;
 constexpr double kOfMedian = 1.2011;       // root of the mean square over the median of a length in the plane (Rayleigh)
 constexpr double kSpreads = 2.5;          // agreeing within so many standard deviations
@@ -103,12 +103,14 @@ PoseFit judge_pose(std::span<const SeenLandmark> seen, const ArcPose& pose, cons
     const Expected expected = expected_at(pose, one.landmark);
     double off_px = geometry::offset_px(one.seen, expected.bearing).norm();
     if (!std::isfinite(off_px)) off_px = 1e6;
-    const bool agrees = off_px <= config.agree_px + kSpreads * expected.spread_rad / radians_per_px(one.seen);
+    const bool agrees = off_px * radians_per_px(one.seen) <= config.agree_rad + kSpreads * expected.spread_rad;
     fit.off_px.push_back(off_px);
     fit.agrees.push_back(agrees);
     fit.agreeing += agrees ? 1 : 0;
   }
-  if (!fit.off_px.empty()) fit.error_px = kOfMedian * median(fit.off_px);
+  if (fit.off_px.empty()) return fit;
+  fit.error_px = kOfMedian * median(fit.off_px);
+  fit.error_rad = fit.error_px * radians_per_px(seen.front().seen);
   return fit;
 }
 

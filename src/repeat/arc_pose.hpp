@@ -34,7 +34,8 @@ Expected expected_at(const ArcPose& pose, const Landmark& landmark);
 
 struct PoseFitConfig {
   double seen_spread_px = 0.5;  // of where a tracked feature is
-  double agree_px = 3.0;        // a feature agrees within so much and 2.5 times what its distance leaves open
+  double agree_rad = 0.013;     // a feature agrees within so much and 2.5 times what its distance leaves open: 3 px of
+                                // 320 over 70 degrees
   double stray_share = 0.3;     // standard deviation of the position from the start, over the landmarks' distance
   std::optional<geometry::DrivingPrior> driving;  // its tilt, and that the camera keeps its height
 };
@@ -45,6 +46,7 @@ struct PoseFit {
   std::vector<bool> agrees;
   int agreeing = 0;
   double error_px = 0.0;  // root mean square of off_px as its median tells it, wrong ones included
+  double error_rad = 0.0;  // about the same as an angle
 };
 
 /// The pose from which landmarks are seen where they are: the views of the current picture and of both key images by

@@ -99,7 +99,8 @@ void LandmarkFollower::follow(const tracking::ImagePyramid& picture, const ArcPo
   }
 }
 
-int LandmarkFollower::search(const tracking::ImagePyramid& picture, const ArcPose& pose, const RepeatConfig& config) {
+int LandmarkFollower::search(const tracking::ImagePyramid& picture, const ArcPose& pose, double most_off_rad,
+                             const RepeatConfig& config) {
   int found = 0;
   int tried = 0;
   for (std::size_t i = 0; i < landmarks_.size() && tried < config.most_predicted; ++i) {
@@ -115,8 +116,9 @@ int LandmarkFollower::search(const tracking::ImagePyramid& picture, const ArcPos
     one.scale = size_against(one.references[one.by], expected.distance);
     ++tried;
     if (!track(one, picture, *at_px)) continue;
-    const double open_px = expected.spread_rad * std::sqrt(2.0) / there->bearing_per_px.norm();
-    one.is_tracked = (one.pixel_px - *at_px).norm() <= config.most_from_predicted_px + kSpreads * open_px;
+    const double radians_per_px = there->bearing_per_px.norm() / std::sqrt(2.0);
+    one.is_tracked = (one.pixel_px - *at_px).norm() * radians_per_px <=
+                     most_off_rad + kSpreads * expected.spread_rad;
     found += one.is_tracked ? 1 : 0;
   }
   if (!landmarks_.empty() && tried == config.most_predicted) search_from_ = (search_from_ + 37) % landmarks_.size();

@@ -50,8 +50,10 @@ class LandmarkFollower {
   /// Looks for what is tracked where `guess` says, at the size that it has from `pose`. What is not found is lost.
   void follow(const tracking::ImagePyramid& picture, const ArcPose& pose, const PixelGuess& guess,
               const RepeatConfig& config);
-  /// Looks for what is not tracked where it should be from `pose`. How many were found.
-  int search(const tracking::ImagePyramid& picture, const ArcPose& pose, const RepeatConfig& config);
+  /// Looks for what is not tracked where it should be from `pose`, and takes what is found within `most_off_rad` of
+  /// that. How many were found.
+  int search(const tracking::ImagePyramid& picture, const ArcPose& pose, double most_off_rad,
+             const RepeatConfig& config);
   void lose(std::size_t landmark) { landmarks_[landmark].is_tracked = false; }
   void lose_all();
 

@@ -27,7 +27,8 @@ inline PoseFitConfig repeat_pose() {
 
 struct RepeatConfig {
   int reach = 1;                  // arcs before and after the actual one whose features are tracked, too (Segvic 2007: 1)
-  double most_error_px = 4.0;     // reprojection error above which nothing is predicted and no arc is left (there: sigma)
+  double most_error_rad = 0.0175;  // reprojection error above which a picture is lost: nothing is predicted, and no arc
+                                   // left (there: sigma, 4 px of 320)
   int fewest_features = 8;        // with fewer that agree the picture is lost
   double least_agreeing = 0.5;    // of the features that are tracked: with a smaller share there is no geometry
   double least_expected = 0.12;   // of the features that should be in the picture: a smaller share is chance
@@ -37,8 +38,10 @@ struct RepeatConfig {
   double turned = 0.5;            // share of a turn that is enough where the way along the arc is behind
   double back = -0.15;            // progress below which the arc before is gone back to
   int most_transitions = 3;       // in one picture
-  double most_from_predicted_px = 12.0;  // a feature found farther from where it was predicted is another one
+  double most_from_predicted_rad = 0.05;  // a feature found farther from where it was predicted is another one
+  double most_from_start_rad = 0.2;       // the same while lost
   int most_predicted = 150;              // features looked for where they are predicted, in one picture
+  int keys_tried = 2;          // key images from which everything is looked for, in one picture, while lost
   double retry_share = 0.7;    // where less of what was tracked still is, the shift of the whole picture is tried, too
   double turn_from_scale = 1.25;  // references of the key image in which a feature looks so much more alike in size are
                                   // taken instead

@@ -115,30 +115,59 @@ void Repeater::follow(const tracking::ImagePyramid& picture) {
   follower_ = std::move(still);
 }
 
-/// Everything is looked for from the last pose, and from it turned by what shifts the whole picture.
-void Repeater::look_around(const tracking::ImagePyramid& picture) {
-  LandmarkFollower here = follower_;
-  here.lose_all();
-  LandmarkFollower turned_away = here;
-  here.search(picture, pose_, config_);
-  if (latest_) {
-    const auto shift_px = picture_shift(*latest_, picture);
-    const TurnedPixels turned(*camera_, shift_px.value_or(Eigen::Vector2d::Zero()));
-    if (turned.after_from_before()) {
-      ArcPose pose = pose_;
-      pose.local_from_current = pose.local_from_current * turned.after_from_before()->inverse().toRotationMatrix();
-      turned_away.search(picture, pose, config_);
-      if (turned_away.tracked() > here.tracked()) {
-        pose_ = pose;
-        follower_ = std::move(turned_away);
-        return;
-      }
-    }
-  }
-  follower_ = std::move(here);
+/// A pose turned by what shifts the whole of a picture against another one that was taken from it.
+ArcPose Repeater::turned_by_shift(ArcPose pose, const tracking::ImagePyramid& there,
+                                  const tracking::ImagePyramid& picture) const {
+  const auto shift_px = picture_shift(there, picture);
+  if (!shift_px) return pose;
+  const TurnedPixels turned(*camera_, *shift_px);
+  if (!turned.after_from_before()) return pose;
+  pose.local_from_current = pose.local_from_current * turned.after_from_before()->inverse().toRotationMatrix();
+  return pose;
 }
 
-Repeater::Located Repeater::locate() const {
+/// Everything is looked for from the last pose, from it turned by what shifts the whole picture, and from key images
+/// around, in turn, the nearest first, turned likewise. What most agrees with is taken.
+Repeater::Located Repeater::look_around(const tracking::ImagePyramid& picture) {
+  struct Start {
+    ArcPose pose;
+    int key;
+  };
+  std::vector<Start> starts{{pose_, arc_of(around_->arc).from}};
+  if (latest_) starts.push_back({turned_by_shift(pose_, *latest_, picture), starts.front().key});
+  const int first = arc_of(around_->arc).from;
+  const int keys = static_cast<int>(around_->keys.size());
+  for (int i = 0; i < std::min(config_.keys_tried, keys); ++i) {
+    const int number = (lost_for_ * config_.keys_tried + i) % keys;  // 0, 1, -1, 2, -2, ... from the first
+    const int key = first + ((number % 2) == 1 ? (number + 1) / 2 : -(number / 2));
+    if (!around_->has_key(key)) continue;
+    const auto there = pictures_(key);
+    const KeyPose& placed = around_->key(key);
+    if (there) starts.push_back({turned_by_shift({placed.local_from_key, placed.position}, *there, picture), key});
+  }
+  const ArcPose before = pose_;
+  follower_.lose_all();
+  const LandmarkFollower nothing = follower_;
+  LandmarkFollower best_follower = nothing;
+  Located best;
+  for (const Start& start : starts) {
+    follower_ = nothing;
+    pose_ = start.pose;
+    follower_.search(picture, start.pose, config_.most_from_start_rad, config_);
+    Located located = locate(start.key);
+    const bool is_better = located.agreeing > best.agreeing || (best.is_lost() && !located.is_lost());
+    if (!is_better || (located.is_lost() && !best.is_lost())) continue;
+    best = std::move(located);
+    best_follower = std::move(follower_);
+  }
+  pose_ = before;
+  follower_ = std::move(best_follower);
+  return best;
+}
+
+/// Where the tracked features say that the picture was taken. `key`: the first of the two key images that are asked
+/// where the landmarks explain too little.
+Repeater::Located Repeater::locate(int key) const {
   Located located;
   located.pose = pose_;
   located.landmarks = follower_.tracked_ones();
@@ -152,20 +181,20 @@ Repeater::Located Repeater::locate() const {
   located.agrees = fit.agrees;
   located.agreeing = fit.agreeing;
   located.error_px = fit.error_px;
+  located.error_rad = fit.error_rad;
   const double count = static_cast<double>(seen.size());
-  if (fit.agreeing < config_.enough_agreeing * count) located = locate_by_keys(seen, std::move(located));
+  if (fit.agreeing < config_.enough_agreeing * count) located = locate_by_keys(key, seen, std::move(located));
   located.lost = LostReason::kNone;
   const double least = std::max<double>(config_.fewest_features, config_.least_expected * follower_.expected(located.pose));
   if (located.agreeing < least) located.lost = LostReason::kTooFewFeatures;
   if (located.agreeing < config_.least_agreeing * count) located.lost = LostReason::kNoGeometry;
-  if (located.error_px > config_.most_error_px) located.lost = LostReason::kErrorTooLarge;
+  if (located.error_rad > config_.most_error_rad) located.lost = LostReason::kErrorTooLarge;
   return located;
 }
 
 /// Asks the pictures themselves, where the arc's landmarks do not explain what is seen: the geometries towards both key
 /// images, each as it is and as a beginning for the landmarks.
-Repeater::Located Repeater::locate_by_keys(std::span<const SeenLandmark> seen, Located best) const {
-  const int from = arc_of(around_->arc).from;
+Repeater::Located Repeater::locate_by_keys(int from, std::span<const SeenLandmark> seen, Located best) const {
   std::vector<KeyView> views;
   for (const int key : {from, from + 1}) {
     auto view = view_of_key(follower_, *around_, key, config_.geometry,
@@ -177,6 +206,7 @@ Repeater::Located Repeater::locate_by_keys(std::span<const SeenLandmark> seen, L
       best.agrees = fit.agrees;
       best.agreeing = fit.agreeing;
       best.error_px = fit.error_px;
+      best.error_rad = fit.error_rad;
     }
     views.push_back(*std::move(view));
   }
@@ -197,6 +227,7 @@ Repeater::Located Repeater::locate_by_keys(std::span<const SeenLandmark> seen, L
   if (most == nullptr || agreeing <= best.agreeing) return best;
   best.structure_agrees = false;
   best.pose = most->pose;
+  best.error_rad *= most->error_px / std::max(1e-9, best.error_px);
   best.error_px = most->error_px;
   best.agrees = std::move(agrees);
   best.agreeing = agreeing;
@@ -215,8 +246,8 @@ int Repeater::predict(const tracking::ImagePyramid& picture, Located& located) {
   drop_what_disagrees(located);
   if (!located.structure_agrees) return 0;
   const int before = follower_.tracked();
-  if (follower_.search(picture, pose_, config_) == 0) return 0;
-  Located again = locate();
+  if (follower_.search(picture, pose_, config_.most_from_predicted_rad, config_) == 0) return 0;
+  Located again = locate(arc_of(around_->arc).from);
   if (again.lost != LostReason::kNone) return 0;
   located = std::move(again);
   pose_ = located.pose;
@@ -256,7 +287,7 @@ Result<int> Repeater::pass_key_images(const tracking::ImagePyramid& picture, Loc
     const ArcPose pose = pose_in(surroundings_of(*path_, next, config_.reach, config_.fewest_scaled));
     if (auto gone = go_to(next, pose); !gone) return pass_on(gone);
     passed += next - arc;
-    Located there = locate();
+    Located there = locate(arc_of(next).from);
     if (there.lost != LostReason::kNone) break;
     located = std::move(there);
     predicted += predict(picture, located);
@@ -273,17 +304,17 @@ Result<Repeated> Repeater::step(std::shared_ptr<const tracking::ImagePyramid> pi
   ++pictures_seen_;
   const ArcPose before = pose_;
   follow(*picture);
-  Located located = locate();
+  Located located = locate(arc_of(around_->arc).from);
   if (located.lost != LostReason::kNone) {
     pose_ = before;
-    look_around(*picture);
-    located = locate();
+    located = look_around(*picture);
   }
   if (located.lost != LostReason::kNone) {
-    pose_ = before;
+    ++lost_for_;
     follower_.lose_all();
     return answer(located);
   }
+  lost_for_ = 0;
   int predicted = predict(*picture, located);
   const auto passed = pass_key_images(*picture, located, predicted);
   if (!passed) return pass_on(passed);

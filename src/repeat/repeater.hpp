@@ -84,7 +84,9 @@ class Repeater {
     std::vector<bool> agrees;            // as many
     int agreeing = 0;
     double error_px = 0.0;
+    double error_rad = 0.0;
     bool structure_agrees = true;
+    [[nodiscard]] bool is_lost() const { return lost != LostReason::kNone; }
   };
 
   Repeater(const RepeatConfig& config, std::shared_ptr<const TaughtPath> path, KeyPictures pictures,
@@ -95,9 +97,11 @@ class Repeater {
   Status go_to(int arc, const ArcPose& pose);
   [[nodiscard]] ArcPose pose_in(const ArcSurroundings& other) const;
   void follow(const tracking::ImagePyramid& picture);
-  void look_around(const tracking::ImagePyramid& picture);
-  [[nodiscard]] Located locate() const;
-  [[nodiscard]] Located locate_by_keys(std::span<const SeenLandmark> seen, Located best) const;
+  [[nodiscard]] ArcPose turned_by_shift(ArcPose pose, const tracking::ImagePyramid& there,
+                                        const tracking::ImagePyramid& picture) const;
+  Located look_around(const tracking::ImagePyramid& picture);
+  [[nodiscard]] Located locate(int key) const;
+  [[nodiscard]] Located locate_by_keys(int from, std::span<const SeenLandmark> seen, Located best) const;
   int predict(const tracking::ImagePyramid& picture, Located& located);
   void drop_what_disagrees(const Located& located);
   Result<int> pass_key_images(const tracking::ImagePyramid& picture, Located& located, int& predicted);
@@ -115,6 +119,7 @@ class Repeater {
   ArcPose pose_;                                             // the last that was found
   std::shared_ptr<const tracking::ImagePyramid> latest_;     // the picture that it was found in; null before the first
   int behind_ = 0;     // pictures in a row that were behind the arc's first key image
+  int lost_for_ = 0;  // pictures in a row
   int pictures_seen_ = 0;
 };
 
