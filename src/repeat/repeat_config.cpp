@@ -18,6 +18,8 @@ std::vector<std::string> problems(const RepeatConfig& config) {
   expect(config.fewest_features >= 4, "fewest_features is less than 4");
   expect(is_share(config.least_agreeing), "least_agreeing is not 0 to 1");
   expect(is_share(config.least_expected), "least_expected is not 0 to 1");
+  expect(config.fewest_recovered >= config.fewest_features, "fewest_recovered is less than fewest_features");
+  expect(is_share(config.least_recovered), "least_recovered is not 0 to 1");
   expect(is_share(config.enough_agreeing), "enough_agreeing is not 0 to 1");
   expect(config.passed >= 1.0, "passed is less than 1");
   expect(is_share(config.turned), "turned is not 0 to 1");
@@ -36,6 +38,9 @@ std::vector<std::string> problems(const RepeatConfig& config) {
   expect(config.pose.stray_share > 0.0, "pose.stray_share is not positive");
   for (const auto& problem : tracking::problems(config.tracker)) found.push_back("tracker: " + problem);
   for (const auto& problem : geometry::problems(config.geometry)) found.push_back("geometry: " + problem);
+  if (config.recognition) {
+    for (const auto& problem : problems(*config.recognition)) found.push_back("recognition: " + problem);
+  }
   return found;
 }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/two_view.hpp"
 #include "repeat/arc_pose.hpp"
+#include "repeat/key_gallery.hpp"
 #include "tracking/feature_tracker.hpp"
 
 namespace homeward::repeat {
@@ -32,6 +34,8 @@ struct RepeatConfig {
   int fewest_features = 8;        // with fewer that agree the picture is lost
   double least_agreeing = 0.5;    // of the features that are tracked: with a smaller share there is no geometry
   double least_expected = 0.12;   // of the features that should be in the picture: a smaller share is chance
+  int fewest_recovered = 15;      // the same two after the place was lost
+  double least_recovered = 0.2;
   double enough_agreeing = 0.75;  // of the features that are tracked: with fewer the arc's geometry is doubted, and the
                                   // pictures themselves are asked
   double passed = 1.0;            // progress along an arc beyond which it is left
@@ -50,6 +54,7 @@ struct RepeatConfig {
   PoseFitConfig pose = repeat_pose();
   geometry::TwoViewConfig geometry = repeat_geometry();
   tracking::FeatureTrackerConfig tracker{};  // most_residual is R, there
+  std::optional<RecognitionConfig> recognition = RecognitionConfig{};  // none: what is lost is looked for nearby alone
   std::uint64_t seed = 1;
 };
 /// Empty when valid; lists all problems.

@@ -26,7 +26,16 @@ Result<Repeater> Repeater::create(const RepeatConfig& config, std::shared_ptr<co
   if (!path || path->arcs.empty()) return fail(ErrorCode::kInvalidInput, "There is no arc to follow.");
   if (!camera) return fail(ErrorCode::kInvalidInput, "There is no camera.");
   if (!pictures) return fail(ErrorCode::kInvalidInput, "There are no pictures of the key images.");
-  return Repeater(config, std::move(path), std::move(pictures), std::move(camera));
+  Repeater made(config, std::move(path), std::move(pictures), std::move(camera));
+  if (!config.recognition) return made;
+  KeyGallery gallery;
+  for (int key = 0; key < static_cast<int>(made.path_->key_images.size()); ++key) {
+    const auto picture = made.pictures_(key);
+    if (!picture) return fail(ErrorCode::kNotFound, "A key image has no picture.", std::to_string(key));
+    gallery.add(describe(*picture, *made.camera_, *config.recognition));
+  }
+  made.gallery_ = std::make_shared<const KeyGallery>(std::move(gallery));
+  return made;
 }
 
 bool Repeater::has_joined(int before, int after) const {
@@ -152,17 +161,31 @@ Repeater::Located Repeater::look_around(const tracking::ImagePyramid& picture) {
   Located best;
   for (const Start& start : starts) {
     follower_ = nothing;
-    pose_ = start.pose;
-    follower_.search(picture, start.pose, config_.most_from_start_rad, config_);
-    Located located = locate(start.key);
-    const bool is_better = located.agreeing > best.agreeing || (best.is_lost() && !located.is_lost());
-    if (!is_better || (located.is_lost() && !best.is_lost())) continue;
+    Located located = locate_from(start.pose, start.key, picture);
+    if (located.is_lost() || located.agreeing <= best.agreeing) continue;
     best = std::move(located);
     best_follower = std::move(follower_);
   }
   pose_ = before;
   follower_ = std::move(best_follower);
   return best;
+}
+
+/// Looks for everything from a pose that may be some way off: widely first, then again from where that says. More has
+/// to agree than where a place is expected.
+Repeater::Located Repeater::locate_from(const ArcPose& start, int key, const tracking::ImagePyramid& picture) {
+  pose_ = start;
+  follower_.search(picture, pose_, config_.most_from_start_rad, config_);
+  Located located = locate(key);
+  if (located.agreeing < config_.fewest_features) return located;
+  pose_ = located.pose;
+  drop_what_disagrees(located);
+  follower_.search(picture, pose_, config_.most_from_predicted_rad, config_);
+  located = locate(key);
+  const double least =
+      std::max<double>(config_.fewest_recovered, config_.least_recovered * follower_.expected(located.pose));
+  if (!located.is_lost() && located.agreeing < least) located.lost = LostReason::kTooFewFeatures;
+  return located;
 }
 
 /// Where the tracked features say that the picture was taken. `key`: the first of the two key images that are asked
@@ -300,16 +323,13 @@ Result<Repeated> Repeater::step(std::shared_ptr<const tracking::ImagePyramid> pi
   if (!picture || picture->width_px() != camera.width_px || picture->height_px() != camera.height_px) {
     return fail(ErrorCode::kWrongImageSize, "The picture does not have the size of the camera's.");
   }
-  if (!around_) return Repeated{};
+  if (!around_ && !gallery_) return Repeated{};
   ++pictures_seen_;
-  const ArcPose before = pose_;
-  follow(*picture);
-  Located located = locate(arc_of(around_->arc).from);
-  if (located.lost != LostReason::kNone) {
-    pose_ = before;
-    located = look_around(*picture);
-  }
-  if (located.lost != LostReason::kNone) {
+  Located located;
+  int recovered = 0;
+  if (around_) located = locate_from_before(*picture);
+  if (located.is_lost() && gallery_ && recognise(*picture, located)) recovered = follower_.tracked();
+  if (located.is_lost()) {
     ++lost_for_;
     follower_.lose_all();
     return answer(located);
@@ -321,13 +341,25 @@ Result<Repeated> Repeater::step(std::shared_ptr<const tracking::ImagePyramid> pi
   latest_ = std::move(picture);
   Repeated said = answer(located);
   said.predicted = predicted;
+  said.recovered = recovered;
   said.transitions = *passed;
   return said;
+}
+
+/// Where the picture was taken, if near to where the one before was; the pose is that one's where it is not known.
+Repeater::Located Repeater::locate_from_before(const tracking::ImagePyramid& picture) {
+  const ArcPose before = pose_;
+  follow(picture);
+  Located located = locate(arc_of(around_->arc).from);
+  if (!located.is_lost()) return located;
+  pose_ = before;
+  return look_around(picture);
 }
 
 Repeated Repeater::answer(const Located& located) const {
   Repeated said;
   said.lost = located.lost;
+  if (!around_) return said;
   said.arc = around_->arc;
   said.from_key = arc_of(said.arc).from;
   said.to_key = said.from_key + 1;

@@ -10,6 +10,7 @@
 #include "core/result.hpp"
 #include "repeat/arc_pose.hpp"
 #include "repeat/arc_surroundings.hpp"
+#include "repeat/key_gallery.hpp"
 #include "repeat/key_references.hpp"
 #include "repeat/key_view.hpp"
 #include "repeat/landmark_follower.hpp"
@@ -60,11 +61,14 @@ struct Repeated {
 /// length of the path. A value; copies are independent and share the path. Deterministic by the configuration's seed.
 class Repeater {
  public:
-  /// Errors: kInvalidInput (a problem of the configuration; no path, camera or pictures; a path without arcs).
+  /// Describes all key images where the configuration has recognition, some 20 ms each.
+  /// Errors: kInvalidInput (a problem of the configuration; no path, camera or pictures; a path without arcs),
+  /// kNotFound (a key image has no picture).
   static Result<Repeater> create(const RepeatConfig& config, std::shared_ptr<const TaughtPath> path,
                                  KeyPictures pictures, std::shared_ptr<const camera::Camera> camera);
 
-  /// Takes the camera to be near the first key image of an arc. Errors: kNotFound (no such arc, or a key image around
+  /// Takes the camera to be near the first key image of an arc. Without, the first pictures are recognised anywhere on
+  /// the path, where the configuration has recognition. Errors: kNotFound (no such arc, or a key image around
   /// it has no picture).
   Status begin(int arc);
 
@@ -96,12 +100,18 @@ class Repeater {
   Result<LandmarkFollower::References> references_for(const ArcSurroundings& around) const;
   Status go_to(int arc, const ArcPose& pose);
   [[nodiscard]] ArcPose pose_in(const ArcSurroundings& other) const;
+  Located locate_from_before(const tracking::ImagePyramid& picture);
   void follow(const tracking::ImagePyramid& picture);
   [[nodiscard]] ArcPose turned_by_shift(ArcPose pose, const tracking::ImagePyramid& there,
                                         const tracking::ImagePyramid& picture) const;
   Located look_around(const tracking::ImagePyramid& picture);
+  Located locate_from(const ArcPose& start, int key, const tracking::ImagePyramid& picture);
   [[nodiscard]] Located locate(int key) const;
   [[nodiscard]] Located locate_by_keys(int from, std::span<const SeenLandmark> seen, Located best) const;
+  bool recognise(const tracking::ImagePyramid& picture, Located& located);
+  [[nodiscard]] std::vector<int> keys_to_compare() const;
+  bool try_at(const RecognisedKey& found, const tracking::ImagePyramid& picture, Located& located);
+  [[nodiscard]] int arc_at(int key) const;
   int predict(const tracking::ImagePyramid& picture, Located& located);
   void drop_what_disagrees(const Located& located);
   Result<int> pass_key_images(const tracking::ImagePyramid& picture, Located& located, int& predicted);
@@ -113,6 +123,7 @@ class Repeater {
   std::shared_ptr<const TaughtPath> path_;
   KeyPictures pictures_;
   std::shared_ptr<const camera::Camera> camera_;
+  std::shared_ptr<const KeyGallery> gallery_;  // null without recognition
   std::optional<ArcSurroundings> around_;
   LandmarkFollower::References references_;
   LandmarkFollower follower_;
