@@ -103,7 +103,8 @@ PoseFit judge_pose(std::span<const SeenLandmark> seen, const ArcPose& pose, cons
     const Expected expected = expected_at(pose, one.landmark);
     double off_px = geometry::offset_px(one.seen, expected.bearing).norm();
     if (!std::isfinite(off_px)) off_px = 1e6;
-    const bool agrees = off_px * radians_per_px(one.seen) <= config.agree_rad + kSpreads * expected.spread_rad;
+    const bool agrees = off_px * radians_per_px(one.seen) <=
+                        config.agree_rad + std::min(kSpreads * expected.spread_rad, config.most_open_rad);
     fit.off_px.push_back(off_px);
     fit.agrees.push_back(agrees);
     fit.agreeing += agrees ? 1 : 0;

@@ -36,6 +36,7 @@ struct PoseFitConfig {
   double seen_spread_px = 0.5;  // of where a tracked feature is
   double agree_rad = 0.013;     // a feature agrees within so much and 2.5 times what its distance leaves open: 3 px of
                                 // 320 over 70 degrees
+  double most_open_rad = 0.03;  // at most so much of that
   double stray_share = 0.3;     // standard deviation of the position from the start, over the landmarks' distance
   std::optional<geometry::DrivingPrior> driving;  // its tilt, and that the camera keeps its height
 };

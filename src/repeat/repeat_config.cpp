@@ -35,6 +35,7 @@ std::vector<std::string> problems(const RepeatConfig& config) {
   expect(config.steering_gain > 0.0, "steering_gain is not positive");
   expect(config.pose.seen_spread_px > 0.0, "pose.seen_spread_px is not positive");
   expect(config.pose.agree_rad > 0.0, "pose.agree_rad is not positive");
+  expect(config.pose.most_open_rad >= 0.0, "pose.most_open_rad is negative");
   expect(config.pose.stray_share > 0.0, "pose.stray_share is not positive");
   for (const auto& problem : tracking::problems(config.tracker)) found.push_back("tracker: " + problem);
   for (const auto& problem : geometry::problems(config.geometry)) found.push_back("geometry: " + problem);

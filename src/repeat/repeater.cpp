@@ -382,7 +382,8 @@ Repeated Repeater::answer(const Located& located) const {
   }
   if (common > 0) said.steering_rad = config_.steering_gain * sum / common;
   const double share = located.landmarks.empty() ? 0.0 : static_cast<double>(located.agreeing) / static_cast<double>(located.landmarks.size());
-  said.confidence = share * std::min(1.0, said.tracked / (3.0 * config_.fewest_features));
+  const double off = located.error_rad / config_.most_error_rad;
+  said.confidence = share * std::max(0.0, 1.0 - off) * std::min(1.0, said.tracked / (3.0 * config_.fewest_features));
   said.at_end = said.progress >= config_.passed && !has_joined(said.arc, said.arc + 1);
   return said;
 }

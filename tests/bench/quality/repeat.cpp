@@ -87,11 +87,23 @@ struct Figures {
   double lateral_off = 0.0;
 };
 
-/// The index of the picture that was taken nearest to a pose.
-int nearest(const std::vector<Pose2>& poses, const Pose2& here) {
-  const auto by = [&](const Pose2& pose) { return std::hypot(pose.x_m - here.x_m, pose.y_m - here.y_m); };
-  const auto found = std::ranges::min_element(poses, {}, by);
-  return static_cast<int>(found - poses.begin());
+/// The picture of the taught drive that a pose is beside, by its heading, too, from the one before on: paths lead through
+/// a place more than once.
+int beside(const std::vector<Pose2>& taught, const Pose2& here, int before) {
+  constexpr int kBack = 12;
+  constexpr int kOn = 25;
+  constexpr double kMetresARadian = 0.3;
+  int best = before;
+  double least = 1e9;
+  for (int i = std::max(0, before - kBack); i < std::min(static_cast<int>(taught.size()), before + kOn); ++i) {
+    const Pose2& there = taught[at(i)];
+    const double off = std::hypot(there.x_m - here.x_m, there.y_m - here.y_m) +
+                       kMetresARadian * std::abs(wrap_angle(there.theta_rad - here.theta_rad));
+    if (off >= least) continue;
+    least = off;
+    best = i;
+  }
+  return best;
 }
 
 void cover(Image& grey, double share) {
@@ -116,6 +128,7 @@ int run(const Options& options) {
   auto repeater = repeat::Repeater::create(options.repeating, path, [&](int key) { return keys[at(key)]; }, camera).value();
   if (const auto begun = repeater.begin(options.begin); !begun) throw std::runtime_error(begun.error().message);
   Figures figures;
+  int truth = 0;
   std::ofstream out(options.out);
   for (std::size_t i = 0; i < drive.grey.size(); ++i) {
     const int number = static_cast<int>(i);
@@ -129,7 +142,7 @@ int run(const Options& options) {
     ++figures.frames;
     const int from = path->key_images[at(said.from_key)].picture;
     const int to = path->key_images[at(said.to_key)].picture;
-    const int truth = nearest(teach.poses, drive.poses[i]);
+    truth = beside(teach.poses, drive.poses[i], truth);
     int arc_truth = 0;
     for (std::size_t a = 0; a < path->arcs.size(); ++a) {
       if (path->key_images[at(path->arcs[a].from)].picture <= truth) arc_truth = static_cast<int>(a);
