@@ -40,6 +40,8 @@ struct RepeatConfig {
                                   // pictures themselves are asked
   double passed = 1.0;            // progress along an arc beyond which it is left
   double turned = 0.5;            // share of a turn that is enough where the way along the arc is behind
+  double nearly_passed = 0.7;     // progress that is enough where so much of a turn that follows is made already
+  double turning = 0.4;
   double back = -0.15;            // progress below which the arc before is gone back to
   int most_transitions = 3;       // in one picture
   double most_from_predicted_rad = 0.05;  // a feature found farther from where it was predicted is another one

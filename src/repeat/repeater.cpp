@@ -279,15 +279,19 @@ int Repeater::predict(const tracking::ImagePyramid& picture, Located& located) {
 }
 
 /// Whether the second key image of an arc is passed, and the path goes on there. On a turn that is also where half of
-/// the turn is made and the way is behind: whoever repeats a path may be turned a little less.
+/// the turn is made and the way is behind, and before a turn where it is made already: whoever repeats a path may be
+/// turned a little less, or turn a little sooner.
 bool Repeater::has_passed(int arc) const {
   if (!has_joined(arc, arc + 1)) return false;
   const ArcProgress progress = progress_along(*around_, arc_of(arc).from, pose_);
   if (progress.value() >= config_.passed) return true;
-  if (!progress.of_turn || *progress.of_turn < config_.turned) return false;
+  ArcProgress next;
+  if (around_->has_key(arc_of(arc).from + 2)) next = progress_along(*around_, arc_of(arc).from + 1, pose_);
+  if (!progress.of_turn) {
+    return progress.value() >= config_.nearly_passed && next.of_turn && *next.of_turn >= config_.turning;
+  }
+  if (*progress.of_turn < config_.turned) return false;
   if (progress.of_way) return *progress.of_way >= config_.passed;
-  if (!around_->has_key(arc_of(arc).from + 2)) return false;
-  const ArcProgress next = progress_along(*around_, arc_of(arc).from + 1, pose_);
   return next.of_way && !next.of_turn && *next.of_way > -config_.back;
 }
 
