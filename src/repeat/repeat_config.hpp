@@ -28,7 +28,8 @@ inline PoseFitConfig repeat_pose() {
 }
 
 struct RepeatConfig {
-  int reach = 1;                  // arcs before and after the actual one whose features are tracked, too (Segvic 2007: 1)
+  int reach = 3;                   // arcs before and after the actual one whose features are tracked, too (Segvic et
+                                   // al. 2007: 1)
   double most_error_rad = 0.0175;  // reprojection error above which a picture is lost: nothing is predicted, and no arc
                                    // left (there: sigma, 4 px of 320)
   int fewest_features = 8;        // with fewer that agree the picture is lost

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <numeric>
 #include <opencv2/core.hpp>
 #include <stdexcept>
 #include <string>
@@ -26,6 +27,7 @@ struct Options {
   std::string teach, repeat, out;
   int width_px = 320;
   int begin = 0;
+  int from = 0;
   int cover_from = -1;
   int cover_count = 0;
   double cover_share = 0.0;
@@ -52,6 +54,11 @@ Options options_of(int argc, char** argv) {
     else if (name == "--R") options.teaching.tracker.most_residual = options.repeating.tracker.most_residual = std::stod(next());
     else if (name == "--reach") options.repeating.reach = std::stoi(next());
     else if (name == "--begin") options.begin = std::stoi(next());
+    else if (name == "--from") options.from = std::stoi(next());
+    else if (name == "--dense") {
+      options.teaching = repeat::dense_teaching();
+      options.repeating.tracker = options.teaching.tracker;
+    }
     else if (name == "--out") options.out = next();
     else if (name == "--verbose") options.verbose = true;
     else if (name == "--cover") {
@@ -126,11 +133,11 @@ int run(const Options& options) {
     keys.push_back(std::make_shared<const tracking::ImagePyramid>(tracking::ImagePyramid::build(teach.grey[at(key.picture)]).value()));
   }
   auto repeater = repeat::Repeater::create(options.repeating, path, [&](int key) { return keys[at(key)]; }, camera).value();
-  if (const auto begun = repeater.begin(options.begin); !begun) throw std::runtime_error(begun.error().message);
+  if (const auto begun = options.begin < 0 ? Status{} : repeater.begin(options.begin); !begun) throw std::runtime_error(begun.error().message);
   Figures figures;
-  int truth = 0;
+  int truth = options.from;
   std::ofstream out(options.out);
-  for (std::size_t i = 0; i < drive.grey.size(); ++i) {
+  for (auto i = static_cast<std::size_t>(options.from); i < drive.grey.size(); ++i) {
     const int number = static_cast<int>(i);
     const bool covered = number >= options.cover_from && number < options.cover_from + options.cover_count;
     if (covered) cover(drive.grey[i], options.cover_share);
@@ -195,6 +202,7 @@ int run(const Options& options) {
   std::printf("| %zu | %.3f | %.3f | %d | %d | %d, %d | %d | %.4f | %.2f, %.2f | %.1f, %.1f, %.1f |\n", path->arcs.size(), figures.right / n, figures.enough / n, figures.lost, figures.wrong_far,
               figures.forwards, figures.backwards, figures.doubted, figures.false_features / std::max(1.0, static_cast<double>(figures.seen)), at_share(figures.off_px, 0.5), at_share(figures.off_px, 0.99),
               at_share(figures.ms, 0.5), at_share(figures.ms, 0.9), at_share(figures.ms, 1.0));
+  std::printf("pictures a second: %.0f\n", 1e3 * n / std::accumulate(figures.ms.begin(), figures.ms.end(), 0.0));
   return 0;
 }
 
