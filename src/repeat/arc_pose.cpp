@@ -17,11 +17,11 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr std::array<double, 12> kOutlierSpreads{40.0, 40.0, 25.0, 12.0, 12.0, 8.0, 5.0, 4.0, 3.0, 3.0, 3.0, 3.0};
 constexpr double kAtRest = 1e-6;
-constexpr double kOfMedian = 1.2011;       // root of the mean square over the median of a length in the plane (Rayleigh)
-constexpr double kSpreads = 2.5;          // agreeing within so many standard deviations
-constexpr int kFewestDistances = 8;  // fewer landmarks with a distance do not show how the camera moves
-constexpr double kStrayUnseen = 0.1;  // of what it may stray then
-constexpr double kHeightShare = 0.02;     // standard deviation of the camera's height over the landmarks' distance
+constexpr double kOfMedian = 1.2011;   // root of the mean square over the median of a length in the plane (Rayleigh)
+constexpr double kSpreads = 2.5;       // agreeing within so many standard deviations
+constexpr int kFewestDistances = 8;    // fewer landmarks with a distance do not show how the camera moves
+constexpr double kStrayUnseen = 0.1;   // of what it may stray then
+constexpr double kHeightShare = 0.02;  // standard deviation of the camera's height over the landmarks' distance
 
 Eigen::Matrix3d across(const Eigen::Vector3d& v) {
   Eigen::Matrix3d made;

@@ -105,7 +105,8 @@ void Repeater::follow(const tracking::ImagePyramid& picture) {
   const int before = follower_.tracked();
   if (before == 0) return;
   LandmarkFollower still = follower_;
-  still.follow(picture, pose_, [](const Eigen::Vector2d& pixel_px) { return pixel_px; }, config_);
+  still.follow(
+      picture, pose_, [](const Eigen::Vector2d& pixel_px) { return pixel_px; }, config_);
   if (still.tracked() < config_.retry_share * before && latest_) {
     const auto shift_px = picture_shift(*latest_, picture);
     if (shift_px && !shift_px->isZero()) {
@@ -115,7 +116,8 @@ void Repeater::follow(const tracking::ImagePyramid& picture) {
       if (shifted.tracked() > still.tracked()) {
         follower_ = std::move(shifted);
         if (turned.after_from_before()) {
-          pose_.local_from_current = pose_.local_from_current * turned.after_from_before()->inverse().toRotationMatrix();
+          pose_.local_from_current =
+              pose_.local_from_current * turned.after_from_before()->inverse().toRotationMatrix();
         }
         return;
       }
@@ -208,7 +210,8 @@ Repeater::Located Repeater::locate(int key) const {
   const double count = static_cast<double>(seen.size());
   if (fit.agreeing < config_.enough_agreeing * count) located = locate_by_keys(key, seen, std::move(located));
   located.lost = LostReason::kNone;
-  const double least = std::max<double>(config_.fewest_features, config_.least_expected * follower_.expected(located.pose));
+  const double least =
+      std::max<double>(config_.fewest_features, config_.least_expected * follower_.expected(located.pose));
   if (located.agreeing < least) located.lost = LostReason::kTooFewFeatures;
   if (located.agreeing < config_.least_agreeing * count) located.lost = LostReason::kNoGeometry;
   if (located.error_rad > config_.most_error_rad) located.lost = LostReason::kErrorTooLarge;
@@ -371,7 +374,7 @@ Repeated Repeater::answer(const Located& located) const {
   said.tracked = follower_.tracked();
   said.expected = follower_.expected(pose_);
   said.error_px = located.error_px;
-  said.structure_agrees = located.structure_agrees;
+  said.structure_agrees = located.structure_agrees && located.error_rad <= config_.doubtful_error_rad;
   said.progress = progress_along(*around_, said.from_key, pose_).value();
   said.lateral = lateral_of(*around_, said.from_key, pose_).value_or(0.0);
   if (arc_of(said.arc).has_baseline) said.bearing_to_next_rad = bearing_of_key(*around_, said.to_key, pose_);
@@ -385,7 +388,9 @@ Repeated Repeater::answer(const Located& located) const {
     ++common;
   }
   if (common > 0) said.steering_rad = config_.steering_gain * sum / common;
-  const double share = located.landmarks.empty() ? 0.0 : static_cast<double>(located.agreeing) / static_cast<double>(located.landmarks.size());
+  const double share = located.landmarks.empty()
+                           ? 0.0
+                           : static_cast<double>(located.agreeing) / static_cast<double>(located.landmarks.size());
   const double off = located.error_rad / config_.most_error_rad;
   said.confidence = share * std::max(0.0, 1.0 - off) * std::min(1.0, said.tracked / (3.0 * config_.fewest_features));
   said.at_end = said.progress >= config_.passed && !has_joined(said.arc, said.arc + 1);

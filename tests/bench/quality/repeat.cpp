@@ -43,42 +43,59 @@ Options options_of(int argc, char** argv) {
   for (int i = 3; i < argc; ++i) {
     const std::string name = argv[i];
     const auto next = [&] { return std::string(i + 1 < argc ? argv[++i] : throw std::invalid_argument(name)); };
-    if (name == "--width") options.width_px = std::stoi(next());
-    else if (name == "--n") options.teaching.least_features = std::stoi(next());
-    else if (name == "--most") options.teaching.most_features = std::stoi(next());
-    else if (name == "--share") options.teaching.least_share = std::stod(next());
-    else if (name == "--strength") options.teaching.corners.least_strength = std::stod(next());
-    else if (name == "--spacing") options.teaching.corners.spacing_px = std::stod(next());
-    else if (name == "--sens") options.teaching.corners.sensitivity = std::stod(next());
-    else if (name == "--texture") options.teaching.tracker.least_texture = options.repeating.tracker.least_texture = std::stod(next());
-    else if (name == "--R") options.teaching.tracker.most_residual = options.repeating.tracker.most_residual = std::stod(next());
-    else if (name == "--reach") options.repeating.reach = std::stoi(next());
-    else if (name == "--begin") options.begin = std::stoi(next());
-    else if (name == "--from") options.from = std::stoi(next());
+    if (name == "--width")
+      options.width_px = std::stoi(next());
+    else if (name == "--n")
+      options.teaching.least_features = std::stoi(next());
+    else if (name == "--most")
+      options.teaching.most_features = std::stoi(next());
+    else if (name == "--share")
+      options.teaching.least_share = std::stod(next());
+    else if (name == "--strength")
+      options.teaching.corners.least_strength = std::stod(next());
+    else if (name == "--spacing")
+      options.teaching.corners.spacing_px = std::stod(next());
+    else if (name == "--sens")
+      options.teaching.corners.sensitivity = std::stod(next());
+    else if (name == "--texture")
+      options.teaching.tracker.least_texture = options.repeating.tracker.least_texture = std::stod(next());
+    else if (name == "--R")
+      options.teaching.tracker.most_residual = options.repeating.tracker.most_residual = std::stod(next());
+    else if (name == "--reach")
+      options.repeating.reach = std::stoi(next());
+    else if (name == "--begin")
+      options.begin = std::stoi(next());
+    else if (name == "--from")
+      options.from = std::stoi(next());
     else if (name == "--dense") {
       options.teaching = repeat::dense_teaching();
       options.repeating.tracker = options.teaching.tracker;
-    }
-    else if (name == "--out") options.out = next();
-    else if (name == "--verbose") options.verbose = true;
+    } else if (name == "--out")
+      options.out = next();
+    else if (name == "--verbose")
+      options.verbose = true;
     else if (name == "--cover") {
       options.cover_from = std::stoi(next());
       options.cover_count = std::stoi(next());
       options.cover_share = std::stod(next());
-    } else throw std::invalid_argument(name);
+    } else
+      throw std::invalid_argument(name);
   }
   return options;
 }
 
 Eigen::Vector3d in_robot(const Pose2& pose, const Eigen::Vector3d& in_world) {
-  return Eigen::AngleAxisd(-pose.theta_rad, Eigen::Vector3d::UnitZ()) * (in_world - Eigen::Vector3d(pose.x_m, pose.y_m, 0.0));
+  return Eigen::AngleAxisd(-pose.theta_rad, Eigen::Vector3d::UnitZ()) *
+         (in_world - Eigen::Vector3d(pose.x_m, pose.y_m, 0.0));
 }
 
 /// How many pixels what is seen in one picture lies from the epipolar line, or rather its part that is ahead, of where
 /// it is in another one, by the true poses.
-double epipolar_off_px(const Pose2& here, const geometry::SeenPoint& seen, const Pose2& there, const geometry::SeenPoint& then) {
+double epipolar_off_px(const Pose2& here, const geometry::SeenPoint& seen, const Pose2& there,
+                       const geometry::SeenPoint& then) {
   const Eigen::Vector3d baseline = in_robot(here, {there.x_m, there.y_m, 0.0});
-  const Eigen::Vector3d turned = Eigen::AngleAxisd(there.theta_rad - here.theta_rad, Eigen::Vector3d::UnitZ()) * then.bearing;
+  const Eigen::Vector3d turned =
+      Eigen::AngleAxisd(there.theta_rad - here.theta_rad, Eigen::Vector3d::UnitZ()) * then.bearing;
   double best = 1e9;
   // Over distances from 0.2 m to the sky.
   for (int k = 0; k <= 400; ++k) {
@@ -90,12 +107,13 @@ double epipolar_off_px(const Pose2& here, const geometry::SeenPoint& seen, const
 
 struct Figures {
   std::vector<double> ms, off_px;
-  int frames = 0, lost = 0, right = 0, enough = 0, predicted = 0, forwards = 0, backwards = 0, doubted = 0, wrong_far = 0, seen = 0, false_features = 0;
+  int frames = 0, lost = 0, right = 0, enough = 0, predicted = 0, forwards = 0, backwards = 0, doubted = 0,
+      wrong_far = 0, seen = 0, false_features = 0;
   double lateral_off = 0.0;
 };
 
-/// The picture of the taught drive that a pose is beside, by its heading, too, from the one before on: paths lead through
-/// a place more than once.
+/// The picture of the taught drive that a pose is beside, by its heading, too, from the one before on: paths lead
+/// through a place more than once.
 int beside(const std::vector<Pose2>& taught, const Pose2& here, int before) {
   constexpr int kBack = 12;
   constexpr int kOn = 25;
@@ -130,10 +148,14 @@ int run(const Options& options) {
   const auto path = std::make_shared<const repeat::TaughtPath>(teacher.path().value());
   std::vector<std::shared_ptr<const tracking::ImagePyramid>> keys;
   for (const auto& key : path->key_images) {
-    keys.push_back(std::make_shared<const tracking::ImagePyramid>(tracking::ImagePyramid::build(teach.grey[at(key.picture)]).value()));
+    keys.push_back(std::make_shared<const tracking::ImagePyramid>(
+        tracking::ImagePyramid::build(teach.grey[at(key.picture)]).value()));
   }
-  auto repeater = repeat::Repeater::create(options.repeating, path, [&](int key) { return keys[at(key)]; }, camera).value();
-  if (const auto begun = options.begin < 0 ? Status{} : repeater.begin(options.begin); !begun) throw std::runtime_error(begun.error().message);
+  auto repeater = repeat::Repeater::create(
+                      options.repeating, path, [&](int key) { return keys[at(key)]; }, camera)
+                      .value();
+  if (const auto begun = options.begin < 0 ? Status{} : repeater.begin(options.begin); !begun)
+    throw std::runtime_error(begun.error().message);
   Figures figures;
   int truth = options.from;
   std::ofstream out(options.out);
@@ -161,14 +183,16 @@ int run(const Options& options) {
         if (!one.is_tracked) continue;
         // Where the landmark is in a key image of the arc, by its number.
         double off_px = -1.0;
-        for (int key = std::max(0, said.from_key - 2); key <= said.to_key + 2 && key < static_cast<int>(keys.size()); ++key) {
+        for (int key = std::max(0, said.from_key - 2); key <= said.to_key + 2 && key < static_cast<int>(keys.size());
+             ++key) {
           const auto& features = path->key_images[at(key)].features;
           const auto found = std::ranges::find(features, one.landmark.feature, &repeat::KeyFeature::feature);
           if (found == features.end()) continue;
           const auto bearing = camera->bearing(found->pixel_px);
           geometry::SeenPoint then;
           then.bearing = *bearing;
-          off_px = std::max(off_px, epipolar_off_px(drive.poses[i], one.seen, teach.poses[at(path->key_images[at(key)].picture)], then));
+          off_px = std::max(off_px, epipolar_off_px(drive.poses[i], one.seen,
+                                                    teach.poses[at(path->key_images[at(key)].picture)], then));
         }
         ++seen;
         if (off_px > 0.02 * options.width_px) ++wrong;
@@ -185,23 +209,34 @@ int run(const Options& options) {
     figures.doubted += !said.structure_agrees;
     figures.wrong_far += !said.is_lost() && std::abs(said.arc - arc_truth) > 1 ? 1 : 0;
     char line[512];
-    std::snprintf(line, sizeof line,
-                  "{\"image\": \"%05d.jpg\", \"arc\": %d, \"from\": \"%05d.jpg\", \"to\": \"%05d.jpg\", \"tracked\": %d, "
-                  "\"predicted\": %d, \"recovered\": %d, \"progress\": %.3f, \"lateral_over_arc\": %.4f, \"steering_rad\": %.4f, \"error_px\": %.3f, "
-                  "\"lost\": %s, \"ms\": %.3f}\n",
-                  number, said.arc, from, to, said.tracked, said.predicted, said.recovered, said.progress, said.lateral, said.steering_rad, said.error_px,
-                  said.is_lost() ? "true" : "false", ms);
+    std::snprintf(
+        line, sizeof line,
+        "{\"image\": \"%05d.jpg\", \"arc\": %d, \"from\": \"%05d.jpg\", \"to\": \"%05d.jpg\", \"tracked\": %d, "
+        "\"predicted\": %d, \"recovered\": %d, \"progress\": %.3f, \"lateral_over_arc\": %.4f, \"steering_rad\": %.4f, "
+        "\"error_px\": %.3f, "
+        "\"lost\": %s, \"ms\": %.3f}\n",
+        number, said.arc, from, to, said.tracked, said.predicted, said.recovered, said.progress, said.lateral,
+        said.steering_rad, said.error_px, said.is_lost() ? "true" : "false", ms);
     out << line;
     if (options.verbose) {
-      std::printf("%3d truth %3d arc %2d (%2d) %d-%d lost %d tracked %3d/%3d predicted %3d progress %5.2f lateral %5.2f steer %5.2f err %.2f conf %.2f agrees %d wrong %d ms %.1f%s\n", number, truth, said.arc, arc_truth,
-                  from, to, static_cast<int>(said.lost), said.tracked, said.expected, said.predicted, said.progress, said.lateral, said.steering_rad, said.error_px, said.confidence, said.structure_agrees, wrong, ms, covered ? " covered" : "");
+      std::printf(
+          "%3d truth %3d arc %2d (%2d) %d-%d lost %d tracked %3d/%3d predicted %3d progress %5.2f lateral %5.2f steer "
+          "%5.2f err %.2f conf %.2f agrees %d wrong %d ms %.1f%s\n",
+          number, truth, said.arc, arc_truth, from, to, static_cast<int>(said.lost), said.tracked, said.expected,
+          said.predicted, said.progress, said.lateral, said.steering_rad, said.error_px, said.confidence,
+          said.structure_agrees, wrong, ms, covered ? " covered" : "");
     }
   }
-  std::printf("| arcs | right | tracked 50 | lost | arcs off by 2 | forwards, back | doubted | wrong features | off px median, 99 %% | ms median, 90 %%, worst |\n");
+  std::printf(
+      "| arcs | right | tracked 50 | lost | arcs off by 2 | forwards, back | doubted | wrong features | off px median, "
+      "99 %% | ms median, 90 %%, worst |\n");
   const double n = figures.frames;
-  std::printf("| %zu | %.3f | %.3f | %d | %d | %d, %d | %d | %.4f | %.2f, %.2f | %.1f, %.1f, %.1f |\n", path->arcs.size(), figures.right / n, figures.enough / n, figures.lost, figures.wrong_far,
-              figures.forwards, figures.backwards, figures.doubted, figures.false_features / std::max(1.0, static_cast<double>(figures.seen)), at_share(figures.off_px, 0.5), at_share(figures.off_px, 0.99),
-              at_share(figures.ms, 0.5), at_share(figures.ms, 0.9), at_share(figures.ms, 1.0));
+  std::printf("| %zu | %.3f | %.3f | %d | %d | %d, %d | %d | %.4f | %.2f, %.2f | %.1f, %.1f, %.1f |\n",
+              path->arcs.size(), figures.right / n, figures.enough / n, figures.lost, figures.wrong_far,
+              figures.forwards, figures.backwards, figures.doubted,
+              figures.false_features / std::max(1.0, static_cast<double>(figures.seen)), at_share(figures.off_px, 0.5),
+              at_share(figures.off_px, 0.99), at_share(figures.ms, 0.5), at_share(figures.ms, 0.9),
+              at_share(figures.ms, 1.0));
   std::printf("pictures a second: %.0f\n", 1e3 * n / std::accumulate(figures.ms.begin(), figures.ms.end(), 0.0));
   return 0;
 }
