@@ -122,7 +122,7 @@ Repeater::Located Repeater::locate_by_keys(int from, std::span<const SeenLandmar
   }
   const double count = static_cast<double>(seen.size());
   if (best.agreeing >= config_.enough_agreeing * count) return best;
-  // The structure explains less than it should. Do the pictures?
+  // The structure explains less than it should. Do the pictures? What it alone vouches for is dropped then.
   std::vector<bool> agrees(seen.size(), false);
   const KeyView* most = nullptr;
   for (const KeyView& view : views) {

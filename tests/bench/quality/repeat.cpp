@@ -119,6 +119,7 @@ double epipolar_off_px(const Pose2& here, const geometry::SeenPoint& seen, const
 
 struct Figures {
   std::vector<double> ms, off_px;
+  std::vector<double> lateral_off_m, bearing_off_deg;
   int frames = 0;
   int lost = 0;
   int right = 0;      // between the key images of the arc that was said, or at most its length outside
@@ -217,6 +218,23 @@ void write_line(std::ofstream& out, int number, const repeat::Repeated& said, in
   out << line.data();
 }
 
+/// How far off what was said of the way is: beside the arc, and where the next key image is.
+void judge_way(Figures& figures, const Taught& taught, const repeat::Repeated& said, const Pose2& here) {
+  constexpr double kLeastArc_m = 0.05;
+  constexpr double kLeastWay_m = 0.15;  // nearer, the next key image is no aim any more
+  const Pose2& from = taught.poses[at(taught.picture_of(said.from_key))];
+  const Pose2& to = taught.poses[at(taught.picture_of(said.to_key))];
+  const Eigen::Vector2d arc(to.x_m - from.x_m, to.y_m - from.y_m);
+  const Eigen::Vector2d gone(here.x_m - from.x_m, here.y_m - from.y_m);
+  if (!said.bearing_to_next_rad || arc.norm() < kLeastArc_m) return;
+  const double lateral_m = (arc.x() * gone.y() - arc.y() * gone.x()) / arc.norm();
+  figures.lateral_off_m.push_back(std::abs(said.lateral * arc.norm() - lateral_m));
+  const Eigen::Vector2d left = arc - gone;
+  if (left.norm() < kLeastWay_m) return;
+  const double bearing_rad = std::atan2(left.y(), left.x()) - here.theta_rad;
+  figures.bearing_off_deg.push_back(degrees(std::abs(wrap_angle(*said.bearing_to_next_rad - bearing_rad))));
+}
+
 /// Judges what was said of a picture, which is beside a taught one.
 void judge(Figures& figures, const Taught& taught, const repeat::Repeater& repeater, const repeat::Repeated& said,
            int truth, const Pose2& here, const Options& options) {
@@ -233,6 +251,7 @@ void judge(Figures& figures, const Taught& taught, const repeat::Repeater& repea
   const int to = taught.picture_of(said.to_key);
   figures.right += truth >= from - (to - from) && truth <= to + (to - from) ? 1 : 0;
   figures.enough += said.tracked >= 50 ? 1 : 0;
+  judge_way(figures, taught, said, here);
   figures.wrong_far += std::abs(said.arc - taught.arc_of(truth)) > 1 ? 1 : 0;
   for (const repeat::FollowedLandmark& one : repeater.landmarks()) {
     if (!one.is_tracked) continue;
@@ -245,14 +264,18 @@ void judge(Figures& figures, const Taught& taught, const repeat::Repeater& repea
 void print(const Figures& figures, std::size_t arcs) {
   std::printf(
       "| arcs | right | tracked 50 | lost | arcs off by 2 | forwards, back | doubted | wrong features | off px median, "
-      "99 %% | ms median, 90 %%, worst | pictures/s |\n");
+      "99 %% | beside off m, median, 90 %% | bearing off deg | ms median, 90 %%, worst | pictures/s |\n");
   const double n = figures.frames;
   const double wrong = figures.false_features / std::max(1.0, static_cast<double>(figures.off_px.size()));
-  std::printf("| %zu | %.3f | %.3f | %d | %d | %d, %d | %d | %.4f | %.2f, %.2f | %.1f, %.1f, %.1f | %.0f |\n", arcs,
-              figures.right / n, figures.enough / n, figures.lost, figures.wrong_far, figures.forwards,
-              figures.backwards, figures.doubted, wrong, at_share(figures.off_px, 0.5), at_share(figures.off_px, 0.99),
-              at_share(figures.ms, 0.5), at_share(figures.ms, 0.9), at_share(figures.ms, 1.0),
-              1e3 * n / std::accumulate(figures.ms.begin(), figures.ms.end(), 0.0));
+  std::printf(
+      "| %zu | %.3f | %.3f | %d | %d | %d, %d | %d | %.4f | %.2f, %.2f | %.3f, %.3f | %.1f, %.1f | %.1f, %.1f, %.1f | "
+      "%.0f |\n",
+      arcs, figures.right / n, figures.enough / n, figures.lost, figures.wrong_far, figures.forwards, figures.backwards,
+      figures.doubted, wrong, at_share(figures.off_px, 0.5), at_share(figures.off_px, 0.99),
+      at_share(figures.lateral_off_m, 0.5), at_share(figures.lateral_off_m, 0.9),
+      at_share(figures.bearing_off_deg, 0.5), at_share(figures.bearing_off_deg, 0.9), at_share(figures.ms, 0.5),
+      at_share(figures.ms, 0.9), at_share(figures.ms, 1.0),
+      1e3 * n / std::accumulate(figures.ms.begin(), figures.ms.end(), 0.0));
 }
 
 int run(const Options& options) {
