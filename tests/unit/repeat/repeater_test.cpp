@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "core/index.hpp"
-#include "repeat/teach.hpp"
-#include "support/taught_room.hpp"
+#include "support/short_path.hpp"
 
 namespace homeward::repeat::repeater_test {
 namespace {
 
+using testing::aside;
 using testing::bend;
 using testing::PaintedRoom;
 
@@ -31,23 +31,9 @@ std::shared_ptr<const tracking::ImagePyramid> plain() {
   return std::make_shared<const tracking::ImagePyramid>(tracking::ImagePyramid::build(picture).value());
 }
 
-/// A pose to the left of another one.
-Pose2 aside(Pose2 pose, double left_m) {
-  pose.x_m -= left_m * std::sin(pose.theta_rad);
-  pose.y_m += left_m * std::cos(pose.theta_rad);
-  return pose;
-}
-
-/// A path that was taught, with its pictures.
-struct Taught {
-  explicit Taught(std::vector<Pose2> along) : poses(std::move(along)) {
-    TeachConfig config;
-    config.most_features = 120;  // the room has texture everywhere
-    auto teacher = Teacher::create(config, lens()).value();
-    for (const Pose2& pose : poses) EXPECT_TRUE(teacher.add(*seen_from(pose)));
-    path = std::make_shared<const TaughtPath>(teacher.path().value());
-    for (const KeyImage& key : path->key_images) pictures.push_back(seen_from(poses[at(key.picture)]));
-  }
+/// A path that was taught, and what repeats it.
+struct Taught : testing::ShortPath {
+  using testing::ShortPath::ShortPath;
   [[nodiscard]] Repeater repeater(const RepeatConfig& config = {}) const {
     return Repeater::create(
                config, path, [pictures = pictures](int key) { return pictures[at(key)]; }, lens())
@@ -58,10 +44,6 @@ struct Taught {
     const int from = path->arcs[at(arc)].from;
     return picture >= path->key_images[at(from)].picture - 1 && picture <= path->key_images[at(from) + 1].picture + 1;
   }
-
-  std::vector<Pose2> poses;
-  std::shared_ptr<const TaughtPath> path;
-  std::vector<std::shared_ptr<const tracking::ImagePyramid>> pictures;
 };
 
 const Taught& taught_bend() {
