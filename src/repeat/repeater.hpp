@@ -73,8 +73,8 @@ class Repeater {
   /// it has no picture).
   Status begin(int arc);
 
-  /// What the next picture says. Errors: kWrongImageSize, kNotFound (a key image has no picture), and nothing is
-  /// changed.
+  /// What the next picture says. Errors: kWrongImageSize, and nothing is changed; kNotFound (a key image that comes
+  /// near has no picture), and the arc stays the same.
   Result<Repeated> step(std::shared_ptr<const tracking::ImagePyramid> picture);
 
   /// The features around the actual arc as the latest picture shows them; empty before the first one.
