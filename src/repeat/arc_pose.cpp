@@ -17,9 +17,11 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr std::array<double, 12> kOutlierSpreads{40.0, 40.0, 25.0, 12.0, 12.0, 8.0, 5.0, 4.0, 3.0, 3.0, 3.0, 3.0};
 constexpr double kAtRest = 1e-6;
-constexpr double kOfMedian = 1.2011;       // root of the mean square over the median of a length in the plane (Rayleigh)
-constexpr double kSpreads = 2.5;          // agreeing within so many standard deviations
-constexpr double kHeightShare = 0.02;     // standard deviation of the camera's height over the landmarks' distance
+constexpr double kOfMedian = 1.2011;   // root of the mean square over the median of a length in the plane (Rayleigh)
+constexpr double kSpreads = 2.5;       // agreeing within so many standard deviations
+constexpr int kFewestDistances = 8;    // fewer landmarks with a distance do not show how the camera moves
+constexpr double kStrayUnseen = 0.1;   // of what it may stray then
+constexpr double kHeightShare = 0.02;  // standard deviation of the camera's height over the landmarks' distance
 
 Eigen::Matrix3d across(const Eigen::Vector3d& v) {
   Eigen::Matrix3d made;
@@ -64,8 +66,9 @@ void add_landmark(const SeenLandmark& one, const ArcPose& pose, double outlier, 
   step.right -= weight * slope.transpose() * off;
 }
 
-void add_priors(const ArcPose& pose, const ArcPose& start, double nearness, const PoseFitConfig& config, Step& step) {
-  const double stray = nearness / config.stray_share;
+void add_priors(const ArcPose& pose, const ArcPose& start, double nearness, double stray_share,
+                const PoseFitConfig& config, Step& step) {
+  const double stray = nearness / stray_share;
   step.normal.bottomRightCorner<3, 3>().diagonal().array() += stray * stray;
   step.right.tail<3>() -= stray * stray * (pose.position - start.position);
   if (!config.driving) return;
@@ -119,11 +122,13 @@ PoseFit fit_pose(std::span<const SeenLandmark> seen, const ArcSurroundings& arou
                  const PoseFitConfig& config) {
   ArcPose pose = start;
   const bool is_placed = around.nearness > 0.0;
+  const auto distances = std::ranges::count_if(seen, [](const SeenLandmark& one) { return one.landmark.has_distance; });
+  const double stray_share = distances >= kFewestDistances ? config.stray_share : kStrayUnseen * config.stray_share;
   for (const double outlier : kOutlierSpreads) {
     Step step;
     for (const SeenLandmark& one : seen) add_landmark(one, pose, outlier, config.seen_spread_px, step);
     if (is_placed) {
-      add_priors(pose, start, around.nearness, config, step);
+      add_priors(pose, start, around.nearness, stray_share, config, step);
     } else {
       step.normal.bottomRightCorner<3, 3>() = Eigen::Matrix3d::Identity();
       step.normal.topRightCorner<3, 3>().setZero();

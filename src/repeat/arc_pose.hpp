@@ -27,8 +27,8 @@ struct SeenLandmark {
 /// A landmark as it should be seen from a pose.
 struct Expected {
   Eigen::Vector3d bearing = Eigen::Vector3d::UnitX();  // unit, in the current frame
-  double distance = 1.0;      // over that from the first key image; both infinite for what is as far as the sky
-  double spread_rad = 0.0;    // by how little its distance is known
+  double distance = 1.0;    // over that from the first key image; both infinite for what is as far as the sky
+  double spread_rad = 0.0;  // by how little its distance is known
 };
 Expected expected_at(const ArcPose& pose, const Landmark& landmark);
 
@@ -46,7 +46,7 @@ struct PoseFit {
   std::vector<double> off_px;  // of each landmark from where it should be seen
   std::vector<bool> agrees;
   int agreeing = 0;
-  double error_px = 0.0;  // root mean square of off_px as its median tells it, wrong ones included
+  double error_px = 0.0;   // root mean square of off_px as its median tells it, wrong ones included
   double error_rad = 0.0;  // about the same as an angle
 };
 

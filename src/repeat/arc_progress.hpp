@@ -10,8 +10,9 @@ namespace homeward::repeat {
 
 /// How far along an arc a pose is, 0 at its first key image and 1 at the second.
 struct ArcProgress {
-  std::optional<double> of_way;   // passes 1 where <d, r> becomes negative (Segvic et al. 2007, §2.2.3: d the way between
-                                  // the key images, r that from the camera to the second); none on a turn on the spot
+  std::optional<double>
+      of_way;  // passes 1 where <d, r> becomes negative (Segvic et al. 2007, §2.2.3: d the way between
+               // the key images, r that from the camera to the second); none on a turn on the spot
   std::optional<double> of_turn;  // only where nearly all that changes on the arc is by its turn
   /// The turn's where the arc is one; 1 for an arc that leads nowhere.
   [[nodiscard]] double value() const { return of_turn ? *of_turn : of_way.value_or(1.0); }

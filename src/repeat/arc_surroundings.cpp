@@ -11,7 +11,7 @@
 namespace homeward::repeat {
 namespace {
 
-constexpr double kSkySpread = 0.003;     // nearness in arcs of what shows no parallax: a pixel or so
+constexpr double kSkySpread = 0.003;  // nearness in arcs of what shows no parallax: a pixel or so
 constexpr double kLeastLogSpread = 0.01;
 constexpr double kWorstLogSpread = 1.0;  // of a distance: more says no more
 
@@ -154,8 +154,8 @@ ArcSurroundings surroundings_of(const TaughtPath& path, int arc, int reach, int 
   for (int j = range.first; j <= range.last; ++j) {
     const double least_log_spread = is_doubtful(path.arcs[at(j)]) ? kDoubtfulLogSpread : kLeastLogSpread;
     for (const ArcMatch& match : path.arcs[at(j)].matches) {
-      Landmark landmark = landmark_of(match, around.keys[at(j - range.first)], around.units[at(j - range.first)],
-                                      least_log_spread);
+      Landmark landmark =
+          landmark_of(match, around.keys[at(j - range.first)], around.units[at(j - range.first)], least_log_spread);
       landmark.in_arc = j == arc;
       const auto [known, is_new] = landmarks.emplace(match.feature, landmark);
       if (is_new) continue;

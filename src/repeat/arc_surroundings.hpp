@@ -32,10 +32,10 @@ struct KeyPose {
 /// it has no baseline that of the nearest arc before it that has one, else of the one after it. Local, and made anew
 /// for every arc: nothing of it is common to the path.
 struct ArcSurroundings {
-  int arc = 0;                       // index in the path
-  std::vector<KeyPose> keys;         // rising, without gaps
-  std::vector<Landmark> landmarks;   // rising by feature
-  std::optional<int> unit_arc;       // whose length is the unit; none: no arc around has a baseline
+  int arc = 0;                               // index in the path
+  std::vector<KeyPose> keys;                 // rising, without gaps
+  std::vector<Landmark> landmarks;           // rising by feature
+  std::optional<int> unit_arc;               // whose length is the unit; none: no arc around has a baseline
   std::vector<std::optional<double>> units;  // length of the arc from each key but the last, in the unit
   double nearness = 0.0;                     // the median of the landmarks with a distance; 0 where there are none
 

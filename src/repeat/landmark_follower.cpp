@@ -117,8 +117,7 @@ int LandmarkFollower::search(const tracking::ImagePyramid& picture, const ArcPos
     ++tried;
     if (!track(one, picture, *at_px)) continue;
     const double radians_per_px = there->bearing_per_px.norm() / std::sqrt(2.0);
-    one.is_tracked = (one.pixel_px - *at_px).norm() * radians_per_px <=
-                     most_off_rad + kSpreads * expected.spread_rad;
+    one.is_tracked = (one.pixel_px - *at_px).norm() * radians_per_px <= most_off_rad + kSpreads * expected.spread_rad;
     found += one.is_tracked ? 1 : 0;
   }
   if (!landmarks_.empty() && tried == config.most_predicted) search_from_ = (search_from_ + 37) % landmarks_.size();

@@ -15,6 +15,7 @@ std::vector<std::string> problems(const RepeatConfig& config) {
   };
   expect(config.reach >= 0, "reach is negative");
   expect(config.most_error_rad > 0.0, "most_error_rad is not positive");
+  expect(config.doubtful_error_rad > 0.0, "doubtful_error_rad is not positive");
   expect(config.fewest_features >= 4, "fewest_features is less than 4");
   expect(is_share(config.least_agreeing), "least_agreeing is not 0 to 1");
   expect(is_share(config.least_expected), "least_expected is not 0 to 1");
@@ -23,6 +24,8 @@ std::vector<std::string> problems(const RepeatConfig& config) {
   expect(is_share(config.enough_agreeing), "enough_agreeing is not 0 to 1");
   expect(config.passed >= 1.0, "passed is less than 1");
   expect(is_share(config.turned), "turned is not 0 to 1");
+  expect(is_share(config.nearly_passed), "nearly_passed is not 0 to 1");
+  expect(config.turning > 0.0 && config.turning <= 1.0, "turning is not above 0, to 1");
   expect(config.back <= 0.0, "back is more than 0");
   expect(config.most_transitions >= 1, "most_transitions is not positive");
   expect(config.most_from_predicted_rad > 0.0, "most_from_predicted_rad is not positive");

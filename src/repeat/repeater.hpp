@@ -39,17 +39,18 @@ struct Repeated {
   int arc = 0;       // index in the path; while lost, the last one
   int from_key = 0;  // indices of its key images
   int to_key = 0;
-  int tracked = 0;         // features of the arc and those beside it that are seen where they belong
-  int expected = 0;        // how many should be in the picture
-  int predicted = 0;       // of those tracked, found now where they were predicted
-  int recovered = 0;       // of those tracked, by matching without prediction
-  double progress = 0.0;   // along the arc, 0 at its first key image, 1 at the second
-  double lateral = 0.0;    // beside the line from key image to key image, over its length; 0 without a baseline
-  double steering_rad = 0.0;         // by which to turn so that features move to where the next key image has them
+  int tracked = 0;            // features of the arc and those beside it that are seen where they belong
+  int expected = 0;           // how many should be in the picture
+  int predicted = 0;          // of those tracked, found now where they were predicted
+  int recovered = 0;          // of those tracked, by matching without prediction
+  double progress = 0.0;      // along the arc, 0 at its first key image, 1 at the second
+  double lateral = 0.0;       // beside the line from key image to key image, over its length; 0 without a baseline
+  double steering_rad = 0.0;  // by which to turn so that features move to where the next key image has them
   std::optional<double> bearing_to_next_rad;  // of the next key image; none without a baseline
-  double error_px = 0.0;             // reprojection error
-  double confidence = 0.0;           // 0 to 1: share of what was tracked that agrees, less where it is little
-  bool structure_agrees = true;  // false: the arc's geometry is doubted, and nothing was predicted with it
+  double error_px = 0.0;                      // reprojection error
+  double confidence = 0.0;                    // 0 to 1: share of what was tracked that agrees, less where it is little
+  bool structure_agrees = true;  // false: what is seen does not fit the arc's geometry well; beside the path, what
+                                 // is said of the way may be far off
   int transitions = 0;           // arcs gone on by (forwards positive) with this picture
   bool at_end = false;           // past the last key image of the path or of its piece
   [[nodiscard]] bool is_lost() const { return lost != LostReason::kNone; }
@@ -72,8 +73,8 @@ class Repeater {
   /// it has no picture).
   Status begin(int arc);
 
-  /// What the next picture says. Errors: kWrongImageSize, kNotFound (a key image has no picture), and nothing is
-  /// changed.
+  /// What the next picture says. Errors: kWrongImageSize, and nothing is changed; kNotFound (a key image that comes
+  /// near has no picture), and the arc stays the same.
   Result<Repeated> step(std::shared_ptr<const tracking::ImagePyramid> picture);
 
   /// The features around the actual arc as the latest picture shows them; empty before the first one.
@@ -127,9 +128,9 @@ class Repeater {
   std::optional<ArcSurroundings> around_;
   LandmarkFollower::References references_;
   LandmarkFollower follower_;
-  ArcPose pose_;                                             // the last that was found
-  std::shared_ptr<const tracking::ImagePyramid> latest_;     // the picture that it was found in; null before the first
-  int behind_ = 0;     // pictures in a row that were behind the arc's first key image
+  ArcPose pose_;                                          // the last that was found
+  std::shared_ptr<const tracking::ImagePyramid> latest_;  // the picture that it was found in; null before the first
+  int behind_ = 0;    // pictures in a row that were behind the arc's first key image
   int lost_for_ = 0;  // pictures in a row
   int pictures_seen_ = 0;
 };

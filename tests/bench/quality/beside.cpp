@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // homeward_bench_beside TOUR WORLD SEED OUT: renders a second drive of a tour (a folder with camera.json and poses.csv
-// that `homeward simulate tour` made of WORLD), up to 0.3 m beside the first one as far as the floor is free there, with
-// headings a degree off, its pictures between those of the first drive.
+// that `homeward simulate tour` made of WORLD), up to 0.3 m beside the first one as far as the floor is free there,
+// with headings a degree off, its pictures between those of the first drive.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -63,7 +63,8 @@ std::vector<Pose2> drive_beside(const std::vector<Pose2>& taught, const sim::Flo
     double wanted_m = kMostAside_m * (0.7 * std::sin(2.0 * kPi * way_m / 7.0 + slow) +
                                       0.3 * std::sin(2.0 * kPi * way_m / 3.1 + quick));
     const auto at_side = [&](double side_m) {
-      return Eigen::Vector2d(pose.x_m - side_m * std::sin(pose.theta_rad), pose.y_m + side_m * std::cos(pose.theta_rad));
+      return Eigen::Vector2d(pose.x_m - side_m * std::sin(pose.theta_rad),
+                             pose.y_m + side_m * std::cos(pose.theta_rad));
     };
     while (std::abs(wanted_m) > 0.02 && !sim::is_set(drivable, at_side(wanted_m))) wanted_m *= 0.8;
     const double most_change_m = 0.35 * step_m + 0.004;
