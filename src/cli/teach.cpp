@@ -21,7 +21,7 @@ struct TeachOptions {
   std::string camera;
   std::string out;  // map file
   std::string name;
-  repeat::TeachConfig config;
+  repeat::TeachConfig config = repeat::dense_teaching();
   bool json = false;
 };
 
