@@ -121,16 +121,16 @@ class Teach(CliTest):
         self.assert_refused(3, ["nothing.hwmap"], *repeat, "nothing.hwmap")
         (self.folder / "short.hwmap").write_bytes((self.folder / "path.hwmap").read_bytes()[:-3000])
         done = self.run_program(*repeat, "short.hwmap")
-        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("short.hwmap", done.stderr)
         self.assert_refused(3, ["--start-arc"], *repeat, "path.hwmap", "--start-arc", "900")
         (self.folder / "other.json").write_text(json.dumps({**CAMERA, "intrinsics": {**CAMERA["intrinsics"], "fx_px": 260}}))
         self.assert_refused(2, ["another camera"], *repeat, "path.hwmap", "--camera", "other.json")
-        (self.folder / "unpathed.hwmap").write_bytes((self.folder / "path.hwmap").read_bytes())
-        with sqlite3.connect(self.folder / "unpathed.hwmap") as file:
+        (self.folder / "changed.hwmap").write_bytes((self.folder / "path.hwmap").read_bytes())
+        with sqlite3.connect(self.folder / "changed.hwmap") as file:
             file.execute("UPDATE path_key_images SET picture = x'FFD8' WHERE position = 1")
-        done = self.run_program(*repeat, "unpathed.hwmap")
-        self.assertEqual(done.returncode, 4, done.stderr)
+        done = self.run_program(*repeat, "changed.hwmap")
+        self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("checksum", done.stderr)
 
     def test_pictures_of_another_place_are_lost(self):
