@@ -20,6 +20,7 @@ void register_explore(CLI::App& program);
 void register_home(CLI::App& program);
 void register_localise(CLI::App& program);
 void register_loops(CLI::App& program);
+void register_repeat(CLI::App& program);
 void register_replay(CLI::App& program);
 void register_retrieve(CLI::App& program);
 void register_route(CLI::App& program);

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   homeward::cli::register_simulate(program);
   homeward::cli::register_teach(program);
   homeward::cli::register_replay(program);
+  homeward::cli::register_repeat(program);
   homeward::cli::register_calibrate(program);
   homeward::cli::register_bench(program);
   try {

@@ -21,7 +21,7 @@ struct TeachOptions {
   std::string camera;
   std::string out;  // map file
   std::string name;
-  repeat::TeachConfig config;
+  repeat::TeachConfig config = repeat::dense_teaching();
   bool json = false;
 };
 
@@ -83,7 +83,7 @@ void register_teach(CLI::App& program) {
   command->add_option("--name", options->name, "Name of the map");
   command
       ->add_option("--features", options->config.least_features,
-                   "Fewer features that agree end an arc (n of the paper)")
+                   "Fewer features that agree end an arc (n; the paper has 50)")
       ->check(CLI::Range(15, 500))
       ->capture_default_str();
   command

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "repeat/subrange.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/index.hpp"
 #include "repeat/seen.hpp"
+#include "repeat/turned_pixels.hpp"
 
 namespace homeward::repeat {
 namespace {
@@ -15,31 +15,6 @@ namespace {
 using tracking::FeatureState;
 
 bool is_tracked(const tracking::TrackedFeature& feature) { return feature.state == FeatureState::kTracked; }
-
-/// Where the pixels of a picture are after a turn that shifts its middle. What is turned out of the picture stays in
-/// it, and is not found there.
-class Turned {
- public:
-  Turned(const camera::Camera& camera, const Eigen::Vector2d& shift_px) : camera_(camera), shift_px_(shift_px) {
-    if (shift_px.isZero()) return;
-    const camera::CameraConfig& config = camera.config();
-    const Eigen::Vector2d middle_px(0.5 * (config.width_px - 1), 0.5 * (config.height_px - 1));
-    const auto before = camera.bearing(middle_px - 0.5 * shift_px);
-    const auto after = camera.bearing(middle_px + 0.5 * shift_px);
-    if (before && after) turn_ = Eigen::Quaterniond::FromTwoVectors(*before, *after);
-  }
-  [[nodiscard]] Eigen::Vector2d operator()(const Eigen::Vector2d& pixel_px) const {
-    if (!turn_) return pixel_px + shift_px_;
-    const auto bearing = camera_.bearing(pixel_px);
-    if (!bearing) return pixel_px + shift_px_;
-    return camera_.pixel(*turn_ * *bearing).value_or(pixel_px + shift_px_);
-  }
-
- private:
-  const camera::Camera& camera_;
-  Eigen::Vector2d shift_px_;
-  std::optional<Eigen::Quaterniond> turn_;
-};
 
 }  // namespace
 
@@ -79,7 +54,7 @@ void Subrange::take(std::span<const KeyFeature> features) {
 SubrangeView Subrange::look(const NumberedPicture& picture, const TeachConfig& config,
                             const Eigen::Vector2d& shift_px) const {
   SubrangeView view;
-  const Turned turned(*camera_, shift_px);
+  const TurnedPixels turned(*camera_, shift_px);
   std::vector<tracking::FeatureGuess> guesses;
   std::vector<std::size_t> guessed;
   for (std::size_t i = 0; i < features_.size(); ++i) {

@@ -25,4 +25,14 @@ std::vector<std::string> problems(const TeachConfig& config) {
   return found;
 }
 
+TeachConfig dense_teaching() {
+  TeachConfig config;
+  config.least_features = 120;
+  config.least_share = 0.75;
+  config.corners.spacing_px = 3.0;
+  config.corners.least_strength = 3.0;
+  config.tracker.least_texture = 0.2;
+  return config;
+}
+
 }  // namespace homeward::repeat

@@ -49,4 +49,9 @@ struct TeachConfig {
 /// Empty when valid; lists all problems.
 std::vector<std::string> problems(const TeachConfig& config);
 
+/// How a path is best taught that is to be repeated beside where it was shown: more and weaker corners, and arcs that
+/// end while three quarters of them are left (docs/experiments/repeating_a_path.md). Its tracker is the one to repeat
+/// it with, too.
+TeachConfig dense_teaching();
+
 }  // namespace homeward::repeat

@@ -10,7 +10,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "loop"))
 import taught_house  # noqa: E402
 
-PORT = 18473
+PORT = 18501
 
 
 def main():

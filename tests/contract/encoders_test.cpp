@@ -19,6 +19,7 @@
 #include "wire/inspect_json.hpp"
 #include "wire/pair_json.hpp"
 #include "wire/problem_json.hpp"
+#include "wire/repeated_json.hpp"
 #include "wire/replay_check_json.hpp"
 #include "wire/route_json.hpp"
 #include "wire/similarity_json.hpp"
@@ -87,6 +88,18 @@ TEST(Encoders, WriteTaughtPathsThatTheSchemaAccepts) {
   EXPECT_NEAR(taught["arcs"][0]["bearing_rad"].get<double>(), std::atan2(1.0, 1.5), 1e-12);
   EXPECT_EQ(taught["arcs"][1]["bearing_rad"], json()) << "a turn on the spot";
   EXPECT_EQ(taught["cuts"][0], json::parse(R"({"after":"00002.jpg","on_from":null,"why":"geometry"})"));
+}
+
+TEST(Encoders, WriteRepeatedPicturesThatTheSchemaAccepts) {
+  RepeatedView view{"031.jpg", 4,    "020.jpg", "040.jpg", 71,  90,   6,     0,  0.5,
+                    -0.1,      0.03, 0.02,      0.4,       0.9, true, false, "", 6.5};
+  EXPECT_THAT(schemas().problems("repeated", repeated_to_json(view)), IsEmpty());
+  view.bearing_rad = std::nullopt;
+  EXPECT_THAT(schemas().problems("repeated", repeated_to_json(view)), IsEmpty());
+  view.lost = "features";
+  const json lost = repeated_to_json(view);
+  EXPECT_THAT(schemas().problems("repeated", lost), IsEmpty());
+  EXPECT_TRUE(lost["steering_rad"].is_null()) << "what is not known steers nobody";
 }
 
 TEST(Encoders, WriteRoutesThatTheSchemasAccept) {

@@ -5,6 +5,7 @@
 #include "db/map_file.hpp"
 #include "fuzz/mutate.hpp"
 #include "support/sample_map.hpp"
+#include "support/sample_path.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace homeward::map_file_test {
@@ -14,9 +15,16 @@ using testing::Bytes;
 using testing::Mutator;
 using testing::ScratchFolder;
 
+/// With one of everything, a taught path too.
+map::TopologicalMap whole_map() {
+  map::TopologicalMap map = testing::sample_map();
+  map.path = std::make_shared<const map::MapPath>(testing::sample_path());
+  return map;
+}
+
 TEST(FuzzMapFile, IsLoadedWholeOrRefused) {
   const ScratchFolder folder;
-  ASSERT_TRUE(db::save_map(folder.path() / "good.map", testing::sample_map(), {}));
+  ASSERT_TRUE(db::save_map(folder.path() / "good.map", whole_map(), {}));
   const std::string text = folder.text("good.map");
   const Bytes good(text.begin(), text.end());
   Mutator mutator(1);
@@ -49,7 +57,7 @@ TEST(FuzzMapFile, IsLoadedWholeOrRefused) {
 
 TEST(FuzzMapFile, StartsOfAMapAreRefused) {
   const ScratchFolder folder;
-  ASSERT_TRUE(db::save_map(folder.path() / "good.map", testing::sample_map(), {}));
+  ASSERT_TRUE(db::save_map(folder.path() / "good.map", whole_map(), {}));
   const std::string good = folder.text("good.map");
   for (std::size_t length = 0; length < good.size(); length += 1 + good.size() / 60) {
     EXPECT_FALSE(db::load_map(folder.put("part.map", good.substr(0, length)))) << length;

@@ -22,7 +22,7 @@ from rest_client import Server  # noqa: E402
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
 WEB = pathlib.Path(sys.argv[2]).resolve()
-PORT = 18477
+PORT = 18502
 FULL, FAILS_AT, CALLS = 0, 8, 16  # offsets of failing_disk.cpp's orders
 
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "repeat/taught_path.hpp"
+
+namespace homeward::repeat {
+
+/// A landmark around an arc, seen from the first key image of the arc, in that one's frame. The point is at bearing /
+/// nearness.
+struct Landmark {
+  int feature = 0;
+  Eigen::Vector3d bearing = Eigen::Vector3d::UnitX();  // unit
+  double nearness = 0.0;                               // 1 / distance, in units of the surroundings; 0: as the sky
+  double nearness_spread = 0.0;                        // its standard deviation, about
+  bool has_distance = false;  // without: it is about as far as the others, which the spread says
+  bool in_arc = false;        // one of M_i of the arc itself
+};
+
+/// A key image in the frame of the surroundings.
+struct KeyPose {
+  int key = 0;
+  Eigen::Matrix3d local_from_key = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // in units of the surroundings
+  bool is_placed = true;                               // without: units on the way there are not joined
+};
+
+/// An arc with those before and after it in one frame, that of its first key image, and one unit: its length, or where
+/// it has no baseline that of the nearest arc before it that has one, else of the one after it. Local, and made anew
+/// for every arc: nothing of it is common to the path.
+struct ArcSurroundings {
+  int arc = 0;                               // index in the path
+  std::vector<KeyPose> keys;                 // rising, without gaps
+  std::vector<Landmark> landmarks;           // rising by feature
+  std::optional<int> unit_arc;               // whose length is the unit; none: no arc around has a baseline
+  std::vector<std::optional<double>> units;  // length of the arc from each key but the last, in the unit
+  double nearness = 0.0;                     // the median of the landmarks with a distance; 0 where there are none
+
+  /// Precondition: the key image is one of them.
+  [[nodiscard]] const KeyPose& key(int number) const {
+    return keys[static_cast<std::size_t>(number - keys.front().key)];
+  }
+  [[nodiscard]] bool has_key(int number) const { return number >= keys.front().key && number <= keys.back().key; }
+};
+
+/// The surroundings of an arc, up to `reach` arcs before and after it as far as the path is in one piece. Units are
+/// joined by the nodes' scales, and past a turn on the spot by the landmarks that the arcs on both sides have in
+/// common, at least `fewest_scaled`. Precondition: the arc is one of the path's.
+ArcSurroundings surroundings_of(const TaughtPath& path, int arc, int reach, int fewest_scaled);
+
+}  // namespace homeward::repeat

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of Repeater that finds its place without any expectation.
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "core/index.hpp"
+#include "core/median.hpp"
+#include "repeat/repeater.hpp"
+
+namespace homeward::repeat {
+
+/// The arc that begins at a key image, or where none does, that ends there; -1 for a key image without arcs.
+int Repeater::arc_at(int key) const {
+  const auto begins = std::ranges::lower_bound(path_->arcs, key, {}, &Arc::from);
+  const auto index = static_cast<int>(begins - path_->arcs.begin());
+  if (begins != path_->arcs.end() && begins->from == key) return index;
+  if (index > 0 && arc_of(index - 1).from + 1 == key) return index - 1;
+  return -1;
+}
+
+/// Some key images, from the last place on to both sides and further with each picture that is lost, then over again.
+std::vector<int> Repeater::keys_to_compare() const {
+  std::vector<int> keys;
+  for (int key = 0; key < gallery_->size(); ++key) keys.push_back(key);
+  const int last = around_ ? arc_of(around_->arc).from : 0;
+  std::ranges::stable_sort(keys, {}, [&](int key) { return std::abs(key - last); });
+  const int most = config_.recognition->most_compared;
+  const int count = static_cast<int>(keys.size());
+  const int windows = (count + most - 1) / most;
+  const int first = (lost_for_ % windows) * most;
+  return {keys.begin() + first, keys.begin() + std::min(count, first + most)};
+}
+
+/// Goes to a key image that was recognised, if the landmarks there say the same.
+bool Repeater::try_at(const RecognisedKey& found, const tracking::ImagePyramid& picture, Located& located) {
+  const int arc = arc_at(found.key);
+  if (arc < 0 || !go_to(arc, {})) return false;
+  const KeyPose& key = around_->key(found.key);
+  const geometry::TwoViewEstimate& estimate = found.estimate;
+  ArcPose start;
+  start.local_from_current = key.local_from_key * estimate.motion.current_from_target.transpose();
+  start.position = key.position;
+  std::vector<ArcPose> starts{start};
+  if (estimate.has_baseline && around_->nearness > 0.0) {
+    // As far away as makes what was matched as distant as landmarks are here.
+    std::vector<double> nearness;
+    for (const geometry::MeetingRays& rays : estimate.rays) nearness.push_back(std::max(0.0, rays.from_target));
+    const double length = median(std::move(nearness)) / around_->nearness;
+    start.position -= length * (start.local_from_current * estimate.motion.target_in_current);
+    starts.push_back(start);
+  }
+  const LandmarkFollower nothing = follower_;
+  for (const ArcPose& from : starts) {
+    follower_ = nothing;
+    located = locate_from(from, found.key, picture);
+    if (!located.is_lost()) return true;
+  }
+  return false;
+}
+
+/// Finds the place among the key images; nothing is changed where that fails.
+bool Repeater::recognise(const tracking::ImagePyramid& picture, Located& located) {
+  const DescribedPicture described = describe(picture, *camera_, *config_.recognition);
+  const auto found = gallery_->recognise(described, keys_to_compare(), *config_.recognition, config_.geometry,
+                                         config_.seed + static_cast<std::uint64_t>(pictures_seen_));
+  for (const RecognisedKey& key : found) {
+    Repeater tried = *this;
+    Located there;
+    tried.follower_.lose_all();
+    if (!tried.try_at(key, picture, there)) continue;
+    *this = std::move(tried);
+    located = std::move(there);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace homeward::repeat
