@@ -12,11 +12,11 @@ namespace homeward::db {
 inline constexpr int kMapApplicationId = 0x48574D50;
 /// user_version of the map file. A released schema is never edited; a newer file is refused.
 inline constexpr int kMapFileVersion = 8;
-/// Version 7 knows no paths that were taught. Version 6 does not keep how the map was without its edits, what edits found out, which picture an appearance is of,
-/// and pictograms; each place has appearances of its own. Version 5 does not say which edits belong to one change.
-/// Version 4 knows no shortcuts. Version 3 is without document frequencies in its appearances
-/// (wire/appearance_blob.hpp). Version 2 is without the checksum, and its edges do not say what their length was taken
-/// from and how much both ends see.
+/// Version 7 knows no paths that were taught. Version 6 does not keep how the map was without its edits, what edits
+/// found out, which picture an appearance is of, and pictograms; each place has appearances of its own. Version 5 does
+/// not say which edits belong to one change. Version 4 knows no shortcuts. Version 3 is without document frequencies in
+/// its appearances (wire/appearance_blob.hpp). Version 2 is without the checksum, and its edges do not say what their
+/// length was taken from and how much both ends see.
 inline constexpr int kOldestMapFileVersion = 2;
 inline constexpr int kFirstVersionWithChecksum = 3;
 inline constexpr int kFirstVersionWithLengthSource = 3;

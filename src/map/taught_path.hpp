@@ -86,7 +86,7 @@ struct PathCut {
 
 struct TaughtPath {
   std::vector<KeyImage> key_images;
-  std::vector<PathArc> arcs;              // in the order of `from`; none from where the path is cut, nor from the end
+  std::vector<PathArc> arcs;          // in the order of `from`; none from where the path is cut, nor from the end
   std::vector<PathCut> cuts;          // empty: in one piece
   std::vector<int> skipped_pictures;  // inside pieces: nothing could be followed into them, but past them
 };
