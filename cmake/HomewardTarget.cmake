@@ -37,7 +37,8 @@ set(homeward_unwatched
     features
     tracking
     matching
-    homing)
+    homing
+    repeat)
 
 # homeward_unwatched_options: all that every source is compiled with; homeward_options: and the thread sanitizer, for all
 # but the modules above.
