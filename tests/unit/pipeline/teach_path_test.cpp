@@ -138,7 +138,12 @@ TEST_F(TeachPath, MakesAMapOfKeyImagesWithTheirPicturesAndArcs) {
 TEST_F(TeachPath, WithoutOdometryLengthsAreNumbersOfPictures) {
   const auto made = teach(tour(16, false));
   ASSERT_TRUE(made);
-  for (const map::Edge& edge : made->map.edges) EXPECT_EQ(edge.length_from, map::LengthSource::kTourImages);
+  const auto& keys = made->map.path->taught.key_images;
+  ASSERT_EQ(made->map.edges.size(), 2 * (keys.size() - 1));
+  for (std::size_t i = 0; i < made->map.edges.size(); ++i) {
+    EXPECT_EQ(made->map.edges[i].length_from, map::LengthSource::kTourImages);
+    EXPECT_EQ(made->map.edges[i].length_m, keys[i / 2 + 1].picture - keys[i / 2].picture);
+  }
 }
 
 TEST_F(TeachPath, SaysWhatIsWrongAndWhere) {
