@@ -65,6 +65,20 @@ struct RecordedLeg {
   double within_m = 0.0;
 };
 
+/// What a picture said of a path that was taught.
+struct RecordedPathSight {
+  std::int64_t taken_ms = 0;
+  Pose2 odometry;
+  bool lost = true;
+  std::int64_t arc = 0;
+  std::int64_t tracked = 0;
+  double confidence = 0.0;
+  double steering_rad = 0.0;
+  std::vector<Pose2> way;
+  bool ends = false;
+  bool leads_elsewhere = false;
+};
+
 struct RecordedVector {
   double bearing_rad = 0.0;
   double turn_rad = 0.0;
@@ -97,6 +111,8 @@ struct RecordedStep {
   std::optional<RecordedRider> rider = {};
   bool robot_link_up = true;  // as all older recordings have it
   std::optional<RecordedLeg> leg = {};
+  std::optional<RecordedPathSight> path_sight = {};
+  bool path_unusable = false;             // why is the outcome of the step, or its refusal
   bool exploration_over = false;          // by itself; how and why is the outcome of the step
   std::vector<wire::StateRow> rows = {};  // of an exploration's table of states, since the step before; no input
   // Out.

@@ -15,6 +15,14 @@ constexpr std::uint8_t kHasRider = 8;
 constexpr std::uint8_t kRobotLinkDown = 16;
 constexpr std::uint8_t kHasLeg = 32;
 constexpr std::uint8_t kExplorationOver = 64;
+constexpr std::uint8_t kRepeats = 128;  // what a path says follows at the end
+// Of those.
+constexpr std::uint8_t kHasPathSight = 1;
+constexpr std::uint8_t kLost = 2;
+constexpr std::uint8_t kEnds = 4;
+constexpr std::uint8_t kLeadsElsewhere = 8;
+constexpr std::uint8_t kPathUnusable = 16;
+constexpr std::uint32_t kMostPoses = 100'000;
 
 bool get_rider(ByteReader& reader, RecordedRider& rider) {
   std::uint8_t deflected = 0;
@@ -28,6 +36,53 @@ bool get_rider(ByteReader& reader, RecordedRider& rider) {
 
 bool get_leg(ByteReader& reader, RecordedLeg& leg) {
   return reader.get(&leg.goal_x_m) && reader.get(&leg.goal_y_m) && reader.get(&leg.within_m);
+}
+
+void put_pose(ByteWriter& writer, const Pose2& pose) {
+  writer.put(pose.x_m);
+  writer.put(pose.y_m);
+  writer.put(pose.theta_rad);
+}
+
+bool get_pose(ByteReader& reader, Pose2& pose) {
+  return reader.get(&pose.x_m) && reader.get(&pose.y_m) && reader.get(&pose.theta_rad);
+}
+
+void put_path(ByteWriter& writer, const RecordedStep& step) {
+  const RecordedPathSight sight = step.path_sight.value_or(RecordedPathSight{});
+  writer.put(static_cast<std::uint8_t>((step.path_sight ? kHasPathSight : 0) | (sight.lost ? kLost : 0) |
+                                       (sight.ends ? kEnds : 0) | (sight.leads_elsewhere ? kLeadsElsewhere : 0) |
+                                       (step.path_unusable ? kPathUnusable : 0)));
+  if (!step.path_sight) return;
+  writer.put(sight.taken_ms);
+  put_pose(writer, sight.odometry);
+  writer.put(sight.arc);
+  writer.put(sight.tracked);
+  writer.put(sight.confidence);
+  writer.put(sight.steering_rad);
+  writer.put(static_cast<std::uint32_t>(sight.way.size()));
+  for (const Pose2& pose : sight.way) put_pose(writer, pose);
+}
+
+bool get_path(ByteReader& reader, RecordedStep& step) {
+  std::uint8_t flags = 0;
+  if (!reader.get(&flags)) return false;
+  step.path_unusable = (flags & kPathUnusable) != 0;
+  if ((flags & kHasPathSight) == 0) return true;
+  RecordedPathSight& sight = step.path_sight.emplace();
+  sight.lost = (flags & kLost) != 0;
+  sight.ends = (flags & kEnds) != 0;
+  sight.leads_elsewhere = (flags & kLeadsElsewhere) != 0;
+  std::uint32_t poses = 0;
+  if (!reader.get(&sight.taken_ms) || !get_pose(reader, sight.odometry) || !reader.get(&sight.arc) ||
+      !reader.get(&sight.tracked) || !reader.get(&sight.confidence) || !reader.get(&sight.steering_rad) ||
+      !reader.get(&poses) || poses > kMostPoses) {
+    return false;
+  }
+  for (std::uint32_t i = 0; i < poses; ++i) {
+    if (!get_pose(reader, sight.way.emplace_back())) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -46,10 +101,10 @@ std::vector<std::uint8_t> pack_step(const RecordedStep& step) {
                                           vector.nearness.value_or(0.0),
                                           step.min_range_m.value_or(0.0)};
   ByteWriter writer;
-  writer.put(static_cast<std::uint8_t>((step.vector ? kHasVector : 0) | (step.min_range_m ? kHasMinRange : 0) |
-                                       (vector.nearness ? kHasNearness : 0) | (step.rider ? kHasRider : 0) |
-                                       (step.robot_link_up ? 0 : kRobotLinkDown) | (step.leg ? kHasLeg : 0) |
-                                       (step.exploration_over ? kExplorationOver : 0)));
+  writer.put(static_cast<std::uint8_t>(
+      (step.vector ? kHasVector : 0) | (step.min_range_m ? kHasMinRange : 0) | (vector.nearness ? kHasNearness : 0) |
+      (step.rider ? kHasRider : 0) | (step.robot_link_up ? 0 : kRobotLinkDown) | (step.leg ? kHasLeg : 0) |
+      (step.exploration_over ? kExplorationOver : 0) | (step.path_sight || step.path_unusable ? kRepeats : 0)));
   writer.put(numbers.data(), numbers.size());
   writer.put(vector.matches);
   writer.put(vector.inliers);
@@ -64,6 +119,7 @@ std::vector<std::uint8_t> pack_step(const RecordedStep& step) {
     writer.put(step.leg->goal_y_m);
     writer.put(step.leg->within_m);
   }
+  if (step.path_sight || step.path_unusable) put_path(writer, step);
   return writer.take();
 }
 
@@ -83,6 +139,7 @@ bool unpack_step(std::span<const std::uint8_t> bytes, RecordedStep& step) {
   }
   if ((flags & kHasLeg) != 0 && !get_leg(reader, step.leg.emplace())) return false;
   step.exploration_over = (flags & kExplorationOver) != 0;
+  if ((flags & kRepeats) != 0 && !get_path(reader, step)) return false;
   if (reader.left() != 0) return false;
   step.odometry = {n[0], n[1], n[2]};
   step.speed_mps = n[3];
@@ -100,15 +157,13 @@ bool unpack_step(std::span<const std::uint8_t> bytes, RecordedStep& step) {
 
 std::vector<std::uint8_t> pack_pose(const Pose2& pose) {
   ByteWriter writer;
-  writer.put(pose.x_m);
-  writer.put(pose.y_m);
-  writer.put(pose.theta_rad);
+  put_pose(writer, pose);
   return writer.take();
 }
 
 bool unpack_pose(std::span<const std::uint8_t> bytes, Pose2& pose) {
   ByteReader reader(bytes);
-  return reader.get(&pose.x_m) && reader.get(&pose.y_m) && reader.get(&pose.theta_rad) && reader.left() == 0;
+  return get_pose(reader, pose) && reader.left() == 0;
 }
 
 std::vector<std::uint8_t> pack_sweep(const RecordedSweep& sweep) {
@@ -116,18 +171,15 @@ std::vector<std::uint8_t> pack_sweep(const RecordedSweep& sweep) {
   writer.put(sweep.angle_min_rad);
   writer.put(sweep.angle_step_rad);
   writer.put(sweep.range_max_m);
-  writer.put(sweep.robot_from_scan.x_m);
-  writer.put(sweep.robot_from_scan.y_m);
-  writer.put(sweep.robot_from_scan.theta_rad);
+  put_pose(writer, sweep.robot_from_scan);
   writer.put(sweep.ranges_m.data(), sweep.ranges_m.size());
   return writer.take();
 }
 
 bool unpack_sweep(std::span<const std::uint8_t> bytes, RecordedSweep& sweep) {
   ByteReader reader(bytes);
-  Pose2& scanner = sweep.robot_from_scan;
   if (!reader.get(&sweep.angle_min_rad) || !reader.get(&sweep.angle_step_rad) || !reader.get(&sweep.range_max_m) ||
-      !reader.get(&scanner.x_m) || !reader.get(&scanner.y_m) || !reader.get(&scanner.theta_rad)) {
+      !get_pose(reader, sweep.robot_from_scan)) {
     return false;
   }
   if (reader.left() % sizeof(float) != 0) return false;
@@ -136,9 +188,9 @@ bool unpack_sweep(std::span<const std::uint8_t> bytes, RecordedSweep& sweep) {
 }
 
 std::string_view message_type(const wire::ServerMessage& message) {
-  constexpr std::array<std::string_view, 13> kNames = {
-      "welcome", "mission", "permit",    "stop",           "belief",          "answer", "explore",
-      "fences",  "finish",  "companion", "companion_view", "companion_state", "error"};
+  constexpr std::array<std::string_view, 14> kNames = {
+      "welcome", "mission", "permit", "stop",      "belief",         "answer",          "explore",
+      "repeat",  "fences",  "finish", "companion", "companion_view", "companion_state", "error"};
   static_assert(std::variant_size_v<wire::ServerMessage> == kNames.size());
   return kNames[message.index()];
 }

@@ -6,10 +6,10 @@ namespace homeward::db {
 /// "HWRC" in SQLite's application_id field: what makes an SQLite file the recording of a mission.
 inline constexpr int kRecordingApplicationId = 0x48575243;
 /// user_version of the file. A released schema is never edited; a newer file is refused.
-inline constexpr int kRecordingVersion = 6;
+inline constexpr int kRecordingVersion = 7;
 /// Version 1 has no word of joysticks, versions 1 and 2 no counts of tracked features; versions up to 3 have words
 /// where later ones have the JSON of a reason. Version 5 has the legs of explorations, version 6
-/// their tables of states, and pictures that were not looked at.
+/// their tables of states, and pictures that were not looked at, version 7 what pictures say of a path that was taught.
 inline constexpr int kOldestRecordingVersion = 1;
 /// The first with the columns `tracked`, `recovered` and `lost`.
 inline constexpr int kRecordingVersionOfTracks = 3;

@@ -51,6 +51,13 @@ nlohmann::json to_json(const scenario::MissionResult& result) {
     value["stops"].push_back({{"t_s", stop.t_s}, {"reason", wire::reason_to_json(stop.reason)}});
     if (stop.stand_after_s) value["stops"].back()["stand_after_s"] = *stop.stand_after_s;
   }
+  if (const auto& repeat = result.repeat) {
+    value["repeat"] = {{"steering", wire::kRepeatSteeringNames.name(repeat->steering)},
+                       {"lateral_rmse_m", repeat->lateral_rmse_m},
+                       {"lateral_most_m", repeat->lateral_most_m},
+                       {"pictures", repeat->pictures},
+                       {"lost", repeat->lost}};
+  }
   if (result.kidnapped_at_s) {
     value["kidnapped_at_s"] = *result.kidnapped_at_s;
     value["told_after_s"] = result.noticed_after_s ? nlohmann::json(*result.noticed_after_s) : nlohmann::json();
@@ -96,6 +103,10 @@ void print(const scenario::MissionResult& result) {
   std::printf("%-14s -> %-14s %-8s %5.2f m off, %5.1f m driven (shortest %5.1f m), %d collisions, %5.1f s",
               result.from.c_str(), result.to.c_str(), result.arrived ? "arrived" : "failed", result.final_error_m,
               result.path_m, result.shortest_m, result.collisions, result.duration_s);
+  if (result.repeat) {
+    std::printf("; %.3f m beside the tour (at most %.3f m), lost in %d of %d pictures", result.repeat->lateral_rmse_m,
+                result.repeat->lateral_most_m, result.repeat->lost, result.repeat->pictures);
+  }
   for (const scenario::StopEvent& stop : result.stops)
     std::printf("; at %.1f s: %s", stop.t_s, wire::english(stop.reason).c_str());
   if (result.kidnapped_at_s) std::printf("; kidnapped at %.1f s", *result.kidnapped_at_s);

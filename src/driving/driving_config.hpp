@@ -10,6 +10,7 @@
 #include "driving/look_around.hpp"
 #include "driving/milliseconds.hpp"
 #include "driving/pursuit.hpp"
+#include "driving/repeat_path_config.hpp"
 #include "driving/steering.hpp"
 
 namespace homeward::driving {
@@ -52,6 +53,7 @@ struct DrivingConfig {
   SteeringConfig steering;
   GiveWayConfig give_way;
   LookAroundConfig look_around;
+  RepeatPathConfig repeat_path;
   std::string feature_config_id;            // of this robot's eye: missions made with another are refused
   Milliseconds link_silence_ms = 400;       // no message for so long while driving: stop
   Milliseconds frame_silence_ms = 1000;     // no picture for so long while driving: stop

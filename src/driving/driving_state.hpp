@@ -19,6 +19,7 @@
 #include "driving/milliseconds.hpp"
 #include "driving/mission.hpp"
 #include "driving/moving_obstacle.hpp"
+#include "driving/repeat_state.hpp"
 #include "driving/steady_sweep.hpp"
 #include "driving/sweep_continuity.hpp"
 #include "driving/turn_rate.hpp"
@@ -42,6 +43,7 @@ struct DrivingState {
   TurnRate turning;    // of the body, as it moves now
   LookAround looking;  // for where it is
   LegState leg;        // of an exploration
+  RepeatState repeat;  // of a path that was taught
   Asking asking;       // people, whether this is the destination
   std::optional<Milliseconds> off_path_since_ms;
   std::optional<Milliseconds> off_belief_since_ms;

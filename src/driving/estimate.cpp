@@ -29,7 +29,7 @@ void take_sweep(DrivingState& state, const Inputs& inputs, const DrivingConfig& 
   // The sweeps tell of a lift between missions, too: the estimate is kept from one to the next.
   if (breaks_off(state.going_on, state.scan->scan, inputs.odometry, state.scan->taken_ms)) give_up_displaced(state);
   // What is near to where the robot has stopped says nothing new.
-  if (state.drive != wire::DriveState::kDriving || state.mission->explores) return;
+  if (state.drive != wire::DriveState::kDriving || !state.mission->homes()) return;
   see_ways(state.follow, state.mission->path, hit_points(state.scan->scan), inputs.odometry);
 }
 
@@ -65,7 +65,7 @@ void take_picture(DrivingState& state, const SeenPicture& picture, const Driving
   state.picture_came_ms = std::min(sensors_ms, state.last_picture_ms + config.reaction_ms);
   const int furthest_before = state.follow.furthest;
   state.pictured = true;
-  if (state.mission->explores) {
+  if (!state.mission->homes()) {
     if (picture.appearance) state.covered = shows_next_to_nothing(*picture.appearance, config);
     return;
   }
@@ -94,7 +94,7 @@ void estimate(DrivingState& state, const Inputs& inputs, const DrivingConfig& co
               Milliseconds sensors_ms) {
   if (inputs.scan) take_sweep(state, inputs, config);
   if (inputs.picture) take_picture(state, *inputs.picture, config, sensors_ms);
-  if (state.drive == wire::DriveState::kDriving && !state.mission->explores) {
+  if (state.drive == wire::DriveState::kDriving && state.mission->homes()) {
     state.kept = keep_estimate(state.follow, state.mission->path, state.mission->map, state.mission->revision, now_ms);
   }
   std::erase_if(state.answers_ms, [&](Milliseconds then_ms) { return sensors_ms - then_ms > kRateOver_ms; });

@@ -9,6 +9,7 @@
 #include "core/pose2.hpp"
 #include "driving/body.hpp"
 #include "driving/milliseconds.hpp"
+#include "driving/path_sight.hpp"
 #include "driving/scan.hpp"
 #include "features/appearance.hpp"
 #include "tracking/tracking_frame.hpp"
@@ -63,6 +64,8 @@ struct Inputs {
   std::optional<Leg> leg = {};                 // of an exploration; nothing: it stands and thinks
   std::optional<ExplorationOver> exploration_over = {};
   std::optional<wire::Reason> why_not_exploring = {};  // orders to explore are refused for that; nothing: they are not
+  std::optional<PathSight> path_sight = {};            // of the newest picture that was held against the path, once
+  std::optional<wire::Reason> why_not_repeating = {};  // orders to repeat are refused, or end, for that
   bool robot_link_up = true;  // false: the connection to the robot is lost or too slow for its sensors
 };
 

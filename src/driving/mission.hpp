@@ -22,6 +22,9 @@ struct Mission {
   bool dock = false;
   double speed_limit_mps = 0.0;
   bool explores = false;  // drives to the legs that it is given (leg.hpp); it has no path and no map
+  bool repeats = false;   // follows what its inputs say of a path that was taught (repeat_path.hpp); it has no views
+  /// Whether it homes from view to view of a map.
+  [[nodiscard]] bool homes() const { return !explores && !repeats; }
 };
 
 /// A mission as `step` needs it, its views decoded. Errors: kFeatureConfigMismatch, kCorruptFile,

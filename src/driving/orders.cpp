@@ -60,6 +60,26 @@ class OrderHandler {
     take_up(std::move(mission), order.valid_for_ms);
   }
 
+  void operator()(const wire::RepeatOrder& order) const {
+    if (!is_newest(order.order)) return;
+    if (const auto why = why_not_now()) return refuse(order.mission, order.order, *why);
+    if (inputs_.why_not_repeating) {
+      end_undrivable();
+      return refuse(order.mission, order.order, *inputs_.why_not_repeating);
+    }
+    Mission mission;
+    mission.id = order.mission;
+    mission.map = order.map;
+    mission.revision = order.revision;
+    mission.label = order.label;
+    mission.speed_limit_mps = order.speed_limit_mps;
+    mission.dock = true;
+    mission.repeats = true;
+    state_.follow = {};
+    state_.kept.reset();
+    take_up(std::move(mission), order.valid_for_ms);
+  }
+
   void operator()(const wire::Permit& permit) const {
     if (state_.drive != wire::DriveState::kDriving || permit.mission != state_.mission->id) return;
     if (permit.order <= state_.newest || permit.order.epoch != state_.newest.epoch) return;
@@ -83,12 +103,12 @@ class OrderHandler {
     // One report in between is none: whoever walks by may hide everything for a moment.
     if (now_ms_ - state_.belief_changes_ms >= config_.belief_lasts_ms) state_.follow.belief_lost = belief.lost;
     state_.belief_ms = now_ms_;
-    if (!state_.mission || state_.mission->explores || belief.lost || !belief.place) return;
+    if (!state_.mission || !state_.mission->homes() || belief.lost || !belief.place) return;
     state_.follow.belief = BelievedView{state_.mission->path.view_of(*belief.place), belief.probability};
   }
 
   void operator()(const wire::Answer& answer) const {
-    if (state_.drive != wire::DriveState::kDriving || state_.mission->explores) return;
+    if (state_.drive != wire::DriveState::kDriving || !state_.mission->homes()) return;
     if (answer.mission != state_.mission->id) return;
     if (!take_answer(state_.asking, answer.question, answer.here)) return;
     const VisualPath& path = state_.mission->path;

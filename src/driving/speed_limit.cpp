@@ -24,7 +24,7 @@ bool on_shortcut(const FollowState& state, const VisualPath& path, const FollowC
 
 double speed_limit_mps(const DrivingState& state, const DrivingConfig& config) {
   const double limit_mps = std::min(state.mission->speed_limit_mps, config.body.max_speed_mps);
-  if (state.mission->explores) return limit_mps;
+  if (!state.mission->homes()) return limit_mps;
   const bool slowly = on_shortcut(state.follow, state.mission->path, config.follow);
   return slowly ? std::min(limit_mps, config.speed.shortcut_mps) : limit_mps;
 }

@@ -11,7 +11,7 @@ namespace {
 /// Sums of weights may be off by their last digits; what is stated is a probability.
 double as_probability(double value) { return std::clamp(value, 0.0, 1.0); }
 
-bool follows_path(const DrivingState& state) { return state.mission && !state.mission->explores; }
+bool follows_path(const DrivingState& state) { return state.mission && state.mission->homes(); }
 
 }  // namespace
 

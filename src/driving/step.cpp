@@ -11,6 +11,7 @@
 #include "driving/orders.hpp"
 #include "driving/permitted.hpp"
 #include "driving/progress.hpp"
+#include "driving/repeat_path.hpp"
 #include "driving/rider.hpp"
 #include "driving/sense.hpp"
 
@@ -50,10 +51,9 @@ void forget_where_odometry_jumped(DrivingState& state, const Pose2& odometry, co
 void begin_mission(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds sensors_ms) {
   state.last_answer_ms = state.last_sure_ms = state.last_gain_ms = state.last_picture_ms = sensors_ms;
   state.gain_from = inputs.odometry;
-  if (state.mission->explores) {
-    state.picture_came_ms = sensors_ms;
-    state.leg = {};
-  }
+  if (!state.mission->homes()) state.picture_came_ms = sensors_ms;
+  state.leg = {};
+  begin_repeat(state.repeat, inputs.odometry, sensors_ms);
   state.stays_since_ms.reset();
   state.plan = {};
   begin_sensing(state, inputs, config);
@@ -83,9 +83,17 @@ void judge(DrivingState& state, const Inputs& inputs, const DrivingConfig& confi
                 inputs.exploration_over->reason);
   } else if (state.mission->explores) {
     judge_leg(state, inputs, sensors_ms);
+  } else if (state.mission->repeats) {
+    judge_repeat(state, inputs, config, sensors_ms);
   } else {
     judge_progress(state, config, sensors_ms);
   }
+}
+
+Motion wanted_motion(DrivingState& state, const Situation& now) {
+  if (state.mission->explores) return leg_motion(state, now);
+  if (state.mission->repeats) return repeat_motion(state, now);
+  return choose_motion(state, now.inputs, now.config, now.points_m, now.sensors_ms);
 }
 
 }  // namespace
@@ -101,8 +109,7 @@ Outputs step(DrivingState& state, const Inputs& inputs, const DrivingConfig& con
     outputs.motion = rider_motion(*inputs.rider, state.scan, points_m, state.turning.radps(), config, sensors_ms);
   if (is_driving(state)) judge(state, inputs, config, now_ms, sensors_ms);
   if (!is_driving(state)) return outputs;
-  const Motion wanted = state.mission->explores ? leg_motion(state, {inputs, config, points_m, sensors_ms})
-                                                : choose_motion(state, inputs, config, points_m, sensors_ms);
+  const Motion wanted = wanted_motion(state, {inputs, config, points_m, sensors_ms});
   // It has arrived where it took the destination's heading just now.
   if (is_driving(state)) outputs.motion = permitted_motion(wanted, state, config, points_m, now_ms, sensors_ms);
   return outputs;

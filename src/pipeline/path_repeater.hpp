@@ -28,6 +28,7 @@ class PathRepeater {
   /// What the next picture says. Errors: kWrongImageSize, those of ImagePyramid::build, kNotFound; nothing is changed.
   Result<repeat::Repeated> step(const Image& picture);
 
+  [[nodiscard]] const repeat::Repeater& repeater() const { return repeater_; }
   [[nodiscard]] const map::MapPath& path() const { return *map_->path; }
 
  private:

@@ -176,4 +176,34 @@ void look_around_fields(Fields& fields, Config& look_around) {
   fields("look_around_directions", directions);
 }
 
+template <class Fields, class Config>
+void repeat_path_fields(Fields& fields, Config& repeat_path) {
+  auto& [steers_by_features, look_m, look_s, aside_m, metres_per_rad, corner_rad, corner_m, at_corner_m, turned_rad,
+         turn_mps, straight_mps, bend_radps, unsure_mps, brakes_per_s, least_mps, there_m, blind_m, lost_ms, loads_ms,
+         gets_on_m, gets_on_rad, spot_m, at_spot_ms] = repeat_path;
+  fields("repeat_path_steers_by_features", steers_by_features);
+  fields("repeat_path_look_m", look_m);
+  fields("repeat_path_look_s", look_s);
+  fields("repeat_path_aside_m", aside_m);
+  fields("repeat_path_metres_per_rad", metres_per_rad);
+  fields("repeat_path_corner_rad", corner_rad);
+  fields("repeat_path_corner_m", corner_m);
+  fields("repeat_path_at_corner_m", at_corner_m);
+  fields("repeat_path_turned_rad", turned_rad);
+  fields("repeat_path_turn_mps", turn_mps);
+  fields("repeat_path_straight_mps", straight_mps);
+  fields("repeat_path_bend_radps", bend_radps);
+  fields("repeat_path_unsure_mps", unsure_mps);
+  fields("repeat_path_brakes_per_s", brakes_per_s);
+  fields("repeat_path_least_mps", least_mps);
+  fields("repeat_path_there_m", there_m);
+  fields("repeat_path_blind_m", blind_m);
+  fields("repeat_path_lost_ms", lost_ms);
+  fields("repeat_path_loads_ms", loads_ms);
+  fields("repeat_path_gets_on_m", gets_on_m);
+  fields("repeat_path_gets_on_rad", gets_on_rad);
+  fields("repeat_path_spot_m", spot_m);
+  fields("repeat_path_at_spot_ms", at_spot_ms);
+}
+
 }  // namespace homeward::recording

@@ -56,6 +56,12 @@ db::RecordedStep to_recorded(std::int64_t seq, const driving::Inputs& inputs, co
   }
   if (inputs.leg) step.leg = db::RecordedLeg{inputs.leg->goal_m.x(), inputs.leg->goal_m.y(), inputs.leg->within_m};
   step.exploration_over = inputs.exploration_over.has_value();
+  if (const auto& sight = inputs.path_sight) {
+    step.path_sight =
+        db::RecordedPathSight{sight->taken_ms,   sight->odometry,     sight->lost, sight->arc,  sight->tracked,
+                              sight->confidence, sight->steering_rad, sight->way,  sight->ends, sight->leads_elsewhere};
+  }
+  step.path_unusable = inputs.why_not_repeating.has_value();
   put_outcome(step, state, outputs);
   return step;
 }
@@ -73,6 +79,24 @@ std::optional<wire::Reason> why_refused(const db::RecordedStep& step) {
     }
   }
   return std::nullopt;
+}
+
+/// Why a path could not be followed: how the mission ended, or why it was refused. Nothing: none was.
+std::optional<wire::Reason> why_not_repeating(const db::RecordedStep& step) {
+  if (!step.path_unusable) return std::nullopt;
+  for (const wire::AgentMessage& sent : step.sent) {
+    const auto* refused = std::get_if<wire::MissionRefused>(&sent);
+    if (refused != nullptr) return refused->reason;
+  }
+  if (says(step.reason, wire::ReasonCode::kPathUnusable)) {
+    const auto because = step.reason->parameters.find("because");
+    if (because != step.reason->parameters.end()) {
+      const auto* reasons = std::get_if<std::vector<wire::Reason>>(&because->second);
+      if (reasons != nullptr && !reasons->empty()) return reasons->front();
+    }
+  }
+  // It changed nothing.
+  return wire::Reason{wire::ReasonCode::kDoesNotRepeat};
 }
 
 }  // namespace
@@ -93,6 +117,19 @@ driving::Inputs inputs_of(const db::RecordedStep& step) {
   }
   if (step.leg) inputs.leg = driving::Leg{{step.leg->goal_x_m, step.leg->goal_y_m}, step.leg->within_m};
   inputs.why_not_exploring = why_refused(step);
+  if (const auto& sight = step.path_sight) {
+    inputs.path_sight = driving::PathSight{sight->taken_ms,
+                                           sight->odometry,
+                                           sight->lost,
+                                           static_cast<int>(sight->arc),
+                                           static_cast<int>(sight->tracked),
+                                           sight->confidence,
+                                           sight->steering_rad,
+                                           sight->way,
+                                           sight->ends,
+                                           sight->leads_elsewhere};
+  }
+  inputs.why_not_repeating = why_not_repeating(step);
   if (step.exploration_over)
     inputs.exploration_over = driving::ExplorationOver{step.state == wire::DriveState::kFailed, step.reason};
   return inputs;

@@ -153,12 +153,12 @@ void follow_fields(Fields& fields, Config& follow) {
 
 template <class Fields, class Config>
 void driving_fields(Fields& fields, Config& driving) {
-  auto& [body, follow, safety, speed, progress, approach, pursuit, steering, give_way, look_around, feature_config_id,
-         link_silence_ms, frame_silence_ms, first_frame_ms, scan_silence_ms, rider_silence_ms, loop_silence_ms,
-         held_up_ms, stands_within_ms, reaction_ms, blind_ms, looks_ms, unsure_ms, off_path_ms, off_path_m,
-         off_belief_ms, off_belief_m, estimate_lives_ms, belief_silence_ms, doubtful_ms, asks_ms, stuck_ms, patience_ms,
-         stays_ms, stays_within_m, near_m, near_ms, turn_gain, dock_within_rad, belief_lasts_ms, covered_below_features,
-         odometry_jump_m, least_aim_m, rider_creep_mps, rider_creep_radps] = driving;
+  auto& [body, follow, safety, speed, progress, approach, pursuit, steering, give_way, look_around, repeat_path,
+         feature_config_id, link_silence_ms, frame_silence_ms, first_frame_ms, scan_silence_ms, rider_silence_ms,
+         loop_silence_ms, held_up_ms, stands_within_ms, reaction_ms, blind_ms, looks_ms, unsure_ms, off_path_ms,
+         off_path_m, off_belief_ms, off_belief_m, estimate_lives_ms, belief_silence_ms, doubtful_ms, asks_ms, stuck_ms,
+         patience_ms, stays_ms, stays_within_m, near_m, near_ms, turn_gain, dock_within_rad, belief_lasts_ms,
+         covered_below_features, odometry_jump_m, least_aim_m, rider_creep_mps, rider_creep_radps] = driving;
   body_fields(fields, body);
   follow_fields(fields, follow);
   safety_fields(fields, safety);
@@ -169,6 +169,7 @@ void driving_fields(Fields& fields, Config& driving) {
   steering_fields(fields, steering);
   give_way_fields(fields, give_way);
   look_around_fields(fields, look_around);
+  repeat_path_fields(fields, repeat_path);
   fields("feature_config_id", feature_config_id);
   fields("link_silence_ms", link_silence_ms);
   fields("frame_silence_ms", frame_silence_ms);

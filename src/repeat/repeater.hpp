@@ -77,6 +77,10 @@ class Repeater {
   /// near has no picture), and the arc stays the same.
   Result<Repeated> step(std::shared_ptr<const tracking::ImagePyramid> picture);
 
+  /// The actual arc with those before and after it; null before the first one.
+  [[nodiscard]] const ArcSurroundings* surroundings() const { return around_ ? &*around_ : nullptr; }
+  /// Where the latest picture that was not lost was taken, in the frame of the surroundings.
+  [[nodiscard]] const ArcPose& pose() const { return pose_; }
   /// The features around the actual arc as the latest picture shows them; empty before the first one.
   [[nodiscard]] const std::vector<FollowedLandmark>& landmarks() const { return follower_.landmarks(); }
 

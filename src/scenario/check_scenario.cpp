@@ -38,7 +38,11 @@ class Checker {
   std::vector<ScenarioProblem> run() {
     check_tour();
     for (std::size_t i = 0; i < scenario_.missions.size(); ++i) check_mission(i);
-    check_starts();
+    if (repeats()) {
+      check_repeats();
+    } else {
+      check_starts();
+    }
     return std::move(problems_);
   }
 
@@ -111,6 +115,22 @@ class Checker {
           "furniture can be moved in generated worlds alone: a mesh does not say which of its triangles are a piece of "
           "furniture");
     check_kidnapping(entry(index), mission.faults);
+  }
+
+  [[nodiscard]] bool repeats() const { return scenario_.mode == wire::ScenarioMode::kRepeat; }
+
+  /// A path that was taught begins where the tour was, and has no other place that looks alike.
+  void check_repeats() {
+    if (scenario_.tour_explored) add("tour.rooms", "a path is taught by a tour that somebody leads");
+    for (std::size_t i = 0; i < scenario_.missions.size(); ++i) {
+      const wire::ScenarioMission& mission = scenario_.missions[i];
+      if (std::ranges::find(visited_, mission.from) == visited_.end() && rooms_.contains(mission.from))
+        add(entry(i) + ".from", "the tour does not visit '" + mission.from + "', and a path begins where it was");
+      for (const wire::ScenarioFault& fault : mission.faults) {
+        if (fault.kind == wire::FaultKind::kKidnapped)
+          add(entry(i) + ".faults", "a robot that repeats a path is not kidnapped here");
+      }
+    }
   }
 
   /// Where the robot will be is not known; that there is no spot far enough from any other may be.

@@ -7,6 +7,7 @@
 #include "driving/estimated_position.hpp"
 #include "driving/follow.hpp"
 #include "driving/stated.hpp"
+#include "imageio/decode.hpp"
 #include "recording/recorder.hpp"
 #include "wire/lease_durations.hpp"
 
@@ -40,9 +41,28 @@ DriveLoop::DriveLoop(SimulatedRobot& robot, const pipeline::Eye& eye, FaultSched
       lift_done_(faults_.all().size(), false) {}
 
 Status DriveLoop::run(wire::MissionOrder order, std::vector<Pose2> way) {
-  order_ = std::move(order);
+  mission_ = order.mission;
+  number_ = order.order;
+  views_.clear();
+  for (const wire::PathPlace& place : order.path) views_.push_back(place.image.str());
+  if (views_.empty() || views_.back() != order.final_image.str()) views_.push_back(order.final_image.str());
   way_ = std::move(way);
-  messages_.emplace_back(order_);
+  sees_path_ = {};
+  messages_.emplace_back(std::move(order));
+  return drive();
+}
+
+Status DriveLoop::run(wire::RepeatOrder order, SeesPath sees) {
+  mission_ = order.mission;
+  number_ = order.order;
+  views_ = {order.image.str()};
+  way_.clear();
+  sees_path_ = std::move(sees);
+  messages_.emplace_back(std::move(order));
+  return drive();
+}
+
+Status DriveLoop::drive() {
   halted_ = false;
   const double began_s = elapsed_s();
   while (elapsed_s() < kLongest_s && !is_ended_) {
@@ -83,12 +103,10 @@ Result<std::optional<DrivenPicture>> DriveLoop::look_again() {
 void DriveLoop::receive_from_server(bool link_up) {
   if (!link_up) return;
   if (elapsed_s() - last_received_s_ <= kHeardWithin_s)
-    messages_.emplace_back(
-        wire::Permit{order_.mission, {order_.order.epoch, ++order_.order.seq}, wire::kPermitValid_ms});
+    messages_.emplace_back(wire::Permit{mission_, {number_.epoch, ++number_.seq}, wire::kPermitValid_ms});
   answer_question();
   if (!on(FaultKind::kStop)) return;
-  messages_.emplace_back(
-      wire::StopOrder{"s1", order_.order.epoch, wire::Reason{wire::ReasonCode::kStoppedByHand}, "test"});
+  messages_.emplace_back(wire::StopOrder{"s1", number_.epoch, wire::Reason{wire::ReasonCode::kStoppedByHand}, "test"});
   stopped_by_hand_ = true;
 }
 
@@ -99,7 +117,7 @@ void DriveLoop::answer_question() {
   if (!answers_ || !asking.since_ms || asking.number == answered_ || now_ms_ - *asking.since_ms < kAfter_ms) return;
   answered_ = asking.number;
   if (const auto here = answers_(robot_.vehicle().pose()))
-    messages_.emplace_back(wire::Answer{order_.mission, asking.number, *here});
+    messages_.emplace_back(wire::Answer{mission_, asking.number, *here});
 }
 
 Status DriveLoop::cycle() {
@@ -128,6 +146,30 @@ Status DriveLoop::cycle() {
   return {};
 }
 
+/// The camera's picture, as it is sent, and what it says.
+Status DriveLoop::look(driving::Inputs& inputs, recording::PictureBytes& bytes) {
+  constexpr driving::Milliseconds kKeepEvery_ms = 1000;
+  constexpr std::size_t kKept = 6;
+  Image picture = robot_.picture();
+  if (on(FaultKind::kCameraOccluded)) occlude(picture, faults_.share(FaultKind::kCameraOccluded, elapsed_s()));
+  newest_ = DrivenPicture{picture, inputs.odometry};
+  if (now_ms_ % kKeepEvery_ms == 0) pictures_.push_back(*newest_);
+  if (pictures_.size() > kKept) pictures_.pop_front();
+  recording::CameraPicture sent = recording::as_sent({now_ms_, std::move(picture), inputs.odometry});
+  sent.recognised = !sees_path_ && driving::wants_features(state_.follow);
+  auto seen = recording::look(sent, eye_);
+  if (!seen) return pass_on(seen);
+  inputs.picture = std::move(*seen);
+  bytes = sent.bytes;
+  if (!sees_path_ || (state_.mission && state_.drive != wire::DriveState::kDriving)) return {};
+  const auto received = imageio::decode(*bytes, "picture");
+  if (!received) return pass_on(received);
+  auto sight = sees_path_(*received, now_ms_, inputs.odometry);
+  if (!sight) return pass_on(sight);
+  inputs.path_sight = std::move(*sight);
+  return {};
+}
+
 Result<driving::Outputs> DriveLoop::step_once(bool link_up) {
   driving::Inputs inputs;
   inputs.odometry = robot_.odometry();
@@ -135,19 +177,7 @@ Result<driving::Outputs> DriveLoop::step_once(bool link_up) {
   inputs.messages = std::exchange(messages_, {});
   recording::PictureBytes bytes;
   if (!on(FaultKind::kCameraFrozen)) {
-    Image picture = robot_.picture();
-    if (on(FaultKind::kCameraOccluded)) occlude(picture, faults_.share(FaultKind::kCameraOccluded, elapsed_s()));
-    constexpr driving::Milliseconds kKeepEvery_ms = 1000;
-    constexpr std::size_t kKept = 6;
-    newest_ = DrivenPicture{picture, inputs.odometry};
-    if (now_ms_ % kKeepEvery_ms == 0) pictures_.push_back(*newest_);
-    if (pictures_.size() > kKept) pictures_.pop_front();
-    recording::CameraPicture sent = recording::as_sent({now_ms_, std::move(picture), inputs.odometry});
-    sent.recognised = driving::wants_features(state_.follow);
-    auto seen = recording::look(sent, eye_);
-    if (!seen) return pass_on(seen);
-    inputs.picture = std::move(*seen);
-    bytes = sent.bytes;
+    if (const Status looked = look(inputs, bytes); !looked) return pass_on(looked);
   }
   constexpr driving::Milliseconds kAskEvery_ms = 500;
   if (believes_ && link_up && inputs.picture && inputs.picture->appearance && now_ms_ - believed_ms_ >= kAskEvery_ms) {
@@ -219,7 +249,7 @@ void DriveLoop::listen_for_doubt() {
 void DriveLoop::compare_with_belief() {
   constexpr double kApart_m = 2.0;
   std::optional<double> off_m;
-  if (state_.drive == wire::DriveState::kDriving)
+  if (state_.drive == wire::DriveState::kDriving && state_.mission->homes())
     off_m = driving::off_belief_m(state_.follow, state_.mission->path, config_.follow);
   if (!off_m || *off_m <= kApart_m) {
     apart_since_s_.reset();
@@ -280,7 +310,8 @@ CycleTrace DriveLoop::trace(const driving::Outputs& outputs) const {
   now.index = state_.follow.index;
   now.views = state_.mission ? static_cast<int>(state_.mission->path.views.size()) : 0;
   const auto index = static_cast<std::size_t>(now.index);
-  now.view = (index + 1 < static_cast<std::size_t>(now.views) ? order_.path[index].image : order_.final_image).str();
+  now.view = views_[std::min(index, views_.size() - 1)];
+  if (state_.repeat.known) now.index = state_.repeat.known->arc;
   now.answered = state_.seen.answered;
   now.continuity = state_.continuity.share;
   now.contradiction = state_.going_on.contradiction;

@@ -40,6 +40,9 @@ using Elsewhere = std::function<Result<std::optional<Pose2>>()>;
 using Believes = std::function<wire::BeliefReport(const features::Appearance&, const Pose2&,
                                                   const std::optional<wire::EstimateReport>&)>;
 
+/// What a picture says of a path that was taught, as the camera sent it.
+using SeesPath = std::function<Result<driving::PathSight>(const Image&, driving::Milliseconds, const Pose2&)>;
+
 /// The loop of one mission: world, sensors and driving step, cycle by cycle, and the server that permits it, with all
 /// that goes wrong. The robot's base brakes by itself 0.1 s after the last command.
 class DriveLoop {
@@ -59,6 +62,8 @@ class DriveLoop {
   /// Drives an order, numbered later than all before, until the robot stands, however that came about.
   /// `way`: where its pictures were truly taken, one for each view of its path; may be empty.
   Status run(wire::MissionOrder order, std::vector<Pose2> way = {});
+  /// The same of an order to follow a path that was taught. `sees`: what its pictures are held against, each once.
+  Status run(wire::RepeatOrder order, SeesPath sees);
   /// Goes on for a while after a stop and counts what moves without an order.
   Status watch();
   /// Goes on for a moment while the robot stands, and gives what the camera has shown in it: nothing while it shows
@@ -83,7 +88,9 @@ class DriveLoop {
   [[nodiscard]] const std::deque<DrivenPicture>& pictures() const { return pictures_; }
 
  private:
+  Status drive();
   Status cycle();
+  Status look(driving::Inputs& inputs, recording::PictureBytes& bytes);
   Result<driving::Outputs> step_once(bool link_up);
   void receive_from_server(bool link_up);
   void answer_question();
@@ -103,8 +110,11 @@ class DriveLoop {
   const driving::DrivingConfig& config_;
   const ScenarioListener& listener_;
   recording::Recorder* recorder_;
-  wire::MissionOrder order_;
+  MissionId mission_;
+  wire::Order number_;              // of the newest order or permit
+  std::vector<std::string> views_;  // names of the pictures that it homes to
   std::vector<Pose2> way_;
+  SeesPath sees_path_;
   Believes believes_;
   Answers answers_;
   std::function<bool(const CycleTrace&)> ended_;

@@ -20,6 +20,7 @@ class KeptTour final : public TourSource {
     jpegs_.push_back(std::move(jpeg));
   }
   [[nodiscard]] std::string file_name(std::size_t index) const { return images_[index].id.str().substr(5); }
+  [[nodiscard]] const std::vector<std::uint8_t>& jpeg(std::size_t index) const { return jpegs_[index]; }
   [[nodiscard]] const ImageId& last() const { return images_.back().id; }
   void mark(std::size_t index, const std::string& label) { marks_.push_back({file_name(index), label}); }
   void mark_last(const std::string& label) { mark(images_.size() - 1, label); }

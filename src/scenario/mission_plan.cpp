@@ -9,7 +9,7 @@ namespace homeward::scenario {
 
 int count_missions(const wire::ScenarioFile& scenario) {
   int count = 0;
-  for (const wire::ScenarioMission& mission : scenario.missions) count += std::max(1, mission.random);
+  for (const wire::ScenarioMission& mission : scenario.missions) count += std::max(mission.times, mission.random);
   return count;
 }
 
@@ -19,9 +19,20 @@ std::vector<MissionPlan> plan_missions(const wire::ScenarioFile& scenario, std::
   std::vector<MissionPlan> plans;
   for (std::size_t entry = 0; entry < scenario.missions.size(); ++entry) {
     const wire::ScenarioMission& mission = scenario.missions[entry];
-    MissionPlan plan{mission.from,   mission.to, mission.light, mission.people,  mission.moved_furniture,
-                     mission.faults, 0,          entry,         mission.answers, scenario.speed_limit_mps};
-    const int count = std::max(1, mission.random);
+    MissionPlan plan{mission.from,
+                     mission.to,
+                     mission.light,
+                     mission.people,
+                     mission.moved_furniture,
+                     mission.faults,
+                     0,
+                     entry,
+                     mission.answers,
+                     scenario.speed_limit_mps,
+                     mission.start_beside_m,
+                     mission.start_turned_rad,
+                     mission.steering};
+    const int count = std::max(mission.times, mission.random);
     for (int i = 0; i < count; ++i) {
       if (mission.random > 0) {
         const int rooms_count = static_cast<int>(destinations.size());

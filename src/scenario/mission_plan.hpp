@@ -22,6 +22,9 @@ struct MissionPlan {
   std::size_t entry = 0;           // of the scenario's missions
   std::string answers = "nobody";  // what somebody says whom the robot asks (bystander.hpp)
   double speed_limit_mps = wire::kSpeedLimit_mps;
+  double start_beside_m = 0.0;  // of a path that is repeated: at most
+  double start_turned_rad = 0.0;
+  wire::RepeatSteering steering = wire::RepeatSteering::kWay;
 };
 
 /// How many missions a scenario has, those at random counted one by one.

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "wire/reason.hpp"
+#include "wire/scenario_json.hpp"
+
 namespace homeward::scenario {
 
 /// One end of a drive before its destination.
@@ -12,6 +15,15 @@ struct StopEvent {
   double t_s = 0.0;
   wire::Reason reason;
   std::optional<double> stand_after_s;  // from the beginning of the fault that was on to wheels at zero
+};
+
+/// How a path that was taught was followed. Lateral: from where the tour truly drove.
+struct RepeatResult {
+  wire::RepeatSteering steering = wire::RepeatSteering::kWay;
+  double lateral_rmse_m = 0.0;
+  double lateral_most_m = 0.0;
+  int pictures = 0;  // held against the path
+  int lost = 0;      // of them
 };
 
 /// How one mission of a scenario went. Errors are measured to the true pose of the destination's picture.
@@ -33,8 +45,9 @@ struct MissionResult {
   int moved_after_stop = 0;                   // control cycles with motion between a stop and the next order
   int moved_furniture = 0;                    // pieces that stood elsewhere than in the tour
   std::optional<double> arrival_probability;  // stated, of being within half a metre; where it says that it arrived
-  double belief_apart_s = 0.0;  // longest that a sure belief of the map and a sure estimate were over 2 m apart
-  int asked = 0;                // how often it asked whether it was at its destination
+  double belief_apart_s = 0.0;         // longest that a sure belief of the map and a sure estimate were over 2 m apart
+  int asked = 0;                       // how often it asked whether it was at its destination
+  std::optional<RepeatResult> repeat;  // nothing: it was no path
   /// When it was lifted and put down elsewhere.
   std::optional<double> kidnapped_at_s;
   /// From then until it gave up or said that something is wrong. Nothing: never.

@@ -7,17 +7,15 @@
 #include <utility>
 
 #include "core/angles.hpp"
-#include "core/version.hpp"
 #include "driving/estimated_position.hpp"
-#include "recording/recorder.hpp"
 #include "scenario/drive_loop.hpp"
 #include "scenario/look_alike_spot.hpp"
 #include "scenario/simulated_server.hpp"
 #include "scenario/starting_pose.hpp"
 #include "scenario/true_ways.hpp"
 #include "scenario/world_folder.hpp"
+#include "scenario/world_of_day.hpp"
 #include "sim/floor.hpp"
-#include "sim/moved_furniture.hpp"
 #include "sim/tour_path.hpp"
 
 namespace homeward::scenario {
@@ -27,25 +25,6 @@ const map::Destination* destination_named(const map::TopologicalMap& map, const 
   const auto found = std::find_if(map.destinations.begin(), map.destinations.end(),
                                   [&](const map::Destination& destination) { return destination.label == label; });
   return found == map.destinations.end() ? nullptr : &*found;
-}
-
-MissionResult result_of(DriveLoop& drive) {
-  const double ended_s = drive.elapsed_s();
-  MissionResult result;
-  result.arrived = drive.state().drive == wire::DriveState::kArrived;
-  if (result.arrived && drive.state().mission) {
-    result.arrival_probability =
-        driving::arrival_probability(drive.state().follow, drive.state().mission->path, driving::FollowConfig{});
-  }
-  result.stops = drive.stops();
-  result.duration_s = ended_s;
-  result.vectors_per_s = drive.vectors() / std::max(kScenarioCycle_s, ended_s);
-  result.moved_after_stop = drive.moved_after_stop();
-  result.kidnapped_at_s = drive.kidnapped_at_s();
-  result.noticed_after_s = drive.noticed_after_s();
-  result.belief_apart_s = drive.belief_apart_s();
-  result.asked = static_cast<int>(drive.state().asking.number);
-  return result;
 }
 
 /// Drives a mission with all the orders that it takes.
@@ -83,31 +62,6 @@ struct Setting {
   const std::optional<recording::RecordingOptions>& record;
 };
 
-/// The world as it is on the day of a mission; the map knows it as it was.
-struct WorldOfDay {
-  sim::LitWorld* world = nullptr;          // that of the tour, or the changed one
-  std::unique_ptr<sim::LitWorld> changed;  // where furniture was moved
-  int moved_furniture = 0;
-};
-
-Result<WorldOfDay> world_of_day(const Setting& mission, const sim::LightPreset& light) {
-  WorldOfDay day;
-  day.world = mission.taught.world.get();
-  if (mission.plan.moved_furniture <= 0) {
-    prepare_light(*day.world, light);
-    return day;
-  }
-  const double half_width_m = mission.profile.outline.radius_m + mission.profile.outline.side_m;
-  auto moved =
-      sim::move_furniture(day.world->world(), mission.plan.moved_furniture, half_width_m, mission.plan.seed + 29);
-  if (!moved) return pass_on(moved);
-  day.moved_furniture = moved->moved;
-  day.changed = std::make_unique<sim::LitWorld>(std::move(moved->world));
-  day.world = day.changed.get();
-  day.world->irradiance(light);  // of this mission alone: not for the cache
-  return day;
-}
-
 Result<SimulatedRobot> robot_for(const Setting& mission, sim::LitWorld& world, const sim::LightPreset& light,
                                  const Pose2& start) {
   SimulatedRobotConfig config;
@@ -119,25 +73,13 @@ Result<SimulatedRobot> robot_for(const Setting& mission, sim::LitWorld& world, c
   return SimulatedRobot::create(world, config, start);
 }
 
-/// Null where the mission is not recorded.
-Result<std::unique_ptr<recording::Recorder>> recorder_for(const Setting& mission,
-                                                          const driving::DrivingConfig& config) {
-  if (!mission.record) return std::unique_ptr<recording::Recorder>();
-  const recording::Recorder::Robot recorded{name_with_version("homeward simulate"), mission.taught.camera,
-                                            mission.taught.map->feature_config, config};
-  return recording::Recorder::create(*mission.record, recorded,
-                                     [&listener = mission.listener](const std::string& what) {
-                                       if (listener.log) listener.log(what);
-                                     });
-}
-
 /// Drives an order and those that follow it, with all that goes wrong and whoever answers.
 Result<MissionResult> drive_with(const Setting& mission, const wire::MissionOrder& order, const Pose2& target,
                                  SimulatedRobot& robot, const pipeline::Eye& eye, SimulatedServer& server) {
   driving::DrivingConfig config;
   config.body = body_of(mission.profile);
   config.feature_config_id = mission.taught.map->feature_config_id;
-  const auto recorder = recorder_for(mission, config);
+  const auto recorder = recorder_for(mission.taught, mission.record, config, mission.listener);
   if (!recorder) return pass_on(recorder);
   DriveLoop drive(robot, eye, FaultSchedule(mission.plan.faults), config, mission.listener, recorder->get());
   drive.kidnap_to([&] { return look_alike_spot(mission.taught, robot, eye); });
@@ -170,6 +112,25 @@ Result<MissionResult> drive_from_here(const Setting& mission, const map::Destina
 
 }  // namespace
 
+MissionResult result_of(DriveLoop& drive) {
+  const double ended_s = drive.elapsed_s();
+  MissionResult result;
+  result.arrived = drive.state().drive == wire::DriveState::kArrived;
+  if (result.arrived && drive.state().mission && drive.state().mission->homes()) {
+    result.arrival_probability =
+        driving::arrival_probability(drive.state().follow, drive.state().mission->path, driving::FollowConfig{});
+  }
+  result.stops = drive.stops();
+  result.duration_s = ended_s;
+  result.vectors_per_s = drive.vectors() / std::max(kScenarioCycle_s, ended_s);
+  result.moved_after_stop = drive.moved_after_stop();
+  result.kidnapped_at_s = drive.kidnapped_at_s();
+  result.noticed_after_s = drive.noticed_after_s();
+  result.belief_apart_s = drive.belief_apart_s();
+  result.asked = static_cast<int>(drive.state().asking.number);
+  return result;
+}
+
 Result<MissionResult> drive_order(SimulatedRobot& robot, const pipeline::Eye& eye, const wire::MissionOrder& order,
                                   const MissionPlan& plan, const driving::DrivingConfig& config,
                                   const ScenarioListener& listener, recording::Recorder* recorder) {
@@ -198,7 +159,7 @@ Result<MissionResult> run_mission(TaughtWorld& taught, const MissionPlan& plan, 
   const auto light = light_named(plan.light);
   if (!light) return pass_on(light);
   const Setting mission{taught, plan, profile, listener, record};
-  const auto day = world_of_day(mission, *light);
+  const auto day = world_of_day(taught, plan, profile, *light);
   if (!day) return pass_on(day);
   const sim::World& world = day->world->world();
   const auto from_m = sim::room_point(world, plan.from);

@@ -29,6 +29,11 @@ Result<MissionResult> drive_order(SimulatedRobot& robot, const pipeline::Eye& ey
                                   const MissionPlan& plan, const driving::DrivingConfig& config,
                                   const ScenarioListener& listener, recording::Recorder* recorder = nullptr);
 
+class DriveLoop;
+
+/// What a drive tells of itself, once it is over.
+MissionResult result_of(DriveLoop& drive);
+
 /// Fills in what only the world knows: errors to the target's true pose, way, clearance, collisions.
 void judge(const sim::Vehicle& vehicle, const Pose2& target, MissionResult& result);
 

@@ -6,6 +6,7 @@
 
 #include "scenario/check_scenario.hpp"
 #include "scenario/mission_run.hpp"
+#include "scenario/repeat_run.hpp"
 #include "scenario/scenario_robot.hpp"
 #include "scenario/taught_world.hpp"
 #include "scenario/true_ways.hpp"
@@ -69,7 +70,9 @@ Status run_scenario(wire::ScenarioFile scenario, const std::string& folder, cons
       record_one->name = count + plan.from + "-to-" + plan.to;
       record_one->wait_for_disk = true;
     }
-    const auto result = run_mission(*taught, plan, profile, listener, record_one);
+    const bool repeats = scenario.mode == wire::ScenarioMode::kRepeat;
+    const auto result = repeats ? run_repeat(*taught, plan, profile, listener, record_one)
+                                : run_mission(*taught, plan, profile, listener, record_one);
     if (!result) return pass_on(result);
     if (listener.done) listener.done(*result);
   }

@@ -7,6 +7,8 @@
 #include "imageio/decode.hpp"
 #include "mapping/shortcut_edges.hpp"
 #include "pipeline/build_map.hpp"
+#include "pipeline/teach_path.hpp"
+#include "repeat/teach_config.hpp"
 #include "scenario/exploration_run.hpp"
 #include "scenario/kept_tour.hpp"
 #include "scenario/scenario_robot.hpp"
@@ -91,6 +93,21 @@ Status explore_for(const wire::ScenarioFile& scenario, sim::LightPreset light, T
   return {};
 }
 
+Result<map::TopologicalMap> map_of(const wire::ScenarioFile& scenario, const camera::CameraConfig& camera,
+                                   const KeptTour& tour) {
+  if (scenario.mode == wire::ScenarioMode::kRepeat) {
+    auto path =
+        pipeline::teach_path(tour, camera, scenario.world, repeat::dense_teaching(),
+                             [&tour](std::size_t i) -> Result<std::vector<std::uint8_t>> { return tour.jpeg(i); });
+    if (!path) return pass_on(path);
+    return std::move(path->map);
+  }
+  pipeline::BuildOptions options;
+  options.name = scenario.world;
+  options.seed = static_cast<std::uint64_t>(scenario.seed);
+  return pipeline::build_map({&tour}, camera, options);
+}
+
 }  // namespace
 
 Result<sim::World> world_of(const wire::ScenarioFile& scenario, const std::string& folder) {
@@ -112,15 +129,13 @@ Result<TaughtWorld> teach(const wire::ScenarioFile& scenario, const std::string&
   const auto light = light_named(scenario.tour_light);
   if (!light) return pass_on(light);
   prepare_light(*taught.world, *light);
-  KeptTour tour;
-  const Status toured =
-      scenario.tour_explored ? explore_for(scenario, *light, taught, tour) : lead_tour(scenario, *light, taught, tour);
+  auto tour = std::make_shared<KeptTour>();
+  const Status toured = scenario.tour_explored ? explore_for(scenario, *light, taught, *tour)
+                                               : lead_tour(scenario, *light, taught, *tour);
   if (!toured) return pass_on(toured);
-  pipeline::BuildOptions options;
-  options.name = scenario.world;
-  options.seed = static_cast<std::uint64_t>(scenario.seed);
-  auto map = pipeline::build_map({&tour}, taught.camera, options);
+  auto map = map_of(scenario, taught.camera, *tour);
   if (!map) return pass_on(map);
+  taught.tour = std::move(tour);
   if (scenario.tour_shortcuts) {
     for (map::Shortcut& shortcut : map->shortcuts) {
       shortcut.state = map::ShortcutState::kAccepted;

@@ -75,6 +75,7 @@ Hello read_hello(ObjectReader& reader) {
   m.radius_m = reader.number("radius_m", 0.05, kMostRadius_m);
   m.max_speed_mps = reader.number("max_speed_mps", 0.0, 5.0);
   if (reader.has("explores")) m.explores = reader.boolean("explores");
+  if (reader.has("repeats")) m.repeats = reader.boolean("repeats");
   return m;
 }
 
@@ -283,6 +284,22 @@ ExploreOrder read_explore(ObjectReader& reader) {
   return m;
 }
 
+RepeatOrder read_repeat(ObjectReader& reader) {
+  constexpr std::int64_t kMostRounds = 1000;
+  RepeatOrder m;
+  m.mission = MissionId(read_id(reader, "mission"));
+  m.order = read_order(reader);
+  m.map = MapId(read_id(reader, "map"));
+  m.revision = reader.integer("revision", 0, kMost);
+  m.valid_for_ms = reader.integer("valid_for_ms", 1, 60'000);
+  m.speed_limit_mps = reader.number("speed_limit_mps", 0.0, 5.0);
+  m.label = reader.text("label");
+  m.image = ImageId(reader.text("image"));
+  if (m.image.str().empty()) reader.problem("image", "'image' must not be empty.");
+  m.rounds = reader.integer("rounds", 0, kMostRounds);
+  return m;
+}
+
 Fences read_fences(ObjectReader& reader) {
   return {ExplorationId(read_id(reader, "exploration")),
           reader.take(fences_from_json(reader.value("fences"), reader.path_of("fences")))};
@@ -356,6 +373,7 @@ Result<ServerMessage> server_message_from_json(const json& value) {
           return Answer{MissionId(r.text("mission", 100)), r.integer("question", 1, kMost), r.boolean("here")};
         }
         if (type == "explore") return read_explore(r);
+        if (type == "repeat") return read_repeat(r);
         if (type == "fences") return read_fences(r);
         if (type == "finish") return Finish{ExplorationId(read_id(r, "exploration"))};
         if (type == "companion") return read_companion(r);

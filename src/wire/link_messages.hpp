@@ -24,9 +24,9 @@ namespace homeward::wire {
 
 /// The agent link (proto/asyncapi.yaml): each message one CBOR map in one binary WebSocket message, with "type" and
 /// "v".
-inline constexpr int kLinkVersion = 5;
+inline constexpr int kLinkVersion = 6;
 /// Version 1, which older recordings hold, has words instead of reasons; version 2 knows no explorations, version 3 no
-/// companions, version 4 nothing of how their floors lie to each other.
+/// companions, version 4 nothing of how their floors lie to each other, version 5 no paths that were taught.
 inline constexpr int kOldestLinkVersion = 1;
 inline constexpr std::size_t kMaxLinkMessageBytes = 32UL * 1024 * 1024;
 
@@ -50,6 +50,7 @@ struct Hello {
   double radius_m = 0.35;  // of the circle about its turning point that holds the whole body
   double max_speed_mps = 0.8;
   bool explores = false;  // it can map a building by itself
+  bool repeats = false;   // it can follow a path that was taught (RepeatOrder)
 };
 
 struct Frame {
@@ -259,6 +260,20 @@ struct ExploreOrder {
   std::optional<double> back_after_s;  // from now on, until it is back where it began
 };
 
+/// An order to follow the path of a map that was taught as one (map::MapPath), from wherever on it the robot is; a
+/// permit as well. The robot fetches the map itself.
+struct RepeatOrder {
+  MissionId mission;
+  Order order;
+  MapId map;
+  std::int64_t revision = 0;
+  std::int64_t valid_for_ms = 0;
+  double speed_limit_mps = 0.0;
+  std::string label;        // of the destination, for people
+  ImageId image;            // of the tour: where it was taken the robot stops
+  std::int64_t rounds = 0;  // so often it passes there first, where the path is closed
+};
+
 /// All that an exploration keeps off from now on.
 struct Fences {
   ExplorationId exploration;
@@ -283,8 +298,8 @@ struct LinkError {
 
 using AgentMessage =
     std::variant<Hello, Frame, AgentStatus, Stopped, MissionRefused, Explored, CompanionView, CompanionState>;
-using ServerMessage = std::variant<Welcome, MissionOrder, Permit, StopOrder, BeliefReport, Answer, ExploreOrder, Fences,
-                                   Finish, Companion, CompanionView, CompanionState, LinkError>;
+using ServerMessage = std::variant<Welcome, MissionOrder, Permit, StopOrder, BeliefReport, Answer, ExploreOrder,
+                                   RepeatOrder, Fences, Finish, Companion, CompanionView, CompanionState, LinkError>;
 
 std::vector<std::uint8_t> encode(const AgentMessage& message);
 std::vector<std::uint8_t> encode(const ServerMessage& message);

@@ -24,6 +24,7 @@ json write(const Hello& m) {
   value["radius_m"] = m.radius_m;
   value["max_speed_mps"] = m.max_speed_mps;
   if (m.explores) value["explores"] = true;
+  if (m.repeats) value["repeats"] = true;
   return value;
 }
 
@@ -203,6 +204,20 @@ json write(const ExploreOrder& m) {
   value["limit_m"] = or_null(m.limit_m);
   value["limit_s"] = or_null(m.limit_s);
   value["back_after_s"] = or_null(m.back_after_s);
+  return value;
+}
+
+json write(const RepeatOrder& m) {
+  json value = start("repeat");
+  value["mission"] = m.mission.str();
+  add_order(value, m.order);
+  value["map"] = m.map.str();
+  value["revision"] = m.revision;
+  value["valid_for_ms"] = m.valid_for_ms;
+  value["speed_limit_mps"] = m.speed_limit_mps;
+  value["label"] = m.label;
+  value["image"] = m.image.str();
+  value["rounds"] = m.rounds;
   return value;
 }
 

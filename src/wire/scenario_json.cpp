@@ -33,10 +33,19 @@ ScenarioFault read_fault(ObjectReader& outer, const json& value, const std::stri
   return fault;
 }
 
-ScenarioMission read_mission(ObjectReader& outer, const json& value, const std::string& path) {
+/// What only paths that are repeated have.
+void read_repeat(ObjectReader& reader, ScenarioMission& mission) {
+  if (reader.has("times")) mission.times = static_cast<int>(reader.integer("times", 1, kMaxRandom));
+  if (reader.has("start_beside_m")) mission.start_beside_m = reader.number("start_beside_m", 0.0, 2.0);
+  if (reader.has("start_turned_rad")) mission.start_turned_rad = reader.number("start_turned_rad", 0.0, 3.15);
+  if (reader.has("steering")) mission.steering = reader.choice("steering", kRepeatSteeringNames);
+}
+
+ScenarioMission read_mission(ObjectReader& outer, const json& value, const std::string& path, ScenarioMode mode) {
   ObjectReader reader(value, path);
   ScenarioMission mission;
-  if (reader.has("random")) {
+  if (mode == ScenarioMode::kRepeat) read_repeat(reader, mission);
+  if (mode == ScenarioMode::kHome && reader.has("random")) {
     mission.random = static_cast<int>(reader.integer("random", 1, kMaxRandom));
   } else {
     mission.from = reader.text("from", 200);
@@ -106,6 +115,7 @@ Result<ScenarioFile> scenario_from_json(const json& value, const std::string& pa
   ScenarioFile scenario;
   scenario.world = reader.text("world", 1000);
   scenario.seed = reader.integer("seed", 0, 1'000'000'000);
+  if (reader.has("mode")) scenario.mode = reader.choice("mode", kScenarioModeNames);
   read_camera(reader, scenario);
   if (reader.has("robot")) scenario.robot = reader.choice("robot", {"disc", "chair"});
   if (reader.has("ranges")) scenario.ranges = reader.choice("ranges", {"laser", "ultrasound"});
@@ -114,7 +124,7 @@ Result<ScenarioFile> scenario_from_json(const json& value, const std::string& pa
   const std::vector<json> missions = reader.array("missions", 10'000);
   for (std::size_t i = 0; i < missions.size(); ++i) {
     scenario.missions.push_back(
-        read_mission(reader, missions[i], reader.path_of("missions") + "/" + std::to_string(i)));
+        read_mission(reader, missions[i], reader.path_of("missions") + "/" + std::to_string(i), scenario.mode));
   }
   if (const Status status = reader.finish(); !status) return pass_on(status);
   return scenario;

@@ -39,6 +39,15 @@ struct ScenarioFault {
   double share = 1.0;  // of the picture that is covered, of the way that is not made
 };
 
+/// How the robot finds its way: from view to view of a map, or along a path that was taught (Segvic et al. 2007).
+enum class ScenarioMode { kHome, kRepeat };
+inline constexpr EnumNames<ScenarioMode, 2> kScenarioModeNames({"home", "repeat"});
+
+/// What a path is repeated by: the way that was taught, features that move to where the next key image has them, or
+/// headings alone.
+enum class RepeatSteering { kWay, kFeatures, kHeading };
+inline constexpr EnumNames<RepeatSteering, 3> kRepeatSteeringNames({"way", "features", "heading"});
+
 /// One entry of "missions": from room to room, or `random` of them.
 struct ScenarioMission {
   std::string from;
@@ -50,12 +59,18 @@ struct ScenarioMission {
   /// What somebody says when the robot asks whether it is at its destination: "nobody", "right" (the truth) or "yes".
   std::string answers = "nobody";
   std::vector<ScenarioFault> faults;
+  // Of the mode "repeat": so often, each time begun so far, at most, beside where the tour was at `from`, and turned.
+  int times = 1;
+  double start_beside_m = 0.0;
+  double start_turned_rad = 0.0;
+  RepeatSteering steering = RepeatSteering::kWay;
 };
 
 /// A closed-loop scenario (proto/schemas/scenario.schema.json), format "homeward-scenario", version 1.
 struct ScenarioFile {
   std::string world;  // as load_world takes it; a world.json is relative to the scenario
   std::int64_t seed = 1;
+  ScenarioMode mode = ScenarioMode::kHome;
   std::string camera_model;                    // the usual camera of this model ...
   std::optional<camera::CameraConfig> camera;  // ... or a whole camera ...
   std::string camera_file;                     // ... or a camera.json relative to the scenario

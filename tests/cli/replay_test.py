@@ -44,8 +44,8 @@ class Replay(CliTest):
         self.refuse(2, "SQLite file is not a recording")
 
     def test_of_a_newer_program(self):
-        self.database(RECORDING_ID, 7)
-        self.refuse(2, "version 7", "newer")
+        self.database(RECORDING_ID, 8)
+        self.refuse(2, "version 8", "newer")
 
     def test_without_anything_in_it(self):
         self.database(RECORDING_ID, 1)

@@ -264,10 +264,10 @@ TEST_F(RecordingFile, ThatIsAnotherSqliteFile) {
 
 TEST_F(RecordingFile, OfANewerVersion) {
   record();
-  change("PRAGMA user_version = 7");
+  change("PRAGMA user_version = 8");
   EXPECT_EQ(trouble().code, ErrorCode::kUnsupportedFormat);
-  EXPECT_THAT(trouble().message, HasSubstr("version 7"));
-  EXPECT_THAT(trouble().message, HasSubstr("versions 1 to 6"));
+  EXPECT_THAT(trouble().message, HasSubstr("version 8"));
+  EXPECT_THAT(trouble().message, HasSubstr("versions 1 to 7"));
 }
 
 TEST_F(RecordingFile, OfTheVersionBeforeJoysticksIsRead) {

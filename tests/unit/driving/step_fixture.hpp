@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "driving/step.hpp"
@@ -66,6 +67,8 @@ class StepTest : public ::testing::Test {
     inputs.leg = leg_;
     inputs.exploration_over = over_;
     inputs.why_not_exploring = why_not_exploring_;
+    inputs.path_sight = std::exchange(path_sight_, std::nullopt);
+    inputs.why_not_repeating = why_not_repeating_;
     inputs.messages = std::move(messages);
     if (server_talks_) inputs.messages.emplace_back(belief_);
     if (pictures_ && ticks_ % ticks_per_picture_ == 0) {
@@ -179,6 +182,8 @@ class StepTest : public ::testing::Test {
   std::optional<Leg> leg_;  // of an exploration
   std::optional<ExplorationOver> over_;
   std::optional<wire::Reason> why_not_exploring_;
+  std::optional<PathSight> path_sight_;  // of the next tick
+  std::optional<wire::Reason> why_not_repeating_;
   std::optional<Motion> hand_;  // the rider's, on a joystick; zero: it is at rest
   Milliseconds hand_age_ms_ = 0;
   Milliseconds picture_age_ms_ = 0;  // when it is given

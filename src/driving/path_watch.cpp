@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "driving/path_watch.hpp"
+
+namespace homeward::driving {
+
+Result<PathWatch> PathWatch::create(std::shared_ptr<const map::TopologicalMap> map, const camera::CameraConfig& camera,
+                                    const ImageId& end, const repeat::RepeatConfig& config) {
+  auto way = pipeline::TaughtWay::create(map, end);
+  if (!way) return pass_on(way);
+  auto repeater = pipeline::PathRepeater::create(std::move(map), camera, config);
+  if (!repeater) return pass_on(repeater);
+  return PathWatch(*std::move(repeater), *std::move(way));
+}
+
+Result<PathSight> PathWatch::see(const Image& picture, Milliseconds taken_ms, const Pose2& odometry) {
+  const auto said = repeater_.step(picture);
+  if (!said) return pass_on(said);
+  PathSight sight;
+  sight.taken_ms = taken_ms;
+  sight.odometry = odometry;
+  sight.lost = said->is_lost();
+  sight.arc = said->arc;
+  if (sight.lost) return sight;
+  sight.tracked = said->tracked;
+  sight.confidence = said->confidence;
+  sight.steering_rad = said->steering_rad;
+  pipeline::WayAhead ahead = way_.ahead(repeater_.repeater(), *said);
+  sight.way = std::move(ahead.way);
+  sight.ends = ahead.ends;
+  sight.leads_elsewhere = ahead.leads_elsewhere;
+  return sight;
+}
+
+}  // namespace homeward::driving
