@@ -125,8 +125,10 @@ class Driving : public LinkListener {
   struct Plan {
     wire::MissionView mission;
     wire::MissionOrder order;
-    double length_m = 0.0;  // of the way
-    bool again = false;     // a detour that is the way that failed, again
+    std::optional<wire::RepeatOrder> repeat;  // in place of it, on a map that was taught as a path,
+    std::int64_t first_arc = 0;               // from this arc of it on
+    double length_m = 0.0;                    // of the way
+    bool again = false;                       // a detour that is the way that failed, again
   };
   struct Look;  // one picture in a worker's hands
 
@@ -172,6 +174,12 @@ class Driving : public LinkListener {
   Result<std::shared_ptr<Tracking>> tracking_for(std::shared_ptr<Tracking> present, const MapId& map,
                                                  const camera::CameraConfig& camera);
   Result<Plan> plan(const Unit& unit, const MissionRequest& request);
+  // A way along a path that was taught, forwards, from a place to where a picture of its tour was taken.
+  static void plan_repeat(const map::TopologicalMap& map, const PlaceId& start, const ImageId& end, Plan& plan);
+  static void send_repeat(RobotUnit& unit, Plan& plan, const wire::Order& number);
+  // Whose mission it is, and on which map.
+  void note_plan(const RobotUnit& unit, const MissionRequest& request, const MapId& map, std::int64_t revision,
+                 Plan& plan) const;
   // Tells the robot how probable its start is. Errors: kLost where it is unsure and could not find out.
   static Status set_start(const Start& start, wire::MissionOrder& order);
   void keep(const wire::MissionView& mission);

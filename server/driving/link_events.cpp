@@ -157,7 +157,8 @@ void Driving::received_status(const Unit& found, wire::AgentStatus status) {
   if (unit.under_way && now.mission == unit.mission->id && !of_failed_way) {
     wire::MissionView& mission = *unit.mission;
     const std::int64_t last = static_cast<std::int64_t>(mission.path.size()) - 1;
-    const std::int64_t index = std::clamp<std::int64_t>(now.path_index, 0, std::max<std::int64_t>(0, last));
+    const std::int64_t index =
+        std::clamp<std::int64_t>(now.path_index - unit.first_arc.value_or(0), 0, std::max<std::int64_t>(0, last));
     const bool moved_on = index != mission.path_index;
     count_driven(unit, index, now.state);
     mission.path_index = index;
@@ -196,6 +197,8 @@ void Driving::received_failure(const Unit& found, const wire::Reason& why, bool 
   wire::MissionView& mission = *unit.mission;
   // One that explores chooses its ways by itself, and has tried all that it knows.
   if (unit.explores()) return end_mission(unit, wire::MissionState::kFailed, why);
+  // Along a path that was taught there is one way alone.
+  if (unit.first_arc) return end_mission(unit, wire::MissionState::kFailed, why);
   if (lifted && unit.online() && unit.lease) {
     unit.lifted = true;
     unit.looks_since = unit.status_at;

@@ -57,6 +57,7 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
   MapId map_id;
   Start start;
   std::vector<PlaceId> likely;
+  bool can_repeat = false;
   {
     const std::scoped_lock lock(unit->mutex);
     const Status status = may_start(*unit, request.lease_id, clock_.steady());
@@ -64,6 +65,7 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
     map_id = *unit->map;
     start = unit->likeliest();
     likely = unit->likely_places();
+    can_repeat = unit->hello.repeats;
   }
   const auto loaded = maps_.load(map_id);
   if (!loaded) return pass_on(loaded);
@@ -80,6 +82,16 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
     plan.mission.destination = destination->id;
     plan.mission.place = destination->place;
   }
+  if (map.path && can_repeat) {
+    const map::Place* place = map::find_place(map, plan.mission.place);
+    if (place == nullptr) {
+      return fail(ErrorCode::kUnknownPlace, "The map has no place " + plan.mission.place.str() + ".",
+                  "maps/" + map_id.str());
+    }
+    plan_repeat(map, start.place, destination != nullptr ? destination->image : place->prototype, plan);
+    note_plan(*unit, request, map_id, map.revision, plan);
+    return plan;
+  }
   planning::RouteRequest asked;
   asked.from = start.place;
   asked.to = plan.mission.place;
@@ -92,18 +104,23 @@ Result<Driving::Plan> Driving::plan(const Unit& unit, const MissionRequest& requ
   wire::add_surroundings(map, *layout, planning::surroundings(map, route->places, likely, *layout), plan.order);
   if (const Status begins = set_start(start, plan.order); !begins) return pass_on(begins);
   if (start.unsure) plan.mission.reason = wire::Reason{ReasonCode::kLooksAroundFirst};
-  plan.mission.id = MissionId(db::random_id());
-  plan.mission.robot = unit->id;
-  plan.mission.map = map_id;
-  plan.mission.revision = map.revision;
   plan.mission.path = route->places;
-  plan.mission.created_us = clock_.wall_us();
-  plan.mission.by = request.by;
+  plan.length_m = route->length_m;
+  note_plan(*unit, request, map_id, map.revision, plan);
   plan.order.mission = plan.mission.id;
   plan.order.map = map_id;
   plan.order.valid_for_ms = wire::kPermitValid_ms;
-  plan.length_m = route->length_m;
   return plan;
+}
+
+void Driving::note_plan(const RobotUnit& unit, const MissionRequest& request, const MapId& map, std::int64_t revision,
+                        Plan& plan) const {
+  plan.mission.id = MissionId(db::random_id());
+  plan.mission.robot = unit.id;
+  plan.mission.map = map;
+  plan.mission.revision = revision;
+  plan.mission.created_us = clock_.wall_us();
+  plan.mission.by = request.by;
 }
 
 SteadyTime Driving::end_of(double length_m, SteadyTime now) const {
@@ -132,9 +149,14 @@ Result<wire::MissionView> Driving::start(const RobotId& id, const MissionRequest
     keep_refused(std::move(mission), status.error());
     return pass_on(status);
   }
-  planned->order.order = set_off(unit, mission, end_of(planned->length_m, now));
-  planned->order.speed_limit_mps = std::min(wire::kSpeedLimit_mps, unit.hello.max_speed_mps);
-  unit.link->send(planned->order);
+  const wire::Order order = set_off(unit, mission, end_of(planned->length_m, now));
+  if (planned->repeat) {
+    send_repeat(unit, *planned, order);
+  } else {
+    planned->order.order = order;
+    planned->order.speed_limit_mps = std::min(wire::kSpeedLimit_mps, unit.hello.max_speed_mps);
+    unit.link->send(planned->order);
+  }
   spdlog::info("robot {} mission {} to {} over {} places, by {}", id.str(), mission.id.str(), mission.place.str(),
                mission.path.size(), mission.by);
   keep(mission);

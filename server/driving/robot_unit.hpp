@@ -78,7 +78,9 @@ struct RobotUnit {
   std::int64_t epoch = 0;
   std::int64_t seq = 0;  // of the last mission or permit of this epoch
   std::optional<wire::MissionView> mission;
-  bool under_way = false;       // `mission` is accepted or driving: permits go out
+  bool under_way = false;  // `mission` is accepted or driving: permits go out
+  /// It follows a path that was taught, from this arc of it on; nothing: it homes from view to view.
+  std::optional<std::int64_t> first_arc;
   std::int64_t counted_to = 0;  // place of its latest way up to which drives on ways were counted
   std::int64_t stepped_to = 0;  // place of it that it heads for since it left the one before behind; 0: it leapt there
   SteadyTime mission_at;        // when its latest way was sent
@@ -111,6 +113,7 @@ struct RobotUnit {
   void set_off(wire::MissionView begun, SteadyTime now, SteadyTime ends) {
     mission = std::move(begun);
     under_way = true;
+    first_arc.reset();
     closed.clear();
     detours = 0;
     restarts = 0;

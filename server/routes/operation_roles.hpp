@@ -90,7 +90,7 @@ inline constexpr std::array kOperations = [] {
       Operation{"get_similarity", "GET", "/api/v1/maps/{map}/similarity", kViewer, Lane::kSlow, kMaxJsonBody},
       Operation{"get_similarity_tile", "GET", "/api/v1/maps/{map}/similarity/{level}/{column}/{row}", kViewer,
                 Lane::kSlow, kMaxJsonBody},
-      Operation{"export_map", "GET", "/api/v1/maps/{map}/export", kViewer, Lane::kWork, kMaxJsonBody},
+      Operation{"export_map", "GET", "/api/v1/maps/{map}/export", kViewerOrRobot, Lane::kWork, kMaxJsonBody},
       Operation{"import_map", "POST", "/api/v1/maps/import", kInstaller, Lane::kBulk, kMaxMapBody},
       Operation{"localise", "POST", "/api/v1/maps/{map}/localise", kViewer, Lane::kHeavy, kMaxImageBody},
       Operation{"get_route", "GET", "/api/v1/maps/{map}/route", kViewer, Lane::kWork, kMaxJsonBody},

@@ -47,4 +47,9 @@ std::optional<wire::QuestionReport> open_question(const DrivingState& state, con
                               0.001 * static_cast<double>(left_ms)};
 }
 
+std::int64_t stated_index(const DrivingState& state) {
+  if (!state.mission || !state.mission->repeats) return state.follow.index;
+  return state.repeat.known ? state.repeat.known->arc : 0;
+}
+
 }  // namespace homeward::driving

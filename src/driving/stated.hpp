@@ -28,4 +28,7 @@ std::vector<wire::EstimateReport> stated_places(const DrivingState& state);
 std::optional<wire::QuestionReport> open_question(const DrivingState& state, const DrivingConfig& config,
                                                   Milliseconds now_ms);
 
+/// How far along its way it is: the number of the view homed to, or of the arc of a path that was taught.
+std::int64_t stated_index(const DrivingState& state);
+
 }  // namespace homeward::driving

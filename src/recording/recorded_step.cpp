@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recording/recorded_step.hpp"
 
+#include "driving/stated.hpp"
+
 namespace homeward::recording {
 
 db::RecordedSweep to_recorded(const driving::SeenScan& scan) {
@@ -18,7 +20,7 @@ void put_outcome(db::RecordedStep& step, const driving::DrivingState& state, con
   step.turn_radps = outputs.motion.turn_radps;
   step.state = state.drive;
   step.reason = state.reason;
-  step.path_index = state.follow.index;
+  step.path_index = driving::stated_index(state);
   step.answered = state.seen.answered;
   step.docking = state.docking;
   step.covered = state.covered;

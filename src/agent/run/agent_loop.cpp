@@ -13,6 +13,8 @@
 #include "agent/drivers/joystick.hpp"
 #include "agent/explore/exploring.hpp"
 #include "agent/link/link_client.hpp"
+#include "agent/repeat/fetch_map.hpp"
+#include "agent/repeat/repeating.hpp"
 #include "agent/run/looker.hpp"
 #include "agent/run/real_time.hpp"
 #include "agent/upload/upload.hpp"
@@ -61,7 +63,7 @@ wire::AgentStatus status_of(const driving::DrivingState& state, const driving::D
   status.state = state.drive;
   if (state.mission) status.mission = state.mission->id;
   status.epoch = state.newest.epoch;
-  status.path_index = state.follow.index;
+  status.path_index = driving::stated_index(state);
   status.reason = state.reason;
   status.speed_mps = reading.speed_mps;
   if (state.drive == wire::DriveState::kDriving && state.seen.vector) {
@@ -169,6 +171,7 @@ wire::Hello hello_of(const AgentOptions& options, const camera::CameraConfig& ca
   hello.radius_m = std::min(wire::kMostRadius_m, swept_radius_m(body.outline));
   hello.max_speed_mps = body.max_speed_mps;
   hello.explores = options.explorations.has_value();
+  hello.repeats = true;
   return hello;
 }
 
@@ -207,6 +210,7 @@ bool follow(Exploring* exploring, const driving::Inputs& inputs, const recording
       for (auto& message : exploring->take_to_companion()) link.send_encoded(std::move(message));
     }
   }
+  if (state.mission && state.mission->repeats) return false;  // it is held against the path as it is
   if (state.mission && state.mission->explores) return exploring != nullptr && exploring->wants_features();
   return driving::wants_features(state.follow);
 }
@@ -257,6 +261,10 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
   const auto exploring = open_exploring(options, driver.camera(), *eye, config.body);
   if (!exploring) return pass_on(exploring);
 
+  Repeating repeating(
+      driver.camera(), [&options](const MapId& map) { return fetch_map(options.server, options.token, map); },
+      options.log);
+
   const StandStill at_the_end(driver);
   LinkClient link(options.server, options.robot, options.token, hello_of(options, driver.camera(), config.body),
                   options.log);
@@ -286,6 +294,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
     const driving::Milliseconds now = now_ms();
     show_as_often_as_asked(inputs.messages, looker);
     lead(exploring->get(), inputs, state);
+    repeating.prepare(inputs, state);
     auto rows = decided(exploring->get());
     const driving::Outputs outputs = *recorder ? (*recorder)->step(state, inputs, picture, now, std::move(rows))
                                                : driving::step(state, inputs, config, now);
@@ -293,6 +302,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
     const bool held_up = now_ms() - now > config.loop_silence_ms;
     driver.command(held_up ? driving::Motion{} : outputs.motion);
     send(link, outputs.messages);
+    repeating.follow(inputs, picture, state);
     looker.set_looking(state.drive == wire::DriveState::kDriving);
     looker.set_features_wanted(follow(exploring->get(), inputs, picture, state, now, link));
     reporting.report(state, config, reading, now);
