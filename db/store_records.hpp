@@ -91,6 +91,7 @@ struct MapRecord {
   std::optional<std::string> feature_config_id;
   TimeUs created_us = 0;
   wire::RefineMode refine = wire::RefineMode::kAsk;
+  bool path = false;  // taught as a path, by one tour (pipeline/teach_path.hpp)
 };
 
 struct DriveSight {

@@ -9,10 +9,11 @@ namespace homeward::db {
 namespace {
 
 constexpr const char* kMaps =
-    "SELECT id, name, state, revision, places, images, feature_config_id, created_us, refine FROM maps "
+    "SELECT id, name, state, revision, places, images, feature_config_id, created_us, refine, path FROM maps "
     "ORDER BY created_us, rowid";
 constexpr const char* kOneMap =
-    "SELECT id, name, state, revision, places, images, feature_config_id, created_us, refine FROM maps WHERE id = ?";
+    "SELECT id, name, state, revision, places, images, feature_config_id, created_us, refine, path FROM maps WHERE id "
+    "= ?";
 
 MapRecord map_of(SQLite::Database& database, SQLite::Statement& row) {
   MapRecord map;
@@ -29,6 +30,7 @@ MapRecord map_of(SQLite::Database& database, SQLite::Statement& row) {
   const std::optional<wire::RefineMode> refine = wire::refine_mode(text(row, 8));
   if (!refine) refuse(ErrorCode::kCorruptFile, "The database holds an unknown setting.", "maps/" + map.id.str());
   map.refine = *refine;
+  map.path = integer(row, 9) != 0;
   SQLite::Statement tour = prepared(database, "SELECT tour FROM map_tours WHERE map = ? ORDER BY position", map.id);
   while (tour.executeStep()) map.tours.emplace_back(text(tour, 0));
   return map;
@@ -53,9 +55,10 @@ void insert_tours(SQLite::Database& database, const MapId& map, const std::vecto
 MapRecord insert_map(SQLite::Database& database, const MapRecord& map) {
   execute(database,
           "INSERT INTO maps (id, name, state, revision, places, images, feature_config_id, created_us, refine, "
-          "file_revision) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+          "file_revision, path) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
           map.id, map.name, std::string(wire::map_state_name(map.state)), map.revision, map.places, map.images,
-          map.feature_config_id, map.created_us, std::string(wire::refine_mode_name(map.refine)), map.revision);
+          map.feature_config_id, map.created_us, std::string(wire::refine_mode_name(map.refine)), map.revision,
+          std::int64_t{map.path ? 1 : 0});
   insert_tours(database, map.id, map.tours, 0);
   return map;
 }

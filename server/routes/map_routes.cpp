@@ -46,10 +46,11 @@ Response add_map(BuildJobs& jobs, const Request& request) {
   wire::ObjectReader reader(*body, "body");
   const std::string name = reader.line("name", 200);
   const std::vector<TourId> tours = tours_in(reader);
+  const bool path = reader.has("path") && reader.boolean("path");
   if (name.empty()) reader.problem("name", "A map needs a name.");
   if (tours.empty()) reader.problem("tours", "A map is built from at least one tour.");
   if (const Status status = reader.finish(); !status) return problem_of(status);
-  const auto made = jobs.add_map(name, tours);
+  const auto made = jobs.add_map(name, tours, path);
   if (!made) return problem_of(made);
   return json_response(202,
                        {{"map", wire::map_info_to_json(view_of(made->map))}, {"job", wire::job_to_json(made->job)}});

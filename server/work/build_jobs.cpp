@@ -66,9 +66,11 @@ Status BuildJobs::check_tours(const std::vector<TourId>& tours) {
   return {};
 }
 
-Result<BuildJobs::NewMap> BuildJobs::add_map(const std::string& name, const std::vector<TourId>& tours) {
+Result<BuildJobs::NewMap> BuildJobs::add_map(const std::string& name, const std::vector<TourId>& tours, bool path) {
   if (const Status status = check_tours(tours); !status) return pass_on(status);
+  if (path && tours.size() != 1) return fail(ErrorCode::kInvalidInput, "A path is taught by one tour.", "body/tours");
   db::MapRecord record;
+  record.path = path;
   record.name = name;
   record.tours = tours;
   record.created_us = clock_.wall_us();
@@ -95,6 +97,9 @@ Result<wire::JobView> BuildJobs::rebuild(const MapId& map) {
     return fail(ErrorCode::kConflict, "The map was imported; its pictures are not here.", where);
   };
   if (record->tours.empty()) return imported();
+  if (record->path && record->revision > 0) {
+    return fail(ErrorCode::kConflict, "A path is taught once; make a new map of its tour to teach it anew.", where);
+  }
   const auto loaded = maps_.to_build_on(map);
   if (!loaded) return pass_on(loaded);
   if (*loaded) {
@@ -246,6 +251,7 @@ void BuildJobs::run(wire::JobView job, const std::stop_token& stop) {
 Result<wire::JobState> BuildJobs::build(wire::JobView& job, const std::stop_token& stop) {
   const auto record = store_.map(job.map);
   if (!record) return pass_on(record);
+  if (record->path) return teach(job, *record, stop);
   const auto tours = open_tours(store_, record->tours);
   if (!tours) return pass_on(tours);
   const auto previous = maps_.to_build_on(job.map);

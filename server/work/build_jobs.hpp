@@ -34,9 +34,10 @@ class BuildJobs {
     db::MapRecord map;
     wire::JobView job;
   };
-  /// Errors: kNotFound (a tour), kConflict (a tour is not complete, or the cameras differ), kOverloaded.
-  Result<NewMap> add_map(const std::string& name, const std::vector<TourId>& tours);
-  /// Errors: kNotFound, kConflict (a job of the map is under way, or its pictures are not here), kOverloaded.
+  /// `path`: taught as a path, by one tour. Errors: kNotFound (a tour), kConflict (a tour is not complete, or the cameras
+  /// differ), kInvalidInput (a path of several tours), kOverloaded.
+  Result<NewMap> add_map(const std::string& name, const std::vector<TourId>& tours, bool path);
+  /// Errors: kNotFound, kConflict (a job of the map is under way, its pictures are not here, or it is a path), kOverloaded.
   Result<wire::JobView> rebuild(const MapId& map);
   /// `kind`: kAdd or kRefine, by tours. Errors: kNotFound (map or tour), kConflict (not built yet, a job of the map
   /// is under way, a tour is not complete or in the map already, or the cameras differ), kOverloaded.
@@ -64,6 +65,7 @@ class BuildJobs {
   void work(const std::stop_token& stop);
   void run(wire::JobView job, const std::stop_token& stop);
   Result<wire::JobState> build(wire::JobView& job, const std::stop_token& stop);
+  Result<wire::JobState> teach(wire::JobView& job, const db::MapRecord& record, const std::stop_token& stop);
   Result<wire::JobState> learn(wire::JobView& job, const std::stop_token& stop);
   Result<wire::JobState> check(wire::JobView& job, const std::stop_token& stop);
   // One attempt each; the map may have changed meanwhile (kStaleRevision).

@@ -21,7 +21,8 @@ TimeUs now_us() {
 
 bool may_begin(const driving::Inputs& inputs) {
   return std::any_of(inputs.messages.begin(), inputs.messages.end(), [](const wire::ServerMessage& message) {
-    return std::holds_alternative<wire::MissionOrder>(message) || std::holds_alternative<wire::ExploreOrder>(message);
+    return std::holds_alternative<wire::MissionOrder>(message) || std::holds_alternative<wire::ExploreOrder>(message) ||
+           std::holds_alternative<wire::RepeatOrder>(message);
   });
 }
 

@@ -187,7 +187,7 @@ export async function askReport(map: string): Promise<true> {
   return true;
 }
 export const exportUrl = (map: string) => `${kRoot}/maps/${id(map)}/export`;
-export const buildMap = (body: { name: string; tours: string[] }) =>
+export const buildMap = (body: { name: string; tours: string[]; path?: boolean }) =>
   call<{ map: MapInfo; job: Job }>('/maps', { method: 'POST', body });
 export const rebuildMap = (map: string) =>
   call<{ job: Job }>(`/maps/${id(map)}/builds`, { method: 'POST', body: { kind: 'build' } });

@@ -23,6 +23,7 @@ export function BuildMap({ tours, maps, wanted }: Props) {
   const complete = offeredTours(tours, grown);
   const [name, setName] = useState('');
   const [ticks, setTicks] = useState<ReadonlyMap<string, boolean>>(new Map()); // as somebody has set them
+  const [asPath, setAsPath] = useState(false);
   const [begun, setBegun] = useState<string | null>(null);
   const { busy, problem, run } = useCommand();
   const likely = complete.some((one) => one.id === wanted) ? wanted : suggested(complete, maps);
@@ -46,8 +47,8 @@ export function BuildMap({ tours, maps, wanted }: Props) {
         setTicks(new Map());
         return;
       }
-      await calls.buildMap({ name: called, tours: ids });
-      setBegun(`Building ${called}`);
+      await calls.buildMap({ name: called, tours: ids, path: asPath });
+      setBegun(asPath ? `Teaching ${called}` : `Building ${called}`);
       setName(without(name));
       setTicks(new Map());
     });
@@ -91,14 +92,31 @@ export function BuildMap({ tours, maps, wanted }: Props) {
               </label>
             ))}
           </fieldset>
+          {!grown && (
+            <div class="stack">
+              <label class="check">
+                <input type="checkbox" checked={asPath} onChange={() => setAsPath(!asPath)} />
+                Teach it as a path
+              </label>
+              <p class="soft small">
+                For one ordinary camera instead of one that sees all round: the robot follows the way of one tour again,
+                forwards, from wherever on it it stands. The tour needs pictures no more than 0.1 m apart.
+              </p>
+            </div>
+          )}
+          {!grown && asPath && chosen.length > 1 && <Notice tone="bad">A path is taught by one tour. Choose one.</Notice>}
           {!grown && <TextField label="Name of the map" value={name} onInput={setName} />}
           <div class="row">
             <button
               type="submit"
               class="button main"
-              disabled={busy || chosen.length === 0 || (!grown && name.trim() === '')}
+              disabled={
+                busy ||
+                chosen.length === 0 ||
+                (!grown && (name.trim() === '' || (asPath && chosen.length > 1)))
+              }
             >
-              {busy ? 'Starting …' : grown ? 'Add to the map' : 'Build the map'}
+              {busy ? 'Starting …' : grown ? 'Add to the map' : asPath ? 'Teach the path' : 'Build the map'}
             </button>
           </div>
         </form>
