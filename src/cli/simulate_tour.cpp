@@ -45,7 +45,8 @@ Status make_tour(const SimulateTourOptions& options) {
 void add_stage_options(CLI::App& command, StageOptions& options) {
   command
       .add_option("--world", options.world,
-                  "house:SEED, narrow_house:SEED, offices:SEED, wards:SEED, laboratory:SEED or a world.json")
+                  "house:SEED, narrow_house:SEED, offices:SEED, wards:SEED, laboratory:SEED, circuit:SEED or a "
+                  "world.json")
       ->required();
   command.add_option("--light", options.light, "day, night or half")->capture_default_str();
   command.add_option("--camera", options.camera, "hyperbolic_mirror, equirectangular, pinhole or a camera.json")
@@ -60,7 +61,8 @@ void register_simulate_tour(CLI::App& simulate) {
   add_stage_options(*command, options->stage);
   command
       ->add_option("--rooms", options->rooms,
-                   "Rooms in the order of the visit, or all: every one, the next always the nearest")
+                   "Rooms in the order of the visit, or all: every one, the next always the nearest, of a "
+                   "circuit in their order")
       ->required()
       ->delimiter(',');
   command->add_option("--step-m", options->step_m, "Way between two pictures")->capture_default_str();

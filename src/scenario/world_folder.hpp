@@ -9,9 +9,10 @@
 
 namespace homeward::scenario {
 
-/// A world by its name: "house:SEED", "narrow_house:SEED", "offices:SEED", "wards:SEED" or "laboratory:SEED" is
-/// generated, anything else is a world.json (or of the folder that holds it). Floor grids that the file does not bring
-/// are computed from the mesh. Errors: kNotFound, kInvalidInput, kUnsupportedFormat, each naming file and field.
+/// A world by its name: "house:SEED", "narrow_house:SEED", "offices:SEED", "wards:SEED", "laboratory:SEED" or
+/// "circuit:SEED" is generated, anything else is a world.json (or of the folder that holds it). Floor grids that the
+/// file does not bring are computed from the mesh. Errors: kNotFound, kInvalidInput, kUnsupportedFormat, each naming
+/// file and field.
 Result<sim::World> load_world(const std::string& name);
 
 /// Takes the light of a preset from the user's cache folder ($XDG_CACHE_HOME/homeward or ~/.cache/homeward), or

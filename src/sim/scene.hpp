@@ -79,6 +79,7 @@ struct World {
   std::vector<Lamp> lamps;
   std::vector<Furniture> furniture;  // known of generated worlds alone
   std::vector<DoorOpening> doors;    // the same
+  bool round = false;                // its rooms lie round a circuit, in their order
   FloorGrid occupied;                // 255 = something stands there between knee and head
   FloorGrid
       drivable;  // 255 = the centre of a disc robot of robot_radius_m may be here, and can get here from the start

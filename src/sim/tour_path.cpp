@@ -68,6 +68,10 @@ std::vector<std::string> all_rooms(const World& world) {
     const Room& here = *left[next];
     tour.push_back(here.name);
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
+    if (world.round) {
+      next = 0;
+      continue;
+    }
     const auto nearest = std::ranges::min_element(
         left, {}, [&](const Room* room) { return std::hypot(room->x_m - here.x_m, room->y_m - here.y_m); });
     next = static_cast<std::size_t>(nearest - left.begin());

@@ -22,8 +22,8 @@ struct TourStop {
 /// rooms), kNoRoute.
 Result<std::vector<TourStop>> plan_tour(const World& world, const std::vector<std::string>& rooms, double step_m);
 
-/// All rooms of a world from its first on, the next always the one whose point is nearest, and back to the first. Of a
-/// world with one room or none: those.
+/// All rooms of a world from its first on, the next always the one whose point is nearest, and back to the first; of a
+/// world that is a circuit, in the order in which they lie round it. Of a world with one room or none: those.
 std::vector<std::string> all_rooms(const World& world);
 
 /// The point of a room. Errors: kNotFound, which names the rooms there are.
