@@ -48,7 +48,8 @@ void add_stage_options(CLI::App& command, StageOptions& options) {
                   "house:SEED, narrow_house:SEED, offices:SEED, wards:SEED, laboratory:SEED, circuit:SEED or a "
                   "world.json")
       ->required();
-  command.add_option("--light", options.light, "day, night or half")->capture_default_str();
+  command.add_option("--light", options.light, "day, night, half or daylight:LEVEL, LEVEL from 0 (night) to 1 (day)")
+      ->capture_default_str();
   command.add_option("--camera", options.camera, "hyperbolic_mirror, equirectangular, pinhole or a camera.json")
       ->capture_default_str();
   command.add_option("--out", options.out, "New folder for the pictures")->required();

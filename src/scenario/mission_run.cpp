@@ -90,7 +90,7 @@ struct WorldOfDay {
   int moved_furniture = 0;
 };
 
-Result<WorldOfDay> world_of_day(const Setting& mission, const sim::LightPreset& light) {
+Result<WorldOfDay> world_of_day(const Setting& mission, const sim::Light& light) {
   WorldOfDay day;
   day.world = mission.taught.world.get();
   if (mission.plan.moved_furniture <= 0) {
@@ -108,7 +108,7 @@ Result<WorldOfDay> world_of_day(const Setting& mission, const sim::LightPreset& 
   return day;
 }
 
-Result<SimulatedRobot> robot_for(const Setting& mission, sim::LitWorld& world, const sim::LightPreset& light,
+Result<SimulatedRobot> robot_for(const Setting& mission, sim::LitWorld& world, const sim::Light& light,
                                  const Pose2& start) {
   SimulatedRobotConfig config;
   config.camera = mission.taught.camera;

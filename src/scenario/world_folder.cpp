@@ -10,6 +10,7 @@
 #include "sim/floor.hpp"
 #include "sim/generate/worlds.hpp"
 #include "sim/mesh_import.hpp"
+#include "wire/scenario_json.hpp"
 #include "wire/world_json.hpp"
 
 namespace homeward::scenario {
@@ -107,11 +108,19 @@ Result<sim::World> load_world(const std::string& name) {
   return read_world(fs::is_directory(name, error) ? fs::path(name) / "world.json" : fs::path(name));
 }
 
-Result<sim::LightPreset> light_named(const std::string& name) {
+Result<sim::Light> light_named(const std::string& name) {
   if (name == "day") return sim::LightPreset::kDay;
   if (name == "night") return sim::LightPreset::kNight;
   if (name == "half") return sim::LightPreset::kHalf;
-  return fail(ErrorCode::kInvalidInput, "The light '" + name + "' is not known; there are day, night and half.",
+  if (const auto level = wire::daylight_of(name)) return sim::Light::of_daylight(*level);
+  if (name.starts_with("daylight:")) {
+    return fail(ErrorCode::kInvalidInput,
+                "'" + name.substr(std::string("daylight:").size()) +
+                    "' is no level of daylight: a number from 0 (night) to 1 (day) is wanted after 'daylight:'.",
+                "light");
+  }
+  return fail(ErrorCode::kInvalidInput,
+              "The light '" + name + "' is not known; there are day, night, half and daylight:0 to daylight:1.",
               "light");
 }
 

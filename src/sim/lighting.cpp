@@ -74,14 +74,16 @@ class Gatherer {
     Eigen::Array3f light = Eigen::Array3f::Zero();
     const Eigen::Array3f colour(settings_.lamp_colour[0], settings_.lamp_colour[1], settings_.lamp_colour[2]);
     for (std::size_t i = 0; i < lamps_.size(); ++i) {
-      if (!lamp_burns(settings_, i)) continue;
+      const float share = lamp_share(settings_, i);
+      if (share == 0.0F) continue;
       const Eigen::Vector3f lamp_m = lamps_[i].position_m.cast<float>();
       const Eigen::Vector3f way_m = lamp_m - point_m;
       const float distance2 = std::max(0.09F, way_m.squaredNorm());
       const float cosine = normal.dot(way_m.normalized());
       // The lamp's own shade must not hide it: the last 15 cm are open.
       if (cosine <= 0.0F || rays_.blocked(point_m, lamp_m - 0.15F * way_m.normalized())) continue;
-      light += colour * (settings_.lamp_intensity * static_cast<float>(lamps_[i].strength) * cosine / distance2);
+      light +=
+          colour * (share * settings_.lamp_intensity * static_cast<float>(lamps_[i].strength) * cosine / distance2);
     }
     return light;
   }
@@ -171,20 +173,33 @@ class Gatherer {
 
 }  // namespace
 
-LightSettings light_settings(LightPreset preset) {
-  switch (preset) {
-    case LightPreset::kDay:
-      return {{1.0F, 0.97F, 0.92F}, 1.1F, 0, 5.0F, 1.4F, 1.5F, 1.0F};
-    case LightPreset::kNight:
-      return {{1.0F, 0.80F, 0.55F}, 1.4F, 3, 0.0F, 0.03F, 3.0F, 1.1F};
-    case LightPreset::kHalf:
-      return {{1.0F, 0.90F, 0.75F}, 1.2F, 2, 1.2F, 0.5F, 2.0F, 1.1F};
+LightSettings light_settings(const Light& light) {
+  const LightSettings day{{1.0F, 0.97F, 0.92F}, 1.1F, 0, 5.0F, 1.4F, 1.5F, 1.0F};
+  const LightSettings night{{1.0F, 0.80F, 0.55F}, 1.4F, 3, 0.0F, 0.03F, 3.0F, 1.1F};
+  const LightSettings half{{1.0F, 0.90F, 0.75F}, 1.2F, 2, 1.2F, 0.5F, 2.0F, 1.1F};
+  if (!light.is_between()) {
+    if (light.preset() == LightPreset::kHalf) return half;
+    return light.preset() == LightPreset::kDay ? day : night;
   }
-  return {};
+  const auto share = static_cast<float>(light.level());
+  const auto between = [&](float dark, float bright) { return std::lerp(dark, bright, share); };
+  LightSettings settings = night;
+  for (std::size_t band = 0; band < 3; ++band) {
+    settings.lamp_colour[band] = between(night.lamp_colour[band], day.lamp_colour[band]);
+  }
+  settings.lamp_intensity = between(night.lamp_intensity, day.lamp_intensity);
+  settings.dimmed = share;  // at night every third is off, by day all burn
+  settings.window_radiance = between(night.window_radiance, day.window_radiance);
+  settings.window_shown = between(night.window_shown, day.window_shown);
+  settings.noise_levels = between(night.noise_levels, day.noise_levels);
+  settings.exposure = between(night.exposure, day.exposure);
+  return settings;
 }
 
-bool lamp_burns(const LightSettings& settings, std::size_t index) {
-  return settings.lamps_off_every == 0 || (index + 1) % static_cast<std::size_t>(settings.lamps_off_every) != 0;
+float lamp_share(const LightSettings& settings, std::size_t index) {
+  const bool burns =
+      settings.lamps_off_every == 0 || (index + 1) % static_cast<std::size_t>(settings.lamps_off_every) != 0;
+  return burns ? 1.0F : settings.dimmed;
 }
 
 float linear_from_srgb(std::uint8_t value) {

@@ -18,7 +18,7 @@ struct LitWorld::Parts {
   Scene fine;
   RayScene rays;
   Surfaces surfaces;
-  std::map<LightPreset, Irradiance> light;
+  std::map<Light, Irradiance> light;
 };
 
 LitWorld::LitWorld(World world) {
@@ -36,28 +36,32 @@ const Scene& LitWorld::fine_scene() const { return parts_->fine; }
 const RayScene& LitWorld::rays() const { return parts_->rays; }
 const Surfaces& LitWorld::surfaces() const { return parts_->surfaces; }
 
-const Irradiance& LitWorld::irradiance(LightPreset preset) {
-  const auto known = parts_->light.find(preset);
+const Irradiance& LitWorld::irradiance(const Light& light) {
+  const auto known = parts_->light.find(light);
   if (known != parts_->light.end()) return known->second;
   return parts_->light
-      .emplace(preset, compute_irradiance(parts_->fine, parts_->rays, parts_->world.lamps, light_settings(preset)))
+      .emplace(light, compute_irradiance(parts_->fine, parts_->rays, parts_->world.lamps, light_settings(light)))
       .first->second;
 }
 
-bool LitWorld::set_irradiance(LightPreset preset, Irradiance irradiance) {
+bool LitWorld::set_irradiance(const Light& light, Irradiance irradiance) {
   if (irradiance.corners.rows() != parts_->fine.vertices_m.rows()) return false;
-  parts_->light.insert_or_assign(preset, std::move(irradiance));
+  parts_->light.insert_or_assign(light, std::move(irradiance));
   return true;
 }
 
-std::string LitWorld::light_key(LightPreset preset) const {
+std::string LitWorld::light_key(const Light& light) const {
   constexpr std::uint64_t kLightVersion = 1;  // rises when compute_irradiance changes
-  std::uint64_t hash = mix(kLightVersion * 1000003ULL + static_cast<std::uint64_t>(preset));
+  std::uint64_t hash = mix(kLightVersion * 1000003ULL + static_cast<std::uint64_t>(light.preset()));
   const auto add = [&](const void* data, std::size_t bytes) {
     const auto* first = static_cast<const std::uint8_t*>(data);
     for (std::size_t i = 0; i < bytes; ++i) hash = (hash ^ first[i]) * 0x100000001B3ULL;  // FNV-1a
     hash = mix(hash);
   };
+  if (light.is_between()) {
+    const double level = light.level();
+    add(&level, sizeof level);
+  }
   const Scene& fine = parts_->fine;
   add(fine.vertices_m.data(), static_cast<std::size_t>(fine.vertices_m.size()) * sizeof(float));
   add(fine.triangle_materials.data(), fine.triangle_materials.size() * sizeof(int));

@@ -163,10 +163,10 @@ struct Renderer::Parts {
   void take(const Shot& shot, std::size_t first, std::size_t end, Image& image) const;
 };
 
-// The world keeps the light of a preset, and has to outlive the renderer anyway.
-Renderer::Renderer(LitWorld& world, LightPreset preset, const std::shared_ptr<const camera::Camera>& camera)
-    : Renderer(world, light_settings(preset),
-               std::shared_ptr<const Irradiance>(std::shared_ptr<void>(), &world.irradiance(preset)), camera) {}
+// The world keeps its lights, and has to outlive the renderer anyway.
+Renderer::Renderer(LitWorld& world, const Light& light, const std::shared_ptr<const camera::Camera>& camera)
+    : Renderer(world, light_settings(light),
+               std::shared_ptr<const Irradiance>(std::shared_ptr<void>(), &world.irradiance(light)), camera) {}
 
 Renderer::Renderer(const LitWorld& world, const LightSettings& settings, std::shared_ptr<const Irradiance> light,
                    const std::shared_ptr<const camera::Camera>& camera) {

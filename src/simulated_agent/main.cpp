@@ -18,7 +18,8 @@ void add_simulator_options(CLI::App& command, scenario::SimulatorDriverConfig& s
           "Simulator: house:SEED, narrow_house:SEED, offices:SEED, wards:SEED, laboratory:SEED, circuit:SEED or a "
           "world.json")
       ->capture_default_str();
-  command.add_option("--light", simulator.light, "Simulator: day, night or half")->capture_default_str();
+  command.add_option("--light", simulator.light, "Simulator: day, night, half or daylight:LEVEL, 0 to 1")
+      ->capture_default_str();
   command.add_option("--profile", simulator.robot, "Simulator: disc or chair")
       ->check(CLI::IsMember({"disc", "chair"}))
       ->capture_default_str();
