@@ -98,7 +98,8 @@ Result<sim::World> load_world(const std::string& name) {
                                  Kind{"offices", sim::generate_offices},
                                  Kind{"wards", sim::generate_wards},
                                  Kind{"laboratory", sim::generate_systems_laboratory},
-                                 Kind{"circuit", sim::generate_circuit}};
+                                 Kind{"circuit", sim::generate_circuit},
+                                 Kind{"course", sim::generate_course}};
   for (const Kind& kind : kKinds) {
     const auto seed = seed_after(name, kind.name);
     if (!seed) return pass_on(seed);

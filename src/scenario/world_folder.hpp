@@ -9,10 +9,10 @@
 
 namespace homeward::scenario {
 
-/// A world by its name: "house:SEED", "narrow_house:SEED", "offices:SEED", "wards:SEED", "laboratory:SEED" or
-/// "circuit:SEED" is generated, anything else is a world.json (or of the folder that holds it). Floor grids that the
-/// file does not bring are computed from the mesh. Errors: kNotFound, kInvalidInput, kUnsupportedFormat, each naming
-/// file and field.
+/// A world by its name: "house:SEED", "narrow_house:SEED", "offices:SEED", "wards:SEED", "laboratory:SEED",
+/// "circuit:SEED" or "course:SEED" is generated, anything else is a world.json (or of the folder that holds it). Floor
+/// grids that the file does not bring are computed from the mesh. Errors: kNotFound, kInvalidInput, kUnsupportedFormat,
+/// each naming file and field.
 Result<sim::World> load_world(const std::string& name);
 
 /// Takes what a light gives from the user's cache folder ($XDG_CACHE_HOME/homeward or ~/.cache/homeward), or

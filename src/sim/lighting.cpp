@@ -72,6 +72,7 @@ class Gatherer {
 
   [[nodiscard]] Eigen::Array3f direct(const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal) const {
     Eigen::Array3f light = Eigen::Array3f::Zero();
+    if (settings_.lamp_intensity == 0.0F) return light;
     const Eigen::Array3f colour(settings_.lamp_colour[0], settings_.lamp_colour[1], settings_.lamp_colour[2]);
     for (std::size_t i = 0; i < lamps_.size(); ++i) {
       const float share = lamp_share(settings_, i);
@@ -88,9 +89,14 @@ class Gatherer {
     return light;
   }
 
+  /// Turns +z to `normal`.
+  [[nodiscard]] static Eigen::Quaternionf about(const Eigen::Vector3f& normal) {
+    return Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), normal);
+  }
+
   /// What the rays about `normal` meet, one for each direction.
   void trace(const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal, std::span<Met> met) const {
-    const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), normal);
+    const Eigen::Quaternionf turn = about(normal);
     for (std::size_t i = 0; i < directions_.size(); ++i) {
       const auto hit = rays_.first_hit(point_m, turn * directions_[i], kFar_m);
       met[i] = hit ? Met{hit->triangle, hit->u, hit->v} : Met{};
@@ -98,11 +104,18 @@ class Gatherer {
   }
 
   /// The light that such rays bring from what they have met, in the light that is `known` there.
-  [[nodiscard]] Eigen::Array3f indirect(std::span<const Met> met, const Irradiance& known) const {
+  [[nodiscard]] Eigen::Array3f indirect(const Eigen::Vector3f& normal, std::span<const Met> met,
+                                        const Irradiance& known) const {
     Eigen::Array3f light = Eigen::Array3f::Zero();
-    for (const Met& one : met) {
+    const Eigen::Quaternionf turn = about(normal);
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      const Met& one = met[i];
       if (one.triangle == Hit::kNoTriangle) {
-        light += settings_.window_radiance * 0.1F;
+        if (settings_.sky) {
+          light += radiance(*settings_.sky, turn * directions_[i]);
+        } else {
+          light += settings_.window_radiance * 0.1F;
+        }
         continue;
       }
       const auto material = static_cast<std::size_t>(scene_.triangle_materials[one.triangle]);
@@ -196,6 +209,23 @@ LightSettings light_settings(const Light& light) {
   return settings;
 }
 
+LightSettings light_settings(const Light& light, const std::optional<Sky>& sky) {
+  if (!sky) return light_settings(light);
+  const float daylight = daylight_in(light);
+  constexpr float kFirstLamps = 0.25F;
+  constexpr float kAllLamps = 0.1F;
+  constexpr float kDark = 0.02F;  // of the day: what the camera's exposure is set for where there is no light at all
+  LightSettings settings;
+  settings.lamp_colour = {1.0F, 0.82F, 0.58F};
+  settings.lamp_intensity = 0.4F * std::clamp((kFirstLamps - daylight) / (kFirstLamps - kAllLamps), 0.0F, 1.0F);
+  if (!light.is_between() && light.preset() == LightPreset::kHalf) settings.lamps_off_every = 2;
+  settings.window_shown = 0.03F + daylight;
+  settings.exposure = std::pow((1.0F + kDark) / (daylight + kDark), 0.7F);
+  settings.noise_levels = 1.5F * std::pow(settings.exposure, 0.35F);
+  settings.sky = sky_light(*sky, daylight);
+  return settings;
+}
+
 float lamp_share(const LightSettings& settings, std::size_t index) {
   const bool burns =
       settings.lamps_off_every == 0 || (index + 1) % static_cast<std::size_t>(settings.lamps_off_every) != 0;
@@ -251,7 +281,7 @@ Irradiance compute_irradiance(const Scene& scene, const RayScene& rays, const st
           const bool keeps = side < kept_sides;
           const std::span<Met> met = keeps ? std::span(kept).subspan(side * rays_per_side, rays_per_side) : passing;
           if (bounce == 0 || !keeps) gatherer.trace(point_m, normal, met);
-          return gatherer.indirect(met, total);
+          return gatherer.indirect(normal, met, total);
         });
     total.corners = direct.corners + bounced.corners;
   }

@@ -6,6 +6,7 @@
 #include "sim/light.hpp"
 #include "sim/ray_scene.hpp"
 #include "sim/scene.hpp"
+#include "sim/sky.hpp"
 
 namespace homeward::sim {
 
@@ -18,10 +19,14 @@ struct LightSettings {
   float window_shown = 0.05F;    // brightness of a window pane itself
   float noise_levels = 1.5F;     // standard deviation of the sensor's noise, grey levels of 255
   float exposure = 1.0F;
-  float dimmed = 0.0F;   // what a dimmed lamp still gives of its light; 0: it is off
-  int gather_rays = 40;  // directions from which diffuse light is gathered; more, less blotchy
+  float dimmed = 0.0F;                         // what a dimmed lamp still gives of its light; 0: it is off
+  int gather_rays = 40;                        // directions from which diffuse light is gathered; more, less blotchy
+  std::optional<SkyLight> sky = std::nullopt;  // in the open; none: a ray that meets nothing shows a dim grey
 };
 LightSettings light_settings(const Light& light);
+/// The same under a sky, where there is one: no lamps burn by day, the first at dusk, and the less light there is, the
+/// longer the camera exposes and the noisier it is.
+LightSettings light_settings(const Light& light, const std::optional<Sky>& sky);
 
 /// What lamp number `index` gives of its light, 0 to 1.
 float lamp_share(const LightSettings& settings, std::size_t index);

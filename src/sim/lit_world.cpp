@@ -9,7 +9,8 @@
 namespace homeward::sim {
 namespace {
 
-constexpr float kFinest_m = 0.3F;  // edges of the triangles that carry the light
+constexpr float kFinest_m = 0.3F;         // edges of the triangles that carry the light
+constexpr float kFinestOutside_m = 0.8F;  // the same under a sky, which lights evenly
 
 }  // namespace
 
@@ -22,7 +23,7 @@ struct LitWorld::Parts {
 };
 
 LitWorld::LitWorld(World world) {
-  Scene fine = tessellate(world.scene, kFinest_m);
+  Scene fine = tessellate(world.scene, world.sky ? kFinestOutside_m : kFinest_m);
   RayScene rays(fine);
   Surfaces surfaces = surfaces_of(fine);
   parts_ = std::make_unique<Parts>(Parts{std::move(world), std::move(fine), std::move(rays), std::move(surfaces), {}});
@@ -40,7 +41,8 @@ const Irradiance& LitWorld::irradiance(const Light& light) {
   const auto known = parts_->light.find(light);
   if (known != parts_->light.end()) return known->second;
   return parts_->light
-      .emplace(light, compute_irradiance(parts_->fine, parts_->rays, parts_->world.lamps, light_settings(light)))
+      .emplace(light, compute_irradiance(parts_->fine, parts_->rays, parts_->world.lamps,
+                                         light_settings(light, parts_->world.sky)))
       .first->second;
 }
 
@@ -71,6 +73,7 @@ std::string LitWorld::light_key(const Light& light) const {
     add(lamp.position_m.data(), 3 * sizeof(double));
     add(&lamp.strength, sizeof lamp.strength);
   }
+  if (parts_->world.sky) add(&parts_->world.sky->sun_azimuth_rad, sizeof(double));
   char text[24];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
   return text;

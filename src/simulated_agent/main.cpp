@@ -13,10 +13,10 @@ using namespace homeward;  // NOLINT(google-build-using-namespace): a program's 
 
 void add_simulator_options(CLI::App& command, scenario::SimulatorDriverConfig& simulator) {
   command
-      .add_option(
-          "--world", simulator.world,
-          "Simulator: house:SEED, narrow_house:SEED, offices:SEED, wards:SEED, laboratory:SEED, circuit:SEED or a "
-          "world.json")
+      .add_option("--world", simulator.world,
+                  "Simulator: house:SEED, narrow_house:SEED, offices:SEED, wards:SEED, laboratory:SEED, circuit:SEED, "
+                  "course:SEED or a "
+                  "world.json")
       ->capture_default_str();
   command.add_option("--light", simulator.light, "Simulator: day, night, half or daylight:LEVEL, 0 to 1")
       ->capture_default_str();

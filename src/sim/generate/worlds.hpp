@@ -34,4 +34,9 @@ World generate_systems_laboratory(std::uint64_t seed);
 /// corridor_8, follow one another round the ring.
 World generate_circuit(std::uint64_t seed);
 
+/// A ring of streets in the open, 150 m round and more: fronts of houses, hedges, walls and fences on both sides,
+/// trees, benches, stalls, signs, parked cars and lamp posts along them, five kinds of ground, and a square. Its rooms,
+/// stretch_1 to stretch_11, follow one another round the ring.
+World generate_course(std::uint64_t seed);
+
 }  // namespace homeward::sim
