@@ -255,8 +255,9 @@ void build_tree(SceneBuilder& scene, const Pose2& frame, double height_m, const 
 Lamp build_lamp_post(SceneBuilder& scene, const Pose2& frame, const StreetMaterials& of) {
   constexpr double kHigh_m = 3.6;
   scene.cylinder(frame, {0.0, 0.0, 0.0}, 0.06, kHigh_m, of.steel);
-  scene.cylinder(frame, {0.0, 0.0, kHigh_m}, 0.16, 0.25, {of.lamp, 0.0});
-  scene.cylinder(frame, {0.0, 0.0, kHigh_m + 0.25}, 0.2, 0.06, of.steel);
+  // Narrow: the shade must not hide its own lamp, of which the last 15 cm are open.
+  scene.cylinder(frame, {0.0, 0.0, kHigh_m}, 0.1, 0.25, {of.lamp, 0.0});
+  scene.cylinder(frame, {0.0, 0.0, kHigh_m + 0.25}, 0.15, 0.06, of.steel);
   return {{frame.x_m, frame.y_m, kHigh_m + 0.1}, 1.0};
 }
 
