@@ -15,6 +15,7 @@ struct SimulateTourOptions {
   StageOptions stage;
   std::vector<std::string> rooms;
   double step_m = 0.4;
+  double beside_m = 0.0;
   bool marks = false;
 };
 
@@ -23,7 +24,7 @@ Status make_tour(const SimulateTourOptions& options) {
   if (!writer) return pass_on(writer);
   const bool all = options.rooms == std::vector<std::string>{"all"};
   const auto rooms = all ? sim::all_rooms(writer->world()) : options.rooms;
-  const auto stops = sim::plan_tour(writer->world(), rooms, options.step_m);
+  const auto stops = sim::plan_tour(writer->world(), rooms, options.step_m, options.beside_m);
   if (!stops) return pass_on(stops);
   sim::WheelOdometry wheels(options.stage.seed);
   std::vector<std::pair<std::string, std::string>> marks;
@@ -44,11 +45,16 @@ Status make_tour(const SimulateTourOptions& options) {
 
 void add_stage_options(CLI::App& command, StageOptions& options) {
   command
-      .add_option("--world", options.world,
-                  "house:SEED, narrow_house:SEED, offices:SEED, wards:SEED, laboratory:SEED or a world.json")
+      .add_option(
+          "--world", options.world,
+          "house:SEED, narrow_house:SEED, offices:SEED, wards:SEED, laboratory:SEED, circuit:SEED, course:SEED or a "
+          "world.json")
       ->required();
-  command.add_option("--light", options.light, "day, night or half")->capture_default_str();
-  command.add_option("--camera", options.camera, "hyperbolic_mirror, equirectangular, pinhole or a camera.json")
+  command.add_option("--light", options.light, "day, night, half or daylight:LEVEL, LEVEL from 0 (night) to 1 (day)")
+      ->capture_default_str();
+  command
+      .add_option("--camera", options.camera,
+                  "hyperbolic_mirror, equirectangular, pinhole (640 by 480 pixels), pinhole_320 or a camera.json")
       ->capture_default_str();
   command.add_option("--out", options.out, "New folder for the pictures")->required();
   command.add_option("--seed", options.seed, "Seed of noise and odometry")->capture_default_str();
@@ -60,10 +66,15 @@ void register_simulate_tour(CLI::App& simulate) {
   add_stage_options(*command, options->stage);
   command
       ->add_option("--rooms", options->rooms,
-                   "Rooms in the order of the visit, or all: every one, the next always the nearest")
+                   "Rooms in the order of the visit, or all: every one, the next always the nearest, of a "
+                   "circuit in their order")
       ->required()
       ->delimiter(',');
   command->add_option("--step-m", options->step_m, "Way between two pictures")->capture_default_str();
+  command
+      ->add_option("--beside-m", options->beside_m,
+                   "So far to the left of the usual way (negative: to the right) wherever the floor allows it")
+      ->capture_default_str();
   command->add_flag("--marks", options->marks, "Mark each room's point as a destination");
   run_on(*command, [options] { return make_tour(*options); });
 }

@@ -90,8 +90,8 @@ class Checker {
   void check_light(const std::string& where, const std::string& name) {
     const auto light = light_named(name);
     if (!light) {
-      add(where, "there is no light '" + name + "'; there are day, night and half");
-    } else if (*light != sim::LightPreset::kDay && world_.lamps.empty()) {
+      add(where, "there is no light '" + name + "'; there are day, night, half and daylight:0 to daylight:1");
+    } else if (*light != sim::Light(sim::LightPreset::kDay) && world_.lamps.empty()) {
       add(where, "'" + name + "' is the light of lamps, and this world has none; there is day");
     }
   }

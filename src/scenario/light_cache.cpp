@@ -29,31 +29,31 @@ fs::path cache_folder() {
   return fs::temp_directory_path() / "homeward-cache";
 }
 
-bool read_light(const fs::path& file, sim::LitWorld& world, sim::LightPreset preset) {
+bool read_light(const fs::path& file, sim::LitWorld& world, const sim::Light& light) {
   const auto bytes = files::read_text(file);
   Head head;
   if (!bytes || bytes->size() < sizeof head) return false;
   std::memcpy(&head, bytes->data(), sizeof head);
   if (head.magic != Head().magic || head.version != kVersion) return false;
   if (head.rows > bytes->size() || bytes->size() != sizeof head + head.rows * 3 * sizeof(float)) return false;
-  sim::Irradiance light;
-  light.corners.resize(static_cast<Eigen::Index>(head.rows), 3);
-  std::memcpy(light.corners.data(), bytes->data() + sizeof head, bytes->size() - sizeof head);
-  return light.corners.allFinite() && world.set_irradiance(preset, std::move(light));
+  sim::Irradiance known;
+  known.corners.resize(static_cast<Eigen::Index>(head.rows), 3);
+  std::memcpy(known.corners.data(), bytes->data() + sizeof head, bytes->size() - sizeof head);
+  return known.corners.allFinite() && world.set_irradiance(light, std::move(known));
 }
 
 }  // namespace
 
-void prepare_light(sim::LitWorld& world, sim::LightPreset preset) {
+void prepare_light(sim::LitWorld& world, const sim::Light& light) {
   const fs::path folder = cache_folder();
-  const fs::path file = folder / ("light-" + world.light_key(preset));
-  if (read_light(file, world, preset)) return;
-  const sim::Irradiance& light = world.irradiance(preset);
+  const fs::path file = folder / ("light-" + world.light_key(light));
+  if (read_light(file, world, light)) return;
+  const sim::Irradiance& computed = world.irradiance(light);
   Head head;
-  head.rows = static_cast<std::uint64_t>(light.corners.rows());
+  head.rows = static_cast<std::uint64_t>(computed.corners.rows());
   std::string bytes(sizeof head + head.rows * 3 * sizeof(float), '\0');
   std::memcpy(bytes.data(), &head, sizeof head);
-  std::memcpy(bytes.data() + sizeof head, light.corners.data(), head.rows * 3 * sizeof(float));
+  std::memcpy(bytes.data() + sizeof head, computed.corners.data(), head.rows * 3 * sizeof(float));
   if (files::make_folder(folder)) static_cast<void>(files::write_file(file, bytes));
 }
 

@@ -62,7 +62,7 @@ struct Setting {
   const std::optional<recording::RecordingOptions>& record;
 };
 
-Result<SimulatedRobot> robot_for(const Setting& mission, sim::LitWorld& world, const sim::LightPreset& light,
+Result<SimulatedRobot> robot_for(const Setting& mission, sim::LitWorld& world, const sim::Light& light,
                                  const Pose2& start) {
   SimulatedRobotConfig config;
   config.camera = mission.taught.camera;

@@ -83,7 +83,7 @@ Result<std::size_t> picture_at(const TaughtWorld& taught, const std::string& roo
 
 /// Beside a pose of the tour, drawn until it leaves the robot room.
 Result<SimulatedRobot> robot_beside(const Pose2& shown, const TaughtWorld& taught, const MissionPlan& plan,
-                                    const sim::RobotProfile& profile, WorldOfDay& day, sim::LightPreset light) {
+                                    const sim::RobotProfile& profile, WorldOfDay& day, sim::Light light) {
   constexpr int kTries = 100;
   SimulatedRobotConfig config;
   config.camera = taught.camera;

@@ -31,7 +31,7 @@ sim::UltrasoundConfig safety_ring();
 
 struct SimulatedRobotConfig {
   camera::CameraConfig camera;
-  sim::LightPreset light = sim::LightPreset::kDay;
+  sim::Light light = sim::LightPreset::kDay;
   sim::RobotProfile profile = sim::disc_profile();
   sim::LaserConfig laser = safety_scanner();
   sim::UltrasoundConfig ultrasound = safety_ring();  // where the profile has it in place of the laser

@@ -34,7 +34,7 @@ RangeSweep sweep_at(sim::LitWorld& world, const Pose2& pose, std::uint64_t seed)
 }
 
 /// Leads a tour through the scenario's rooms.
-Status lead_tour(const wire::ScenarioFile& scenario, sim::LightPreset light, TaughtWorld& taught, KeptTour& tour) {
+Status lead_tour(const wire::ScenarioFile& scenario, const sim::Light& light, TaughtWorld& taught, KeptTour& tour) {
   auto camera = camera::Camera::create(taught.camera);
   if (!camera) return pass_on(camera);
   const auto stops = sim::plan_tour(taught.world->world(), scenario.tour_rooms, scenario.tour_step_m);
@@ -58,7 +58,7 @@ Status lead_tour(const wire::ScenarioFile& scenario, sim::LightPreset light, Tau
 }
 
 /// Lets the robot explore by itself, from the first of the rooms on.
-Status explore_for(const wire::ScenarioFile& scenario, sim::LightPreset light, TaughtWorld& taught, KeptTour& tour) {
+Status explore_for(const wire::ScenarioFile& scenario, const sim::Light& light, TaughtWorld& taught, KeptTour& tour) {
   const sim::RobotProfile profile = profile_of(scenario);
   const sim::World& world = taught.world->world();
   const auto seed = static_cast<std::uint64_t>(scenario.seed);

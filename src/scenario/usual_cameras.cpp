@@ -32,6 +32,12 @@ std::optional<camera::CameraConfig> usual_camera(const std::string& model) {
     config.model = camera::Pinhole{{457.0, 457.0, 319.5, 239.5}, {}};
     return config;
   }
+  if (model == "pinhole_320") {  // the same in half the size
+    config.width_px = 320;
+    config.height_px = 240;
+    config.model = camera::Pinhole{{228.5, 228.5, 159.5, 119.5}, {}};
+    return config;
+  }
   return std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario/world_folder.hpp"
 
+#include <array>
 #include <charconv>
 #include <optional>
 
@@ -9,6 +10,7 @@
 #include "sim/floor.hpp"
 #include "sim/generate/worlds.hpp"
 #include "sim/mesh_import.hpp"
+#include "wire/scenario_json.hpp"
 #include "wire/world_json.hpp"
 
 namespace homeward::scenario {
@@ -87,30 +89,39 @@ Result<sim::World> read_world(const fs::path& file) {
 }  // namespace
 
 Result<sim::World> load_world(const std::string& name) {
-  const auto house = seed_after(name, "house");
-  if (!house) return pass_on(house);
-  if (*house) return sim::generate_house(**house);
-  const auto narrow = seed_after(name, "narrow_house");
-  if (!narrow) return pass_on(narrow);
-  if (*narrow) return sim::generate_narrow_house(**narrow);
-  const auto offices = seed_after(name, "offices");
-  if (!offices) return pass_on(offices);
-  if (*offices) return sim::generate_offices(**offices);
-  const auto wards = seed_after(name, "wards");
-  if (!wards) return pass_on(wards);
-  if (*wards) return sim::generate_wards(**wards);
-  const auto laboratory = seed_after(name, "laboratory");
-  if (!laboratory) return pass_on(laboratory);
-  if (*laboratory) return sim::generate_systems_laboratory(**laboratory);
+  struct Kind {
+    const char* name;
+    sim::World (*generate)(std::uint64_t seed);
+  };
+  constexpr std::array kKinds = {Kind{"house", sim::generate_house},
+                                 Kind{"narrow_house", sim::generate_narrow_house},
+                                 Kind{"offices", sim::generate_offices},
+                                 Kind{"wards", sim::generate_wards},
+                                 Kind{"laboratory", sim::generate_systems_laboratory},
+                                 Kind{"circuit", sim::generate_circuit},
+                                 Kind{"course", sim::generate_course}};
+  for (const Kind& kind : kKinds) {
+    const auto seed = seed_after(name, kind.name);
+    if (!seed) return pass_on(seed);
+    if (*seed) return kind.generate(**seed);
+  }
   std::error_code error;
   return read_world(fs::is_directory(name, error) ? fs::path(name) / "world.json" : fs::path(name));
 }
 
-Result<sim::LightPreset> light_named(const std::string& name) {
+Result<sim::Light> light_named(const std::string& name) {
   if (name == "day") return sim::LightPreset::kDay;
   if (name == "night") return sim::LightPreset::kNight;
   if (name == "half") return sim::LightPreset::kHalf;
-  return fail(ErrorCode::kInvalidInput, "The light '" + name + "' is not known; there are day, night and half.",
+  if (const auto level = wire::daylight_of(name)) return sim::Light::of_daylight(*level);
+  if (name.starts_with("daylight:")) {
+    return fail(ErrorCode::kInvalidInput,
+                "'" + name.substr(std::string("daylight:").size()) +
+                    "' is no level of daylight: a number from 0 (night) to 1 (day) is wanted after 'daylight:'.",
+                "light");
+  }
+  return fail(ErrorCode::kInvalidInput,
+              "The light '" + name + "' is not known; there are day, night, half and daylight:0 to daylight:1.",
               "light");
 }
 

@@ -10,7 +10,7 @@
 namespace homeward::scenario {
 
 Result<WorldOfDay> world_of_day(TaughtWorld& taught, const MissionPlan& plan, const sim::RobotProfile& profile,
-                                const sim::LightPreset& light) {
+                                const sim::Light& light) {
   WorldOfDay day;
   day.world = taught.world.get();
   if (plan.moved_furniture <= 0) {

@@ -24,7 +24,7 @@ struct WorldOfDay {
 
 /// In that light, furniture moved by the plan's seed. Errors: those of move_furniture.
 Result<WorldOfDay> world_of_day(TaughtWorld& taught, const MissionPlan& plan, const sim::RobotProfile& profile,
-                                const sim::LightPreset& light);
+                                const sim::Light& light);
 
 /// Records a mission in that world; null where `record` says nothing. Errors: those of Recorder.
 Result<std::unique_ptr<recording::Recorder>> recorder_for(const TaughtWorld& taught,

@@ -72,23 +72,31 @@ class Gatherer {
 
   [[nodiscard]] Eigen::Array3f direct(const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal) const {
     Eigen::Array3f light = Eigen::Array3f::Zero();
+    if (settings_.lamp_intensity == 0.0F) return light;
     const Eigen::Array3f colour(settings_.lamp_colour[0], settings_.lamp_colour[1], settings_.lamp_colour[2]);
     for (std::size_t i = 0; i < lamps_.size(); ++i) {
-      if (!lamp_burns(settings_, i)) continue;
+      const float share = lamp_share(settings_, i);
+      if (share == 0.0F) continue;
       const Eigen::Vector3f lamp_m = lamps_[i].position_m.cast<float>();
       const Eigen::Vector3f way_m = lamp_m - point_m;
       const float distance2 = std::max(0.09F, way_m.squaredNorm());
       const float cosine = normal.dot(way_m.normalized());
       // The lamp's own shade must not hide it: the last 15 cm are open.
       if (cosine <= 0.0F || rays_.blocked(point_m, lamp_m - 0.15F * way_m.normalized())) continue;
-      light += colour * (settings_.lamp_intensity * static_cast<float>(lamps_[i].strength) * cosine / distance2);
+      light +=
+          colour * (share * settings_.lamp_intensity * static_cast<float>(lamps_[i].strength) * cosine / distance2);
     }
     return light;
   }
 
+  /// Turns +z to `normal`.
+  [[nodiscard]] static Eigen::Quaternionf about(const Eigen::Vector3f& normal) {
+    return Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), normal);
+  }
+
   /// What the rays about `normal` meet, one for each direction.
   void trace(const Eigen::Vector3f& point_m, const Eigen::Vector3f& normal, std::span<Met> met) const {
-    const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), normal);
+    const Eigen::Quaternionf turn = about(normal);
     for (std::size_t i = 0; i < directions_.size(); ++i) {
       const auto hit = rays_.first_hit(point_m, turn * directions_[i], kFar_m);
       met[i] = hit ? Met{hit->triangle, hit->u, hit->v} : Met{};
@@ -96,11 +104,18 @@ class Gatherer {
   }
 
   /// The light that such rays bring from what they have met, in the light that is `known` there.
-  [[nodiscard]] Eigen::Array3f indirect(std::span<const Met> met, const Irradiance& known) const {
+  [[nodiscard]] Eigen::Array3f indirect(const Eigen::Vector3f& normal, std::span<const Met> met,
+                                        const Irradiance& known) const {
     Eigen::Array3f light = Eigen::Array3f::Zero();
-    for (const Met& one : met) {
+    const Eigen::Quaternionf turn = about(normal);
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      const Met& one = met[i];
       if (one.triangle == Hit::kNoTriangle) {
-        light += settings_.window_radiance * 0.1F;
+        if (settings_.sky) {
+          light += radiance(*settings_.sky, turn * directions_[i]);
+        } else {
+          light += settings_.window_radiance * 0.1F;
+        }
         continue;
       }
       const auto material = static_cast<std::size_t>(scene_.triangle_materials[one.triangle]);
@@ -171,20 +186,50 @@ class Gatherer {
 
 }  // namespace
 
-LightSettings light_settings(LightPreset preset) {
-  switch (preset) {
-    case LightPreset::kDay:
-      return {{1.0F, 0.97F, 0.92F}, 1.1F, 0, 5.0F, 1.4F, 1.5F, 1.0F};
-    case LightPreset::kNight:
-      return {{1.0F, 0.80F, 0.55F}, 1.4F, 3, 0.0F, 0.03F, 3.0F, 1.1F};
-    case LightPreset::kHalf:
-      return {{1.0F, 0.90F, 0.75F}, 1.2F, 2, 1.2F, 0.5F, 2.0F, 1.1F};
+LightSettings light_settings(const Light& light) {
+  const LightSettings day{{1.0F, 0.97F, 0.92F}, 1.1F, 0, 5.0F, 1.4F, 1.5F, 1.0F};
+  const LightSettings night{{1.0F, 0.80F, 0.55F}, 1.4F, 3, 0.0F, 0.03F, 3.0F, 1.1F};
+  const LightSettings half{{1.0F, 0.90F, 0.75F}, 1.2F, 2, 1.2F, 0.5F, 2.0F, 1.1F};
+  if (!light.is_between()) {
+    if (light.preset() == LightPreset::kHalf) return half;
+    return light.preset() == LightPreset::kDay ? day : night;
   }
-  return {};
+  const auto share = static_cast<float>(light.level());
+  const auto between = [&](float dark, float bright) { return std::lerp(dark, bright, share); };
+  LightSettings settings = night;
+  for (std::size_t band = 0; band < 3; ++band) {
+    settings.lamp_colour[band] = between(night.lamp_colour[band], day.lamp_colour[band]);
+  }
+  settings.lamp_intensity = between(night.lamp_intensity, day.lamp_intensity);
+  settings.dimmed = share;  // at night every third is off, by day all burn
+  settings.window_radiance = between(night.window_radiance, day.window_radiance);
+  settings.window_shown = between(night.window_shown, day.window_shown);
+  settings.noise_levels = between(night.noise_levels, day.noise_levels);
+  settings.exposure = between(night.exposure, day.exposure);
+  return settings;
 }
 
-bool lamp_burns(const LightSettings& settings, std::size_t index) {
-  return settings.lamps_off_every == 0 || (index + 1) % static_cast<std::size_t>(settings.lamps_off_every) != 0;
+LightSettings light_settings(const Light& light, const std::optional<Sky>& sky) {
+  if (!sky) return light_settings(light);
+  const float daylight = daylight_in(light);
+  constexpr float kFirstLamps = 0.25F;
+  constexpr float kAllLamps = 0.1F;
+  constexpr float kDark = 0.02F;  // of the day: what the camera's exposure is set for where there is no light at all
+  LightSettings settings;
+  settings.lamp_colour = {1.0F, 0.82F, 0.58F};
+  settings.lamp_intensity = 0.4F * std::clamp((kFirstLamps - daylight) / (kFirstLamps - kAllLamps), 0.0F, 1.0F);
+  if (!light.is_between() && light.preset() == LightPreset::kHalf) settings.lamps_off_every = 2;
+  settings.window_shown = 0.03F + daylight;
+  settings.exposure = std::pow((1.0F + kDark) / (daylight + kDark), 0.7F);
+  settings.noise_levels = 1.5F * std::pow(settings.exposure, 0.35F);
+  settings.sky = sky_light(*sky, daylight);
+  return settings;
+}
+
+float lamp_share(const LightSettings& settings, std::size_t index) {
+  const bool burns =
+      settings.lamps_off_every == 0 || (index + 1) % static_cast<std::size_t>(settings.lamps_off_every) != 0;
+  return burns ? 1.0F : settings.dimmed;
 }
 
 float linear_from_srgb(std::uint8_t value) {
@@ -236,7 +281,7 @@ Irradiance compute_irradiance(const Scene& scene, const RayScene& rays, const st
           const bool keeps = side < kept_sides;
           const std::span<Met> met = keeps ? std::span(kept).subspan(side * rays_per_side, rays_per_side) : passing;
           if (bounce == 0 || !keeps) gatherer.trace(point_m, normal, met);
-          return gatherer.indirect(met, total);
+          return gatherer.indirect(normal, met, total);
         });
     total.corners = direct.corners + bounced.corners;
   }

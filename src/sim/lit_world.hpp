@@ -11,7 +11,7 @@
 
 namespace homeward::sim {
 
-/// A world made ready to be looked at: finely tessellated, with the light of each preset that was asked for.
+/// A world made ready to be looked at: finely tessellated, with each light that was asked for.
 class LitWorld {
  public:
   explicit LitWorld(World world);
@@ -23,13 +23,13 @@ class LitWorld {
   [[nodiscard]] const Scene& fine_scene() const;
   [[nodiscard]] const RayScene& rays() const;
   [[nodiscard]] const Surfaces& surfaces() const;  // of the fine scene
-  /// The light of a preset; computed at first use (seconds), then kept. Not for use from several threads.
-  const Irradiance& irradiance(LightPreset preset);
+  /// What a light gives; computed at first use (seconds), then kept. Not for use from several threads.
+  const Irradiance& irradiance(const Light& light);
   /// Takes light that was computed before. Its size must fit; false when it does not. Before any renderer is made of
   /// this world: one that stands goes on showing what it has shown.
-  bool set_irradiance(LightPreset preset, Irradiance irradiance);
+  bool set_irradiance(const Light& light, Irradiance irradiance);
   /// Short text that changes with anything that the light depends on.
-  [[nodiscard]] std::string light_key(LightPreset preset) const;
+  [[nodiscard]] std::string light_key(const Light& light) const;
 
  private:
   struct Parts;

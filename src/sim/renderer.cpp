@@ -163,10 +163,10 @@ struct Renderer::Parts {
   void take(const Shot& shot, std::size_t first, std::size_t end, Image& image) const;
 };
 
-// The world keeps the light of a preset, and has to outlive the renderer anyway.
-Renderer::Renderer(LitWorld& world, LightPreset preset, const std::shared_ptr<const camera::Camera>& camera)
-    : Renderer(world, light_settings(preset),
-               std::shared_ptr<const Irradiance>(std::shared_ptr<void>(), &world.irradiance(preset)), camera) {}
+// The world keeps its lights, and has to outlive the renderer anyway.
+Renderer::Renderer(LitWorld& world, const Light& light, const std::shared_ptr<const camera::Camera>& camera)
+    : Renderer(world, light_settings(light, world.world().sky),
+               std::shared_ptr<const Irradiance>(std::shared_ptr<void>(), &world.irradiance(light)), camera) {}
 
 Renderer::Renderer(const LitWorld& world, const LightSettings& settings, std::shared_ptr<const Irradiance> light,
                    const std::shared_ptr<const camera::Camera>& camera) {
@@ -210,7 +210,12 @@ Eigen::Array3f Renderer::Parts::light_at(double x_m, double y_m) const {
 
 /// Writes the light of pixels number `first` to `end`, three numbers each, and one more that means nothing.
 void Renderer::Parts::see(const Shot& shot, std::size_t first, std::size_t end, float* light) const {
-  const float sky = 0.6F * shader.settings().window_shown;
+  const LightSettings& settings = shader.settings();
+  const auto beyond = [&](const Eigen::Vector3f& direction) -> Eigen::Array4f {
+    Eigen::Array4f seen = Eigen::Array4f::Constant(0.6F * settings.window_shown);
+    if (settings.sky) seen.head<3>() = radiance(*settings.sky, direction) * settings.exposure;
+    return seen;
+  };
   for (std::size_t i = first; i < end; i += RayPacket::kMost) {
     const RayPacket packet = directions_in_robot.packet(i, std::min(RayPacket::kMost, end - i), shot.world_from_robot);
     float* packet_light = light + 3 * (i - first);
@@ -222,7 +227,7 @@ void Renderer::Parts::see(const Shot& shot, std::size_t first, std::size_t end, 
       hits = rays->first_hits(shot.viewpoint_m, packet, kFar_m);
       for (std::size_t k = 0; k < packet.count; ++k) {
         Eigen::Map<Eigen::Array4f>(packet_light + 3 * k) = hits[k].triangle == Hit::kNoTriangle
-                                                               ? Eigen::Array4f(Eigen::Array4f::Constant(sky))
+                                                               ? beyond(packet.direction(k))
                                                                : shader.shade(hits[k], packet.direction(k));
       }
     }

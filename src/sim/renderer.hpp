@@ -18,7 +18,7 @@ namespace homeward::sim {
 /// Takes pictures with one camera in one world and light. The look-up tables are computed once.
 class Renderer {
  public:
-  Renderer(LitWorld& world, LightPreset preset, const std::shared_ptr<const camera::Camera>& camera);
+  Renderer(LitWorld& world, const Light& light, const std::shared_ptr<const camera::Camera>& camera);
   /// The same in a light of the caller's own. `light`: of the world's fine scene, by these settings; must not be null.
   Renderer(const LitWorld& world, const LightSettings& settings, std::shared_ptr<const Irradiance> light,
            const std::shared_ptr<const camera::Camera>& camera);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,11 @@ struct FloorGrid {  // see floor.hpp for what is computed on it
   double robot_radius_m = 0.35;
 };
 
+/// The sky over a world that has no ceiling.
+struct Sky {
+  double sun_azimuth_rad = 0.0;  // where the sun stands, counter-clockwise from the world's +x
+};
+
 /// A building to drive in: what world.json describes, loaded.
 struct World {
   std::string name;
@@ -79,6 +85,8 @@ struct World {
   std::vector<Lamp> lamps;
   std::vector<Furniture> furniture;  // known of generated worlds alone
   std::vector<DoorOpening> doors;    // the same
+  bool round = false;                // its rooms lie round a circuit, in their order
+  std::optional<Sky> sky;            // of a world in the open
   FloorGrid occupied;                // 255 = something stands there between knee and head
   FloorGrid
       drivable;  // 255 = the centre of a disc robot of robot_radius_m may be here, and can get here from the start

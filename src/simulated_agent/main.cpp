@@ -14,9 +14,12 @@ using namespace homeward;  // NOLINT(google-build-using-namespace): a program's 
 void add_simulator_options(CLI::App& command, scenario::SimulatorDriverConfig& simulator) {
   command
       .add_option("--world", simulator.world,
-                  "Simulator: house:SEED, narrow_house:SEED, offices:SEED, wards:SEED, laboratory:SEED or a world.json")
+                  "Simulator: house:SEED, narrow_house:SEED, offices:SEED, wards:SEED, laboratory:SEED, circuit:SEED, "
+                  "course:SEED or a "
+                  "world.json")
       ->capture_default_str();
-  command.add_option("--light", simulator.light, "Simulator: day, night or half")->capture_default_str();
+  command.add_option("--light", simulator.light, "Simulator: day, night, half or daylight:LEVEL, 0 to 1")
+      ->capture_default_str();
   command.add_option("--profile", simulator.robot, "Simulator: disc or chair")
       ->check(CLI::IsMember({"disc", "chair"}))
       ->capture_default_str();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/scenario_json.hpp"
 
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "wire/camera_json.hpp"
@@ -16,7 +19,14 @@ constexpr double kUsualSlip = 0.5;
 constexpr double kMostSlip = 0.95;
 
 std::string light_of(ObjectReader& reader) {
-  return reader.has("light") ? reader.choice("light", {"day", "night", "half"}) : "day";
+  if (!reader.has("light")) return "day";
+  const std::string light = reader.text("light", 40);
+  constexpr std::array kNames = {"day", "night", "half"};
+  if (std::ranges::find(kNames, light) == kNames.end() && !daylight_of(light)) {
+    reader.problem("light", "'light' must be day, night, half or daylight:LEVEL with a level from 0 to 1, not '" +
+                                shown(light) + "'.");
+  }
+  return light;
 }
 
 ScenarioFault read_fault(ObjectReader& outer, const json& value, const std::string& path) {
@@ -108,6 +118,18 @@ void read_tour(ObjectReader& outer, ScenarioFile& scenario) {
 }
 
 }  // namespace
+
+std::optional<double> daylight_of(const std::string& light) {
+  constexpr std::string_view kPrefix = "daylight:";
+  if (!light.starts_with(kPrefix)) return std::nullopt;
+  const std::string_view level = std::string_view(light).substr(kPrefix.size());
+  const bool is_plain = level.find_first_not_of("0123456789.") == std::string_view::npos && !level.ends_with('.');
+  if (!is_plain || (level.size() > 1 && level[1] != '.')) return std::nullopt;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(level.data(), level.data() + level.size(), value);
+  if (error != std::errc() || end != level.data() + level.size() || value > 1.0) return std::nullopt;
+  return value;
+}
 
 Result<ScenarioFile> scenario_from_json(const json& value, const std::string& path) {
   ObjectReader reader(value, path);

@@ -86,6 +86,9 @@ struct ScenarioFile {
   std::vector<ScenarioMission> missions;
 };
 
+/// LEVEL of the light "daylight:LEVEL", from 0 to 1 in plain decimals; nothing of any other text.
+std::optional<double> daylight_of(const std::string& light);
+
 /// Strict. Errors: kInvalidInput, kUnsupportedFormat; each names the field.
 Result<ScenarioFile> scenario_from_json(const nlohmann::json& value, const std::string& path = "scenario");
 Result<ScenarioFile> parse_scenario(const std::string& text, const std::string& where);

@@ -29,4 +29,14 @@ World generate_wards(std::uint64_t seed);
 /// the start, and `lower_right` lie in free corners, where his runs began.
 World generate_systems_laboratory(std::uint64_t seed);
 
+/// A ring of corridors 50 m to 70 m round, 1.7 m to 2.4 m wide, with six corners and two door frames of 1 m across it;
+/// windows on its outer side, doors, pictures, notices and furniture along its walls. Its rooms, corridor_1 to
+/// corridor_8, follow one another round the ring.
+World generate_circuit(std::uint64_t seed);
+
+/// A ring of streets in the open, 150 m round and more: fronts of houses, hedges, walls and fences on both sides,
+/// trees, benches, stalls, signs, parked cars and lamp posts along them, five kinds of ground, and a square. Its rooms,
+/// stretch_1 to stretch_11, follow one another round the ring.
+World generate_course(std::uint64_t seed);
+
 }  // namespace homeward::sim

@@ -146,8 +146,10 @@ TEST(CheckScenario, NamesAWayThatIsNotWideEnough) {
 }
 
 TEST(CheckScenario, NamesLightThatThereIsNot) {
-  EXPECT_THAT(problems_when([](auto& scenario) { scenario.missions[1].light = "dusk"; }),
-              ElementsAre("missions[1].light: there is no light 'dusk'; there are day, night and half"));
+  EXPECT_THAT(
+      problems_when([](auto& scenario) { scenario.missions[1].light = "dusk"; }),
+      ElementsAre(
+          "missions[1].light: there is no light 'dusk'; there are day, night, half and daylight:0 to daylight:1"));
   sim::World dark = box_world();
   dark.lamps.clear();
   wire::ScenarioFile scenario = there_and_back();

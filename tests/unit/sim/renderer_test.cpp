@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/generate/worlds.hpp"
 #include "support/box_world.hpp"
 #include "support/sample_cameras.hpp"
 
@@ -59,7 +60,7 @@ class RendererTest : public ::testing::Test {
     delete world_;
     world_ = nullptr;
   }
-  static Image picture(const camera::CameraConfig& config, const Pose2& pose, LightPreset light = LightPreset::kDay,
+  static Image picture(const camera::CameraConfig& config, const Pose2& pose, const Light& light = LightPreset::kDay,
                        const std::vector<Person>& people = {}, std::uint64_t seed = 1) {
     return Renderer(*world_, light, made(config)).render(pose, people, seed);
   }
@@ -179,6 +180,25 @@ TEST_F(RendererTest, NightDiffersFromDay) {
   EXPECT_LT(day, 235.0);
   EXPECT_GT(std::abs(day - night), 3.0);
   EXPECT_GT(night, 10.0);  // a lamp burns
+}
+
+TEST_F(RendererTest, MoreDaylightIsNeverDarkerAndEndsAtNightAndDay) {
+  EXPECT_EQ(picture(small_sphere(), {}, Light::of_daylight(1.0)).data, picture(small_sphere(), {}).data);
+  EXPECT_EQ(picture(small_sphere(), {}, Light::of_daylight(0.0)).data,
+            picture(small_sphere(), {}, LightPreset::kNight).data);
+  const World house = generate_house(1);
+  const RayScene rays(house.scene);
+  const auto brightness = [&](double level) {
+    LightSettings settings = light_settings(Light::of_daylight(level));
+    settings.gather_rays = 6;  // coarse, and quick
+    return compute_irradiance(house.scene, rays, house.lamps, settings).corners.mean() * settings.exposure;
+  };
+  double before = 0.0;
+  for (const double level : {0.0, 0.1, 0.5, 1.0}) {
+    const double now = brightness(level);
+    EXPECT_GT(now, before) << level;
+    before = now;
+  }
 }
 
 TEST_F(RendererTest, LightThatWasKeptFits) {
