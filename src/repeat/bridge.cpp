@@ -11,6 +11,7 @@ bool holds(const SubrangeView& view, int looked_for, const WideMatch& match, con
   if (!view.geometry || view.geometry->error_px > config.most_error_px) return false;
   if (view.agreeing() < std::max<double>(config.fewest_features, config.least_kept * looked_for)) return false;
   if (view.agreeing() < config.least_agreeing * view.tracked) return false;
+  if (view.geometry->has_baseline && view.geometry->lead < config.bridging->least_lead) return false;
   return turn_between_rad(view.geometry->motion, match.estimate.motion) <= config.bridging->most_turn_off_rad;
 }
 

@@ -82,7 +82,7 @@ std::vector<DescribedMatch> matches_of(const DescribedPicture& first, const Desc
     const std::int32_t j = nearest.of_current[i];
     if (nearest.of_target[at(j)] != static_cast<std::int32_t>(i)) continue;
     if (nearest.distance[i] >= ratio * ratio * nearest.second_distance[i]) continue;
-    matches.push_back({static_cast<int>(i), static_cast<int>(j)});
+    matches.push_back({static_cast<int>(i), static_cast<int>(j), static_cast<int>(nearest.distance[i])});
   }
   return matches;
 }

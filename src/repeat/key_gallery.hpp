@@ -42,6 +42,7 @@ DescribedPicture describe(const tracking::ImagePyramid& picture, const camera::C
 struct DescribedMatch {
   int first = 0;
   int second = 0;
+  int distance = 0;  // squared, of their descriptors
 };
 /// Mutual nearest descriptors that pass the ratio test.
 std::vector<DescribedMatch> matches_of(const DescribedPicture& first, const DescribedPicture& second, double ratio);

@@ -10,6 +10,7 @@ std::vector<std::string> problems(const BridgingConfig& config) {
   };
   expect(config.most_ahead >= 1, "most_ahead is not positive");
   expect(config.most_turn_off_rad > 0.0, "most_turn_off_rad is not positive");
+  expect(config.least_lead >= 0.0, "least_lead is negative");
   expect(config.fewest_around >= 1, "fewest_around is not positive");
   expect(config.most_aside_rad > 0.0, "most_aside_rad is not positive");
   return found;

@@ -36,6 +36,7 @@ struct BridgingConfig {
   RecognitionConfig matching{};
   int most_ahead = 10;              // pictures after a key image that are matched with it
   double most_turn_off_rad = 0.07;  // by which what was matched and what was then tracked may differ in the turn
+  double least_lead = 10.0;         // over the best motion in another direction (geometry::TwoViewEstimate)
   int fewest_around = 6;            // arcs with a way that a closed path has
   double most_aside_rad = 1.05;     // of the way back to where it is closed, from straight ahead
 };

@@ -45,12 +45,32 @@ std::vector<Anchor> anchors_of(const WideMatch& match, const camera::Camera& cam
   return anchors;
 }
 
+/// Squared distance of each feature of a picture to the one that is most like it there.
+std::vector<std::int32_t> to_most_alike(const DescribedPicture& picture) {
+  return matching::find_nearest(picture.descriptors, picture.descriptors).second_distance;
+}
+
+/// Matches of features that are less like any other one of their own picture than like each other: what repeats, as a
+/// wallpaper does, looks the same in another place, too, and shifted by its period.
+std::vector<DescribedMatch> distinct_matches(const DescribedPicture& first, const DescribedPicture& second,
+                                             double ratio) {
+  std::vector<DescribedMatch> matches = matches_of(first, second, ratio);
+  if (matches.empty()) return matches;
+  const auto in_first = to_most_alike(first);
+  const auto in_second = to_most_alike(second);
+  std::erase_if(matches, [&](const DescribedMatch& match) {
+    const double least = std::min(in_first[at(match.first)], in_second[at(match.second)]);
+    return match.distance >= ratio * ratio * least;
+  });
+  return matches;
+}
+
 }  // namespace
 
 std::optional<WideMatch> wide_match(const DescribedPicture& first, const DescribedPicture& second,
                                     const camera::Camera& camera, const RecognitionConfig& config,
                                     const geometry::TwoViewConfig& geometry, std::uint64_t seed) {
-  const std::vector<DescribedMatch> matches = matches_of(first, second, config.ratio);
+  const std::vector<DescribedMatch> matches = distinct_matches(first, second, config.ratio);
   std::vector<geometry::PointPair> pairs;
   for (const DescribedMatch& match : matches) {
     pairs.push_back({first.seen[at(match.first)], second.seen[at(match.second)]});

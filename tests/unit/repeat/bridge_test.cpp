@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/angles.hpp"
+#include <cmath>
+#include <utility>
+
 #include "support/taught_room.hpp"
 
 namespace homeward::repeat::bridge_test {
@@ -72,8 +74,13 @@ TEST_F(ABridge, IsNotTakenWhereTheMatchesAndTheTrackedFeaturesDisagreeOrItIsNotW
   const Pose2 begin{-2.0, -0.4, 0.1};
   const Pose2 end{-1.8, -0.4, 0.3};
   ASSERT_TRUE(bridged(begin, end));
-  config.bridging->most_turn_off_rad = 1e-9;
+  const double turn_off_rad = std::exchange(config.bridging->most_turn_off_rad, 1e-9);
   EXPECT_FALSE(bridged(begin, end));
+  config.bridging->most_turn_off_rad = turn_off_rad;
+  config.bridging->least_lead = 1e9;
+  EXPECT_FALSE(bridged(begin, end)) << "another way explains the pictures nearly as well";
+  config.bridging->least_lead = 0.0;
+  EXPECT_TRUE(bridged(begin, end));
   config.bridging.reset();
   EXPECT_FALSE(bridged(begin, end));
 }
@@ -84,12 +91,13 @@ TEST(BridgingConfig, NamesAllItsProblems) {
   bad.matching.ratio = 0.0;
   bad.most_ahead = 0;
   bad.most_turn_off_rad = 0.0;
+  bad.least_lead = -1.0;
   bad.fewest_around = 0;
   bad.most_aside_rad = 0.0;
-  EXPECT_EQ(problems(bad).size(), 5U);
+  EXPECT_EQ(problems(bad).size(), 6U);
   TeachConfig config;
   config.bridging = bad;
-  EXPECT_EQ(problems(config).size(), 5U);
+  EXPECT_EQ(problems(config).size(), 6U);
 }
 
 }  // namespace
