@@ -154,7 +154,7 @@ struct Bench {
 };
 
 int run(const std::string& folder, int width_px, int pairs) {
-  constexpr int kPlaces = 40;
+  constexpr int kPlaces = 60;
   Bench bench{read_perspective_tour(folder, width_px), nullptr, repeat::dense_teaching()};
   bench.camera = camera::Camera::create(bench.tour.camera).value();
   std::printf("| left out | tracked | bridged | cut | wrong | turn off, deg | direction off, deg |\n");
