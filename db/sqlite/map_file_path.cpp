@@ -37,6 +37,13 @@ int shown_of(const SQLite::Column& column, const std::vector<map::MapImage>& ima
   return shown;
 }
 
+void bind_scale(SQLite::Statement& statement, int index, const std::optional<map::NodeScale>& scale) {
+  if (!scale) return;
+  statement.bind(index, scale->ratio);
+  statement.bind(index + 1, scale->common);
+  statement.bind(index + 2, scale->spread);
+}
+
 void put_key_images(SQLite::Database& database, const map::MapPath& path) {
   SQLite::Statement insert(database, "INSERT INTO path_key_images VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (std::size_t i = 0; i < path.taught.key_images.size(); ++i) {
@@ -48,23 +55,38 @@ void put_key_images(SQLite::Database& database, const map::MapPath& path) {
     bind_bytes(insert, 4, path.pictures.at(i));
     bind_bytes(insert, 5, features);
     insert.bind(6, key.common);
-    if (key.scale) {
-      insert.bind(7, key.scale->ratio);
-      insert.bind(8, key.scale->common);
-      insert.bind(9, key.scale->spread);
-    }
+    bind_scale(insert, 7, key.scale);
     insert.exec();
     insert.reset();
     insert.clearBindings();
   }
 }
 
-std::optional<map::NodeScale> scale_of(DigestedRows& row, const std::string& where) {
-  if (row.column(5).isNull()) return std::nullopt;
+void put_bridges_and_closing(SQLite::Database& database, const map::TaughtPath& taught) {
+  SQLite::Statement bridges(database, "INSERT INTO path_bridges VALUES (?, ?, ?, ?)");
+  for (std::size_t i = 0; i < taught.bridges.size(); ++i) {
+    bridges.bind(1, static_cast<std::int64_t>(i));
+    bridges.bind(2, taught.bridges[i].last_picture);
+    bridges.bind(3, taught.bridges[i].next_picture);
+    bridges.bind(4, taught.bridges[i].matched);
+    bridges.exec();
+    bridges.reset();
+  }
+  if (!taught.closing) return;
+  SQLite::Statement closing(database, "INSERT INTO path_closing VALUES (0, ?, ?, ?, ?, ?)");
+  closing.bind(1, taught.closing->key_image);
+  closing.bind(2, taught.closing->common);
+  bind_scale(closing, 3, taught.closing->scale);
+  closing.exec();
+}
+
+/// A scale in three columns from one on.
+std::optional<map::NodeScale> scale_of(DigestedRows& row, int column, const std::string& where) {
+  if (row.column(column).isNull()) return std::nullopt;
   map::NodeScale scale;
-  scale.ratio = row.column(5).getDouble();
-  scale.common = count_of(row.column(6), where);
-  scale.spread = row.column(7).getDouble();
+  scale.ratio = row.column(column).getDouble();
+  scale.common = count_of(row.column(column + 1), where);
+  scale.spread = row.column(column + 2).getDouble();
   if (!(scale.ratio > 0.0) || !std::isfinite(scale.ratio) || !(scale.spread >= 0.0)) {
     refuse_file("The scale of a key image of the path cannot be.", where);
   }
@@ -88,7 +110,7 @@ void get_key_images(SQLite::Database& database, ContentDigest& digest, const std
     const auto picture = bytes_of(select.column(2));
     if (picture.empty()) refuse_file("A key image of the path has no picture.", where);
     map::KeyImage key{shown_of(select.column(1), images, where), *std::move(features),
-                      count_of(select.column(4), where), scale_of(select, where)};
+                      count_of(select.column(4), where), scale_of(select, 5, where)};
     if (!path.taught.key_images.empty() && key.picture <= path.taught.key_images.back().picture) {
       refuse_file("The key images of the path are not in the order in which they were shown.", where);
     }
@@ -105,11 +127,46 @@ void get_arcs(SQLite::Database& database, ContentDigest& digest, map::TaughtPath
     auto arc = wire::decode_arc(bytes_of(select.column(1)), where);
     if (!arc) throw LoadFailure(arc.error());
     arc->from = count_of(select.column(0), where);
-    if (at(arc->from) + 1 >= taught.key_images.size()) refuse_file("An arc of the path leads nowhere.", where);
+    const bool leads = arc->from < taught.last_key() || (arc->from == taught.last_key() && taught.closing);
+    if (!leads) refuse_file("An arc of the path leads nowhere.", where);
     if (!taught.arcs.empty() && arc->from <= taught.arcs.back().from) {
       refuse_file("The arcs of the path are not in order.", where);
     }
     taught.arcs.push_back(*std::move(arc));
+  }
+}
+
+/// Where a closed path goes on; before its arcs.
+void get_closing(SQLite::Database& database, ContentDigest& digest, map::TaughtPath& taught) {
+  const std::string where = "path/closing";
+  DigestedRows select(database, "SELECT key_image, common, scale_ratio, scale_common, scale_spread FROM path_closing",
+                      digest);
+  if (!select.step()) return;
+  map::PathClosing closing;
+  closing.key_image = count_of(select.column(0), where);
+  closing.common = count_of(select.column(1), where);
+  closing.scale = scale_of(select, 2, where);
+  if (closing.key_image >= taught.last_key()) refuse_file("The path is closed where it ends.", where);
+  taught.closing = closing;
+}
+
+/// Whether a closed path leads in one piece from where it is closed to its end and on from there.
+void check_closing(const map::TaughtPath& taught) {
+  if (!taught.closing) return;
+  for (int key = taught.closing->key_image; key <= taught.last_key(); ++key) {
+    if (!taught.arc_from(key)) refuse_file("The path is closed and does not lead round.", "path/closing");
+  }
+}
+
+void get_bridges(SQLite::Database& database, ContentDigest& digest, const std::vector<map::MapImage>& images,
+                 map::TaughtPath& taught) {
+  DigestedRows select(database, "SELECT last_shown, next_shown, matched FROM path_bridges ORDER BY position", digest);
+  while (select.step()) {
+    const std::string where = "path/bridges/" + std::to_string(taught.bridges.size());
+    const map::PathBridge bridge{shown_of(select.column(0), images, where), shown_of(select.column(1), images, where),
+                                 count_of(select.column(2), where)};
+    if (bridge.next_picture <= bridge.last_picture) refuse_file("A bridge of the path leads back.", where);
+    taught.bridges.push_back(bridge);
   }
 }
 
@@ -138,6 +195,7 @@ void get_gaps(SQLite::Database& database, ContentDigest& digest, const std::vect
 
 void put_path(SQLite::Database& database, const map::MapPath& path) {
   put_key_images(database, path);
+  put_bridges_and_closing(database, path.taught);
   SQLite::Statement arcs(database, "INSERT INTO path_arcs VALUES (?, ?, ?)");
   for (std::size_t i = 0; i < path.taught.arcs.size(); ++i) {
     const std::vector<std::uint8_t> bytes = wire::encode_arc(path.taught.arcs[i]);
@@ -171,9 +229,13 @@ std::shared_ptr<const map::MapPath> get_path(SQLite::Database& database, Content
                                              const std::vector<map::MapImage>& images) {
   if (file_version_of(database) < kFirstVersionWithPaths) return nullptr;
   map::MapPath path;
+  const bool knows_bridges = file_version_of(database) >= kFirstVersionWithBridges;
   get_key_images(database, digest, images, path);
+  if (knows_bridges) get_closing(database, digest, path.taught);
   get_arcs(database, digest, path.taught);
+  check_closing(path.taught);
   get_gaps(database, digest, images, path.taught);
+  if (knows_bridges) get_bridges(database, digest, images, path.taught);
   if (path.images.empty()) {
     if (!path.taught.cuts.empty()) refuse_file("The map has cuts of a path that it does not have.", "path");
     return nullptr;

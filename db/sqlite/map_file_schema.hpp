@@ -11,12 +11,13 @@ namespace homeward::db {
 /// "HWMP" in SQLite's application_id field: what makes an SQLite file a Homeward map.
 inline constexpr int kMapApplicationId = 0x48574D50;
 /// user_version of the map file. A released schema is never edited; a newer file is refused.
-inline constexpr int kMapFileVersion = 8;
-/// Version 7 knows no paths that were taught. Version 6 does not keep how the map was without its edits, what edits
-/// found out, which picture an appearance is of, and pictograms; each place has appearances of its own. Version 5 does
-/// not say which edits belong to one change. Version 4 knows no shortcuts. Version 3 is without document frequencies in
-/// its appearances (wire/appearance_blob.hpp). Version 2 is without the checksum, and its edges do not say what their
-/// length was taken from and how much both ends see.
+inline constexpr int kMapFileVersion = 9;
+/// Version 8 does not say which gaps of a path were bridged, nor that one is closed. Version 7 knows no paths that were
+/// taught. Version 6 does not keep how the map was without its edits, what edits found out, which picture an appearance
+/// is of, and pictograms; each place has appearances of its own. Version 5 does not say which edits belong to one
+/// change. Version 4 knows no shortcuts. Version 3 is without document frequencies in its appearances
+/// (wire/appearance_blob.hpp). Version 2 is without the checksum, and its edges do not say what their length was taken
+/// from and how much both ends see.
 inline constexpr int kOldestMapFileVersion = 2;
 inline constexpr int kFirstVersionWithChecksum = 3;
 inline constexpr int kFirstVersionWithLengthSource = 3;
@@ -24,6 +25,7 @@ inline constexpr int kFirstVersionWithShortcuts = 5;
 inline constexpr int kFirstVersionWithChanges = 6;
 inline constexpr int kFirstVersionWithStates = 7;
 inline constexpr int kFirstVersionWithPaths = 8;
+inline constexpr int kFirstVersionWithBridges = 9;
 
 /// Before the names of the tables that say how the map was without edits.
 inline constexpr std::string_view kUneditedTables = "unedited_";
@@ -93,6 +95,12 @@ CREATE TABLE path_arcs (
 CREATE TABLE path_cuts (
   position INTEGER PRIMARY KEY, last_shown INTEGER NOT NULL, next_shown INTEGER, why INTEGER NOT NULL) STRICT;
 CREATE TABLE path_skipped (position INTEGER PRIMARY KEY, shown INTEGER NOT NULL) STRICT;
+CREATE TABLE path_bridges (
+  position INTEGER PRIMARY KEY, last_shown INTEGER NOT NULL, next_shown INTEGER NOT NULL,
+  matched INTEGER NOT NULL) STRICT;
+CREATE TABLE path_closing (
+  position INTEGER PRIMARY KEY CHECK (position = 0), key_image INTEGER NOT NULL REFERENCES path_key_images(position),
+  common INTEGER NOT NULL, scale_ratio REAL, scale_common INTEGER, scale_spread REAL) STRICT;
 )sql";
   for (const std::string_view prefix : {std::string_view(), kUneditedTables}) {
     for (const char letter : kStateSchema) letter == '@' ? schema += prefix : schema += letter;

@@ -33,6 +33,14 @@ void print(const TeachOptions& options, const pipeline::PathMap& made) {
   const map::MapPath& path = *made.map.path;
   std::cout << made.map.images.size() << " pictures, " << path.images.size() << " key images, "
             << path.taught.arcs.size() << " arcs: " << options.out << "\n";
+  for (const map::PathBridge& bridge : path.taught.bridges) {
+    std::cout << "A gap is bridged from " << made.map.images[at(bridge.last_picture)].id.str() << " to "
+              << made.map.images[at(bridge.next_picture)].id.str() << " (" << bridge.matched << " matches).\n";
+  }
+  if (path.taught.closing) {
+    std::cout << "The path is closed: from its end it goes on at "
+              << path.images[at(path.taught.closing->key_image)].str() << ".\n";
+  }
   for (const map::PathCut& cut : path.taught.cuts) {
     std::cout << "The path is cut after " << made.map.images[at(cut.last_picture)].id.str();
     if (cut.next_picture) std::cout << " and goes on from " << made.map.images[at(*cut.next_picture)].id.str();
@@ -98,10 +106,14 @@ void register_teach(CLI::App& program) {
       ->check(CLI::Range(0.1, 100.0))
       ->capture_default_str();
   command->add_option("--seed", options->config.seed, "Seed of everything random");
-  command->add_flag("--json", options->json, "Print one JSON object, with every arc and cut");
+  command->add_flag("--json", options->json,
+                    "Print one JSON object, with every arc, bridged gap and cut, and where the path is closed");
   command->footer(
       "The lens has to be calibrated (homeward calibrate). Pictures should be no more than some 0.1 m or 10 degrees "
-      "apart: where nothing can be followed from one to the next, the path is cut, and says so.");
+      "apart: where nothing can be followed from one to the next, they are matched, and if that fails, too, the path "
+      "is "
+      "cut, and says so. A drive that ends where it began, the same way round, makes a closed path, which is repeated "
+      "round and round.");
   run_on(*command, [options] { return teach(*options); });
 }
 

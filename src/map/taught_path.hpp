@@ -59,7 +59,7 @@ enum class ArcEnd {
 
 /// From one key image to the next.
 struct PathArc {
-  int from = 0;               // index of the key image; it leads to the next one
+  int from = 0;               // index of the key image; TaughtPath::to_key says where it leads
   bool has_baseline = false;  // without: the camera turned on the spot; the direction means nothing and no point has a
                               // distance
   geometry::ViewMotion motion;  // R and t: `current` is the first key image, `target` the second
@@ -84,11 +84,42 @@ struct PathCut {
   CutReason why = CutReason::kTooFewFeatures;
 };
 
+/// A gap inside a piece: nothing could be followed across it, but the key image before and the picture after it were
+/// matched without any expectation (Segvic et al. 2007, §2.1), and what both show was followed on from there.
+struct PathBridge {
+  int last_picture = 0;  // the key image before
+  int next_picture = 0;  // seen from it
+  int matched = 0;       // features that were matched and agree with one motion
+};
+
+/// Where a closed path goes on: its last arc leads from the last key image back to an earlier one. Nothing of the path
+/// is corrected by that; all round the way the units of arcs may disagree.
+struct PathClosing {
+  int key_image = 0;               // of the same piece
+  int common = 0;                  // features of the closing arc that are in the one that begins there, too
+  std::optional<NodeScale> scale;  // of the latter over the closing one; as in KeyImage, whose own is of the arc from
+                                   // the key image before
+};
+
 struct TaughtPath {
   std::vector<KeyImage> key_images;
-  std::vector<PathArc> arcs;          // in the order of `from`; none from where the path is cut, nor from the end
-  std::vector<PathCut> cuts;          // empty: in one piece
-  std::vector<int> skipped_pictures;  // inside pieces: nothing could be followed into them, but past them
+  std::vector<PathArc> arcs;  // in the order of `from`; none from where the path is cut, nor from the end if it is open
+  std::vector<PathCut> cuts;  // empty: in one piece
+  std::vector<int> skipped_pictures;   // inside pieces: nothing could be followed into them, but past them
+  std::vector<PathBridge> bridges;     // rising
+  std::optional<PathClosing> closing;  // the last arc leads there; none: the path has an end
+
+  [[nodiscard]] int last_key() const { return static_cast<int>(key_images.size()) - 1; }
+  [[nodiscard]] bool is_closing(const PathArc& arc) const { return closing && arc.from == last_key(); }
+  /// The key image that an arc leads to.
+  [[nodiscard]] int to_key(const PathArc& arc) const { return is_closing(arc) ? closing->key_image : arc.from + 1; }
+  /// The arc that goes on where one ends; nothing at the end of the path or of a piece.
+  [[nodiscard]] std::optional<int> arc_after(int arc) const;
+  /// The arc that ends where one begins. Where a closed path goes round, that is the closing arc, even if a way leads
+  /// there from before. Nothing at the beginning of an open path or of a piece.
+  [[nodiscard]] std::optional<int> arc_before(int arc) const;
+  /// The arc that begins at a key image.
+  [[nodiscard]] std::optional<int> arc_from(int key) const;
 };
 
 /// A path as a map keeps it: with what it is repeated by.

@@ -14,6 +14,7 @@
 #include "core/index.hpp"
 #include "features/appearance.hpp"
 #include "pipeline/eye.hpp"
+#include "repeat/closing.hpp"
 #include "repeat/teach.hpp"
 #include "tracking/image_pyramid.hpp"
 
@@ -82,26 +83,39 @@ double confidence_of(const PathArc& arc) {
                           : 0.0;
 }
 
+/// How long an arc is. A closing one leads back over all that odometry has drifted since: its length is told by the arc
+/// before and the scale between them, where that is known.
+void measure(const Shown& shown, const PathArc& arc, map::Edge& edge) {
+  const auto& from = shown.taught.key_images[at(arc.from)];
+  const auto& to = shown.taught.key_images[at(shown.taught.to_key(arc))];
+  const auto& begins = shown.images[at(from.picture)].odometry;
+  const auto& ends = shown.images[at(to.picture)].odometry;
+  if (shown.taught.is_closing(arc)) {
+    const auto& before = shown.images[at(shown.taught.key_images[at(arc.from) - 1].picture)].odometry;
+    edge.length_m = 1.0;
+    edge.length_from = map::LengthSource::kTourImages;
+    if (!begins || !before || !from.scale) return;
+    edge.length_m = from.scale->ratio * (position_m(*begins) - position_m(*before)).norm();
+    edge.length_from = map::LengthSource::kOdometry;
+  } else if (begins && ends) {
+    edge.length_m = (position_m(*ends) - position_m(*begins)).norm();
+    edge.length_from = map::LengthSource::kOdometry;
+  } else {
+    edge.length_m = to.picture - from.picture;
+    edge.length_from = map::LengthSource::kTourImages;
+  }
+}
+
 void add_edges(const Shown& shown, const PathArc& arc, TopologicalMap& map) {
-  const map::KeyImage& from = shown.taught.key_images[at(arc.from)];
-  const map::KeyImage& to = shown.taught.key_images[at(arc.from) + 1];
   const Eigen::Matrix3d& turn = arc.motion.current_from_target;
   map::Edge there;
   there.from = map.places[at(arc.from)].id;
-  there.to = map.places[at(arc.from) + 1].id;
+  there.to = map.places[at(shown.taught.to_key(arc))].id;
   there.turn_rad = std::atan2(turn(1, 0), turn(0, 0));
   if (arc.has_baseline) {
     there.bearing_rad = std::atan2(arc.motion.target_in_current.y(), arc.motion.target_in_current.x());
   }
-  const auto& begins = shown.images[at(from.picture)].odometry;
-  const auto& ends = shown.images[at(to.picture)].odometry;
-  if (begins && ends) {
-    there.length_m = (position_m(*ends) - position_m(*begins)).norm();
-    there.length_from = map::LengthSource::kOdometry;
-  } else {
-    there.length_m = to.picture - from.picture;
-    there.length_from = map::LengthSource::kTourImages;
-  }
+  measure(shown, arc, there);
   there.confidence = confidence_of(arc);
   there.inliers = static_cast<int>(arc.matches.size());
   map::Edge back = there;
@@ -176,6 +190,19 @@ Result<map::MapPath> keep_pictures(Shown shown, const PictureBytes& bytes) {
   return path;
 }
 
+/// Closes the path if it comes round; key images are read again for that.
+void close_path(const TourSource& tour, const std::shared_ptr<const camera::Camera>& camera,
+                const repeat::TeachConfig& config, Shown& shown) {
+  const auto picture_of = [&](int key) -> std::shared_ptr<const tracking::ImagePyramid> {
+    const auto picture = tour.read(shown.of_tour[at(shown.taught.key_images[at(key)].picture)]);
+    if (!picture) return nullptr;
+    auto pyramid = tracking::ImagePyramid::build(*picture);
+    if (!pyramid) return nullptr;
+    return std::make_shared<const tracking::ImagePyramid>(*std::move(pyramid));
+  };
+  repeat::close_path(shown.taught, picture_of, camera, config);
+}
+
 }  // namespace
 
 Result<PathMap> teach_path(const TourSource& tour, const camera::CameraConfig& camera, const std::string& name,
@@ -184,12 +211,13 @@ Result<PathMap> teach_path(const TourSource& tour, const camera::CameraConfig& c
   auto model = camera::Camera::create(camera);
   if (!model) return pass_on(model);
   const features::FeatureConfig features = suited_feature_config(**model);
-  auto teacher = repeat::Teacher::create(config, *std::move(model));
+  auto teacher = repeat::Teacher::create(config, *model);
   if (!teacher) return pass_on(teacher);
   const auto eye = Eye::create(camera, features);
   if (!eye) return pass_on(eye);
   auto shown = show(tour, *std::move(teacher), progress, stop);
   if (!shown) return pass_on(shown);
+  close_path(tour, *model, config, *shown);
   PathMap made;
   made.skipped = std::move(shown->skipped);
   TopologicalMap& map = made.map;

@@ -28,10 +28,11 @@ struct PathMap {
 
 /// Teaches a path by one tour of an ordinary camera (repeat/teach.hpp) and makes a map of it, for all that knows maps:
 /// each key image is the prototype of a place, which has the pictures that were shown nearest to it for members; each
-/// arc is an edge in both directions; marks of the tour are destinations. Pictures that cannot be read are left out.
-/// Errors: kCancelled, kEmptyInput, kInvalidInput (a mark without its picture, and those of Teacher::create),
-/// kWrongImageSize, kTooFewImages, kTooLittleSupport, kTooFewFeatures (a key image in which a map sees nothing), and
-/// those of the tour and of `bytes`; each names a picture where it is about one.
+/// arc is an edge in both directions, and so is the one that closes a path which comes round; marks of the tour are
+/// destinations. Pictures that cannot be read are left out. Errors: kCancelled, kEmptyInput, kInvalidInput (a mark
+/// without its picture, and those of Teacher::create), kWrongImageSize, kTooFewImages, kTooLittleSupport,
+/// kTooFewFeatures (a key image in which a map sees nothing), and those of the tour and of `bytes`; each names a
+/// picture where it is about one.
 Result<PathMap> teach_path(const TourSource& tour, const camera::CameraConfig& camera, const std::string& name,
                            const repeat::TeachConfig& config, const PictureBytes& bytes,
                            const ProgressSink& progress = {}, const std::stop_token& stop = {});

@@ -24,7 +24,7 @@ ArcProgress progress_along(const ArcSurroundings& around, int from_key, const Ar
   constexpr double kLeast = 1e-3;     // radians: less leads nowhere
   constexpr double kTurnsFrom = 3.0;  // times as much is seen of the turn as of the way
   const KeyPose& from = around.key(from_key);
-  const KeyPose& to = around.key(from_key + 1);
+  const KeyPose& to = *around.next_key(from_key);
   const Eigen::Vector3d way = way_along(from, to);
   const Eigen::Vector3d turn = turn_vector(from.local_from_key.transpose() * to.local_from_key);
   const double seen_turn = turn.norm();
@@ -40,7 +40,7 @@ ArcProgress progress_along(const ArcSurroundings& around, int from_key, const Ar
 
 std::optional<double> lateral_of(const ArcSurroundings& around, int from_key, const ArcPose& pose) {
   const KeyPose& from = around.key(from_key);
-  const Eigen::Vector3d way = way_along(from, around.key(from_key + 1));
+  const Eigen::Vector3d way = way_along(from, *around.next_key(from_key));
   const double length = way.norm();
   if (!(length > 0.0)) return std::nullopt;
   const Eigen::Vector3d up = from.local_from_key.col(2);

@@ -17,9 +17,11 @@ struct ArcProgress {
   /// The turn's where the arc is one; 1 for an arc that leads nowhere.
   [[nodiscard]] double value() const { return of_turn ? *of_turn : of_way.value_or(1.0); }
 };
+/// Precondition: the surroundings have the key image and the next one.
 ArcProgress progress_along(const ArcSurroundings& around, int from_key, const ArcPose& pose);
 
 /// How far to the left of the line between an arc's key images a pose is, over their distance. None without a distance.
+/// Precondition: the same.
 std::optional<double> lateral_of(const ArcSurroundings& around, int from_key, const ArcPose& pose);
 
 /// Where a key image is from a pose, counter-clockwise from ahead. None where no distance leads there, or it is as good

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "core/index.hpp"
 #include "core/median.hpp"
@@ -26,56 +27,69 @@ bool is_doubtful(const Arc& arc) {
          arc.matches.size() < kDoubtfulFeatures;
 }
 
-/// Arcs around one, in one piece of the path.
+/// Arcs around one, in the order of the way, without a gap: indices in the path.
 struct Range {
-  int first = 0;
-  int last = 0;
+  std::vector<int> arcs;
+  int here = 0;  // which of them is the actual one
+  [[nodiscard]] int count() const { return static_cast<int>(arcs.size()); }
+  [[nodiscard]] const Arc& arc(const TaughtPath& path, int j) const { return path.arcs[at(arcs[at(j)])]; }
 };
 
 Range range_around(const TaughtPath& path, int arc, int reach) {
-  Range range{arc, arc};
-  const int count = static_cast<int>(path.arcs.size());
-  const auto joined = [&](int before) { return path.arcs[at(before)].from + 1 == path.arcs[at(before + 1)].from; };
-  while (range.first > 0 && arc - range.first < reach && joined(range.first - 1)) --range.first;
-  while (range.last + 1 < count && range.last - arc < reach && joined(range.last)) ++range.last;
+  Range range{{arc}, 0};
+  std::set<int> keys{path.arcs[at(arc)].from, path.to_key(path.arcs[at(arc)])};
+  for (int i = 0; i < reach; ++i) {
+    const auto before = path.arc_before(range.arcs.front());
+    if (!before || !keys.insert(path.arcs[at(*before)].from).second) break;
+    range.arcs.insert(range.arcs.begin(), *before);
+    ++range.here;
+  }
+  for (int i = 0; i < reach; ++i) {
+    const auto after = path.arc_after(range.arcs.back());
+    if (!after || !keys.insert(path.to_key(path.arcs[at(*after)])).second) break;
+    range.arcs.push_back(*after);
+  }
   return range;
 }
 
-/// How much longer `after` is than `before`; all arcs between them are turns on the spot.
-std::optional<double> longer_by(const TaughtPath& path, int before, int after, int fewest_scaled) {
-  if (after == before + 1) {
-    const auto& scale = path.key_images[at(path.arcs[at(after)].from)].scale;
-    if (scale) return scale->ratio;
-    return std::nullopt;
-  }
-  const auto scale = node_scale(path.arcs[at(before)], path.arcs[at(after)], fewest_scaled);
+/// The scale of the node between an arc and the one after it.
+const std::optional<NodeScale>& scale_between(const TaughtPath& path, const Arc& before, const Arc& after) {
+  return path.is_closing(before) ? path.closing->scale : path.key_images[at(after.from)].scale;
+}
+
+/// How much longer one arc of the range is than one before it; all arcs between them are turns on the spot.
+std::optional<double> longer_by(const TaughtPath& path, const Range& range, int before, int after, int fewest_scaled) {
+  const Arc& first = range.arc(path, before);
+  const Arc& second = range.arc(path, after);
+  const auto scale =
+      after == before + 1 ? scale_between(path, first, second) : node_scale(first, second, fewest_scaled);
   if (scale) return scale->ratio;
   return std::nullopt;
 }
 
-std::optional<int> unit_arc_in(const TaughtPath& path, const Range& range, int arc) {
-  for (int j = arc; j >= range.first; --j) {
-    if (path.arcs[at(j)].has_baseline) return j;
+/// Which arc of the range is as long as the unit.
+std::optional<int> unit_in(const TaughtPath& path, const Range& range) {
+  for (int j = range.here; j >= 0; --j) {
+    if (range.arc(path, j).has_baseline) return j;
   }
-  for (int j = arc + 1; j <= range.last; ++j) {
-    if (path.arcs[at(j)].has_baseline) return j;
+  for (int j = range.here + 1; j < range.count(); ++j) {
+    if (range.arc(path, j).has_baseline) return j;
   }
   return std::nullopt;
 }
 
 /// Length of each arc of the range in units of one of them; none where that is not known.
-std::vector<std::optional<double>> lengths(const TaughtPath& path, const Range& range, int unit_arc,
-                                           int fewest_scaled) {
-  std::vector<std::optional<double>> found(at(range.last - range.first + 1));
-  found[at(unit_arc - range.first)] = 1.0;
+std::vector<std::optional<double>> lengths(const TaughtPath& path, const Range& range, int unit, int fewest_scaled) {
+  std::vector<std::optional<double>> found(range.arcs.size());
+  found[at(unit)] = 1.0;
   const auto walk = [&](int step) {
-    int from = unit_arc;
-    for (int j = unit_arc + step; j >= range.first && j <= range.last; j += step) {
-      if (!path.arcs[at(j)].has_baseline) continue;
-      const auto ratio = longer_by(path, std::min(from, j), std::max(from, j), fewest_scaled);
+    int from = unit;
+    for (int j = unit + step; j >= 0 && j < range.count(); j += step) {
+      if (!range.arc(path, j).has_baseline) continue;
+      const auto ratio = longer_by(path, range, std::min(from, j), std::max(from, j), fewest_scaled);
       if (!ratio) return;
-      const double known = *found[at(from - range.first)];
-      found[at(j - range.first)] = step > 0 ? known * *ratio : known / *ratio;
+      const double known = *found[at(from)];
+      found[at(j)] = step > 0 ? known * *ratio : known / *ratio;
       from = j;
     }
   };
@@ -86,16 +100,16 @@ std::vector<std::optional<double>> lengths(const TaughtPath& path, const Range& 
 
 std::vector<KeyPose> key_poses(const TaughtPath& path, const ArcSurroundings& around, const Range& range) {
   std::vector<KeyPose> keys(around.units.size() + 1);
-  const int here = around.arc - range.first;
-  keys[at(here)].key = path.arcs[at(around.arc)].from;
+  const int here = range.here;
+  for (int j = 0; j < range.count(); ++j) keys[at(j)].key = range.arc(path, j).from;
+  keys.back().key = path.to_key(range.arc(path, range.count() - 1));
   const auto place = [&](int known, int next) {
     const int j = std::min(known, next);
-    const Arc& arc = path.arcs[at(range.first + j)];
+    const Arc& arc = range.arc(path, j);
     const KeyPose& a = keys[at(known)];
     KeyPose& b = keys[at(next)];
     const bool forwards = next > known;
     const Eigen::Matrix3d& turn = arc.motion.current_from_target;
-    b.key = a.key + (forwards ? 1 : -1);
     b.local_from_key = a.local_from_key * (forwards ? turn : Eigen::Matrix3d(turn.transpose()));
     b.position = a.position;
     b.is_placed = a.is_placed;
@@ -142,21 +156,37 @@ bool is_better(const Landmark& now, const Landmark& before) {
 
 }  // namespace
 
+std::optional<int> ArcSurroundings::position_of(int key) const {
+  const auto found = std::ranges::find(keys, key, &KeyPose::key);
+  if (found == keys.end()) return std::nullopt;
+  return static_cast<int>(found - keys.begin());
+}
+
+const KeyPose* ArcSurroundings::next_key(int number) const {
+  const auto position = position_of(number);
+  if (!position || at(*position) + 1 >= keys.size()) return nullptr;
+  return &keys[at(*position) + 1];
+}
+
 ArcSurroundings surroundings_of(const TaughtPath& path, int arc, int reach, int fewest_scaled) {
   const Range range = range_around(path, arc, reach);
   ArcSurroundings around;
   around.arc = arc;
-  around.unit_arc = unit_arc_in(path, range, arc);
-  around.units.resize(at(range.last - range.first + 1));
-  if (around.unit_arc) around.units = lengths(path, range, *around.unit_arc, fewest_scaled);
+  around.arcs = range.arcs;
+  around.units.resize(range.arcs.size());
+  const auto unit = unit_in(path, range);
+  if (unit) {
+    around.unit_arc = range.arcs[at(*unit)];
+    around.units = lengths(path, range, *unit, fewest_scaled);
+  }
   around.keys = key_poses(path, around, range);
   std::map<int, Landmark> landmarks;
-  for (int j = range.first; j <= range.last; ++j) {
-    const double least_log_spread = is_doubtful(path.arcs[at(j)]) ? kDoubtfulLogSpread : kLeastLogSpread;
-    for (const ArcMatch& match : path.arcs[at(j)].matches) {
-      Landmark landmark =
-          landmark_of(match, around.keys[at(j - range.first)], around.units[at(j - range.first)], least_log_spread);
-      landmark.in_arc = j == arc;
+  for (int j = 0; j < range.count(); ++j) {
+    const Arc& one = range.arc(path, j);
+    const double least_log_spread = is_doubtful(one) ? kDoubtfulLogSpread : kLeastLogSpread;
+    for (const ArcMatch& match : one.matches) {
+      Landmark landmark = landmark_of(match, around.keys[at(j)], around.units[at(j)], least_log_spread);
+      landmark.in_arc = j == range.here;
       const auto [known, is_new] = landmarks.emplace(match.feature, landmark);
       if (is_new) continue;
       const bool in_arc = known->second.in_arc || landmark.in_arc;

@@ -33,20 +33,24 @@ struct KeyPose {
 /// for every arc: nothing of it is common to the path.
 struct ArcSurroundings {
   int arc = 0;                               // index in the path
-  std::vector<KeyPose> keys;                 // rising, without gaps
+  std::vector<int> arcs;                     // all of them, in the order of the way
+  std::vector<KeyPose> keys;                 // in the order of the way, one more than arcs; each once
   std::vector<Landmark> landmarks;           // rising by feature
   std::optional<int> unit_arc;               // whose length is the unit; none: no arc around has a baseline
-  std::vector<std::optional<double>> units;  // length of the arc from each key but the last, in the unit
+  std::vector<std::optional<double>> units;  // length of each of `arcs`, in the unit
   double nearness = 0.0;                     // the median of the landmarks with a distance; 0 where there are none
 
+  /// Where a key image is in `keys`; nothing where it is not.
+  [[nodiscard]] std::optional<int> position_of(int key) const;
   /// Precondition: the key image is one of them.
-  [[nodiscard]] const KeyPose& key(int number) const {
-    return keys[static_cast<std::size_t>(number - keys.front().key)];
-  }
-  [[nodiscard]] bool has_key(int number) const { return number >= keys.front().key && number <= keys.back().key; }
+  [[nodiscard]] const KeyPose& key(int number) const { return keys[static_cast<std::size_t>(*position_of(number))]; }
+  [[nodiscard]] bool has_key(int number) const { return position_of(number).has_value(); }
+  /// The key image after another one on the way; null at the end of the surroundings and for what is not in them.
+  [[nodiscard]] const KeyPose* next_key(int number) const;
 };
 
-/// The surroundings of an arc, up to `reach` arcs before and after it as far as the path is in one piece. Units are
+/// The surroundings of an arc, up to `reach` arcs before and after it as far as the path is in one piece; where it is
+/// closed they go on round it, but never to the same key image again. Units are
 /// joined by the nodes' scales, and past a turn on the spot by the landmarks that the arcs on both sides have in
 /// common, at least `fewest_scaled`. Precondition: the arc is one of the path's.
 ArcSurroundings surroundings_of(const TaughtPath& path, int arc, int reach, int fewest_scaled);

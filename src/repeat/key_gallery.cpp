@@ -25,16 +25,10 @@ cv::Mat bytes_of(const tracking::GreyLevel& level) {
   return grey;
 }
 
-std::vector<geometry::PointPair> matches_of(const DescribedPicture& picture, const DescribedPicture& key,
-                                            double ratio) {
+std::vector<geometry::PointPair> pairs_of(const DescribedPicture& picture, const DescribedPicture& key, double ratio) {
   std::vector<geometry::PointPair> pairs;
-  if (picture.seen.empty() || key.seen.empty()) return pairs;
-  const auto nearest = matching::find_nearest(picture.descriptors, key.descriptors);
-  for (std::size_t i = 0; i < picture.seen.size(); ++i) {
-    const auto j = static_cast<std::size_t>(nearest.of_current[i]);
-    if (nearest.of_target[j] != static_cast<std::int32_t>(i)) continue;
-    if (nearest.distance[i] >= ratio * ratio * nearest.second_distance[i]) continue;
-    pairs.push_back({picture.seen[i], key.seen[j]});
+  for (const DescribedMatch& match : matches_of(picture, key, ratio)) {
+    pairs.push_back({picture.seen[at(match.first)], key.seen[at(match.second)]});
   }
   return pairs;
 }
@@ -80,6 +74,19 @@ DescribedPicture describe(const tracking::ImagePyramid& picture, const camera::C
   return described;
 }
 
+std::vector<DescribedMatch> matches_of(const DescribedPicture& first, const DescribedPicture& second, double ratio) {
+  std::vector<DescribedMatch> matches;
+  if (first.seen.empty() || second.seen.empty()) return matches;
+  const auto nearest = matching::find_nearest(first.descriptors, second.descriptors);
+  for (std::size_t i = 0; i < first.seen.size(); ++i) {
+    const std::int32_t j = nearest.of_current[i];
+    if (nearest.of_target[at(j)] != static_cast<std::int32_t>(i)) continue;
+    if (nearest.distance[i] >= ratio * ratio * nearest.second_distance[i]) continue;
+    matches.push_back({static_cast<int>(i), static_cast<int>(j), static_cast<int>(nearest.distance[i])});
+  }
+  return matches;
+}
+
 std::vector<RecognisedKey> KeyGallery::recognise(const DescribedPicture& picture, std::span<const int> keys,
                                                  const RecognitionConfig& config,
                                                  const geometry::TwoViewConfig& geometry, std::uint64_t seed) const {
@@ -89,7 +96,7 @@ std::vector<RecognisedKey> KeyGallery::recognise(const DescribedPicture& picture
   };
   std::vector<Compared> compared;
   for (const int key : keys) {
-    compared.push_back({key, matches_of(picture, keys_[at(key)], config.ratio)});
+    compared.push_back({key, pairs_of(picture, keys_[at(key)], config.ratio)});
   }
   std::ranges::stable_sort(compared, std::ranges::greater{}, [](const Compared& one) { return one.pairs.size(); });
   if (compared.size() > at(config.most_verified)) compared.resize(at(config.most_verified));

@@ -38,6 +38,15 @@ struct DescribedPicture {
 DescribedPicture describe(const tracking::ImagePyramid& picture, const camera::Camera& camera,
                           const RecognitionConfig& config);
 
+/// Features of two pictures that look alike: which of the first, which of the second.
+struct DescribedMatch {
+  int first = 0;
+  int second = 0;
+  int distance = 0;  // squared, of their descriptors
+};
+/// Mutual nearest descriptors that pass the ratio test.
+std::vector<DescribedMatch> matches_of(const DescribedPicture& first, const DescribedPicture& second, double ratio);
+
 /// A key image that a picture shows the place of.
 struct RecognisedKey {
   int key = 0;

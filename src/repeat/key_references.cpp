@@ -17,9 +17,9 @@ Result<KeyReferences> KeyReferences::make(const TaughtPath& path, int key, const
   if (!tracker) return pass_on(tracker);
   KeyReferences made(key, *std::move(tracker));
   std::unordered_set<int> wanted;
-  const auto first = std::ranges::lower_bound(path.arcs, key - 1, {}, &Arc::from);
-  for (auto arc = first; arc != path.arcs.end() && arc->from <= key; ++arc) {
-    for (const ArcMatch& match : arc->matches) wanted.insert(match.feature);
+  for (const Arc& arc : path.arcs) {
+    if (arc.from != key && path.to_key(arc) != key) continue;
+    for (const ArcMatch& match : arc.matches) wanted.insert(match.feature);
   }
   for (const KeyFeature& feature : path.key_images[at(key)].features) {
     if (!wanted.contains(feature.feature)) continue;

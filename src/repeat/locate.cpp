@@ -30,15 +30,16 @@ Repeater::Located Repeater::look_around(const tracking::ImagePyramid& picture) {
   };
   std::vector<Start> starts{{pose_, arc_of(around_->arc).from}};
   if (latest_) starts.push_back({turned_by_shift(pose_, *latest_, picture), starts.front().key});
-  const int first = arc_of(around_->arc).from;
+  const int first = *around_->position_of(starts.front().key);
   const int keys = static_cast<int>(around_->keys.size());
   for (int i = 0; i < std::min(config_.keys_tried, keys); ++i) {
     const int number = (lost_for_ * config_.keys_tried + i) % keys;  // 0, 1, -1, 2, -2, ... from the first
-    const int key = first + ((number % 2) == 1 ? (number + 1) / 2 : -(number / 2));
-    if (!around_->has_key(key)) continue;
-    const auto there = pictures_(key);
-    const KeyPose& placed = around_->key(key);
-    if (there) starts.push_back({turned_by_shift({placed.local_from_key, placed.position}, *there, picture), key});
+    const int position = first + ((number % 2) == 1 ? (number + 1) / 2 : -(number / 2));
+    if (position < 0 || position >= keys) continue;
+    const KeyPose& placed = around_->keys[at(position)];
+    const auto there = pictures_(placed.key);
+    if (!there) continue;
+    starts.push_back({turned_by_shift({placed.local_from_key, placed.position}, *there, picture), placed.key});
   }
   const ArcPose before = pose_;
   follower_.lose_all();
@@ -105,10 +106,12 @@ Repeater::Located Repeater::locate(int key) const {
 /// Asks the pictures themselves, where the arc's landmarks do not explain what is seen: the geometries towards both key
 /// images, each as it is and as a beginning for the landmarks.
 Repeater::Located Repeater::locate_by_keys(int from, std::span<const SeenLandmark> seen, Located best) const {
+  std::vector<int> keys{from};
+  if (const KeyPose* next = around_->next_key(from); next != nullptr) keys.push_back(next->key);
   std::vector<KeyView> views;
-  for (const int key : {from, from + 1}) {
-    auto view = view_of_key(follower_, *around_, key, config_.geometry,
-                            config_.seed + static_cast<std::uint64_t>(2 * pictures_seen_ + key - from));
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    auto view = view_of_key(follower_, *around_, keys[i], config_.geometry,
+                            config_.seed + 2 * static_cast<std::uint64_t>(pictures_seen_) + i);
     if (!view) continue;
     const PoseFit fit = fit_pose(seen, *around_, view->pose, config_.pose);
     if (fit.agreeing > best.agreeing) {

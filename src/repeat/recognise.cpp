@@ -11,13 +11,7 @@
 namespace homeward::repeat {
 
 /// The arc that begins at a key image, or where none does, that ends there; -1 for a key image without arcs.
-int Repeater::arc_at(int key) const {
-  const auto begins = std::ranges::lower_bound(path_->arcs, key, {}, &Arc::from);
-  const auto index = static_cast<int>(begins - path_->arcs.begin());
-  if (begins != path_->arcs.end() && begins->from == key) return index;
-  if (index > 0 && arc_of(index - 1).from + 1 == key) return index - 1;
-  return -1;
-}
+int Repeater::arc_at(int key) const { return path_->arc_from(key).value_or(path_->arc_from(key - 1).value_or(-1)); }
 
 /// Some key images, from the last place on to both sides and further with each picture that is lost, then over again.
 std::vector<int> Repeater::keys_to_compare() const {

@@ -38,11 +38,6 @@ Result<Repeater> Repeater::create(const RepeatConfig& config, std::shared_ptr<co
   return made;
 }
 
-bool Repeater::has_joined(int before, int after) const {
-  if (before < 0 || after >= static_cast<int>(path_->arcs.size())) return false;
-  return arc_of(before).from + 1 == arc_of(after).from;
-}
-
 Result<LandmarkFollower::References> Repeater::references_for(const ArcSurroundings& around) const {
   LandmarkFollower::References found;
   for (const KeyPose& key : around.keys) {
@@ -93,9 +88,9 @@ ArcPose Repeater::pose_in(const ArcSurroundings& other) const {
   const KeyPose& key = around_->key(first);
   pose.local_from_current = key.local_from_key.transpose() * pose_.local_from_current;
   if (!key.is_placed || !other.unit_arc) return pose;
-  const int unit_from = arc_of(*other.unit_arc).from - around_->keys.front().key;
-  if (unit_from < 0 || unit_from >= static_cast<int>(around_->units.size())) return pose;
-  const auto& unit = around_->units[at(unit_from)];
+  const auto unit_arc = std::ranges::find(around_->arcs, *other.unit_arc);
+  if (unit_arc == around_->arcs.end()) return pose;
+  const auto& unit = around_->units[static_cast<std::size_t>(unit_arc - around_->arcs.begin())];
   if (unit) pose.position = key.local_from_key.transpose() * (pose_.position - key.position) / *unit;
   return pose;
 }
@@ -151,11 +146,11 @@ int Repeater::predict(const tracking::ImagePyramid& picture, Located& located) {
 /// the turn is made and the way is behind, and before a turn where it is made already: whoever repeats a path may be
 /// turned a little less, or turn a little sooner.
 bool Repeater::has_passed(int arc) const {
-  if (!has_joined(arc, arc + 1)) return false;
+  if (!path_->arc_after(arc)) return false;
   const ArcProgress progress = progress_along(*around_, arc_of(arc).from, pose_);
   if (progress.value() >= config_.passed) return true;
   ArcProgress next;
-  if (around_->has_key(arc_of(arc).from + 2)) next = progress_along(*around_, arc_of(arc).from + 1, pose_);
+  if (around_->next_key(to_key(arc)) != nullptr) next = progress_along(*around_, to_key(arc), pose_);
   if (!progress.of_turn) {
     return progress.value() >= config_.nearly_passed && next.of_turn && *next.of_turn >= config_.turning;
   }
@@ -166,8 +161,10 @@ bool Repeater::has_passed(int arc) const {
 
 /// Whether the pose is behind the first key image of an arc, on the one before.
 bool Repeater::is_before(int arc) const {
-  if (!has_joined(arc - 1, arc) || !around_->has_key(arc_of(arc).from - 1)) return false;
-  return progress_along(*around_, arc_of(arc).from, pose_).value() < config_.back && !has_passed(arc - 1);
+  const auto before = path_->arc_before(arc);
+  const KeyPose* after = before ? around_->next_key(arc_of(*before).from) : nullptr;
+  if (after == nullptr || after->key != arc_of(arc).from) return false;
+  return progress_along(*around_, arc_of(arc).from, pose_).value() < config_.back && !has_passed(*before);
 }
 
 /// Goes on to the arcs that the pose has come to. By how many.
@@ -175,14 +172,14 @@ Result<int> Repeater::pass_key_images(const tracking::ImagePyramid& picture, Loc
   int passed = 0;
   for (int i = 0; i < config_.most_transitions; ++i) {
     const int arc = around_->arc;
-    int next = has_passed(arc) ? arc + 1 : arc;
-    const bool is_behind = next == arc && is_before(arc);
+    const bool goes_on = has_passed(arc);
+    const bool is_behind = !goes_on && is_before(arc);
     behind_ = is_behind ? behind_ + (i == 0 ? 1 : 0) : 0;
-    if (behind_ >= 2) next = arc - 1;
-    if (next == arc) break;
+    if (!goes_on && behind_ < 2) break;
+    const int next = goes_on ? *path_->arc_after(arc) : *path_->arc_before(arc);
     const ArcPose pose = pose_in(surroundings_of(*path_, next, config_.reach, config_.fewest_scaled));
     if (auto gone = go_to(next, pose); !gone) return pass_on(gone);
-    passed += next - arc;
+    passed += goes_on ? 1 : -1;
     Located there = locate(arc_of(next).from);
     if (there.lost != LostReason::kNone) break;
     located = std::move(there);
@@ -235,7 +232,7 @@ Repeated Repeater::answer(const Located& located) const {
   if (!around_) return said;
   said.arc = around_->arc;
   said.from_key = arc_of(said.arc).from;
-  said.to_key = said.from_key + 1;
+  said.to_key = to_key(said.arc);
   if (said.is_lost()) return said;
   said.tracked = follower_.tracked();
   said.expected = follower_.expected(pose_);
@@ -259,7 +256,7 @@ Repeated Repeater::answer(const Located& located) const {
                            : static_cast<double>(located.agreeing) / static_cast<double>(located.landmarks.size());
   const double off = located.error_rad / config_.most_error_rad;
   said.confidence = share * std::max(0.0, 1.0 - off) * std::min(1.0, said.tracked / (3.0 * config_.fewest_features));
-  said.at_end = said.progress >= config_.passed && !has_joined(said.arc, said.arc + 1);
+  said.at_end = said.progress >= config_.passed && !path_->arc_after(said.arc);
   return said;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "repeat/arc_pose.hpp"
 #include "repeat/arc_surroundings.hpp"
 #include "repeat/key_gallery.hpp"
+#include "repeat/key_pictures.hpp"
 #include "repeat/key_references.hpp"
 #include "repeat/key_view.hpp"
 #include "repeat/landmark_follower.hpp"
@@ -19,10 +19,6 @@
 #include "tracking/image_pyramid.hpp"
 
 namespace homeward::repeat {
-
-/// The picture of a key image, made ready as those that the path was taught with. Asked for when the way comes near
-/// it; null where there is none any more.
-using KeyPictures = std::function<std::shared_ptr<const tracking::ImagePyramid>(int key)>;
 
 /// Why it is not known where on the path a picture was taken.
 enum class LostReason {
@@ -52,14 +48,15 @@ struct Repeated {
   bool structure_agrees = true;  // false: what is seen does not fit the arc's geometry well; beside the path, what
                                  // is said of the way may be far off
   int transitions = 0;           // arcs gone on by (forwards positive) with this picture
-  bool at_end = false;           // past the last key image of the path or of its piece
+  bool at_end = false;           // past the last key image of the path or of its piece; never where it is closed
   [[nodiscard]] bool is_lost() const { return lost != LostReason::kNone; }
 };
 
 /// Follows a path that was shown once, with the same camera: features of the actual arc and those beside it are tracked
 /// against how they look in its key images; the place that they are seen from predicts those that are not tracked,
-/// and says when the next key image is passed (Segvic et al. 2007, §2.2). The cost of a picture does not depend on the
-/// length of the path. A value; copies are independent and share the path. Deterministic by the configuration's seed.
+/// and says when the next key image is passed (Segvic et al. 2007, §2.2). A closed path goes on round and round. The
+/// cost of a picture does not depend on the length of the path. A value; copies are independent and share the path.
+/// Deterministic by the configuration's seed.
 class Repeater {
  public:
   /// Describes all key images where the configuration has recognition, some 20 ms each.
@@ -101,7 +98,7 @@ class Repeater {
   Repeater(const RepeatConfig& config, std::shared_ptr<const TaughtPath> path, KeyPictures pictures,
            std::shared_ptr<const camera::Camera> camera);
   [[nodiscard]] const Arc& arc_of(int arc) const { return path_->arcs[static_cast<std::size_t>(arc)]; }
-  [[nodiscard]] bool has_joined(int before, int after) const;
+  [[nodiscard]] int to_key(int arc) const { return path_->to_key(arc_of(arc)); }
   Result<LandmarkFollower::References> references_for(const ArcSurroundings& around) const;
   Status go_to(int arc, const ArcPose& pose);
   [[nodiscard]] ArcPose pose_in(const ArcSurroundings& other) const;

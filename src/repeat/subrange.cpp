@@ -18,6 +18,34 @@ bool is_tracked(const tracking::TrackedFeature& feature) { return feature.state 
 
 }  // namespace
 
+Arc arc_of(const geometry::TwoViewEstimate& geometry, int from, ArcEnd ended_by) {
+  Arc arc;
+  arc.from = from;
+  arc.has_baseline = geometry.has_baseline;
+  arc.motion = geometry.motion;
+  arc.error_px = geometry.error_px;
+  arc.parallax_px = geometry.parallax_px;
+  arc.direction_spread_rad = geometry.direction_spread_rad;
+  arc.lead = geometry.lead;
+  arc.ended_by = ended_by;
+  return arc;
+}
+
+ArcMatch match_of(const SeenTwice& where, const geometry::SeenPoint& from, const geometry::MeetingRays& rays,
+                  double spread_px) {
+  ArcMatch match;
+  match.feature = where.feature;
+  match.from_px = where.from_px;
+  match.to_px = where.to_px;
+  match.from_bearing = rays.current;
+  match.to_bearing = rays.target;
+  match.from_nearness = rays.nearness;
+  match.to_nearness = rays.from_target;
+  const double radians_per_px = from.bearing_per_px.norm() / std::sqrt(2.0);
+  if (rays.parallax_rad > 0.0) match.distance_spread = spread_px * radians_per_px / rays.parallax_rad;
+  return match;
+}
+
 Result<Subrange> Subrange::begin(NumberedPicture key, std::span<const KeyFeature> carried, int next_feature,
                                  std::shared_ptr<const camera::Camera> camera, const TeachConfig& config) {
   auto tracker = tracking::FeatureTracker::create(config.tracker);
@@ -51,10 +79,28 @@ void Subrange::take(std::span<const KeyFeature> features) {
   }
 }
 
+void Subrange::add(std::span<const Eigen::Vector2d> pixels_px, const TeachConfig& config) {
+  for (const Eigen::Vector2d& pixel_px : pixels_px) {
+    const bool occupied = std::ranges::any_of(features_, [&](const KeyFeature& feature) {
+      return (feature.pixel_px - pixel_px).norm() < config.corners.spacing_px;
+    });
+    if (occupied) continue;
+    const KeyFeature fresh{next_feature_++, pixel_px};
+    take(std::span(&fresh, 1));
+  }
+}
+
 SubrangeView Subrange::look(const NumberedPicture& picture, const TeachConfig& config,
                             const Eigen::Vector2d& shift_px) const {
-  SubrangeView view;
   const TurnedPixels turned(*camera_, shift_px);
+  return look_where(picture, config, [&turned](const Eigen::Vector2d& pixel_px, double scale) {
+    return PlaceGuess{turned(pixel_px), scale};
+  });
+}
+
+SubrangeView Subrange::look_where(const NumberedPicture& picture, const TeachConfig& config,
+                                  const GuessPlace& guess) const {
+  SubrangeView view;
   std::vector<tracking::FeatureGuess> guesses;
   std::vector<std::size_t> guessed;
   for (std::size_t i = 0; i < features_.size(); ++i) {
@@ -64,7 +110,8 @@ SubrangeView Subrange::look(const NumberedPicture& picture, const TeachConfig& c
     if (latest_) last = latest_->features[i];
     view.features.push_back(last);
     if (!is_tracked(last)) continue;
-    guesses.push_back({i, turned(last.pixel_px), last.scale});
+    const PlaceGuess there = guess(last.pixel_px, last.scale);
+    guesses.push_back({i, there.pixel_px, there.scale});
     guessed.push_back(i);
   }
   const auto found = tracker_.track(picture.pyramid, guesses);
@@ -90,29 +137,11 @@ SubrangeView Subrange::look(const NumberedPicture& picture, const TeachConfig& c
 
 Arc Subrange::arc(int from, ArcEnd ended_by) const {
   const geometry::TwoViewEstimate& geometry = *latest_->geometry;
-  Arc arc;
-  arc.from = from;
-  arc.has_baseline = geometry.has_baseline;
-  arc.motion = geometry.motion;
-  arc.error_px = geometry.error_px;
-  arc.parallax_px = geometry.parallax_px;
-  arc.direction_spread_rad = geometry.direction_spread_rad;
-  arc.lead = geometry.lead;
-  arc.ended_by = ended_by;
+  Arc arc = arc_of(geometry, from, ended_by);
   for (std::size_t i = 0; i < geometry.inliers.size(); ++i) {
     const std::size_t of = at(latest_->paired[at(geometry.inliers[i])]);
-    const geometry::MeetingRays& rays = geometry.rays[i];
-    ArcMatch match;
-    match.feature = features_[of].feature;
-    match.from_px = features_[of].pixel_px;
-    match.to_px = latest_->features[of].pixel_px;
-    match.from_bearing = rays.current;
-    match.to_bearing = rays.target;
-    match.from_nearness = rays.nearness;
-    match.to_nearness = rays.from_target;
-    const double radians_per_px = seen_[of].bearing_per_px.norm() / std::sqrt(2.0);
-    if (rays.parallax_rad > 0.0) match.distance_spread = geometry.spread_px * radians_per_px / rays.parallax_rad;
-    arc.matches.push_back(match);
+    arc.matches.push_back(match_of({features_[of].feature, features_[of].pixel_px, latest_->features[of].pixel_px},
+                                   seen_[of], geometry.rays[i], geometry.spread_px));
   }
   return arc;
 }

@@ -11,6 +11,7 @@
 #include "geometry/two_view.hpp"
 #include "repeat/taught_path.hpp"
 #include "repeat/teach_config.hpp"
+#include "repeat/wide_match.hpp"
 #include "tracking/feature_tracker.hpp"
 #include "tracking/image_pyramid.hpp"
 
@@ -32,6 +33,19 @@ struct SubrangeView {
   [[nodiscard]] int agreeing() const { return geometry ? static_cast<int>(geometry->inliers.size()) : 0; }
 };
 
+/// A feature in both key images of an arc.
+struct SeenTwice {
+  int feature = 0;
+  Eigen::Vector2d from_px = Eigen::Vector2d::Zero();
+  Eigen::Vector2d to_px = Eigen::Vector2d::Zero();
+};
+
+/// An arc of a two-view geometry, without its matches, and one of those: of an inlier, its rays and how it is seen in
+/// the first key image. `spread_px`: of the geometry.
+Arc arc_of(const geometry::TwoViewEstimate& geometry, int from, ArcEnd ended_by);
+ArcMatch match_of(const SeenTwice& where, const geometry::SeenPoint& from, const geometry::MeetingRays& rays,
+                  double spread_px);
+
 /// A key image and the pictures that follow it: its features are tracked against how they look in it (Segvic et al.
 /// 2007, §2.1). A value; copies are independent.
 class Subrange {
@@ -50,6 +64,11 @@ class Subrange {
   /// what shifts the middle of the picture by `shift_px`.
   [[nodiscard]] SubrangeView look(const NumberedPicture& picture, const TeachConfig& config,
                                   const Eigen::Vector2d& shift_px = Eigen::Vector2d::Zero()) const;
+  /// The same with features looked for where `guess` says of where the latest kept view has them.
+  [[nodiscard]] SubrangeView look_where(const NumberedPicture& picture, const TeachConfig& config,
+                                        const GuessPlace& guess) const;
+  /// Takes more features of the key image, numbered on, where none is within the corners' spacing.
+  void add(std::span<const Eigen::Vector2d> pixels_px, const TeachConfig& config);
   /// Goes on from a view; what is lost in it is not looked for again.
   void keep(SubrangeView view) { latest_ = std::move(view); }
   /// None before the second picture of the subrange was kept.

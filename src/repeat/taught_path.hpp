@@ -13,6 +13,8 @@ using map::CutReason;
 using map::KeyFeature;
 using map::KeyImage;
 using map::NodeScale;
+using map::PathBridge;
+using map::PathClosing;
 using map::PathCut;
 using map::TaughtPath;
 

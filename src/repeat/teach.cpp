@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "repeat/bridge.hpp"
 #include "repeat/node_scale.hpp"
 #include "repeat/picture_shift.hpp"
 
@@ -91,8 +92,9 @@ TaughtPicture Teacher::take(NumberedPicture picture) {
   }
   const int kept = static_cast<int>(std::ceil(config_.least_kept * static_cast<double>(subrange_->features().size())));
   const auto why = against(view, std::max(config_.fewest_features, kept), config_);
-  if (!why) return keep(std::move(picture), std::move(view), fate);
-  return wait_or_cut(std::move(picture), *why);
+  const bool is_near = static_cast<int>(waiting_.size()) <= config_.most_skipped;
+  if (!why && is_near) return keep(std::move(picture), std::move(view), fate);
+  return bridge_wait_or_cut(std::move(picture), why.value_or(why_waiting_));
 }
 
 /// n, or where the arc began with little, a share of that: else each picture of a plain wall would be a key image.
@@ -131,13 +133,21 @@ TaughtPicture Teacher::keep(NumberedPicture picture, SubrangeView view, PictureF
   return taught;
 }
 
-TaughtPicture Teacher::wait_or_cut(NumberedPicture picture, ArcEnd why) {
+TaughtPicture Teacher::bridge_wait_or_cut(NumberedPicture picture, ArcEnd why) {
+  if (auto bridge = bridge_to(picture, *subrange_, *camera_, config_)) {
+    subrange_ = std::move(bridge->from);
+    next_feature_ = subrange_->next_feature();
+    if (is_key_in_path_) path_.key_images.back().features = subrange_->features();
+    path_.bridges.push_back({subrange_->key().number, picture.number, bridge->matched});
+    return keep(std::move(picture), std::move(bridge->view), PictureFate::kBridged);
+  }
   TaughtPicture taught;
   taught.fate = PictureFate::kWaits;
   taught.key_picture = subrange_->key().number;
   if (waiting_.empty()) why_waiting_ = why;
   waiting_.push_back(std::move(picture));
-  if (static_cast<int>(waiting_.size()) <= config_.most_skipped) return taught;
+  const int most = std::max(config_.most_skipped, config_.bridging ? config_.bridging->most_ahead - 1 : 0);
+  if (static_cast<int>(waiting_.size()) <= most) return taught;
   taught = cut();
   taught.fate = PictureFate::kAfterCut;
   return taught;

@@ -17,6 +17,7 @@ namespace homeward::repeat {
 /// What became of a picture.
 enum class PictureFate {
   kFollowed,     // seen from the latest key image
+  kBridged,      // the same, after a gap that nothing was tracked across
   kAfterKey,     // the same; the picture before it has become a key image
   kBegins,       // the first of a piece of the path
   kWaits,        // nothing could be followed into it; whether the next ones can be is to be seen
@@ -38,8 +39,9 @@ struct TaughtPicture {
 /// Makes a path of pictures that are shown one after another: corners of a key image are followed until the two-view
 /// geometry is no longer exact, or too few are left; the last picture before that is the next key image (Segvic et al.
 /// 2007, §2.1). Features are looked for where they were, and where that fails, as in a quick turn, by the shift of the
-/// whole picture. Where nothing can be followed into the picture right after a key image, the next pictures are tried;
-/// then the path is cut, and says so. A value; copies are independent. Deterministic
+/// whole picture. Where nothing can be followed into the picture right after a key image, it and the next pictures are
+/// matched with that without any expectation (bridge.hpp); where that fails, too, the path is cut, and says so. Whether
+/// it is closed is found out afterwards (closing.hpp). A value; copies are independent. Deterministic
 /// by the configuration's seed.
 class Teacher {
  public:
@@ -61,7 +63,7 @@ class Teacher {
   TaughtPicture take(NumberedPicture picture);
   TaughtPicture begin_piece(NumberedPicture picture);
   TaughtPicture keep(NumberedPicture picture, SubrangeView view, PictureFate fate);
-  TaughtPicture wait_or_cut(NumberedPicture picture, ArcEnd why);
+  TaughtPicture bridge_wait_or_cut(NumberedPicture picture, ArcEnd why);
   [[nodiscard]] int least_features() const;
   void close_arc(ArcEnd why);
   TaughtPicture cut();

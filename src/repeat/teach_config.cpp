@@ -3,6 +3,19 @@
 
 namespace homeward::repeat {
 
+std::vector<std::string> problems(const BridgingConfig& config) {
+  std::vector<std::string> found = problems(config.matching);
+  const auto expect = [&](bool holds, const char* problem) {
+    if (!holds) found.emplace_back(problem);
+  };
+  expect(config.most_ahead >= 1, "most_ahead is not positive");
+  expect(config.most_turn_off_rad > 0.0, "most_turn_off_rad is not positive");
+  expect(config.least_lead >= 0.0, "least_lead is negative");
+  expect(config.fewest_around >= 1, "fewest_around is not positive");
+  expect(config.most_aside_rad > 0.0, "most_aside_rad is not positive");
+  return found;
+}
+
 std::vector<std::string> problems(const TeachConfig& config) {
   std::vector<std::string> found;
   const auto expect = [&](bool holds, const char* problem) {
@@ -22,6 +35,9 @@ std::vector<std::string> problems(const TeachConfig& config) {
   for (const auto& problem : tracking::problems(config.corners)) found.push_back("corners: " + problem);
   for (const auto& problem : tracking::problems(config.tracker)) found.push_back("tracker: " + problem);
   for (const auto& problem : geometry::problems(config.geometry)) found.push_back("geometry: " + problem);
+  if (config.bridging) {
+    for (const auto& problem : problems(*config.bridging)) found.push_back("bridging: " + problem);
+  }
   return found;
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/two_view.hpp"
+#include "repeat/key_gallery.hpp"
 #include "tracking/feature_tracker.hpp"
 #include "tracking/harris.hpp"
 
@@ -28,6 +30,19 @@ inline geometry::TwoViewConfig driving_geometry() {
   return geometry;
 }
 
+/// Where nothing can be tracked across a gap, and where a path comes round to its beginning: pictures matched without
+/// any expectation.
+struct BridgingConfig {
+  RecognitionConfig matching{};
+  int most_ahead = 10;              // pictures after a key image that are matched with it
+  double most_turn_off_rad = 0.07;  // by which what was matched and what was then tracked may differ in the turn
+  double least_lead = 10.0;         // over the best motion in another direction (geometry::TwoViewEstimate)
+  int fewest_around = 6;            // arcs with a way that a closed path has
+  double most_aside_rad = 1.05;     // of the way back to where it is closed, from straight ahead
+};
+/// Empty when valid; lists all problems.
+std::vector<std::string> problems(const BridgingConfig& config);
+
 struct TeachConfig {
   double most_error_px = 4.0;   // sigma of Segvic et al. 2007, 2.1: reprojection error above which no arc goes on
   int least_features = 50;      // n, there: fewer agreeing with the geometry end an arc
@@ -44,6 +59,7 @@ struct TeachConfig {
   tracking::HarrisConfig corners = key_corners();
   tracking::FeatureTrackerConfig tracker{};  // most_residual is R, there
   geometry::TwoViewConfig geometry = driving_geometry();
+  std::optional<BridgingConfig> bridging = BridgingConfig{};  // none: what cannot be tracked cuts the path
   std::uint64_t seed = 1;
 };
 /// Empty when valid; lists all problems.

@@ -88,6 +88,14 @@ TEST(Encoders, WriteTaughtPathsThatTheSchemaAccepts) {
   EXPECT_NEAR(taught["arcs"][0]["bearing_rad"].get<double>(), std::atan2(1.0, 1.5), 1e-12);
   EXPECT_EQ(taught["arcs"][1]["bearing_rad"], json()) << "a turn on the spot";
   EXPECT_EQ(taught["cuts"][0], json::parse(R"({"after":"00002.jpg","on_from":null,"why":"geometry"})"));
+  EXPECT_EQ(taught["bridged"], json::parse(R"([{"after":"00000.jpg","on_from":"00001.jpg","matched":37}])"));
+  EXPECT_EQ(taught["closed_at"], json());
+  map.path = std::make_shared<const map::MapPath>(homeward::testing::closed_sample_path());
+  const json closed = taught_to_json("path.hwmap", map, {});
+  EXPECT_THAT(schemas().problems("taught", closed), IsEmpty());
+  EXPECT_EQ(closed["closed_at"], "00000.jpg");
+  EXPECT_EQ(closed["arcs"].back()["from"], "00002.jpg");
+  EXPECT_EQ(closed["arcs"].back()["to"], "00000.jpg");
 }
 
 TEST(Encoders, WriteRepeatedPicturesThatTheSchemaAccepts) {

@@ -52,6 +52,16 @@ inline map::MapPath sample_path() {
   path.taught.arcs = {sample_arc(0, 1.5, 3), sample_arc(1, 0.7, 0)};
   path.taught.cuts = {{2, std::nullopt, map::CutReason::kNoGeometry}, {0, 1, map::CutReason::kErrorTooLarge}};
   path.taught.skipped_pictures = {1, 2};
+  path.taught.bridges = {{0, 1, 37}};
+  return path;
+}
+
+/// The same in one piece, and closed: a third arc leads from the last key image to the first.
+inline map::MapPath closed_sample_path() {
+  map::MapPath path = sample_path();
+  path.taught.cuts.clear();
+  path.taught.arcs.push_back(sample_arc(2, 0.9, 2));
+  path.taught.closing = map::PathClosing{0, 11, map::NodeScale{1.25, 8, 0.03125}};
   return path;
 }
 

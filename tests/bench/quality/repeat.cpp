@@ -5,6 +5,7 @@
 //   --out FILE      a line of JSON for each picture
 //   --verbose       a line for each picture
 //   --width W       the pictures shrunk to it; 320
+//   --close         the path is closed where it can be
 //   --dense         taught with repeat::dense_teaching()
 //   --n N, --share S, --spacing PX, --strength S, --texture T, --sens K, --R R, --most M    of the teaching
 //   --reach R       arcs on both sides whose features are tracked
@@ -29,6 +30,7 @@
 #include "core/angles.hpp"
 #include "core/index.hpp"
 #include "perspective_tour.hpp"
+#include "repeat/closing.hpp"
 #include "repeat/repeater.hpp"
 #include "repeat/teach.hpp"
 
@@ -44,6 +46,7 @@ struct Options {
   int cover_count = 0;
   double cover_share = 0.0;
   bool verbose = false;
+  bool closes = false;
   repeat::TeachConfig teaching;
   repeat::RepeatConfig repeating;
 };
@@ -86,6 +89,8 @@ Options options_of(int argc, char** argv) {
       options.out = next();
     else if (name == "--verbose")
       options.verbose = true;
+    else if (name == "--close")
+      options.closes = true;
     else if (name == "--cover") {
       options.cover_from = std::stoi(next());
       options.cover_count = std::stoi(next());
@@ -128,18 +133,25 @@ struct Figures {
   int forwards = 0;
   int backwards = 0;
   int doubted = 0;
+  int ends = 0;  // pictures past the end of the path
   int false_features = 0;
 };
 
 /// The picture of the taught drive that a pose is beside, by its heading, too, from the one before on: paths lead
 /// through a place more than once.
-int beside(const std::vector<Pose2>& taught, const Pose2& here, int before) {
+int beside(const std::vector<Pose2>& taught, const repeat::TaughtPath& path, const Pose2& here, int before) {
   constexpr int kBack = 12;
   constexpr int kOn = 25;
   constexpr double kMetresARadian = 0.3;
+  const int count = static_cast<int>(taught.size());
+  const int round_from = path.closing ? path.key_images[at(path.closing->key_image)].picture : count;
   int best = before;
   double least = 1e9;
-  for (int i = std::max(0, before - kBack); i < std::min(static_cast<int>(taught.size()), before + kOn); ++i) {
+  for (int step = before - kBack; step < before + kOn; ++step) {
+    int i = step;
+    if (i >= count) i += round_from - count;
+    if (i < round_from && before >= round_from && path.closing) i += count - round_from;
+    if (i < 0 || i >= count) continue;
     const Pose2& there = taught[at(i)];
     const double off = std::hypot(there.x_m - here.x_m, there.y_m - here.y_m) +
                        kMetresARadian * std::abs(wrap_angle(there.theta_rad - here.theta_rad));
@@ -166,6 +178,12 @@ struct Taught {
   std::vector<std::shared_ptr<const tracking::ImagePyramid>> keys;
 
   [[nodiscard]] int picture_of(int key) const { return path->key_images[at(key)].picture; }
+  [[nodiscard]] int arcs_between(int one, int other) const {
+    const int apart = std::abs(one - other);
+    if (!path->closing) return apart;
+    const int round = static_cast<int>(path->arcs.size()) - *path->arc_from(path->closing->key_image);
+    return std::min(apart, std::abs(round - apart));
+  }
   /// The arc that a picture lies on.
   [[nodiscard]] int arc_of(int picture) const {
     int found = 0;
@@ -183,11 +201,14 @@ Taught teach(const Options& options) {
   taught.poses = tour.poses;
   auto teacher = repeat::Teacher::create(options.teaching, taught.camera).value();
   for (const Image& grey : tour.grey) (void)teacher.add(tracking::ImagePyramid::build(grey).value()).value();
-  taught.path = std::make_shared<const repeat::TaughtPath>(teacher.path().value());
-  for (const auto& key : taught.path->key_images) {
+  repeat::TaughtPath path = teacher.path().value();
+  for (const auto& key : path.key_images) {
     taught.keys.push_back(std::make_shared<const tracking::ImagePyramid>(
         tracking::ImagePyramid::build(tour.grey[at(key.picture)]).value()));
   }
+  const auto picture_of = [&taught](int key) { return taught.keys[at(key)]; };
+  if (options.closes) repeat::close_path(path, picture_of, taught.camera, options.teaching);
+  taught.path = std::make_shared<const repeat::TaughtPath>(std::move(path));
   return taught;
 }
 
@@ -249,10 +270,16 @@ void judge(Figures& figures, const Taught& taught, const repeat::Repeater& repea
   }
   const int from = taught.picture_of(said.from_key);
   const int to = taught.picture_of(said.to_key);
-  figures.right += truth >= from - (to - from) && truth <= to + (to - from) ? 1 : 0;
+  if (to > from) {
+    figures.right += truth >= from - (to - from) && truth <= to + (to - from) ? 1 : 0;
+  } else {
+    constexpr int kNear = 5;  // pictures before and after where the path is closed
+    figures.right += truth >= from - kNear || std::abs(truth - to) <= kNear ? 1 : 0;
+  }
   figures.enough += said.tracked >= 50 ? 1 : 0;
   judge_way(figures, taught, said, here);
-  figures.wrong_far += std::abs(said.arc - taught.arc_of(truth)) > 1 ? 1 : 0;
+  figures.wrong_far += taught.arcs_between(said.arc, taught.arc_of(truth)) > 1 ? 1 : 0;
+  figures.ends += said.at_end ? 1 : 0;
   for (const repeat::FollowedLandmark& one : repeater.landmarks()) {
     if (!one.is_tracked) continue;
     const double off_px = feature_off_px(taught, one, said.from_key, here);
@@ -298,7 +325,7 @@ int run(const Options& options) {
     const double ms = cpu_ms() - before_ms;
     figures.ms.push_back(ms);
     const Pose2& here = drive.poses[at(number)];
-    truth = beside(taught.poses, here, truth);
+    truth = beside(taught.poses, *taught.path, here, truth);
     const std::size_t wrong_before = static_cast<std::size_t>(figures.false_features);
     judge(figures, taught, repeater, said, truth, here, options);
     const int from = taught.picture_of(said.from_key);
@@ -314,6 +341,10 @@ int run(const Options& options) {
         covered ? " covered" : "");
   }
   print(figures, taught.path->arcs.size());
+  if (options.closes) {
+    std::printf("closed at picture %d, past an end in %d pictures\n",
+                taught.path->closing ? taught.picture_of(taught.path->closing->key_image) : -1, figures.ends);
+  }
   return 0;
 }
 

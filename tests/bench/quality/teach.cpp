@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// homeward_bench_teach TOUR [N [SIGMA [R [WIDTH [SEED [free]]]]]]: teaches a path from a folder of pictures with
+// homeward_bench_teach TOUR [N [SIGMA [R [WIDTH [SEED [free] [cut]]]]]]: teaches a path from a folder of pictures with
 // camera.json and poses.csv (the truth) and says how good its arcs are. N: features below which an arc ends; SIGMA:
-// reprojection error above which it does; R: residual of a tracked feature; WIDTH: the pictures shrunk to it. The last
-// line is a row of a table of all that.
+// reprojection error above which it does; R: residual of a tracked feature; WIDTH: the pictures shrunk to it; free:
+// nothing is known of driving; cut: gaps are not bridged, and the path is not closed. The last line is a row of a table
+// of all that.
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <stdexcept>
 #include <string>
@@ -16,6 +18,7 @@
 #include "core/angles.hpp"
 #include "core/index.hpp"
 #include "perspective_tour.hpp"
+#include "repeat/closing.hpp"
 #include "repeat/teach.hpp"
 
 namespace homeward::bench {
@@ -47,7 +50,7 @@ struct TrueArc {
 
 TrueArc true_arc(const PerspectiveTour& tour, const TaughtPath& path, const Arc& arc) {
   const Pose2& a = tour.poses[at(path.key_images[at(arc.from)].picture)];
-  const Pose2& b = tour.poses[at(path.key_images[at(arc.from + 1)].picture)];
+  const Pose2& b = tour.poses[at(path.key_images[at(path.to_key(arc))].picture)];
   TrueArc truth;
   const Eigen::Vector3d moved(b.x_m - a.x_m, b.y_m - a.y_m, 0.0);
   truth.way_m = moved.norm();
@@ -88,7 +91,7 @@ Figures figures_of(const PerspectiveTour& tour, const TaughtPath& path) {
     const Arc& arc = path.arcs[i];
     const KeyImage& from = path.key_images[at(arc.from)];
     const TrueArc truth = true_arc(tour, path, arc);
-    const bool inside = i > 0 && path.arcs[i - 1].from + 1 == arc.from;
+    const bool inside = i > 0 && path.to_key(path.arcs[i - 1]) == arc.from;
     double scale_off = std::nan("");
     if (from.scale && before_m > kLeastWay_m && truth.way_m > kLeastWay_m) {
       scale_off = std::abs(std::log(from.scale->ratio * before_m / truth.way_m));
@@ -104,13 +107,34 @@ Figures figures_of(const PerspectiveTour& tour, const TaughtPath& path) {
     if (!std::isnan(truth.direction_off_deg)) figures.directions_off_deg.push_back(truth.direction_off_deg);
     std::printf(
         "| %zu | %d-%d | %s | %zu | %d | %.2f | %.1f | %.2f | %.0f | %.2f | %.1f | %.1f | %.1f | %.2f | %.3f |\n", i,
-        from.picture, path.key_images[at(arc.from + 1)].picture, name_of(arc.ended_by), arc.matches.size(), from.common,
-        arc.error_px, arc.parallax_px, truth.way_m, degrees(truth.turn_rad), truth.turn_off_deg,
+        from.picture, path.key_images[at(path.to_key(arc))].picture, name_of(arc.ended_by), arc.matches.size(),
+        from.common, arc.error_px, arc.parallax_px, truth.way_m, degrees(truth.turn_rad), truth.turn_off_deg,
         truth.direction_off_deg, degrees(arc.direction_spread_rad), arc.lead, from.scale ? from.scale->ratio : 0.0,
         scale_off);
     before_m = truth.way_m;
   }
   return figures;
+}
+
+/// How right the arcs are that lead across a gap, and the one that closes the path.
+void print_bridges(const PerspectiveTour& tour, const TaughtPath& path) {
+  const auto print = [&](const Arc& arc) {
+    const TrueArc truth = true_arc(tour, path, arc);
+    std::printf("%zu features, way %.2f m, turn %.0f deg, turn off %.2f deg, direction off %.1f deg\n",
+                arc.matches.size(), truth.way_m, degrees(truth.turn_rad), truth.turn_off_deg, truth.direction_off_deg);
+  };
+  for (const repeat::PathBridge& bridge : path.bridges) {
+    std::printf("bridged from picture %d to %d: %d matched, ", bridge.last_picture, bridge.next_picture,
+                bridge.matched);
+    for (const Arc& arc : path.arcs) {
+      if (path.key_images[at(arc.from)].picture == bridge.last_picture) print(arc);
+    }
+  }
+  if (!path.closing) return;
+  const KeyImage& there = path.key_images[at(path.closing->key_image)];
+  std::printf("closed at picture %d (key image %d): common %d before, %d after, ", there.picture,
+              path.closing->key_image, path.key_images.back().common, path.closing->common);
+  print(path.arcs.back());
 }
 
 void print_all(const PerspectiveTour& tour, const TaughtPath& path, const repeat::TeachConfig& config, double ms) {
@@ -120,6 +144,7 @@ void print_all(const PerspectiveTour& tour, const TaughtPath& path, const repeat
                 name_of(cut.why));
   }
   for (const int picture : path.skipped_pictures) std::printf("skipped picture %d\n", picture);
+  print_bridges(tour, path);
   std::printf("%zu pictures, %zu key images, %zu arcs, %d of them turns, %zu cuts, %d nodes without scale\n",
               tour.grey.size(), path.key_images.size(), path.arcs.size(), figures.turns, path.cuts.size(),
               figures.unscaled);
@@ -155,7 +180,7 @@ void print_all(const PerspectiveTour& tour, const TaughtPath& path, const repeat
 int main(int argc, char** argv) try {
   using namespace homeward;
   if (argc < 2) {
-    std::fprintf(stderr, "usage: homeward_bench_teach TOUR [N [SIGMA [R [WIDTH [SEED [free]]]]]]\n");
+    std::fprintf(stderr, "usage: homeward_bench_teach TOUR [N [SIGMA [R [WIDTH [SEED [free] [cut]]]]]]\n");
     return 2;
   }
   cv::setNumThreads(1);
@@ -165,13 +190,23 @@ int main(int argc, char** argv) try {
   if (argc > 4) config.tracker.most_residual = std::stod(argv[4]);
   const int width_px = argc > 5 ? std::stoi(argv[5]) : 320;
   if (argc > 6) config.seed = std::stoull(argv[6]);
-  if (argc > 7) config.geometry.driving.reset();
+  for (int i = 7; i < argc; ++i) {
+    if (std::string(argv[i]) == "free") config.geometry.driving.reset();
+    if (std::string(argv[i]) == "cut") config.bridging.reset();
+    if (std::string(argv[i]) == "dense") config = repeat::dense_teaching();
+  }
   config.fewest_features = std::min(config.fewest_features, config.least_features);
   const bench::PerspectiveTour tour = bench::read_perspective_tour(argv[1], width_px);
-  auto teacher = repeat::Teacher::create(config, camera::Camera::create(tour.camera).value()).value();
+  const std::shared_ptr<const camera::Camera> camera = camera::Camera::create(tour.camera).value();
+  auto teacher = repeat::Teacher::create(config, camera).value();
   const double before_ms = bench::cpu_ms();
   for (const Image& grey : tour.grey) (void)teacher.add(tracking::ImagePyramid::build(grey).value()).value();
-  const auto path = teacher.path().value();
+  auto path = teacher.path().value();
+  const auto picture_of = [&](int key) {
+    return std::make_shared<const tracking::ImagePyramid>(
+        tracking::ImagePyramid::build(tour.grey[at(path.key_images[at(key)].picture)]).value());
+  };
+  repeat::close_path(path, picture_of, camera, config);
   bench::print_all(tour, path, config, bench::cpu_ms() - before_ms);
   return 0;
 } catch (const tl::bad_expected_access<homeward::Error>& stopped) {

@@ -47,7 +47,7 @@ class MapFile : public ::testing::Test {
       ALTER TABLE destinations DROP COLUMN pictogram;
       ALTER TABLE edits DROP COLUMN lost; ALTER TABLE edits DROP COLUMN found_json;
       DELETE FROM meta WHERE key IN ('settled_edits', 'has_unedited');
-      DROP TABLE path_key_images; DROP TABLE path_arcs; DROP TABLE path_cuts; DROP TABLE path_skipped;
+      DROP TABLE path_bridges; DROP TABLE path_closing; DROP TABLE path_key_images; DROP TABLE path_arcs; DROP TABLE path_cuts; DROP TABLE path_skipped;
       PRAGMA user_version = 6)sql");
   }
   /// Turns the file into one of the version before checksums, so that its rows may be changed.
@@ -313,7 +313,8 @@ TEST_F(MapFile, RefusesOtherDatabasesNewerVersionsAndDanglingReferences) {
   change("UPDATE edges SET length_from = 9");
   EXPECT_THAT(load_map(file()).error().message, ::testing::HasSubstr("unknown source"));
   forget_checksum();
-  for (const auto& [version, what] : {std::pair("1", "Rebuild the map"), std::pair("9", "A newer Homeward wrote it")}) {
+  for (const auto& [version, what] :
+       {std::pair("1", "Rebuild the map"), std::pair("10", "A newer Homeward wrote it")}) {
     change(std::string("PRAGMA user_version = ") + version);
     const auto refused = load_map(file());
     ASSERT_FALSE(refused);

@@ -15,6 +15,7 @@
 namespace homeward::db::map_path_test {
 namespace {
 
+using homeward::testing::closed_sample_path;
 using homeward::testing::sample_map;
 using homeward::testing::sample_path;
 
@@ -75,9 +76,56 @@ TEST_F(MapPathFile, GivesBackThePathToTheBit) {
   EXPECT_EQ(path.taught.cuts[1].next_picture, 1);
   EXPECT_EQ(path.taught.cuts[1].why, map::CutReason::kErrorTooLarge);
   EXPECT_EQ(path.taught.skipped_pictures, before.taught.skipped_pictures);
+  ASSERT_EQ(path.taught.bridges.size(), 1U);
+  EXPECT_EQ(path.taught.bridges[0].last_picture, 0);
+  EXPECT_EQ(path.taught.bridges[0].next_picture, 1);
+  EXPECT_EQ(path.taught.bridges[0].matched, 37);
+  EXPECT_FALSE(path.taught.closing);
   const std::string first = content();
   ASSERT_TRUE(save_map(file(), loaded->map, {}));
   EXPECT_EQ(content(), first);
+}
+
+TEST_F(MapPathFile, AClosedPathStaysClosed) {
+  map_.path = std::make_shared<const map::MapPath>(closed_sample_path());
+  ASSERT_TRUE(save_map(file(), map_, {}));
+  const auto loaded = load_map(file());
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  const map::TaughtPath& taught = loaded->map.path->taught;
+  ASSERT_TRUE(taught.closing);
+  EXPECT_EQ(taught.closing->key_image, 0);
+  EXPECT_EQ(taught.closing->common, 11);
+  ASSERT_TRUE(taught.closing->scale);
+  EXPECT_EQ(taught.closing->scale->ratio, 1.25);
+  EXPECT_EQ(taught.closing->scale->common, 8);
+  EXPECT_EQ(taught.closing->scale->spread, 0.03125);
+  ASSERT_EQ(taught.arcs.size(), 3U);
+  EXPECT_EQ(taught.arcs.back().from, 2);
+  EXPECT_EQ(taught.to_key(taught.arcs.back()), 0);
+}
+
+TEST_F(MapPathFile, FilesOfVersionEightAreReadAndAreOpen) {
+  change("DROP TABLE path_bridges; DROP TABLE path_closing; PRAGMA user_version = 8");
+  const auto loaded = load_map(file());
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_TRUE(loaded->map.path);
+  EXPECT_EQ(loaded->map.path->taught.arcs.size(), 2U);
+  EXPECT_EQ(loaded->map.path->taught.cuts.size(), 2U);
+  EXPECT_TRUE(loaded->map.path->taught.bridges.empty());
+  EXPECT_FALSE(loaded->map.path->taught.closing);
+}
+
+TEST_F(MapPathFile, AClosingThatLeadsNowhereIsRefused) {
+  map_.path = std::make_shared<const map::MapPath>(closed_sample_path());
+  for (const char* sql : {"UPDATE path_closing SET key_image = 2", "DELETE FROM path_arcs WHERE position = 1",
+                          "DELETE FROM path_arcs WHERE position = 2", "UPDATE path_closing SET scale_ratio = -1.0",
+                          "DELETE FROM path_closing", "UPDATE path_closing SET common = -1"}) {
+    ASSERT_TRUE(save_map(file(), map_, {}));
+    change(sql);
+    const auto refused = load_map(file());
+    ASSERT_FALSE(refused) << sql;
+    EXPECT_NE(refused.error().where.find("path/"), std::string::npos) << sql << ": " << refused.error().where;
+  }
 }
 
 TEST_F(MapPathFile, AMapThatWasNotTaughtSoHasNone) {
@@ -90,7 +138,8 @@ TEST_F(MapPathFile, AMapThatWasNotTaughtSoHasNone) {
 
 TEST_F(MapPathFile, FilesOfVersionSevenAreReadAndHaveNone) {
   change(
-      "DROP TABLE path_key_images; DROP TABLE path_arcs; DROP TABLE path_cuts; DROP TABLE path_skipped;"
+      "DROP TABLE path_bridges; DROP TABLE path_closing; DROP TABLE path_key_images; DROP TABLE path_arcs; DROP TABLE "
+      "path_cuts; DROP TABLE path_skipped;"
       "PRAGMA user_version = 7");
   const auto loaded = load_map(file());
   ASSERT_TRUE(loaded) << loaded.error().message;
@@ -126,6 +175,8 @@ TEST_F(MapPathFile, APathThatDoesNotHoldTogetherIsRefusedAndNamed) {
         Damage{"UPDATE path_cuts SET why = 9 WHERE position = 0", "path/cuts/0"},
         Damage{"UPDATE path_cuts SET last_shown = 3 WHERE position = 1", "path/cuts/1"},
         Damage{"UPDATE path_key_images SET shown = 3 WHERE position = 2", "path/2"},
+        Damage{"UPDATE path_bridges SET next_shown = 0 WHERE position = 0", "path/bridges/0"},
+        Damage{"UPDATE path_bridges SET last_shown = 9 WHERE position = 0", "path/bridges/0"},
         Damage{"UPDATE path_skipped SET shown = 5000000000 WHERE position = 0", "path/skipped"},
         Damage{"PRAGMA foreign_keys = OFF; DELETE FROM path_arcs; DELETE FROM path_key_images", "path"}}) {
     ASSERT_TRUE(save_map(file(), map_, {}));

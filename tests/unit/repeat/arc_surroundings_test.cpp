@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/index.hpp"
 #include "support/straight_path.hpp"
 
@@ -49,6 +51,46 @@ TEST(ArcSurroundings, ReachesNoFartherThanAskedAndNotPastACut) {
   const ArcSurroundings around = surroundings_of(straight.path, 0, 5, 3);
   EXPECT_EQ(around.keys.front().key, 1);
   EXPECT_EQ(around.keys.back().key, 3);
+}
+
+TEST(ArcSurroundings, GoOnRoundAClosedPathByTheScaleThere) {
+  // As many metres an arc as its number and one; the last one leads from the last key image to the second, in any
+  // unit: nothing says that the path comes out where it began.
+  StraightPath straight({0.0, 1.0, 3.0, 6.0, 10.0, 15.0, 21.0, 28.0, 36.0, 45.0});
+  TaughtPath& path = straight.path;
+  path.key_images.pop_back();
+  path.closing = PathClosing{1, 20, NodeScale{0.5, 20, 0.01}};
+  const ArcSurroundings at_end = surroundings_of(path, 8, 2, 3);
+  EXPECT_EQ(at_end.arcs, (std::vector<int>{6, 7, 8, 1, 2}));
+  std::vector<int> keys;
+  for (const KeyPose& key : at_end.keys) keys.push_back(key.key);
+  EXPECT_EQ(keys, (std::vector<int>{6, 7, 8, 1, 2, 3}));
+  EXPECT_NEAR(*at_end.units[3], 0.5, 1e-9);
+  EXPECT_NEAR(at_end.key(2).position.x(), 1.5, 1e-6);
+  EXPECT_EQ(at_end.next_key(8)->key, 1);
+  EXPECT_EQ(at_end.next_key(3), nullptr);
+  EXPECT_FALSE(at_end.has_key(4));
+  const ArcSurroundings at_begin = surroundings_of(path, 1, 2, 3);
+  EXPECT_EQ(at_begin.arcs, (std::vector<int>{7, 8, 1, 2, 3}));
+  EXPECT_NEAR(*at_begin.units[1], 2.0, 1e-9);
+  // The way in is before where it is closed, and leads on into the round.
+  EXPECT_EQ(surroundings_of(path, 0, 2, 3).arcs, (std::vector<int>{0, 1, 2}));
+}
+
+TEST(ArcSurroundings, HaveEachKeyImageOnceHoweverShortTheRound) {
+  StraightPath straight({0.0, 1.0, 2.0, 3.0, 4.0});
+  TaughtPath& path = straight.path;
+  path.key_images.pop_back();
+  path.closing = PathClosing{0, 20, NodeScale{1.0, 20, 0.01}};
+  for (int arc = 0; arc < 4; ++arc) {
+    const ArcSurroundings around = surroundings_of(path, arc, 3, 3);
+    std::vector<int> keys;
+    for (const KeyPose& key : around.keys) keys.push_back(key.key);
+    std::ranges::sort(keys);
+    EXPECT_EQ(keys, (std::vector<int>{0, 1, 2, 3})) << arc;
+    ASSERT_NE(around.next_key(path.arcs[at(arc)].from), nullptr);
+    EXPECT_EQ(around.next_key(path.arcs[at(arc)].from)->key, path.to_key(path.arcs[at(arc)]));
+  }
 }
 
 TEST(ArcSurroundings, ATurnOnTheSpotHasTheUnitOfTheArcBefore) {

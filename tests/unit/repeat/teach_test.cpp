@@ -166,6 +166,7 @@ TEST_F(Teaching, AnotherPlaceCutsThePathAndIsNeverJoined) {
   const auto path = shown(pictures).path();
   ASSERT_TRUE(path);
   expect_sound(*path);
+  EXPECT_TRUE(path->bridges.empty());
   ASSERT_EQ(path->cuts.size(), 1U);
   EXPECT_EQ(path->cuts.front().last_picture, 7);
   EXPECT_EQ(path->cuts.front().next_picture, 8);
@@ -191,9 +192,41 @@ TEST_F(Teaching, APictureOfAnotherPlaceIsPassedOver) {
   for (const KeyImage& key : path->key_images) EXPECT_NE(key.picture, 5);
 }
 
+TEST_F(Teaching, AGapIsBridgedByMatchingAndTheArcGoesOnBehindIt) {
+  const auto poses = bend(20, 0.06);
+  auto pictures = all_in({}, poses);
+  for (std::size_t i = 6; i < 14; ++i) pictures[i].room.reset();  // the lens is covered
+  const auto path = shown(pictures).path();
+  ASSERT_TRUE(path);
+  expect_sound(*path);
+  EXPECT_TRUE(path->cuts.empty());
+  ASSERT_EQ(path->bridges.size(), 1U);
+  EXPECT_EQ(path->bridges.front().last_picture, 5);
+  EXPECT_EQ(path->bridges.front().next_picture, 14);
+  EXPECT_GE(path->bridges.front().matched, 15);
+  EXPECT_EQ(path->skipped_pictures, (std::vector<int>{6, 7, 8, 9, 10, 11, 12, 13}));
+  EXPECT_EQ(path->key_images.back().picture, 19);
+  bool crossed = false;
+  for (const Arc& arc : path->arcs) {
+    const KeyImage& from = path->key_images[at(arc.from)];
+    const KeyImage& to = path->key_images[at(arc.from) + 1];
+    EXPECT_LT(turn_off_deg(arc, poses[at(from.picture)], poses[at(to.picture)]), 0.6);
+    EXPECT_LT(direction_off_deg(arc, poses[at(from.picture)], poses[at(to.picture)]), 3.0);
+    if (from.picture != 5) continue;
+    crossed = true;
+    EXPECT_GE(to.picture, 14);
+    for (const ArcMatch& match : arc.matches) {
+      EXPECT_NE(std::ranges::find(from.features, match.feature, &KeyFeature::feature), from.features.end());
+      EXPECT_NE(std::ranges::find(to.features, match.feature, &KeyFeature::feature), to.features.end());
+    }
+  }
+  EXPECT_TRUE(crossed);
+}
+
 TEST_F(Teaching, ACoveredLensCutsThePathUntilItSeesAgain) {
   auto pictures = all_in({}, bend(20, 0.06));
   for (std::size_t i = 6; i < 14; ++i) pictures[i].room.reset();
+  config.bridging.reset();
   const auto path = shown(pictures).path();
   ASSERT_TRUE(path);
   expect_sound(*path);
@@ -261,9 +294,10 @@ TEST_F(Teaching, TellsWhatBecameOfEachPicture) {
   EXPECT_EQ(second.key_picture, 0);
   EXPECT_GE(second.tracked, second.agreeing);
   EXPECT_GT(second.agreeing, 60);
-  for (int i = 0; i <= config.most_skipped; ++i) {
+  const int waits = config.bridging->most_ahead - 1;
+  for (int i = 0; i <= waits; ++i) {
     const auto other = teaching.add(picture({pictures[1].pose, PaintedRoom{.seed = 5}})).value();
-    EXPECT_EQ(other.fate, i < config.most_skipped ? PictureFate::kWaits : PictureFate::kAfterCut) << i;
+    EXPECT_EQ(other.fate, i < waits ? PictureFate::kWaits : PictureFate::kAfterCut) << i;
   }
 }
 
