@@ -4,12 +4,12 @@
 namespace homeward::driving {
 
 Result<PathWatch> PathWatch::create(std::shared_ptr<const map::TopologicalMap> map, const camera::CameraConfig& camera,
-                                    const ImageId& end, const repeat::RepeatConfig& config) {
+                                    const ImageId& end, std::int64_t rounds, const repeat::RepeatConfig& config) {
   auto way = pipeline::TaughtWay::create(map, end);
   if (!way) return pass_on(way);
   auto repeater = pipeline::PathRepeater::create(std::move(map), camera, config);
   if (!repeater) return pass_on(repeater);
-  return PathWatch(*std::move(repeater), *std::move(way));
+  return PathWatch(*std::move(repeater), *std::move(way), rounds);
 }
 
 Result<PathSight> PathWatch::see(const Image& picture, Milliseconds taken_ms, const Pose2& odometry) {
@@ -24,7 +24,9 @@ Result<PathSight> PathWatch::see(const Image& picture, Milliseconds taken_ms, co
   sight.tracked = said->tracked;
   sight.confidence = said->confidence;
   sight.steering_rad = said->steering_rad;
-  pipeline::WayAhead ahead = way_.ahead(repeater_.repeater(), *said);
+  pipeline::WayAhead ahead = way_.ahead(repeater_.repeater(), *said, rounds_left_ == 0);
+  if (rounds_left_ > 0 && latest_ && way_.has_come_by(*latest_, ahead.picture)) --rounds_left_;
+  latest_ = ahead.picture;
   sight.way = std::move(ahead.way);
   sight.ends = ahead.ends;
   sight.leads_elsewhere = ahead.leads_elsewhere;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "camera/camera_config.hpp"
@@ -21,10 +23,11 @@ namespace homeward::driving {
 /// picture, and is not for the thread that drives. A value.
 class PathWatch {
  public:
-  /// `end`: the picture of the tour where the robot is to stop. It may begin anywhere on the path.
+  /// `end`: the picture of the tour where the robot is to stop, once it has come by there `rounds` times. It may begin
+  /// anywhere on the path.
   /// Errors: those of PathRepeater::create and TaughtWay::create.
   static Result<PathWatch> create(std::shared_ptr<const map::TopologicalMap> map, const camera::CameraConfig& camera,
-                                  const ImageId& end, const repeat::RepeatConfig& config = {});
+                                  const ImageId& end, std::int64_t rounds, const repeat::RepeatConfig& config = {});
 
   /// `odometry`: where it was taken. Errors: those of PathRepeater::step; nothing is changed.
   Result<PathSight> see(const Image& picture, Milliseconds taken_ms, const Pose2& odometry);
@@ -32,11 +35,13 @@ class PathWatch {
   [[nodiscard]] const pipeline::PathRepeater& repeater() const { return repeater_; }
 
  private:
-  PathWatch(pipeline::PathRepeater repeater, pipeline::TaughtWay way)
-      : repeater_(std::move(repeater)), way_(std::move(way)) {}
+  PathWatch(pipeline::PathRepeater repeater, pipeline::TaughtWay way, std::int64_t rounds)
+      : repeater_(std::move(repeater)), way_(std::move(way)), rounds_left_(rounds) {}
 
   pipeline::PathRepeater repeater_;
   pipeline::TaughtWay way_;
+  std::int64_t rounds_left_;
+  std::optional<int> latest_;  // picture of the tour that it was near to
 };
 
 }  // namespace homeward::driving

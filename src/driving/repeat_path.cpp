@@ -148,7 +148,7 @@ Motion along_way(DrivingState& state, const Rest& rest, const Situation& now) {
     return take_end_heading(state, rest, now);
   }
   double speed_mps = most_speed_mps(state, config);
-  const Aim aim = aim_on(rest, config.look_m + config.look_s * speed_mps, last);
+  const Aim aim = aim_on(rest, config.look_m, last);
   const double bend_radpm = aim.turn_rad / std::max(config.look_m, 1e-9);
   speed_mps = std::min(speed_mps, std::max(config.turn_mps, config.bend_radps / std::max(bend_radpm, 1e-9)));
   if (stops || corner) speed_mps = std::min(speed_mps, std::max(config.least_mps, config.brakes_per_s * left_m));

@@ -8,8 +8,7 @@ namespace homeward::driving {
 /// How a path that was taught is driven.
 struct RepeatPathConfig {
   bool steers_by_features = false;  // by the law of Segvic et al. 2007 alone
-  double look_m = 0.5;              // so far ahead of the robot it steers to, along the way,
-  double look_s = 0.5;              // and so much farther for each metre a second
+  double look_m = 0.45;             // so far ahead of the robot it steers to, along the way
   double aside_m = 1.0;             // farther from the way it is off it
   double metres_per_rad = 0.5;      // how a turn counts beside a distance, where the nearest of the way is looked for
   double corner_rad = 0.35;         // turned by more than that

@@ -37,14 +37,15 @@ const std::optional<Pose2>& TaughtWay::shown_at(int picture) const { return map_
 
 /// By the odometry between the key images whose arcs have a length.
 std::optional<double> TaughtWay::metres_per_unit(const repeat::ArcSurroundings& around) const {
-  const auto& keys = map_->path->taught.key_images;
+  const auto& keys = taught().key_images;
   double metres = 0.0;
   double units = 0.0;
   for (std::size_t i = 0; i < around.units.size(); ++i) {
-    const int key = around.keys[i].key;
-    const auto& from = shown_at(keys[at(key)].picture);
-    const auto& to = shown_at(keys[at(key) + 1].picture);
-    if (!around.units[i] || !from || !to) continue;
+    // Where the path is closed, odometry has drifted all round it.
+    if (!around.units[i] || taught().is_closing(taught().arcs[at(around.arcs[i])])) continue;
+    const auto& from = shown_at(keys[at(around.keys[i].key)].picture);
+    const auto& to = shown_at(keys[at(around.keys[i + 1].key)].picture);
+    if (!from || !to) continue;
     metres += (position_m(*to) - position_m(*from)).norm();
     units += *around.units[i];
   }
@@ -71,6 +72,7 @@ std::optional<Pose2> TaughtWay::robot_on_tour(const repeat::Repeater& repeater, 
   const auto metres = metres_per_unit(*repeater.surroundings());
   if (!metres) return std::nullopt;
   const auto from = robot_by_key(repeater, said.from_key, *metres);
+  if (taught().is_closing(taught().arcs[at(said.arc)])) return from;
   const auto to = robot_by_key(repeater, said.to_key, *metres);
   if (!from || !to) return from ? from : to;
   return between(*from, *to, std::clamp(said.progress, 0.0, 1.0));
@@ -81,7 +83,9 @@ int TaughtWay::nearest_picture(const Pose2& robot, int from_key, int to_key) con
   constexpr double kMetresPerRad = 0.5;
   const auto& keys = map_->path->taught.key_images;
   const int first = std::max(0, keys[at(from_key)].picture - kBeyond);
-  const int last = std::min(static_cast<int>(map_->images.size()) - 1, keys[at(to_key)].picture + kBeyond);
+  const int pictures = static_cast<int>(map_->images.size());
+  const bool closes = to_key <= from_key;
+  const int last = closes ? keys[at(from_key)].picture : std::min(pictures - 1, keys[at(to_key)].picture + kBeyond);
   int nearest = keys[at(from_key)].picture;
   double least = 1e9;
   for (int picture = first; picture <= last; ++picture) {
@@ -97,49 +101,83 @@ int TaughtWay::nearest_picture(const Pose2& robot, int from_key, int to_key) con
 
 /// Of the piece of the path that a key image is in.
 int TaughtWay::last_picture_of_piece(int key) const {
-  const map::TaughtPath& taught = map_->path->taught;
   int last = key;
-  for (const map::PathArc& arc : taught.arcs) {
-    if (arc.from == last) ++last;
+  for (const map::PathArc& arc : taught().arcs) {
+    if (arc.from == last && !taught().is_closing(arc)) ++last;
   }
-  return taught.key_images[at(last)].picture;
+  return taught().key_images[at(last)].picture;
+}
+
+/// The picture of the key image that a closed path goes on from.
+std::optional<int> TaughtWay::closes_at() const {
+  if (!taught().closing) return std::nullopt;
+  return taught().key_images[at(taught().closing->key_image)].picture;
+}
+
+bool TaughtWay::leads_there(int here, int last_of_piece) const {
+  if (end_ >= here && end_ <= last_of_piece) return true;
+  const bool goes_round = closes_at() && last_of_piece == taught().key_images.back().picture;
+  return goes_round && end_ >= *closes_at() && end_ <= last_of_piece;
+}
+
+bool TaughtWay::has_come_by(int before, int now) const {
+  constexpr int kFar = 60;  // pictures: farther on is no way that was driven between two of the robot's
+  if (now >= before) return before < end_ && end_ <= now && now - before < kFar;
+  if (!closes_at() || before - now < kFar) return false;
+  return end_ > before || end_ <= now;
 }
 
 /// By the numbers of pictures alone.
-WayAhead TaughtWay::without_metres(const repeat::Repeated& said, bool leads_there) const {
-  const auto& keys = map_->path->taught.key_images;
+WayAhead TaughtWay::without_metres(const repeat::Repeated& said, bool leads_there, bool stops) const {
+  const auto& keys = taught().key_images;
   const double from = keys[at(said.from_key)].picture;
-  const double here = from + said.progress * (keys[at(said.to_key)].picture - from);
+  const double to = said.to_key > said.from_key ? keys[at(said.to_key)].picture : from;
   WayAhead ahead;
-  ahead.ends = leads_there && here >= end_;
-  const bool is_behind = at(said.from_key) > 0 && keys[at(said.from_key) - 1].picture > end_;
-  ahead.leads_elsewhere = !leads_there || is_behind;
+  ahead.picture = static_cast<int>(from + said.progress * (to - from));
+  ahead.ends = stops && leads_there && ahead.picture >= end_ && end_ >= from;
+  ahead.leads_elsewhere = !leads_there && !(end_ < ahead.picture && end_ >= from);
   return ahead;
 }
 
-WayAhead TaughtWay::ahead(const repeat::Repeater& repeater, const repeat::Repeated& said) const {
-  constexpr double kBehind_m = 0.5;  // so far back it is driven backwards
-  const int last_of_piece = last_picture_of_piece(said.from_key);
-  const auto robot = robot_on_tour(repeater, said);
-  if (!robot) return without_metres(said, end_ <= last_of_piece);
-  const int nearest = nearest_picture(*robot, said.from_key, said.to_key);
-  const Pose2 robot_from_tour = inverse(*robot);
-  WayAhead ahead;
-  const auto& shown = shown_at(nearest);
-  if (shown) ahead.beside_m = inverse(robot_from_tour * *shown).y_m;
-  const auto& end = shown_at(end_);
-  const bool is_behind =
-      end_ < nearest && !(end && position_m(robot_from_tour * *end).norm() <= kBehind_m && nearest - end_ < 30);
-  ahead.leads_elsewhere = end_ > last_of_piece || is_behind;
-  if (ahead.leads_elsewhere) return ahead;
-  double length_m = 0.0;
-  for (int picture = std::min(nearest, end_); picture <= end_ && length_m <= kAhead_m; ++picture) {
+void TaughtWay::add_way(const Pose2& robot_from_tour, int first, int last, WayAhead& ahead, double& length_m) const {
+  for (int picture = first; picture <= last && length_m <= kAhead_m; ++picture) {
     if (!shown_at(picture)) continue;
     const Pose2 there = robot_from_tour * *shown_at(picture);
     if (!ahead.way.empty()) length_m += (position_m(there) - position_m(ahead.way.back())).norm();
     ahead.way.push_back(there);
-    ahead.ends = picture == end_;
   }
+}
+
+WayAhead TaughtWay::ahead(const repeat::Repeater& repeater, const repeat::Repeated& said, bool stops) const {
+  constexpr double kBehind_m = 0.5;  // so far back it is driven backwards
+  constexpr int kJustBehind = 30;    // pictures
+  const int last_of_piece = last_picture_of_piece(said.from_key);
+  const auto robot = robot_on_tour(repeater, said);
+  if (!robot)
+    return without_metres(said, leads_there(taught().key_images[at(said.from_key)].picture, last_of_piece), stops);
+  WayAhead ahead;
+  ahead.picture = nearest_picture(*robot, said.from_key, said.to_key);
+  const Pose2 robot_from_tour = inverse(*robot);
+  const auto& shown = shown_at(ahead.picture);
+  if (shown) ahead.beside_m = inverse(robot_from_tour * *shown).y_m;
+  const auto& end = shown_at(end_);
+  const bool just_behind = end_ < ahead.picture && ahead.picture - end_ < kJustBehind && end &&
+                           position_m(robot_from_tour * *end).norm() <= kBehind_m;
+  ahead.leads_elsewhere = !just_behind && !leads_there(ahead.picture, last_of_piece);
+  if (ahead.leads_elsewhere) return ahead;
+  double length_m = 0.0;
+  const bool ends_here = stops && (just_behind || (end_ >= ahead.picture && end_ <= last_of_piece));
+  const int last = ends_here ? end_ : last_of_piece;
+  add_way(robot_from_tour, std::min(ahead.picture, last), last, ahead, length_m);
+  ahead.ends = ends_here && length_m <= kAhead_m;
+  if (ends_here || length_m > kAhead_m || !closes_at()) return ahead;
+  // Round the path, as the key image tells that it goes on from.
+  const auto metres = metres_per_unit(*repeater.surroundings());
+  const auto again = metres ? robot_by_key(repeater, taught().closing->key_image, *metres) : std::nullopt;
+  if (!again) return ahead;
+  const bool ends_then = stops && end_ >= *closes_at();
+  add_way(inverse(*again), *closes_at(), ends_then ? end_ : last_of_piece, ahead, length_m);
+  ahead.ends = ends_then && length_m <= kAhead_m;
   return ahead;
 }
 

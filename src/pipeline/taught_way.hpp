@@ -18,6 +18,7 @@ struct WayAhead {
   std::vector<Pose2> way;  // where the robot was when it was shown, from about here on, in its present frame, metres;
                            // empty: that is not known in metres
   bool ends = false;       // the last of the way is where it is to stop; without a way: it is there
+  int picture = 0;         // of the tour, that was taken about here
   bool leads_elsewhere = false;    // from here the path does not lead there
   std::optional<double> beside_m;  // how far to the left of the way it is; none without a way
 };
@@ -31,9 +32,11 @@ class TaughtWay {
   /// kNotFound (no such picture).
   static Result<TaughtWay> create(std::shared_ptr<const map::TopologicalMap> map, const ImageId& end);
 
-  /// The way on, up to some 2.5 m of it. Precondition: `said` is the repeater's latest answer, of this map's path, and
-  /// not lost.
-  [[nodiscard]] WayAhead ahead(const repeat::Repeater& repeater, const repeat::Repeated& said) const;
+  /// The way on, up to some 2.5 m of it; past where it is to stop where it does not stop there yet. A closed path goes
+  /// on round. Precondition: `said` is the repeater's latest answer, of this map's path, and not lost.
+  [[nodiscard]] WayAhead ahead(const repeat::Repeater& repeater, const repeat::Repeated& said, bool stops) const;
+  /// Whether it has come by where it is to stop between two pictures of the tour that it was near to.
+  [[nodiscard]] bool has_come_by(int before, int now) const;
 
  private:
   TaughtWay(std::shared_ptr<const map::TopologicalMap> map, int end) : map_(std::move(map)), end_(end) {}
@@ -44,7 +47,11 @@ class TaughtWay {
                                                    const repeat::Repeated& said) const;
   [[nodiscard]] int nearest_picture(const Pose2& robot, int from_key, int to_key) const;
   [[nodiscard]] int last_picture_of_piece(int key) const;
-  [[nodiscard]] WayAhead without_metres(const repeat::Repeated& said, bool leads_there) const;
+  [[nodiscard]] WayAhead without_metres(const repeat::Repeated& said, bool leads_there, bool stops) const;
+  [[nodiscard]] bool leads_there(int here, int last_of_piece) const;
+  [[nodiscard]] const map::TaughtPath& taught() const { return map_->path->taught; }
+  [[nodiscard]] std::optional<int> closes_at() const;
+  void add_way(const Pose2& robot_from_tour, int first, int last, WayAhead& ahead, double& length_m) const;
 
   std::shared_ptr<const map::TopologicalMap> map_;
   int end_ = 0;  // number of the picture where it ends

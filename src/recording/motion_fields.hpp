@@ -178,12 +178,11 @@ void look_around_fields(Fields& fields, Config& look_around) {
 
 template <class Fields, class Config>
 void repeat_path_fields(Fields& fields, Config& repeat_path) {
-  auto& [steers_by_features, look_m, look_s, aside_m, metres_per_rad, corner_rad, corner_m, at_corner_m, turned_rad,
-         turn_mps, straight_mps, bend_radps, unsure_mps, brakes_per_s, least_mps, there_m, blind_m, lost_ms, loads_ms,
-         gets_on_m, gets_on_rad, spot_m, at_spot_ms] = repeat_path;
+  auto& [steers_by_features, look_m, aside_m, metres_per_rad, corner_rad, corner_m, at_corner_m, turned_rad, turn_mps,
+         straight_mps, bend_radps, unsure_mps, brakes_per_s, least_mps, there_m, blind_m, lost_ms, loads_ms, gets_on_m,
+         gets_on_rad, spot_m, at_spot_ms] = repeat_path;
   fields("repeat_path_steers_by_features", steers_by_features);
   fields("repeat_path_look_m", look_m);
-  fields("repeat_path_look_s", look_s);
   fields("repeat_path_aside_m", aside_m);
   fields("repeat_path_metres_per_rad", metres_per_rad);
   fields("repeat_path_corner_rad", corner_rad);

@@ -17,6 +17,7 @@ namespace {
 using wire::FaultKind;
 
 constexpr double kLongest_s = 600.0;
+constexpr double kLongestRound_s = 1800.0;  // of a path that was taught
 constexpr double kHeardWithin_s = wire::kHeardWithin_ms / 1000.0;
 constexpr double kCommandLife_s = 0.1;  // the base's own watch over its commands, as of the simulator's driver
 
@@ -48,6 +49,7 @@ Status DriveLoop::run(wire::MissionOrder order, std::vector<Pose2> way) {
   if (views_.empty() || views_.back() != order.final_image.str()) views_.push_back(order.final_image.str());
   way_ = std::move(way);
   sees_path_ = {};
+  longest_s_ = kLongest_s;
   messages_.emplace_back(std::move(order));
   return drive();
 }
@@ -58,6 +60,7 @@ Status DriveLoop::run(wire::RepeatOrder order, SeesPath sees) {
   views_ = {order.image.str()};
   way_.clear();
   sees_path_ = std::move(sees);
+  longest_s_ = kLongestRound_s * static_cast<double>(order.rounds + 1);
   messages_.emplace_back(std::move(order));
   return drive();
 }
@@ -65,7 +68,7 @@ Status DriveLoop::run(wire::RepeatOrder order, SeesPath sees) {
 Status DriveLoop::drive() {
   halted_ = false;
   const double began_s = elapsed_s();
-  while (elapsed_s() < kLongest_s && !is_ended_) {
+  while (elapsed_s() < longest_s_ && !is_ended_) {
     if (elapsed_s() > began_s) receive_from_server(!on(FaultKind::kLinkLost));
     if (const Status cycled = cycle(); !cycled) return cycled;
     if (state_.drive != wire::DriveState::kDriving && !moves(robot_)) break;

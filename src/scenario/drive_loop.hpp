@@ -115,6 +115,7 @@ class DriveLoop {
   std::vector<std::string> views_;  // names of the pictures that it homes to
   std::vector<Pose2> way_;
   SeesPath sees_path_;
+  double longest_s_ = 0.0;
   Believes believes_;
   Answers answers_;
   std::function<bool(const CycleTrace&)> ended_;

@@ -31,7 +31,8 @@ std::vector<MissionPlan> plan_missions(const wire::ScenarioFile& scenario, std::
                      scenario.speed_limit_mps,
                      mission.start_beside_m,
                      mission.start_turned_rad,
-                     mission.steering};
+                     mission.steering,
+                     mission.rounds};
     const int count = std::max(mission.times, mission.random);
     for (int i = 0; i < count; ++i) {
       if (mission.random > 0) {

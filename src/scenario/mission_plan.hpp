@@ -25,6 +25,7 @@ struct MissionPlan {
   double start_beside_m = 0.0;  // of a path that is repeated: at most
   double start_turned_rad = 0.0;
   wire::RepeatSteering steering = wire::RepeatSteering::kWay;
+  int rounds = 0;  // of a closed path: so often it passes its destination first
 };
 
 /// How many missions a scenario has, those at random counted one by one.

@@ -10,6 +10,7 @@
 #include "core/angles.hpp"
 #include "core/version.hpp"
 #include "driving/path_watch.hpp"
+#include "map/taught_path.hpp"
 #include "recording/recorder.hpp"
 #include "scenario/drive_loop.hpp"
 #include "scenario/heading_only.hpp"
@@ -27,6 +28,8 @@ class DrivenTour {
  public:
   DrivenTour(const TaughtWorld& taught, std::size_t begin) : here_(begin) {
     for (const map::MapImage& image : taught.map->images) poses_.push_back(taught.picture_poses.at(image.id));
+    const map::TaughtPath& path = taught.map->path->taught;
+    if (path.closing) closes_at_ = static_cast<std::size_t>(path.key_images[path.closing->key_image].picture);
   }
 
   [[nodiscard]] const Pose2& pose(std::size_t picture) const { return poses_[picture]; }
@@ -35,16 +38,20 @@ class DrivenTour {
     constexpr std::size_t kBack = 10;
     constexpr std::size_t kOn = 30;
     const std::size_t first = here_ > kBack ? here_ - kBack : 0;
-    const std::size_t last = std::min(poses_.size() - 1, here_ + kOn);
     double least = 1e9;
     double beside_m = 0.0;
-    for (std::size_t i = first; i < last; ++i) {
-      const double turned = std::abs(wrap_angle(poses_[i].theta_rad - robot.theta_rad));
-      const double away_m = distance_m(position_m(robot), position_m(poses_[i]), position_m(poses_[i + 1]));
+    for (std::size_t offset = 0; offset < kBack + kOn; ++offset) {
+      std::size_t from = first + offset;
+      if (from + 1 >= poses_.size()) {
+        if (!closes_at_) break;
+        from = *closes_at_ + (from + 1 - poses_.size());
+      }
+      const double turned = std::abs(wrap_angle(poses_[from].theta_rad - robot.theta_rad));
+      const double away_m = distance_m(position_m(robot), position_m(poses_[from]), position_m(poses_[from + 1]));
       if (away_m + kMetresPerRad * turned >= least) continue;
       least = away_m + kMetresPerRad * turned;
       beside_m = away_m;
-      here_ = i;
+      here_ = from;
     }
     squares_ += beside_m * beside_m;
     most_m_ = std::max(most_m_, beside_m);
@@ -64,6 +71,7 @@ class DrivenTour {
   }
 
   std::vector<Pose2> poses_;
+  std::optional<std::size_t> closes_at_;  // where a closed path goes on
   std::size_t here_;
   double squares_ = 0.0;
   double most_m_ = 0.0;
@@ -119,7 +127,7 @@ Result<SeesPath> sees_path(const TaughtWorld& taught, const MissionPlan& plan, c
       return watch->see(picture, taken_ms, odometry);
     };
   }
-  auto created = driving::PathWatch::create(taught.map, taught.camera, taught.map->images[end].id);
+  auto created = driving::PathWatch::create(taught.map, taught.camera, taught.map->images[end].id, plan.rounds);
   if (!created) return pass_on(created);
   const auto watch = std::make_shared<driving::PathWatch>(*std::move(created));
   return [watch](const Image& picture, driving::Milliseconds taken_ms, const Pose2& odometry) {
@@ -135,6 +143,7 @@ wire::RepeatOrder order_to(const TaughtWorld& taught, const MissionPlan& plan, s
   order.valid_for_ms = wire::kPermitValid_ms;
   order.speed_limit_mps = plan.speed_limit_mps;
   order.label = plan.to;
+  order.rounds = plan.rounds;
   order.image = taught.map->images[end].id;
   return order;
 }

@@ -48,6 +48,7 @@ void read_repeat(ObjectReader& reader, ScenarioMission& mission) {
   if (reader.has("times")) mission.times = static_cast<int>(reader.integer("times", 1, kMaxRandom));
   if (reader.has("start_beside_m")) mission.start_beside_m = reader.number("start_beside_m", 0.0, 2.0);
   if (reader.has("start_turned_rad")) mission.start_turned_rad = reader.number("start_turned_rad", 0.0, 3.15);
+  if (reader.has("rounds")) mission.rounds = static_cast<int>(reader.integer("rounds", 0, 1000));
   if (reader.has("steering")) mission.steering = reader.choice("steering", kRepeatSteeringNames);
 }
 

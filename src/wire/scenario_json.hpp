@@ -64,6 +64,7 @@ struct ScenarioMission {
   double start_beside_m = 0.0;
   double start_turned_rad = 0.0;
   RepeatSteering steering = RepeatSteering::kWay;
+  int rounds = 0;  // where the path is closed: so often it passes `to` first
 };
 
 /// A closed-loop scenario (proto/schemas/scenario.schema.json), format "homeward-scenario", version 1.

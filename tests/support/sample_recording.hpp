@@ -30,6 +30,9 @@ inline db::RecordedStep sample_recorded_step(std::int64_t seq) {
   step.rider = db::RecordedRider{680 + 40 * seq, true, -0.0, std::nextafter(0.2, 1.0)};
   step.leg = db::RecordedLeg{-0.0, 1.0 / 7.0, 0.1};
   step.exploration_over = true;
+  step.path_sight =
+      db::RecordedPathSight{645 + 40 * seq, {-0.0, 2.0, 1.0 / 3.0},       false, 7,    120, std::nextafter(0.5, 1.0),
+                            -0.0,           {{1.0 / 7.0, -0.0, 0.1}, {}}, true,  false};
   wire::SurveyRow known;
   known.state = wire::SurveyState::kKnownAgain;
   known.picture = 71;

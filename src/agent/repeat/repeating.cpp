@@ -67,7 +67,7 @@ Result<driving::PathWatch> Repeating::take_up(const wire::RepeatOrder& order) {
     map_id_ = order.map;
     revision_ = order.revision;
   }
-  return driving::PathWatch::create(map_, camera_, order.image);
+  return driving::PathWatch::create(map_, camera_, order.image, order.rounds);
 }
 
 void Repeating::tell(const MissionId& mission, std::optional<driving::PathSight> sight,

@@ -94,6 +94,8 @@ class RecordedDrive : public ::testing::Test {
     inputs.leg = leg_;
     inputs.exploration_over = over_;
     inputs.why_not_exploring = why_not_exploring_;
+    inputs.path_sight = path_sight_;
+    inputs.why_not_repeating = why_not_repeating_;
     const driving::Outputs outputs = recorder_->step(state_, inputs, bytes, now_ms_, std::exchange(rows_, {}));
     pose_ = pose_ * Pose2{0.1 * outputs.motion.speed_mps, 0.0, 0.1 * outputs.motion.turn_radps};
     return outputs;
@@ -144,6 +146,8 @@ class RecordedDrive : public ::testing::Test {
   std::optional<driving::Leg> leg_;  // of an exploration
   std::optional<driving::ExplorationOver> over_;
   std::optional<wire::Reason> why_not_exploring_;
+  std::optional<driving::PathSight> path_sight_;
+  std::optional<wire::Reason> why_not_repeating_;
 
  private:
   std::mutex mutex_;

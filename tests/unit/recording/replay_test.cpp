@@ -67,6 +67,34 @@ TEST_F(Replay, ReproducesARiderWhoTakesOver) {
   EXPECT_EQ(deflected.getInt(), 1);
 }
 
+TEST_F(Replay, ReproducesAPathThatIsRepeatedAndWhyItEnds) {
+  open_recorder();
+  tick({wire::RepeatOrder{MissionId("m1"), {1, 1}, MapId("k1"), 1, 1500, 0.4, "kitchen", ImageId("t/1.jpg"), 0}});
+  driving::PathSight sight;
+  sight.lost = false;
+  sight.arc = 3;
+  sight.confidence = 0.9;
+  for (int i = 0; i < 20; ++i) sight.way.push_back({0.1 * i + 1.0 / 30.0, 0.01, 0.0});
+  path_sight_ = sight;
+  for (int i = 0; i < 8; ++i) tick();
+  EXPECT_GT(pose_.x_m, 0.05) << "it stood: " << state_.reason;
+  path_sight_ = driving::PathSight{};
+  tick();
+  path_sight_.reset();
+  why_not_repeating_ = wire::Reason{wire::ReasonCode::kDoesNotRepeat};
+  tick();
+  close_recorder();
+  const auto replayed = result();
+  ASSERT_TRUE(replayed) << replayed.error().message << " " << replayed.error().where;
+  EXPECT_TRUE(replayed->same()) << replayed->differing.front().what;
+  EXPECT_TRUE(replayed->complete);
+  EXPECT_EQ(replayed->compared, 11);
+  EXPECT_EQ(replayed->why->state, "failed");
+  EXPECT_EQ(replayed->why->reason,
+            wire::reason_with(wire::ReasonCode::kPathUnusable, "because", {wire::ReasonCode::kDoesNotRepeat}));
+  EXPECT_EQ(replayed->why->path_index, 3);
+}
+
 TEST_F(Replay, ReproducesAnExploration) {
   open_recorder();
   tick({wire::ExploreOrder{MissionId("m1"), {1, 1}, 1500, 0.4, ExplorationId("x1"), false, {}, {}, {}}});

@@ -110,7 +110,8 @@ std::vector<ServerMessage> server_messages() {
           placed,
           Companion{ExplorationId("x1"), ExplorationId("x2")},
           companion_view(),
-          companion_state()};
+          companion_state(),
+          RepeatOrder{MissionId("m2"), {2, 11}, MapId("house"), 4, 1500, 0.6, "kitchen", ImageId("t/3.jpg"), 9}};
 }
 
 TEST(LinkMessages, ComeBackAsTheyWere) {
@@ -126,6 +127,18 @@ TEST(LinkMessages, ComeBackAsTheyWere) {
     EXPECT_EQ(again->index(), message.index());
     EXPECT_EQ(to_json(*again), to_json(message));
   }
+}
+
+TEST(LinkMessages, KeepEveryFieldOfAnOrderToRepeat) {
+  const auto decoded = decode_server_message(encode(server_messages().back()));
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  const auto& order = std::get<RepeatOrder>(*decoded);
+  EXPECT_EQ(order.order, (Order{2, 11}));
+  EXPECT_EQ(order.map, MapId("house"));
+  EXPECT_EQ(order.revision, 4);
+  EXPECT_EQ(order.label, "kitchen");
+  EXPECT_EQ(order.image, ImageId("t/3.jpg"));
+  EXPECT_EQ(order.rounds, 9);
 }
 
 TEST(LinkMessages, KeepEveryFieldOfAMission) {
