@@ -30,6 +30,7 @@ class FakeAgent {
     hello.session = session;
     hello.camera = small_panorama_camera();
     hello.explores = explores;
+    hello.repeats = repeats;
     say(hello);
     latest = idle();
   }
@@ -139,6 +140,7 @@ class FakeAgent {
   SocketClient socket;
   std::optional<wire::AgentStatus> latest;  // told again while it waits
   bool explores = false;                    // as its hello says
+  bool repeats = false;                     // the same
   // What it states in each status from now on.
   std::optional<double> arrival_probability;
   std::optional<wire::EstimateReport> estimate;

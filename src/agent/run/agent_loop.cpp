@@ -162,6 +162,21 @@ Result<std::unique_ptr<Exploring>> open_exploring(const AgentOptions& options, c
   return Exploring::create(std::move(thinker), camera, eye);
 }
 
+/// What follows paths that were taught.
+std::unique_ptr<Repeating> begin_repeating(const AgentOptions& options, const camera::CameraConfig& camera) {
+  const auto fetch = [server = options.server, token = options.token](const MapId& map) {
+    return fetch_map(server, token, map);
+  };
+  return std::make_unique<Repeating>(camera, fetch, options.log);
+}
+
+driving::DrivingConfig driving_config(const driving::Driver& driver, const features::FeatureConfig& features) {
+  driving::DrivingConfig config;
+  config.body = driver.body();
+  config.feature_config_id = features::feature_config_id(features);
+  return config;
+}
+
 wire::Hello hello_of(const AgentOptions& options, const camera::CameraConfig& camera, const driving::Body& body) {
   wire::Hello hello;
   hello.agent = name_with_version(kProgram);
@@ -189,8 +204,10 @@ std::vector<wire::ServerMessage> received(LinkClient& link, Exploring* exploring
   return messages;
 }
 
-/// What leads an exploration has its say before a step.
-void lead(const Exploring* exploring, driving::Inputs& inputs, const driving::DrivingState& state) {
+/// What leads an exploration, or holds pictures against a path, has its say before a step.
+void lead(const Exploring* exploring, Repeating& repeating, driving::Inputs& inputs,
+          const driving::DrivingState& state) {
+  repeating.prepare(inputs, state);
   if (exploring != nullptr) return exploring->prepare(inputs, state);
   inputs.why_not_exploring = wire::Reason{wire::ReasonCode::kDoesNotExplore};
 }
@@ -252,18 +269,14 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
   const features::FeatureConfig features = pipeline::suited_feature_config(**camera);
   const auto eye = pipeline::Eye::create(driver.camera(), features);
   if (!eye) return pass_on(eye);
-  driving::DrivingConfig config;
-  config.body = driver.body();
-  config.feature_config_id = features::feature_config_id(features);
+  const driving::DrivingConfig config = driving_config(driver, features);
 
   const auto joystick = open_joystick(options);
   if (!joystick) return pass_on(joystick);
   const auto exploring = open_exploring(options, driver.camera(), *eye, config.body);
   if (!exploring) return pass_on(exploring);
 
-  Repeating repeating(
-      driver.camera(), [&options](const MapId& map) { return fetch_map(options.server, options.token, map); },
-      options.log);
+  const auto repeating = begin_repeating(options, driver.camera());
 
   const StandStill at_the_end(driver);
   LinkClient link(options.server, options.robot, options.token, hello_of(options, driver.camera(), config.body),
@@ -293,8 +306,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
     }
     const driving::Milliseconds now = now_ms();
     show_as_often_as_asked(inputs.messages, looker);
-    lead(exploring->get(), inputs, state);
-    repeating.prepare(inputs, state);
+    lead(exploring->get(), *repeating, inputs, state);
     auto rows = decided(exploring->get());
     const driving::Outputs outputs = *recorder ? (*recorder)->step(state, inputs, picture, now, std::move(rows))
                                                : driving::step(state, inputs, config, now);
@@ -302,7 +314,7 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
     const bool held_up = now_ms() - now > config.loop_silence_ms;
     driver.command(held_up ? driving::Motion{} : outputs.motion);
     send(link, outputs.messages);
-    repeating.follow(inputs, picture, state);
+    repeating->follow(inputs, picture, state);
     looker.set_looking(state.drive == wire::DriveState::kDriving);
     looker.set_features_wanted(follow(exploring->get(), inputs, picture, state, now, link));
     reporting.report(state, config, reading, now);
