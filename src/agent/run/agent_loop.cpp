@@ -270,14 +270,12 @@ Status run_agent(driving::Driver& driver, const AgentOptions& options, const std
   const auto eye = pipeline::Eye::create(driver.camera(), features);
   if (!eye) return pass_on(eye);
   const driving::DrivingConfig config = driving_config(driver, features);
-
   const auto joystick = open_joystick(options);
   if (!joystick) return pass_on(joystick);
   const auto exploring = open_exploring(options, driver.camera(), *eye, config.body);
   if (!exploring) return pass_on(exploring);
 
   const auto repeating = begin_repeating(options, driver.camera());
-
   const StandStill at_the_end(driver);
   LinkClient link(options.server, options.robot, options.token, hello_of(options, driver.camera(), config.body),
                   options.log);
