@@ -9,10 +9,13 @@
 #include <string_view>
 
 #include "cli/command.hpp"
+#include "cli/repeat_picture.hpp"
 #include "core/index.hpp"
 #include "db/map_file.hpp"
 #include "files/read_file.hpp"
 #include "files/tour_folder.hpp"
+#include "files/write_file.hpp"
+#include "imageio/decode.hpp"
 #include "pipeline/path_repeater.hpp"
 #include "wire/repeated_json.hpp"
 
@@ -25,6 +28,7 @@ struct RepeatOptions {
   std::string path;    // map file
   std::string images;  // folder
   std::string camera;
+  std::string pictures;  // folder that what is seen is drawn into; empty: it is not
   int start_arc = -1;
   bool json = false;
 };
@@ -86,6 +90,9 @@ Status repeat_path(const RepeatOptions& options) {
       return fail(begun.error().code, begun.error().message, "--start-arc");
     }
   }
+  if (!options.pictures.empty()) {
+    if (const Status made = files::make_folder(options.pictures); !made) return pass_on(made);
+  }
   for (const std::filesystem::path& file : *files) {
     const auto picture = files::read_picture(file);
     if (!picture) return pass_on(picture);
@@ -96,6 +103,13 @@ Status repeat_path(const RepeatOptions& options) {
     view.image = file.filename().string();
     view.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     print(view, options.json);
+    if (options.pictures.empty()) continue;
+    const std::filesystem::path drawn = std::filesystem::path(options.pictures) / (file.stem().string() + ".jpg");
+    constexpr int kQuality = 85;
+    const auto bytes = imageio::encode_jpeg(repeat_picture(*picture, repeater->repeater(), *said), kQuality);
+    if (const Status written = files::write_file(drawn, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        !written)
+      return pass_on(written);
   }
   return {};
 }
@@ -114,6 +128,8 @@ void register_repeat(CLI::App& program) {
           "--start-arc", options->start_arc,
           "Number of the arc at which the drive begins, from 0; without, it is recognised anywhere on the path")
       ->check(CLI::NonNegativeNumber);
+  command->add_option("--pictures", options->pictures,
+                      "Also draw what is seen into this folder: features by their arc, and the arcs around from above");
   command->add_flag("--json", options->json, "Print a JSON line for each picture");
   command->footer(
       "A picture whose place on the path is not known is lost, and says why; the next ones are recognised again where "

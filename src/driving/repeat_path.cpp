@@ -17,6 +17,8 @@ namespace {
 
 using wire::ReasonCode;
 
+constexpr Milliseconds kSilent_ms = 1000;  // nothing held against the path for so long: it is not known where it is
+
 /// The rest of the way, robot frame, from the nearest of it on.
 struct Rest {
   std::vector<Pose2> way;
@@ -65,7 +67,9 @@ std::optional<Corner> next_corner(const Rest& rest, const RepeatPathConfig& conf
     }
     if (std::abs(turned_rad) <= config.corner_rad) continue;
     std::size_t begins = from;
-    while (std::abs(wrap_angle(rest.way[begins + 1].theta_rad - rest.way[from].theta_rad)) < kStraight_rad) ++begins;
+    while (begins + 1 < rest.way.size() &&
+           std::abs(wrap_angle(rest.way[begins + 1].theta_rad - rest.way[from].theta_rad)) < kStraight_rad)
+      ++begins;
     return Corner{begins, turned_rad};
   }
   return std::nullopt;
@@ -159,10 +163,17 @@ bool reached_by_features(const DrivingState& state, const Rest& rest) {
   return state.repeat.known->ends && (rest.way.empty() || rest.nearest + 1 == rest.way.size());
 }
 
+bool is_finite(const PathSight& sight) {
+  return std::isfinite(sight.steering_rad) && std::ranges::all_of(sight.way, [](const Pose2& pose) {
+           return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
+         });
+}
+
 void take_sight(DrivingState& state, const PathSight& sight, Milliseconds sensors_ms) {
   RepeatState& repeat = state.repeat;
+  if (!repeat.heard_ms) repeat.begun_ms = sensors_ms;  // the path is there from now on
   repeat.heard_ms = sensors_ms;
-  if (sight.lost) return;
+  if (sight.lost || !is_finite(sight)) return;
   repeat.known = sight;
   repeat.known_ms = sensors_ms;
   if (says(state.reason, ReasonCode::kPathPlaceUnknown) || says(state.reason, ReasonCode::kPathLoads))
@@ -178,7 +189,7 @@ bool ends_where_lost(DrivingState& state, const RepeatPathConfig& config, Millis
     end_mission(state, wire::DriveState::kFailed, wire::Reason{ReasonCode::kPathPlaceUnknown});
     return true;
   }
-  const bool lost = repeat.known_ms != repeat.heard_ms;
+  const bool lost = repeat.known_ms != repeat.heard_ms || sensors_ms - *repeat.heard_ms > kSilent_ms;
   if (lost) state.reason = wire::Reason{ReasonCode::kPathPlaceUnknown};
   if (!lost || sensors_ms - repeat.known_ms.value_or(repeat.begun_ms) <= config.lost_ms) return false;
   state.astray = true;
@@ -186,10 +197,11 @@ bool ends_where_lost(DrivingState& state, const RepeatPathConfig& config, Millis
   return true;
 }
 
-/// Whether it knows where it is by its latest pictures, or was sure of it a little way back.
-bool knows(const DrivingState& state, const Inputs& inputs, const RepeatPathConfig& config) {
+/// Whether it knows where it is by its latest pictures, or was sure of it a moment and a little way back.
+bool knows(const DrivingState& state, const Inputs& inputs, const RepeatPathConfig& config, Milliseconds sensors_ms) {
   const RepeatState& repeat = state.repeat;
-  return repeat.known && apart_m(repeat.known->odometry, inputs.odometry) <= config.blind_m;
+  return repeat.known && sensors_ms - *repeat.known_ms <= kSilent_ms &&
+         apart_m(repeat.known->odometry, inputs.odometry) <= config.blind_m;
 }
 
 /// Where it does not know where it is, it stands, and that is no way that is blocked.
@@ -231,7 +243,8 @@ void judge_repeat(DrivingState& state, const Inputs& inputs, const DrivingConfig
   }
   if (inputs.path_sight) take_sight(state, *inputs.path_sight, sensors_ms);
   if (ends_where_lost(state, config.repeat_path, sensors_ms)) return;
-  note_way(repeat, inputs.odometry, knows(state, inputs, config.repeat_path), config.repeat_path, sensors_ms);
+  note_way(repeat, inputs.odometry, knows(state, inputs, config.repeat_path, sensors_ms), config.repeat_path,
+           sensors_ms);
   if (!repeat.known) return;
   if (repeat.known->leads_elsewhere) {
     return end_mission(state, wire::DriveState::kFailed,
@@ -253,7 +266,7 @@ void judge_repeat(DrivingState& state, const Inputs& inputs, const DrivingConfig
 
 Motion repeat_motion(DrivingState& state, const Situation& now) {
   const RepeatPathConfig& config = now.config.repeat_path;
-  if (!state.pictured || !knows(state, now.inputs, config)) return stand(state);
+  if (!state.pictured || !knows(state, now.inputs, config, now.sensors_ms)) return stand(state);
   const Rest rest = rest_of(*state.repeat.known, now.inputs.odometry, config);
   if (state.repeat.at_end) return take_end_heading(state, rest, now);
   if (const auto making_room = give_way_motion(state, now)) return *making_room;

@@ -106,6 +106,29 @@ TEST_F(RepeatPathTest, WhereItDoesNotKnowWhereItIsItStandsAndGivesUpInTheEnd) {
   EXPECT_TRUE(state_.astray) << "no part of the way is to blame";
 }
 
+TEST_F(RepeatPathTest, WhereNothingIsHeldAgainstThePathAnyMoreItStandsAndGivesUp) {
+  for (int k = 0; k < 20; ++k) on();
+  ASSERT_GT(pose_.x_m, 0.1);
+  for (int k = 0; k < 30; ++k) tick({permit("m1", 1, ++seq_)});
+  EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
+  for (int k = 0; k < 250 && state_.drive == DriveState::kDriving; ++k) tick({permit("m1", 1, ++seq_)});
+  EXPECT_EQ(state_.drive, DriveState::kFailed);
+  EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kPathPlaceUnknown});
+}
+
+TEST_F(RepeatPathTest, AWayThatIsNotFiniteIsNoWay) {
+  path_sight_ = sight();
+  path_sight_->way[3].y_m = std::nan("");
+  for (int k = 0; k < 10; ++k) EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
+}
+
+TEST_F(RepeatPathTest, HoweverLongThePathTakesToComeItLooksForItsPlaceAsLong) {
+  for (int k = 0; k < 400; ++k) tick({permit("m1", 1, ++seq_)});
+  lost_ = true;
+  for (int k = 0; k < 20; ++k) on();
+  EXPECT_EQ(state_.drive, DriveState::kDriving);
+}
+
 TEST_F(RepeatPathTest, ItGoesOnWhereItIsKnownAgain) {
   lost_ = true;
   for (int k = 0; k < 20; ++k) EXPECT_TRUE(stands(on()));
