@@ -42,19 +42,25 @@ double length_m(const map::TopologicalMap& map, const std::vector<PlaceId>& path
 }  // namespace
 
 void Driving::plan_repeat(const map::TopologicalMap& map, const PlaceId& start, const ImageId& end, Plan& plan) {
+  const map::TaughtPath& taught = map.path->taught;
   const std::size_t last = key_before(map, end);
-  const std::size_t first = std::min(key_of(map, start), last);
-  for (std::size_t key = first; key <= last; ++key) {
+  std::size_t first = key_of(map, start);
+  const bool goes_round = taught.closing && taught.closing->key_image <= static_cast<int>(last);
+  if (first > last && !goes_round) first = last;
+  for (std::size_t key = first;; ++key) {
+    // Round a closed path.
+    if (key == taught.key_images.size()) key = static_cast<std::size_t>(taught.closing->key_image);
     const map::Place* place = map::find_place_of(map, map.path->images[key]);
     // A place may have several key images, once somebody has merged places.
     if (place != nullptr && (plan.mission.path.empty() || plan.mission.path.back() != place->id))
       plan.mission.path.push_back(place->id);
+    if (key == last) break;
   }
   plan.length_m = length_m(map, plan.mission.path);
   wire::RepeatOrder& order = plan.repeat.emplace();
   order.label = plan.mission.destination ? map::find_destination(map, *plan.mission.destination)->label : "";
   order.image = end;
-  plan.first_arc = static_cast<std::int64_t>(first);
+  plan.first_arc = taught.arc_from(static_cast<int>(first)).value_or(0);
 }
 
 void Driving::send_repeat(RobotUnit& unit, Plan& plan, const wire::Order& number) {

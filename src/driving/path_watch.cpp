@@ -24,8 +24,12 @@ Result<PathSight> PathWatch::see(const Image& picture, Milliseconds taken_ms, co
   sight.tracked = said->tracked;
   sight.confidence = said->confidence;
   sight.steering_rad = said->steering_rad;
-  pipeline::WayAhead ahead = way_.ahead(repeater_.repeater(), *said, rounds_left_ == 0);
-  if (rounds_left_ > 0 && latest_ && way_.has_come_by(*latest_, ahead.picture)) --rounds_left_;
+  pipeline::WayAhead ahead = way_.ahead(repeater_.repeater(), *said, rounds_left_ == 0 && was_away_);
+  if (way_.is_far_from_end(ahead.picture)) was_away_ = true;
+  if (rounds_left_ > 0 && was_away_ && latest_ && way_.has_come_by(*latest_, ahead.picture)) {
+    --rounds_left_;
+    was_away_ = false;
+  }
   latest_ = ahead.picture;
   sight.way = std::move(ahead.way);
   sight.ends = ahead.ends;

@@ -36,12 +36,13 @@ class PathWatch {
 
  private:
   PathWatch(pipeline::PathRepeater repeater, pipeline::TaughtWay way, std::int64_t rounds)
-      : repeater_(std::move(repeater)), way_(std::move(way)), rounds_left_(rounds) {}
+      : repeater_(std::move(repeater)), way_(std::move(way)), rounds_left_(rounds), was_away_(rounds == 0) {}
 
   pipeline::PathRepeater repeater_;
   pipeline::TaughtWay way_;
   std::int64_t rounds_left_;
   std::optional<int> latest_;  // picture of the tour that it was near to
+  bool was_away_;              // from where it is to stop, since a round was counted
 };
 
 }  // namespace homeward::driving

@@ -2,6 +2,7 @@
 #include "driving/permitted.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "driving/scan.hpp"
 #include "driving/speed_limit.hpp"
@@ -41,6 +42,7 @@ std::optional<wire::ReasonCode> reason_to_stop(const DrivingState& state, const 
 
 Motion permitted_motion(Motion wanted, const DrivingState& state, const DrivingConfig& config,
                         const std::vector<Eigen::Vector2d>& points_m, Milliseconds now_ms, Milliseconds sensors_ms) {
+  if (!std::isfinite(wanted.speed_mps) || !std::isfinite(wanted.turn_radps)) return {};
   // The last decimetres and backing off have speeds of their own, which the limit holds for as well.
   const double limit_mps = speed_limit_mps(state, config);
   wanted.speed_mps = std::clamp(wanted.speed_mps, -limit_mps, limit_mps);

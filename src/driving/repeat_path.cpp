@@ -146,7 +146,7 @@ Motion along_way(DrivingState& state, const Rest& rest, const Situation& now) {
   }
   const bool stops = state.repeat.known->ends && last == end;
   const Eigen::Vector2d end_m = position_m(rest.way.back());
-  if (stops && end_m.norm() < now.config.approach.within_m) {
+  if (stops && end_m.norm() < now.config.approach.within_m && left_m < 2.0 * now.config.approach.within_m) {
     if (end_m.norm() > config.there_m) return approach(end_m, now.config.body, now.points_m, now.config.approach);
     state.repeat.at_end = true;
     return take_end_heading(state, rest, now);
@@ -164,7 +164,9 @@ bool reached_by_features(const DrivingState& state, const Rest& rest) {
 }
 
 bool is_finite(const PathSight& sight) {
-  return std::isfinite(sight.steering_rad) && std::ranges::all_of(sight.way, [](const Pose2& pose) {
+  const Pose2& at = sight.odometry;
+  return std::isfinite(sight.steering_rad + sight.confidence + at.x_m + at.y_m + at.theta_rad) &&
+         std::ranges::all_of(sight.way, [](const Pose2& pose) {
            return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
          });
 }
@@ -173,7 +175,8 @@ void take_sight(DrivingState& state, const PathSight& sight, Milliseconds sensor
   RepeatState& repeat = state.repeat;
   if (!repeat.heard_ms) repeat.begun_ms = sensors_ms;  // the path is there from now on
   repeat.heard_ms = sensors_ms;
-  if (sight.lost || !is_finite(sight)) return;
+  if (sight.lost || !is_finite(sight) || sensors_ms - sight.taken_ms > kSilent_ms) return;
+  if (repeat.odometry_from_ms && sight.taken_ms < *repeat.odometry_from_ms) return;
   repeat.known = sight;
   repeat.known_ms = sensors_ms;
   if (says(state.reason, ReasonCode::kPathPlaceUnknown) || says(state.reason, ReasonCode::kPathLoads))
@@ -204,6 +207,19 @@ bool knows(const DrivingState& state, const Inputs& inputs, const RepeatPathConf
          apart_m(repeat.known->odometry, inputs.odometry) <= config.blind_m;
 }
 
+/// Odometry that has begun anew since the last step says nothing of where it was before.
+void notice_jump(RepeatState& repeat, const Pose2& odometry, Milliseconds sensors_ms) {
+  constexpr double kMost_m = 0.5;  // in one step
+  constexpr double kMost_rad = 0.5;
+  const Pose2 moved = inverse(repeat.odometry) * odometry;
+  repeat.odometry = odometry;
+  if (std::hypot(moved.x_m, moved.y_m) < kMost_m && std::abs(moved.theta_rad) < kMost_rad) return;
+  repeat.known.reset();
+  repeat.known_ms.reset();
+  repeat.begun_ms = sensors_ms;
+  repeat.odometry_from_ms = sensors_ms;
+}
+
 /// Where it does not know where it is, it stands, and that is no way that is blocked.
 void note_way(RepeatState& repeat, const Pose2& odometry, bool knows, const RepeatPathConfig& config,
               Milliseconds sensors_ms) {
@@ -232,7 +248,7 @@ bool does_not_get_on(const DrivingState& state, const DrivingConfig& config, Mil
 void begin_repeat(RepeatState& repeat, const Pose2& odometry, Milliseconds sensors_ms) {
   repeat = {};
   repeat.begun_ms = repeat.got_on_ms = repeat.at_spot_since_ms = sensors_ms;
-  repeat.got_on_at = repeat.spot = odometry;
+  repeat.got_on_at = repeat.spot = repeat.odometry = odometry;
 }
 
 void judge_repeat(DrivingState& state, const Inputs& inputs, const DrivingConfig& config, Milliseconds sensors_ms) {
@@ -241,6 +257,7 @@ void judge_repeat(DrivingState& state, const Inputs& inputs, const DrivingConfig
     return end_mission(state, wire::DriveState::kFailed,
                        reason_with(ReasonCode::kPathUnusable, "because", *inputs.why_not_repeating));
   }
+  notice_jump(repeat, inputs.odometry, sensors_ms);
   if (inputs.path_sight) take_sight(state, *inputs.path_sight, sensors_ms);
   if (ends_where_lost(state, config.repeat_path, sensors_ms)) return;
   note_way(repeat, inputs.odometry, knows(state, inputs, config.repeat_path, sensors_ms), config.repeat_path,
@@ -268,6 +285,9 @@ Motion repeat_motion(DrivingState& state, const Situation& now) {
   const RepeatPathConfig& config = now.config.repeat_path;
   if (!state.pictured || !knows(state, now.inputs, config, now.sensors_ms)) return stand(state);
   const Rest rest = rest_of(*state.repeat.known, now.inputs.odometry, config);
+  const bool is_there =
+      state.repeat.known->ends && !rest.way.empty() && position_m(rest.way.back()).norm() < now.config.near_m;
+  state.repeat.at_end = state.repeat.at_end && is_there;
   if (state.repeat.at_end) return take_end_heading(state, rest, now);
   if (const auto making_room = give_way_motion(state, now)) return *making_room;
   if (!rest.way.empty() && !config.steers_by_features) return along_way(state, rest, now);

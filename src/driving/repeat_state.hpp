@@ -15,7 +15,9 @@ struct RepeatState {
   std::optional<Milliseconds> heard_ms;  // when a picture was held against the path last, lost or not
   std::optional<Milliseconds> known_ms;  // the same of those that were not lost
   Milliseconds begun_ms = 0;
-  Pose2 got_on_at;  // where it last got on, odometry's frame,
+  Pose2 odometry;                                // of the last step
+  std::optional<Milliseconds> odometry_from_ms;  // it has begun anew then
+  Pose2 got_on_at;                               // where it last got on, odometry's frame,
   Milliseconds got_on_ms = 0;
   Pose2 spot;                         // about where it has been,
   Milliseconds at_spot_since_ms = 0;  // since then

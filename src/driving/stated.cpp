@@ -49,7 +49,8 @@ std::optional<wire::QuestionReport> open_question(const DrivingState& state, con
 
 std::int64_t stated_index(const DrivingState& state) {
   if (!state.mission || !state.mission->repeats) return state.follow.index;
-  return state.repeat.known ? state.repeat.known->arc : 0;
+  constexpr int kMost = 2000;  // that the link takes
+  return state.repeat.known ? std::min(kMost, state.repeat.known->arc) : 0;
 }
 
 }  // namespace homeward::driving

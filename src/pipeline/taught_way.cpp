@@ -12,6 +12,7 @@ namespace homeward::pipeline {
 namespace {
 
 constexpr double kAhead_m = 2.5;
+constexpr int kJustBehind = 30;  // pictures
 
 /// A pose between two, at a share of the way from one to the other.
 Pose2 between(const Pose2& a, const Pose2& b, double share) {
@@ -127,6 +128,8 @@ bool TaughtWay::has_come_by(int before, int now) const {
   return end_ > before || end_ <= now;
 }
 
+bool TaughtWay::is_far_from_end(int picture) const { return std::abs(picture - end_) > kJustBehind; }
+
 /// By the numbers of pictures alone.
 WayAhead TaughtWay::without_metres(const repeat::Repeated& said, bool leads_there, bool stops) const {
   const auto& keys = taught().key_images;
@@ -134,23 +137,40 @@ WayAhead TaughtWay::without_metres(const repeat::Repeated& said, bool leads_ther
   const double to = said.to_key > said.from_key ? keys[at(said.to_key)].picture : from;
   WayAhead ahead;
   ahead.picture = static_cast<int>(from + said.progress * (to - from));
-  ahead.ends = stops && leads_there && ahead.picture >= end_ && end_ >= from;
-  ahead.leads_elsewhere = !leads_there && !(end_ < ahead.picture && end_ >= from);
+  // A key image may be passed before a picture shows that the one before it was.
+  const bool just_behind = end_ <= ahead.picture && ahead.picture - end_ < kJustBehind;
+  ahead.ends = stops && just_behind;
+  ahead.leads_elsewhere = !leads_there && !just_behind;
   return ahead;
 }
 
-void TaughtWay::add_way(const Pose2& robot_from_tour, int first, int last, WayAhead& ahead, double& length_m) const {
+/// Up to the last picture, as far as odometry tells of all of them. Whether it does.
+bool TaughtWay::add_way(const Pose2& robot_from_tour, int first, int last, WayAhead& ahead, double& length_m) const {
+  constexpr double kMostStep_m = 1.0;  // farther apart odometry has begun anew between two pictures
+  constexpr double kStep_m = 0.1;
+  constexpr double kStood_m = 0.01;
+  constexpr double kStood_rad = 0.02;
   for (int picture = first; picture <= last && length_m <= kAhead_m; ++picture) {
-    if (!shown_at(picture)) continue;
+    if (!shown_at(picture)) return false;
     const Pose2 there = robot_from_tour * *shown_at(picture);
-    if (!ahead.way.empty()) length_m += (position_m(there) - position_m(ahead.way.back())).norm();
+    if (!ahead.way.empty()) {
+      const Pose2 before = ahead.way.back();
+      const double step_m = (position_m(there) - position_m(before)).norm();
+      if (step_m > kMostStep_m) return false;
+      const bool stood = step_m < kStood_m && std::abs(wrap_angle(there.theta_rad - before.theta_rad)) < kStood_rad;
+      if (stood && picture != last) continue;
+      const int parts = std::max(1, static_cast<int>(std::ceil(step_m / kStep_m)));
+      for (int part = 1; part < parts; ++part)
+        ahead.way.push_back(between(before, there, static_cast<double>(part) / parts));
+      length_m += step_m;
+    }
     ahead.way.push_back(there);
   }
+  return length_m <= kAhead_m;
 }
 
 WayAhead TaughtWay::ahead(const repeat::Repeater& repeater, const repeat::Repeated& said, bool stops) const {
   constexpr double kBehind_m = 0.5;  // so far back it is driven backwards
-  constexpr int kJustBehind = 30;    // pictures
   const int last_of_piece = last_picture_of_piece(said.from_key);
   const auto robot = robot_on_tour(repeater, said);
   if (!robot)
@@ -168,16 +188,16 @@ WayAhead TaughtWay::ahead(const repeat::Repeater& repeater, const repeat::Repeat
   double length_m = 0.0;
   const bool ends_here = stops && (just_behind || (end_ >= ahead.picture && end_ <= last_of_piece));
   const int last = ends_here ? end_ : last_of_piece;
-  add_way(robot_from_tour, std::min(ahead.picture, last), last, ahead, length_m);
-  ahead.ends = ends_here && length_m <= kAhead_m;
-  if (ends_here || length_m > kAhead_m || !closes_at()) return ahead;
+  const bool whole = add_way(robot_from_tour, std::min(ahead.picture, last), last, ahead, length_m);
+  ahead.ends = ends_here && whole;
+  if (ends_here || !whole || !closes_at()) return ahead;
   // Round the path, as the key image tells that it goes on from.
   const auto metres = metres_per_unit(*repeater.surroundings());
   const auto again = metres ? robot_by_key(repeater, taught().closing->key_image, *metres) : std::nullopt;
   if (!again) return ahead;
   const bool ends_then = stops && end_ >= *closes_at();
-  add_way(inverse(*again), *closes_at(), ends_then ? end_ : last_of_piece, ahead, length_m);
-  ahead.ends = ends_then && length_m <= kAhead_m;
+  const bool whole_round = add_way(inverse(*again), *closes_at(), ends_then ? end_ : last_of_piece, ahead, length_m);
+  ahead.ends = ends_then && whole_round;
   return ahead;
 }
 

@@ -37,6 +37,8 @@ class TaughtWay {
   [[nodiscard]] WayAhead ahead(const repeat::Repeater& repeater, const repeat::Repeated& said, bool stops) const;
   /// Whether it has come by where it is to stop between two pictures of the tour that it was near to.
   [[nodiscard]] bool has_come_by(int before, int now) const;
+  /// Whether a picture of the tour is so far from that one that it is not stood at.
+  [[nodiscard]] bool is_far_from_end(int picture) const;
 
  private:
   TaughtWay(std::shared_ptr<const map::TopologicalMap> map, int end) : map_(std::move(map)), end_(end) {}
@@ -51,7 +53,7 @@ class TaughtWay {
   [[nodiscard]] bool leads_there(int here, int last_of_piece) const;
   [[nodiscard]] const map::TaughtPath& taught() const { return map_->path->taught; }
   [[nodiscard]] std::optional<int> closes_at() const;
-  void add_way(const Pose2& robot_from_tour, int first, int last, WayAhead& ahead, double& length_m) const;
+  bool add_way(const Pose2& robot_from_tour, int first, int last, WayAhead& ahead, double& length_m) const;
 
   std::shared_ptr<const map::TopologicalMap> map_;
   int end_ = 0;  // number of the picture where it ends

@@ -86,16 +86,16 @@ std::optional<wire::Reason> why_refused(const db::RecordedStep& step) {
 /// Why a path could not be followed: how the mission ended, or why it was refused. Nothing: none was.
 std::optional<wire::Reason> why_not_repeating(const db::RecordedStep& step) {
   if (!step.path_unusable) return std::nullopt;
-  for (const wire::AgentMessage& sent : step.sent) {
-    const auto* refused = std::get_if<wire::MissionRefused>(&sent);
-    if (refused != nullptr) return refused->reason;
-  }
   if (says(step.reason, wire::ReasonCode::kPathUnusable)) {
     const auto because = step.reason->parameters.find("because");
     if (because != step.reason->parameters.end()) {
       const auto* reasons = std::get_if<std::vector<wire::Reason>>(&because->second);
       if (reasons != nullptr && !reasons->empty()) return reasons->front();
     }
+  }
+  for (const wire::AgentMessage& sent : step.sent) {
+    const auto* refused = std::get_if<wire::MissionRefused>(&sent);
+    if (refused != nullptr) return refused->reason;
   }
   // It changed nothing.
   return wire::Reason{wire::ReasonCode::kDoesNotRepeat};

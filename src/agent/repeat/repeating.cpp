@@ -59,7 +59,7 @@ void Repeating::follow(const driving::Inputs& inputs, const recording::PictureBy
   came_.notify_one();
 }
 
-Result<driving::PathWatch> Repeating::take_up(const wire::RepeatOrder& order) {
+Result<driving::PathWatch> Repeating::take_up(const wire::RepeatOrder& order) try {
   if (!map_ || map_id_ != order.map || revision_ != order.revision) {
     auto fetched = fetch_(order.map);
     if (!fetched) return pass_on(fetched);
@@ -68,6 +68,18 @@ Result<driving::PathWatch> Repeating::take_up(const wire::RepeatOrder& order) {
     revision_ = order.revision;
   }
   return driving::PathWatch::create(map_, camera_, order.image, order.rounds);
+} catch (const std::exception& trouble) {
+  return fail(ErrorCode::kInternal, trouble.what(), "maps/" + order.map.str());
+}
+
+Result<driving::PathSight> Repeating::look(driving::PathWatch& watch, const Taken& taken) {
+  try {
+    const auto picture = imageio::decode(*taken.bytes, "picture");
+    if (!picture) return pass_on(picture);
+    return watch.see(*picture, taken.taken_ms, taken.odometry);
+  } catch (const std::exception& trouble) {  // of the libraries that look
+    return fail(ErrorCode::kInternal, trouble.what(), "picture");
+  }
 }
 
 void Repeating::tell(const MissionId& mission, std::optional<driving::PathSight> sight,
@@ -104,8 +116,7 @@ void Repeating::run(const std::stop_token& stop) {
       continue;
     }
     if (!watch) continue;
-    const auto picture = imageio::decode(*taken->bytes, "picture");
-    const auto sight = picture ? watch->see(*picture, taken->taken_ms, taken->odometry) : pass_on(picture);
+    const auto sight = look(*watch, *taken);
     tell(order.mission, sight ? std::optional(*sight) : std::nullopt,
          sight ? std::nullopt : std::optional(sight.error()));
   }

@@ -50,6 +50,7 @@ class Repeating {
 
   void run(const std::stop_token& stop);
   Result<driving::PathWatch> take_up(const wire::RepeatOrder& order);
+  static Result<driving::PathSight> look(driving::PathWatch& watch, const Taken& taken);
   void tell(const MissionId& mission, std::optional<driving::PathSight> sight, const std::optional<Error>& error);
 
   // The thread's own:

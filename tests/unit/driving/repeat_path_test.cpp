@@ -35,6 +35,7 @@ class RepeatPathTest : public StepTest {
   /// What an ideal eye sees of the way.
   PathSight sight() {
     PathSight seen;
+    seen.taken_ms = now_ms_;
     seen.odometry = pose_;
     seen.lost = false;
     seen.confidence = confidence_;
@@ -114,6 +115,38 @@ TEST_F(RepeatPathTest, WhereNothingIsHeldAgainstThePathAnyMoreItStandsAndGivesUp
   for (int k = 0; k < 250 && state_.drive == DriveState::kDriving; ++k) tick({permit("m1", 1, ++seq_)});
   EXPECT_EQ(state_.drive, DriveState::kFailed);
   EXPECT_EQ(state_.reason, wire::Reason{ReasonCode::kPathPlaceUnknown});
+}
+
+TEST_F(RepeatPathTest, WhatAnOldPictureSaysIsNotDriven) {
+  path_sight_ = sight();
+  path_sight_->taken_ms = now_ms_ - 3000;
+  for (int k = 0; k < 10; ++k) EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
+}
+
+TEST_F(RepeatPathTest, WhereOdometryBeginsAnewItStandsUntilANewPictureSaysWhereItIs) {
+  for (int k = 0; k < 20; ++k) on();
+  const PathSight before = sight();
+  pose_ = {pose_.x_m, pose_.y_m, 1.5};
+  path_sight_ = before;
+  EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
+  for (int k = 0; k < 5; ++k) EXPECT_TRUE(stands(tick({permit("m1", 1, ++seq_)})));
+  from_ = 0;
+  way_.clear();
+  for (int i = 0; i <= 20; ++i) way_.push_back(pose_ * Pose2{0.1 * i, 0.0, 0.0});
+  for (int k = 0; k < 10; ++k) on();
+  EXPECT_FALSE(stands(on()));
+}
+
+TEST_F(RepeatPathTest, AtItsEndItTakesNoHeadingOfAnotherPlace) {
+  for (int k = 0; k < 800 && !state_.repeat.at_end && state_.drive == DriveState::kDriving; ++k) on();
+  ASSERT_TRUE(state_.repeat.at_end);
+  ASSERT_EQ(state_.drive, DriveState::kDriving);
+  path_sight_ = sight();
+  path_sight_->way = {{1.0, 0.0, 0.0}, {1.5, 0.0, 0.0}};
+  path_sight_->ends = false;
+  tick({permit("m1", 1, ++seq_)});
+  EXPECT_EQ(state_.drive, DriveState::kDriving) << "it is not there";
+  EXPECT_FALSE(state_.repeat.at_end);
 }
 
 TEST_F(RepeatPathTest, AWayThatIsNotFiniteIsNoWay) {

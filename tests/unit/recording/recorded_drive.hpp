@@ -95,6 +95,7 @@ class RecordedDrive : public ::testing::Test {
     inputs.exploration_over = over_;
     inputs.why_not_exploring = why_not_exploring_;
     inputs.path_sight = path_sight_;
+    if (inputs.path_sight) inputs.path_sight->taken_ms = now_ms_;
     inputs.why_not_repeating = why_not_repeating_;
     const driving::Outputs outputs = recorder_->step(state_, inputs, bytes, now_ms_, std::exchange(rows_, {}));
     pose_ = pose_ * Pose2{0.1 * outputs.motion.speed_mps, 0.0, 0.1 * outputs.motion.turn_radps};
