@@ -44,7 +44,7 @@ planning::RouteRequest request_of(const RouteOptions& options, const map::Topolo
   return request;
 }
 
-void print_json(const std::vector<planning::Route>& routes) {
+void print_routes(const std::vector<planning::Route>& routes) {
   std::vector<wire::RouteView> views;
   for (const planning::Route& route : routes) {
     wire::RouteView view{route.places, route.cost_m, route.length_m, route.length_from, route.time_s, {}, {}};
@@ -77,7 +77,7 @@ Status plan(const RouteOptions& options) {
     return pass_on(routes);
   }
   if (options.json) {
-    print_json(*routes);
+    print_routes(*routes);
   } else {
     print_text(stored->map, *routes);
   }

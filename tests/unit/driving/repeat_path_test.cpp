@@ -138,6 +138,7 @@ TEST_F(RepeatPathTest, WhereOdometryBeginsAnewItStandsUntilANewPictureSaysWhereI
 }
 
 TEST_F(RepeatPathTest, AtItsEndItTakesNoHeadingOfAnotherPlace) {
+  way_.back().theta_rad -= 0.5 * kPi;
   for (int k = 0; k < 800 && !state_.repeat.at_end && state_.drive == DriveState::kDriving; ++k) on();
   ASSERT_TRUE(state_.repeat.at_end);
   ASSERT_EQ(state_.drive, DriveState::kDriving);
