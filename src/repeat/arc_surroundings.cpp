@@ -52,6 +52,15 @@ Range range_around(const TaughtPath& path, int arc, int reach) {
   return range;
 }
 
+/// Whether an arc lies beyond where the path is closed, as seen from the actual one. End and beginning of a path need
+/// not agree in length and direction, so that their landmarks explain no picture together.
+bool is_past_closing(const TaughtPath& path, const Range& range, int j) {
+  for (int i = std::min(j, range.here); i < std::max(j, range.here); ++i) {
+    if (path.is_closing(range.arc(path, i))) return true;
+  }
+  return false;
+}
+
 /// The scale of the node between an arc and the one after it.
 const std::optional<NodeScale>& scale_between(const TaughtPath& path, const Arc& before, const Arc& after) {
   return path.is_closing(before) ? path.closing->scale : path.key_images[at(after.from)].scale;
@@ -182,6 +191,7 @@ ArcSurroundings surroundings_of(const TaughtPath& path, int arc, int reach, int 
   around.keys = key_poses(path, around, range);
   std::map<int, Landmark> landmarks;
   for (int j = 0; j < range.count(); ++j) {
+    if (is_past_closing(path, range, j)) continue;
     const Arc& one = range.arc(path, j);
     const double least_log_spread = is_doubtful(one) ? kDoubtfulLogSpread : kLeastLogSpread;
     for (const ArcMatch& match : one.matches) {

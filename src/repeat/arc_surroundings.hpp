@@ -50,7 +50,7 @@ struct ArcSurroundings {
 };
 
 /// The surroundings of an arc, up to `reach` arcs before and after it as far as the path is in one piece; where it is
-/// closed they go on round it, but never to the same key image again. Units are
+/// closed they go on round it, but never to the same key image again, and without the landmarks from beyond. Units are
 /// joined by the nodes' scales, and past a turn on the spot by the landmarks that the arcs on both sides have in
 /// common, at least `fewest_scaled`. Precondition: the arc is one of the path's.
 ArcSurroundings surroundings_of(const TaughtPath& path, int arc, int reach, int fewest_scaled);
