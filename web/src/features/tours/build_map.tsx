@@ -99,12 +99,15 @@ export function BuildMap({ tours, maps, wanted }: Props) {
                 Teach it as a path
               </label>
               <p class="soft small">
-                For one ordinary camera instead of one that sees all round: the robot follows the way of one tour again,
-                forwards, from wherever on it it stands. The tour needs pictures no more than 0.1 m apart.
+                For one ordinary camera instead of one that sees all round: the robot follows the way of one
+                tour again, forwards, from wherever on it it stands. The tour needs pictures no more than 0.1
+                m apart.
               </p>
             </div>
           )}
-          {!grown && asPath && chosen.length > 1 && <Notice tone="bad">A path is taught by one tour. Choose one.</Notice>}
+          {!grown && asPath && chosen.length > 1 && (
+            <Notice tone="bad">A path is taught by one tour. Choose one.</Notice>
+          )}
           {!grown && <TextField label="Name of the map" value={name} onInput={setName} />}
           <div class="row">
             <button
