@@ -88,12 +88,15 @@ class FromAbove {
   double px_per_unit_ = 1.0;
 };
 
-std::string words_of(const repeat::Repeated& said) {
-  if (said.is_lost()) return "lost";
-  char text[120];
-  std::snprintf(text, sizeof text, "arc %d, %.0f %%, %d of %d features, confidence %.2f", said.arc,
-                100.0 * said.progress, said.tracked, said.expected, said.confidence);
-  return text;
+/// Two lines: they have to fit beside a small picture.
+std::array<std::string, 2> words_of(const repeat::Repeated& said) {
+  if (said.is_lost()) return {"lost", ""};
+  std::array<char, 80> where{};
+  std::array<char, 80> what{};
+  std::snprintf(where.data(), where.size(), "arc %d, %d %%, confidence %.2f", said.arc,
+                static_cast<int>(std::lround(100.0 * said.progress)), said.confidence);
+  std::snprintf(what.data(), what.size(), "%d of %d features", said.tracked, said.expected);
+  return {where.data(), what.data()};
 }
 
 }  // namespace
@@ -117,7 +120,11 @@ Image repeat_picture(const Image& picture, const repeat::Repeater& repeater, con
     draw_steering(left, said.steering_rad);
     FromAbove(right, repeater).draw(*repeater.surroundings());
   }
-  cv::putText(right, words_of(said), {8, 16}, cv::FONT_HERSHEY_SIMPLEX, 0.38, kInk, 1, cv::LINE_AA);
+  int line_px = 16;
+  for (const std::string& words : words_of(said)) {
+    cv::putText(right, words, {8, line_px}, cv::FONT_HERSHEY_SIMPLEX, 0.38, kInk, 1, cv::LINE_AA);
+    line_px += 14;
+  }
   return drawn;
 }
 
