@@ -34,10 +34,11 @@ class BuildJobs {
     db::MapRecord map;
     wire::JobView job;
   };
-  /// `path`: taught as a path, by one tour. Errors: kNotFound (a tour), kConflict (a tour is not complete, or the cameras
-  /// differ), kInvalidInput (a path of several tours), kOverloaded.
+  /// `path`: taught as a path, by one tour. Errors: kNotFound (a tour), kConflict (a tour is not complete, or the
+  /// cameras differ), kInvalidInput (a path of several tours), kOverloaded.
   Result<NewMap> add_map(const std::string& name, const std::vector<TourId>& tours, bool path);
-  /// Errors: kNotFound, kConflict (a job of the map is under way, its pictures are not here, or it is a path), kOverloaded.
+  /// Errors: kNotFound, kConflict (a job of the map is under way, its pictures are not here, or it is a path),
+  /// kOverloaded.
   Result<wire::JobView> rebuild(const MapId& map);
   /// `kind`: kAdd or kRefine, by tours. Errors: kNotFound (map or tour), kConflict (not built yet, a job of the map
   /// is under way, a tour is not complete or in the map already, or the cameras differ), kOverloaded.
