@@ -67,8 +67,8 @@ Status BuildJobs::check_tours(const std::vector<TourId>& tours) {
 }
 
 Result<BuildJobs::NewMap> BuildJobs::add_map(const std::string& name, const std::vector<TourId>& tours, bool path) {
-  if (const Status status = check_tours(tours); !status) return pass_on(status);
   if (path && tours.size() != 1) return fail(ErrorCode::kInvalidInput, "A path is taught by one tour.", "body/tours");
+  if (const Status status = check_tours(tours); !status) return pass_on(status);
   db::MapRecord record;
   record.path = path;
   record.name = name;

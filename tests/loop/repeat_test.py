@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A chair with one ordinary camera follows a path that it was taught: real programs, a tour that goes to the server, and
+"""A robot with one ordinary camera follows a path that it was taught: real programs, a tour that goes to the server, and
 its path from there to the robot.
 
 usage: repeat_test.py BIN_FOLDER WEB_FOLDER

@@ -106,13 +106,14 @@ TEST_F(RepeatTest, ARobotMayFetchMapsAndNobodyWithoutAToken) {
   EXPECT_EQ(client.send("GET", path, "", {}).status, 401);
 }
 
-TEST_F(RepeatTest, WhetherAMapIsAPathIsYesOrNo) {
+TEST_F(RepeatTest, APathOfSeveralToursOrInWordsIsRefused) {
   built_map(3);
   const json tours = admin->get("/api/v1/tours").json().at("tours");
   ASSERT_FALSE(tours.empty());
   const std::string tour = tours[0].at("id");
   const Answer two = admin->post("/api/v1/maps", {{"name", "way"}, {"tours", {tour, "another"}}, {"path", true}});
-  EXPECT_EQ(two.status, 404) << two.body;
+  EXPECT_EQ(two.status, 422) << two.body;
+  EXPECT_NE(two.body.find("one tour"), std::string::npos) << two.body;
   const Answer words = admin->post("/api/v1/maps", {{"name", "way"}, {"tours", {tour}}, {"path", "yes"}});
   EXPECT_EQ(words.status, 422) << words.body;
 }
