@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/pose2.hpp"
-#include "sim/ray_scene.hpp"
+#include "raycast/ray_scene.hpp"
 #include "sim/scene.hpp"
 
 namespace homeward::sim {

@@ -18,7 +18,7 @@ constexpr double kSpuriousMost_m = 32.0;
 
 }  // namespace
 
-std::vector<float> scan(const RayScene& rays, const Pose2& robot, const std::vector<Person>& people,
+std::vector<float> scan(const raycast::RayScene& rays, const Pose2& robot, const std::vector<Person>& people,
                         const LaserConfig& config, std::uint64_t noise_seed, const std::vector<Box>& boxes) {
   std::mt19937_64 random(noise_seed);
   std::normal_distribution<float> noise_m(0.0F, static_cast<float>(config.noise_m));

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/pose2.hpp"
+#include "raycast/ray_scene.hpp"
 #include "sim/box.hpp"
 #include "sim/people.hpp"
-#include "sim/ray_scene.hpp"
 
 namespace homeward::sim {
 
@@ -28,7 +28,7 @@ struct LaserConfig {
 /// Ranges of one sweep at a robot pose, metres; infinity where nothing stands within range. People and
 /// boxes are seen. A ray's noise depends on `noise_seed` and its number alone, not on what goes through glass or is
 /// spurious.
-std::vector<float> scan(const RayScene& rays, const Pose2& robot, const std::vector<Person>& people,
+std::vector<float> scan(const raycast::RayScene& rays, const Pose2& robot, const std::vector<Person>& people,
                         const LaserConfig& config, std::uint64_t noise_seed, const std::vector<Box>& boxes = {});
 
 }  // namespace homeward::sim

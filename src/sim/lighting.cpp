@@ -36,7 +36,7 @@ std::size_t samples_of(const Scene& scene, Eigen::Index t) {
 
 /// What a gathering ray meets.
 struct Met {
-  std::uint32_t triangle = Hit::kNoTriangle;
+  std::uint32_t triangle = raycast::Hit::kNoTriangle;
   float u = 0.0F;
   float v = 0.0F;
 };
@@ -56,7 +56,8 @@ std::vector<Eigen::Vector3f> gather_directions(int count) {
 
 class Gatherer {
  public:
-  Gatherer(const Scene& scene, const RayScene& rays, const std::vector<Lamp>& lamps, const LightSettings& settings)
+  Gatherer(const Scene& scene, const raycast::RayScene& rays, const std::vector<Lamp>& lamps,
+           const LightSettings& settings)
       : scene_(scene),
         rays_(rays),
         lamps_(lamps),
@@ -110,7 +111,7 @@ class Gatherer {
     const Eigen::Quaternionf turn = about(normal);
     for (std::size_t i = 0; i < met.size(); ++i) {
       const Met& one = met[i];
-      if (one.triangle == Hit::kNoTriangle) {
+      if (one.triangle == raycast::Hit::kNoTriangle) {
         if (settings_.sky) {
           light += radiance(*settings_.sky, turn * directions_[i]);
         } else {
@@ -176,7 +177,7 @@ class Gatherer {
 
  private:
   const Scene& scene_;
-  const RayScene& rays_;
+  const raycast::RayScene& rays_;
   const std::vector<Lamp>& lamps_;
   const LightSettings& settings_;
   std::vector<Eigen::Array3f> albedos_;
@@ -260,7 +261,7 @@ std::vector<Eigen::Array3f> mean_albedos(const Scene& scene) {
   return albedos;
 }
 
-Irradiance compute_irradiance(const Scene& scene, const RayScene& rays, const std::vector<Lamp>& lamps,
+Irradiance compute_irradiance(const Scene& scene, const raycast::RayScene& rays, const std::vector<Lamp>& lamps,
                               const LightSettings& settings) {
   const Gatherer gatherer(scene, rays, lamps, settings);
   const Irradiance direct =

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "raycast/ray_scene.hpp"
 #include "sim/light.hpp"
-#include "sim/ray_scene.hpp"
 #include "sim/scene.hpp"
 #include "sim/sky.hpp"
 
@@ -39,7 +39,7 @@ struct Irradiance {
 /// Lamps with shadows, daylight from windows and two diffuse bounces, gathered at the corners (radiosity by ray
 /// casting, Arvo 1986). `scene`: the tessellated scene; every triangle has its own three vertices. Data-parallel, same
 /// result always.
-Irradiance compute_irradiance(const Scene& scene, const RayScene& rays, const std::vector<Lamp>& lamps,
+Irradiance compute_irradiance(const Scene& scene, const raycast::RayScene& rays, const std::vector<Lamp>& lamps,
                               const LightSettings& settings);
 
 /// Mean linear colour of each material's texture times its base colour.

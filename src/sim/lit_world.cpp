@@ -5,6 +5,8 @@
 #include <map>
 
 #include "sim/hash.hpp"
+#include "sim/scene_rays.hpp"
+#include "sim/tessellate.hpp"
 
 namespace homeward::sim {
 namespace {
@@ -17,14 +19,14 @@ constexpr float kFinestOutside_m = 0.8F;  // the same under a sky, which lights 
 struct LitWorld::Parts {
   World world;
   Scene fine;
-  RayScene rays;
+  raycast::RayScene rays;
   Surfaces surfaces;
   std::map<Light, Irradiance> light;
 };
 
 LitWorld::LitWorld(World world) {
   Scene fine = tessellate(world.scene, world.sky ? kFinestOutside_m : kFinest_m);
-  RayScene rays(fine);
+  raycast::RayScene rays = rays_of(fine);
   Surfaces surfaces = surfaces_of(fine);
   parts_ = std::make_unique<Parts>(Parts{std::move(world), std::move(fine), std::move(rays), std::move(surfaces), {}});
 }
@@ -34,7 +36,7 @@ LitWorld& LitWorld::operator=(LitWorld&&) noexcept = default;
 
 const World& LitWorld::world() const { return parts_->world; }
 const Scene& LitWorld::fine_scene() const { return parts_->fine; }
-const RayScene& LitWorld::rays() const { return parts_->rays; }
+const raycast::RayScene& LitWorld::rays() const { return parts_->rays; }
 const Surfaces& LitWorld::surfaces() const { return parts_->surfaces; }
 
 const Irradiance& LitWorld::irradiance(const Light& light) {

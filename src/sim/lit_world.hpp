@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "raycast/ray_scene.hpp"
 #include "sim/lighting.hpp"
-#include "sim/ray_scene.hpp"
 #include "sim/scene.hpp"
 #include "sim/shading.hpp"
 
@@ -21,7 +21,7 @@ class LitWorld {
 
   [[nodiscard]] const World& world() const;
   [[nodiscard]] const Scene& fine_scene() const;
-  [[nodiscard]] const RayScene& rays() const;
+  [[nodiscard]] const raycast::RayScene& rays() const;
   [[nodiscard]] const Surfaces& surfaces() const;  // of the fine scene
   /// What a light gives; computed at first use (seconds), then kept. Not for use from several threads.
   const Irradiance& irradiance(const Light& light);

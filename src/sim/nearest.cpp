@@ -8,8 +8,9 @@ namespace homeward::sim {
 
 namespace {
 
-float nearest_of(const std::optional<Hit>& world, const std::vector<Person>& people, const std::vector<Box>& boxes,
-                 const Eigen::Vector3f& origin_m, const Eigen::Vector3f& direction, float far_m) {
+float nearest_of(const std::optional<raycast::Hit>& world, const std::vector<Person>& people,
+                 const std::vector<Box>& boxes, const Eigen::Vector3f& origin_m, const Eigen::Vector3f& direction,
+                 float far_m) {
   float nearest = std::numeric_limits<float>::infinity();
   const auto take = [&](const auto& met) {
     if (met && met->distance_m < nearest && met->distance_m <= far_m) nearest = met->distance_m;
@@ -22,14 +23,15 @@ float nearest_of(const std::optional<Hit>& world, const std::vector<Person>& peo
 
 }  // namespace
 
-float nearest_m(const RayScene& rays, const std::vector<Person>& people, const std::vector<Box>& boxes,
+float nearest_m(const raycast::RayScene& rays, const std::vector<Person>& people, const std::vector<Box>& boxes,
                 const Eigen::Vector3f& origin_m, const Eigen::Vector3f& direction, float far_m) {
   return nearest_of(rays.first_hit(origin_m, direction, far_m), people, boxes, origin_m, direction, far_m);
 }
 
-float nearest_through_panes_m(const RayScene& rays, const std::vector<Person>& people, const std::vector<Box>& boxes,
-                              const Eigen::Vector3f& origin_m, const Eigen::Vector3f& direction, float far_m) {
-  std::optional<Hit> world = rays.first_hit(origin_m, direction, far_m);
+float nearest_through_panes_m(const raycast::RayScene& rays, const std::vector<Person>& people,
+                              const std::vector<Box>& boxes, const Eigen::Vector3f& origin_m,
+                              const Eigen::Vector3f& direction, float far_m) {
+  std::optional<raycast::Hit> world = rays.first_hit(origin_m, direction, far_m);
   if (world && rays.is_pane(world->triangle)) world.reset();
   return nearest_of(world, people, boxes, origin_m, direction, far_m);
 }

@@ -30,15 +30,15 @@ struct Directions {
     z.push_back(direction.z());
   }
   void fill_last_packet() {
-    while (x.size() % RayPacket::kMost != 0) add(Eigen::Vector3f::Zero());
+    while (x.size() % raycast::RayPacket::kMost != 0) add(Eigen::Vector3f::Zero());
   }
   [[nodiscard]] Eigen::Vector3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }
 
   /// The packet from number `first` on, turned.
-  [[nodiscard]] RayPacket packet(std::size_t first, std::size_t count, const Eigen::Matrix3f& turn) const {
-    RayPacket packet;
+  [[nodiscard]] raycast::RayPacket packet(std::size_t first, std::size_t count, const Eigen::Matrix3f& turn) const {
+    raycast::RayPacket packet;
     packet.count = count;
-    for (std::size_t i = 0; i < RayPacket::kMost; ++i) {
+    for (std::size_t i = 0; i < raycast::RayPacket::kMost; ++i) {
       const float dx = x[first + i];
       const float dy = y[first + i];
       const float dz = z[first + i];
@@ -64,12 +64,12 @@ Cylinder around(const Box& box) {
 }
 
 /// Whether the line of any ray of a packet meets a cylinder; hit_person() asks the same of its body.
-bool meets(const RayPacket& packet, const Eigen::Vector3f& viewpoint_m, const Cylinder& cylinder) {
+bool meets(const raycast::RayPacket& packet, const Eigen::Vector3f& viewpoint_m, const Cylinder& cylinder) {
   const float ox = viewpoint_m.x() - cylinder.x_m;
   const float oy = viewpoint_m.y() - cylinder.y_m;
   const float c = ox * ox + oy * oy - cylinder.radius_m * cylinder.radius_m;
   int met = 0;
-  for (std::size_t i = 0; i < RayPacket::kMost; ++i) {
+  for (std::size_t i = 0; i < raycast::RayPacket::kMost; ++i) {
     const float a = packet.x[i] * packet.x[i] + packet.y[i] * packet.y[i];
     const float b = ox * packet.x[i] + oy * packet.y[i];
     met |= b * b - a * c > 0.0F ? 1 : 0;
@@ -88,7 +88,8 @@ struct InLight {
 /// numbers a ray, and its distance into `hits`. `hit`: where a ray meets one of them.
 template <class Thing, class HitThing>
 void hide_behind(const InLight<Thing>& lit, const HitThing& hit, const Eigen::Vector3f& viewpoint_m,
-                 const RayPacket& packet, std::array<Hit, RayPacket::kMost>& hits, float* light) {
+                 const raycast::RayPacket& packet, std::array<raycast::Hit, raycast::RayPacket::kMost>& hits,
+                 float* light) {
   for (std::size_t thing = 0; thing < lit.things.size(); ++thing) {
     if (!meets(packet, viewpoint_m, around(lit.things[thing]))) continue;
     for (std::size_t i = 0; i < packet.count; ++i) {
@@ -138,7 +139,7 @@ class LastStill {
 }  // namespace
 
 struct Renderer::Parts {
-  const RayScene* rays;
+  const raycast::RayScene* rays;
   Shader shader;
   Eigen::Vector3f viewpoint_in_robot_m;
   int width_px;
@@ -216,17 +217,18 @@ void Renderer::Parts::see(const Shot& shot, std::size_t first, std::size_t end, 
     if (settings.sky) seen.head<3>() = radiance(*settings.sky, direction) * settings.exposure;
     return seen;
   };
-  for (std::size_t i = first; i < end; i += RayPacket::kMost) {
-    const RayPacket packet = directions_in_robot.packet(i, std::min(RayPacket::kMost, end - i), shot.world_from_robot);
+  for (std::size_t i = first; i < end; i += raycast::RayPacket::kMost) {
+    const raycast::RayPacket packet =
+        directions_in_robot.packet(i, std::min(raycast::RayPacket::kMost, end - i), shot.world_from_robot);
     float* packet_light = light + 3 * (i - first);
-    std::array<Hit, RayPacket::kMost> hits;
+    std::array<raycast::Hit, raycast::RayPacket::kMost> hits;
     if (shot.known != nullptr) {
       std::copy_n(shot.known->light.data() + 3 * i, 3 * packet.count, packet_light);
       for (std::size_t k = 0; k < packet.count; ++k) hits[k].distance_m = shot.known->distance_m[i + k];
     } else {
       hits = rays->first_hits(shot.viewpoint_m, packet, kFar_m);
       for (std::size_t k = 0; k < packet.count; ++k) {
-        Eigen::Map<Eigen::Array4f>(packet_light + 3 * k) = hits[k].triangle == Hit::kNoTriangle
+        Eigen::Map<Eigen::Array4f>(packet_light + 3 * k) = hits[k].triangle == raycast::Hit::kNoTriangle
                                                                ? beyond(packet.direction(k))
                                                                : shader.shade(hits[k], packet.direction(k));
       }

@@ -54,7 +54,7 @@ Shader::Shader(const Scene& scene, const Surfaces& surfaces, std::shared_ptr<con
   }
 }
 
-Eigen::Array4f Shader::shade(const Hit& hit, const Eigen::Vector3f& direction) const {
+Eigen::Array4f Shader::shade(const raycast::Hit& hit, const Eigen::Vector3f& direction) const {
   const Facet& facet = surfaces_->facets[hit.triangle];
   const Paint& paint = paints_[static_cast<std::size_t>(facet.material)];
   const float w = 1.0F - hit.u - hit.v;

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "raycast/ray_scene.hpp"
 #include "sim/lighting.hpp"
-#include "sim/ray_scene.hpp"
 #include "sim/scene.hpp"
 #include "sim/texture.hpp"
 
@@ -36,7 +36,7 @@ class Shader {
 
   /// Red, green, blue, linear, of where a ray of this direction (unit vector) meets the scene; the fourth number means
   /// nothing.
-  [[nodiscard]] Eigen::Array4f shade(const Hit& hit, const Eigen::Vector3f& direction) const;
+  [[nodiscard]] Eigen::Array4f shade(const raycast::Hit& hit, const Eigen::Vector3f& direction) const;
   [[nodiscard]] const LightSettings& settings() const { return settings_; }
   [[nodiscard]] const Irradiance& light() const { return *light_; }
 

@@ -31,7 +31,7 @@ std::vector<Pose2> ultrasound_ring(const Outline& outline, const UltrasoundConfi
   return ring;
 }
 
-std::vector<float> ultrasound(const RayScene& rays, const Pose2& robot, const std::vector<Pose2>& ring,
+std::vector<float> ultrasound(const raycast::RayScene& rays, const Pose2& robot, const std::vector<Pose2>& ring,
                               const std::vector<Person>& people, const UltrasoundConfig& config,
                               std::uint64_t noise_seed, const std::vector<Box>& boxes) {
   std::mt19937_64 random(noise_seed);

@@ -6,9 +6,9 @@
 
 #include "core/outline.hpp"
 #include "core/pose2.hpp"
+#include "raycast/ray_scene.hpp"
 #include "sim/box.hpp"
 #include "sim/people.hpp"
-#include "sim/ray_scene.hpp"
 
 namespace homeward::sim {
 
@@ -28,7 +28,7 @@ struct UltrasoundConfig {
 std::vector<Pose2> ultrasound_ring(const Outline& outline, const UltrasoundConfig& config);
 
 /// Their readings at a robot pose, metres; infinity where nothing is within range. People are seen.
-std::vector<float> ultrasound(const RayScene& rays, const Pose2& robot, const std::vector<Pose2>& ring,
+std::vector<float> ultrasound(const raycast::RayScene& rays, const Pose2& robot, const std::vector<Pose2>& ring,
                               const std::vector<Person>& people, const UltrasoundConfig& config,
                               std::uint64_t noise_seed, const std::vector<Box>& boxes = {});
 

@@ -7,6 +7,7 @@
 
 #include "sim/generate/builder.hpp"
 #include "sim/laser.hpp"
+#include "sim/scene_rays.hpp"
 
 namespace homeward::scenario::simulated_robot_test {
 namespace {
@@ -23,7 +24,7 @@ TEST(SafetyScanner, SeesATableTopAtAnyHeightThatABodyCanTouch) {
     const sim::Surface grey{builder.add_material("grey", std::array{0.5F, 0.5F, 0.5F}), 0.0};
     builder.box({}, {1.0, -1.0, bottom_m}, {1.8, 1.0, bottom_m + 0.016}, {grey, grey});
     builder.box({}, {2.0, -1.0, 0.0}, {2.2, 1.0, 2.0}, {grey, grey});
-    EXPECT_NEAR(sim::scan(sim::RayScene(builder.take()), {}, {}, scanner, 1)[0], 1.0, 1e-4) << bottom_m;
+    EXPECT_NEAR(sim::scan(sim::rays_of(builder.take()), {}, {}, scanner, 1)[0], 1.0, 1e-4) << bottom_m;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "sim/floor.hpp"
+#include "sim/scene_rays.hpp"
 
 namespace homeward::sim::laboratory_test {
 namespace {
@@ -68,14 +69,14 @@ TEST(Laboratory, CurtainsDoorAndLampsChangeWhatTheyShould) {
   LaboratoryState state;
   const World closed = generate_laboratory(1, state);
   EXPECT_EQ(closed.lamps.size(), 7U);  // six in the room, one in the corridor
-  const RayScene closed_rays(closed.scene);
+  const raycast::RayScene closed_rays = rays_of(closed.scene);
   const Eigen::Vector3f inside(3.8F, 2.7F, 1.5F);
   const Eigen::Vector3f beyond_the_door(0.68F * 7.6F, -0.5F, 1.5F);
   EXPECT_TRUE(closed_rays.blocked(inside, beyond_the_door));
   state.door_open = true;
   state.only_window_lamps = true;
   const World open = generate_laboratory(1, state);
-  EXPECT_FALSE(RayScene(open.scene).blocked(inside, beyond_the_door));
+  EXPECT_FALSE(rays_of(open.scene).blocked(inside, beyond_the_door));
   ASSERT_EQ(open.lamps.size(), 2U);
   for (const Lamp& lamp : open.lamps) EXPECT_LT(lamp.position_m.x(), 2.0);  // the windows are in the wall x = 0
   const Eigen::Vector3f pane(-0.5F, 0.26F * 5.28F + 0.06F, 1.5F);

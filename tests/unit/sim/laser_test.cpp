@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/scene_rays.hpp"
 #include "support/box_world.hpp"
 
 namespace homeward::sim::laser_test {
@@ -12,7 +13,7 @@ constexpr double kNoNoise_m = 1e-9;
 
 TEST(Laser, MeasuresABoxRoomExactly) {
   const World world = homeward::testing::box_world();
-  const RayScene rays(world.scene);
+  const raycast::RayScene rays = rays_of(world.scene);
   LaserConfig config;
   config.noise_m = kNoNoise_m;
   const Pose2 robot{0.3, -0.2, 0.7};
@@ -30,7 +31,7 @@ TEST(Laser, MeasuresABoxRoomExactly) {
 
 TEST(Laser, SeesNothingBeyondItsRange) {
   const World world = homeward::testing::box_world();
-  const RayScene rays(world.scene);
+  const raycast::RayScene rays = rays_of(world.scene);
   LaserConfig config;
   config.noise_m = kNoNoise_m;
   config.range_max_m = 1.6;
@@ -44,7 +45,7 @@ TEST(Laser, SeesNothingBeyondItsRange) {
 
 TEST(Laser, SeesPeopleBeforeWalls) {
   const World world = homeward::testing::box_world();
-  const RayScene rays(world.scene);
+  const raycast::RayScene rays = rays_of(world.scene);
   LaserConfig config;
   config.noise_m = kNoNoise_m;
   config.rays = 4;
@@ -58,7 +59,7 @@ TEST(Laser, TakesTheShortestOfItsLayers) {
   const Surface grey{builder.add_material("grey", std::array{0.5F, 0.5F, 0.5F}), 0.0};
   builder.box({}, {1.0, -1.0, 0.6}, {1.2, 1.0, 0.8}, {grey, grey});  // a table top
   builder.box({}, {2.0, -1.0, 0.0}, {2.2, 1.0, 2.0}, {grey, grey});  // a wall behind it
-  const RayScene rays(builder.take());
+  const raycast::RayScene rays = rays_of(builder.take());
   LaserConfig config;
   config.noise_m = kNoNoise_m;
   config.rays = 1;
@@ -69,7 +70,7 @@ TEST(Laser, TakesTheShortestOfItsLayers) {
 
 TEST(Laser, ItsNoiseHasTheStatedSpreadAndComesFromTheSeed) {
   const World world = homeward::testing::box_world();
-  const RayScene rays(world.scene);
+  const raycast::RayScene rays = rays_of(world.scene);
   LaserConfig config;
   config.noise_m = kNoNoise_m;
   const auto exact = scan(rays, {}, {}, config, 1);
@@ -86,7 +87,7 @@ TEST(Laser, ItsNoiseHasTheStatedSpreadAndComesFromTheSeed) {
 }
 
 /// A room of the box world's size whose wall ahead is one pane.
-RayScene room_with_a_pane() {
+raycast::RayScene room_with_a_pane() {
   SceneBuilder builder;
   const Surface grey{builder.add_material("grey", std::array{0.5F, 0.5F, 0.5F}), 0.0};
   const Surface pane{builder.add_material("window", std::array{0.5F, 0.5F, 0.5F}, MaterialRole::kWindow), 0.0};
@@ -94,11 +95,11 @@ RayScene room_with_a_pane() {
   builder.box({}, {-2.1, -1.5, 0.0}, {-2.0, 1.5, 2.5}, {grey, grey});
   builder.box({}, {-2.0, 1.5, 0.0}, {2.0, 1.6, 2.5}, {grey, grey});
   builder.box({}, {-2.0, -1.6, 0.0}, {2.0, -1.5, 2.5}, {grey, grey});
-  return RayScene(builder.take());
+  return rays_of(builder.take());
 }
 
 TEST(Laser, GoesThroughTheStatedShareOfPanesAlone) {
-  const RayScene rays = room_with_a_pane();
+  const raycast::RayScene rays = room_with_a_pane();
   LaserConfig config;
   config.rays = 3600;
   const auto solid = scan(rays, {}, {}, config, 1);
@@ -126,7 +127,7 @@ TEST(Laser, GoesThroughTheStatedShareOfPanesAlone) {
 
 TEST(Laser, GivesTheStatedShareOfSpuriousRanges) {
   const World world = homeward::testing::box_world();
-  const RayScene rays(world.scene);
+  const raycast::RayScene rays = rays_of(world.scene);
   LaserConfig config;
   config.rays = 3600;
   const auto clean = scan(rays, {}, {}, config, 1);

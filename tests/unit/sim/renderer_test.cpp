@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "sim/generate/worlds.hpp"
+#include "sim/scene_rays.hpp"
+#include "sim/tessellate.hpp"
 #include "support/box_world.hpp"
 #include "support/sample_cameras.hpp"
 
@@ -187,7 +189,7 @@ TEST_F(RendererTest, MoreDaylightIsNeverDarkerAndEndsAtNightAndDay) {
   EXPECT_EQ(picture(small_sphere(), {}, Light::of_daylight(0.0)).data,
             picture(small_sphere(), {}, LightPreset::kNight).data);
   const World house = generate_house(1);
-  const RayScene rays(house.scene);
+  const raycast::RayScene rays = rays_of(house.scene);
   const auto brightness = [&](double level) {
     LightSettings settings = light_settings(Light::of_daylight(level));
     settings.gather_rays = 6;  // coarse, and quick

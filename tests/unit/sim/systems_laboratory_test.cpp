@@ -4,9 +4,10 @@
 #include <memory>
 #include <set>
 
+#include "raycast/ray_scene.hpp"
 #include "sim/floor.hpp"
 #include "sim/generate/worlds.hpp"
-#include "sim/ray_scene.hpp"
+#include "sim/scene_rays.hpp"
 #include "sim/triangles.hpp"
 
 namespace homeward::sim::systems_laboratory_test {
@@ -79,7 +80,7 @@ TEST_P(SystemsLaboratoryTest, ItsFurnitureStandsInTheRoomAndNotInOneAnother) {
 }
 
 TEST_P(SystemsLaboratoryTest, TheStudyTableStandsBetweenItsTwoSides) {
-  const RayScene rays(world_.scene);
+  const raycast::RayScene rays = rays_of(world_.scene);
   const Eigen::Vector3f before(5.0F, 4.0F, 0.3F);
   const Eigen::Vector3f behind(5.0F, 8.0F, 0.3F);
   EXPECT_TRUE(rays.blocked(before, behind)) << "at the height of a scanner";

@@ -8,9 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "sim/scene.hpp"
+namespace homeward::raycast {
 
-namespace homeward::sim {
+using Vertices = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;          // V x 3, metres
+using Triangles = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;  // T x 3, indices of vertices
 
 /// Where a ray first meets the scene: the corners of the triangle weigh (1 - u - v, u, v).
 struct Hit {
@@ -32,10 +33,11 @@ struct RayPacket {
   [[nodiscard]] Eigen::Vector3f direction(std::size_t ray) const { return {x[ray], y[ray], z[ray]}; }
 };
 
-/// A scene ready for ray casting (Embree). Thread-safe for casting.
+/// Triangles ready for ray casting (Embree). Thread-safe for casting.
 class RayScene {
  public:
-  explicit RayScene(const Scene& scene);
+  /// `panes`: of each triangle, whether it is one of glass that some sensors see through; empty: none is.
+  RayScene(const Vertices& vertices_m, const Triangles& triangles, std::vector<bool> panes = {});
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
@@ -47,7 +49,7 @@ class RayScene {
                                                              float far_m) const;
   /// Whether anything lies between `from_m` and `to_m`.
   [[nodiscard]] bool blocked(const Eigen::Vector3f& from_m, const Eigen::Vector3f& to_m) const;
-  /// Whether a triangle is the pane of a window (MaterialRole::kWindow).
+  /// Whether a triangle is a pane of glass.
   [[nodiscard]] bool is_pane(std::uint32_t triangle) const { return triangle < panes_.size() && panes_[triangle]; }
 
  private:
@@ -56,7 +58,4 @@ class RayScene {
   std::vector<bool> panes_;  // of each triangle
 };
 
-/// The same surface in triangles whose edges are at most `max_edge_m` long (longest edge halved again and again).
-Scene tessellate(const Scene& scene, float max_edge_m);
-
-}  // namespace homeward::sim
+}  // namespace homeward::raycast

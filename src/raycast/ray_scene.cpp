@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/ray_scene.hpp"
+#include "raycast/ray_scene.hpp"
 
 #include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
-#include "sim/triangles.hpp"
-
-namespace homeward::sim {
+namespace homeward::raycast {
 
 struct RayScene::Embree {
   RTCDevice device = nullptr;
@@ -27,26 +26,23 @@ struct RayScene::Embree {
   }
 };
 
-RayScene::RayScene(const Scene& scene) : embree_(std::make_unique<Embree>()) {
+RayScene::RayScene(const Vertices& vertices_m, const Triangles& triangles, std::vector<bool> panes)
+    : embree_(std::make_unique<Embree>()), panes_(std::move(panes)) {
   RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  const auto vertices = static_cast<std::size_t>(scene.vertices_m.rows());
-  const auto triangles = static_cast<std::size_t>(scene.triangles.rows());
+  const auto vertex_count = static_cast<std::size_t>(vertices_m.rows());
+  const auto triangle_count = static_cast<std::size_t>(triangles.rows());
   void* vertex_buffer =
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices);
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertex_count);
   void* index_buffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                               3 * sizeof(std::uint32_t), triangles);
-  if (vertex_buffer != nullptr) std::memcpy(vertex_buffer, scene.vertices_m.data(), 3 * sizeof(float) * vertices);
+                                               3 * sizeof(std::uint32_t), triangle_count);
+  if (vertex_buffer != nullptr) std::memcpy(vertex_buffer, vertices_m.data(), 3 * sizeof(float) * vertex_count);
   if (index_buffer != nullptr) {
-    std::memcpy(index_buffer, scene.triangles.data(), 3 * sizeof(std::uint32_t) * triangles);
+    std::memcpy(index_buffer, triangles.data(), 3 * sizeof(std::uint32_t) * triangle_count);
   }
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(embree_->scene, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(embree_->scene);
-  panes_.reserve(scene.triangle_materials.size());
-  for (const int material : scene.triangle_materials) {
-    panes_.push_back(scene.materials[static_cast<std::size_t>(material)].role == MaterialRole::kWindow);
-  }
 }
 
 RayScene::~RayScene() = default;
@@ -123,48 +119,4 @@ bool RayScene::blocked(const Eigen::Vector3f& from_m, const Eigen::Vector3f& to_
   return ray.tfar < 0.0F;
 }
 
-namespace {
-
-void split(const std::array<Corner, 3>& corners, int material, float max_edge2, int depth, LooseTriangles& triangles) {
-  std::size_t longest = 0;
-  float longest2 = 0.0F;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const float edge2 = (corners[(i + 1) % 3].position_m - corners[i].position_m).squaredNorm();
-    if (edge2 > longest2) {
-      longest2 = edge2;
-      longest = i;
-    }
-  }
-  if (longest2 <= max_edge2 || depth == 0) {
-    triangles.add(corners, material);
-    return;
-  }
-  const Corner& a = corners[longest];
-  const Corner& b = corners[(longest + 1) % 3];
-  const Corner& c = corners[(longest + 2) % 3];
-  const Corner middle{0.5F * (a.position_m + b.position_m), 0.5F * (a.uv + b.uv)};
-  split({a, middle, c}, material, max_edge2, depth - 1, triangles);
-  split({middle, b, c}, material, max_edge2, depth - 1, triangles);
-}
-
-}  // namespace
-
-Scene tessellate(const Scene& scene, float max_edge_m) {
-  constexpr int kMaxDepth = 16;
-  LooseTriangles triangles;
-  for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t) {
-    std::array<Corner, 3> corners;
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      const Eigen::Index vertex = scene.triangles(t, k);
-      corners[static_cast<std::size_t>(k)] = {scene.vertices_m.row(vertex), scene.texture_uv.row(vertex)};
-    }
-    split(corners, scene.triangle_materials[static_cast<std::size_t>(t)], max_edge_m * max_edge_m, kMaxDepth,
-          triangles);
-  }
-  Scene fine = triangles.take();
-  fine.materials = scene.materials;
-  fine.textures = scene.textures;
-  return fine;
-}
-
-}  // namespace homeward::sim
+}  // namespace homeward::raycast
