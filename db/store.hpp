@@ -120,6 +120,28 @@ class Store {
   /// With its jobs; robots on it are left without a map. Errors: kNotFound.
   virtual Status remove_map(const MapId& id) = 0;
 
+  // --- Drawn plans -------------------------------------------------------------------------------------------------
+  /// Of its versions the first one counts, whose file this is. Errors: none besides those of all.
+  virtual Result<wire::PlanView> add_plan(wire::PlanView plan, std::span<const std::uint8_t> file) = 0;
+  /// The next version. Errors: kNotFound, kConflict (wire::kMaxPlanVersions).
+  virtual Result<wire::PlanView> add_plan_version(const wire::PlanId& id, wire::PlanVersionView version,
+                                                  std::span<const std::uint8_t> file) = 0;
+  virtual Result<std::vector<wire::PlanView>> plans() = 0;  // oldest first
+  /// Errors: kNotFound.
+  virtual Result<wire::PlanView> plan(const wire::PlanId& id) = 0;
+  /// As it was uploaded. Errors: kNotFound (plan or version).
+  virtual Result<std::vector<std::uint8_t>> plan_file(const wire::PlanId& id, std::int64_t version) = 0;
+  /// Errors: kNotFound.
+  virtual Result<wire::PlanView> rename_plan(const wire::PlanId& id, const std::string& name) = 0;
+  /// With its versions. Errors: kNotFound, kConflict (a map is tied to it).
+  virtual Status remove_plan(const wire::PlanId& id) = 0;
+  /// In place of what the map was tied to. Errors: kNotFound (the map, or this version of the plan).
+  virtual Status tie_map(const MapPlanRecord& tie) = 0;
+  /// Errors: kNotFound (the map, or it is tied to no plan).
+  virtual Result<MapPlanRecord> map_plan(const MapId& map) = 0;
+  /// Success also where it is tied to none. Errors: kNotFound (the map).
+  virtual Status untie_map(const MapId& map) = 0;
+
   // --- Drafts ------------------------------------------------------------------------------------------------------
   /// Errors: kNotFound (the map).
   virtual Result<DraftRecord> add_draft(DraftRecord draft) = 0;

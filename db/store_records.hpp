@@ -12,10 +12,12 @@
 #include "core/range_sweep.hpp"
 #include "core/result.hpp"
 #include "core/time.hpp"
+#include "map/plan_tie.hpp"
 #include "wire/draft_json.hpp"
 #include "wire/job_json.hpp"
 #include "wire/map_info_json.hpp"
 #include "wire/mission_json.hpp"
+#include "wire/plan_json.hpp"
 #include "wire/role.hpp"
 #include "wire/tour_json.hpp"
 
@@ -91,7 +93,18 @@ struct MapRecord {
   std::optional<std::string> feature_config_id;
   TimeUs created_us = 0;
   wire::RefineMode refine = wire::RefineMode::kAsk;
-  bool path = false;  // taught as a path, by one tour (pipeline/teach_path.hpp)
+  bool path = false;                           // taught as a path, by one tour (pipeline/teach_path.hpp)
+  std::optional<wire::MapPlanInfo> plan = {};  // that it is tied to
+};
+
+/// Which version of a plan a map is tied to, and where.
+struct MapPlanRecord {
+  MapId map;
+  wire::PlanId plan;
+  std::int64_t version = 1;
+  TimeUs tied_us = 0;
+  std::string author;
+  std::vector<map::PlanPin> pins;
 };
 
 struct DriveSight {

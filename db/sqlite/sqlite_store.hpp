@@ -82,6 +82,19 @@ class SqliteStore final : public Store {
   Result<BuildSimilarity> build_similarity(const MapId& id) override;
   Status remove_map(const MapId& id) override;
 
+  // --- Drawn plans ---
+  Result<wire::PlanView> add_plan(wire::PlanView plan, std::span<const std::uint8_t> file) override;
+  Result<wire::PlanView> add_plan_version(const wire::PlanId& id, wire::PlanVersionView version,
+                                          std::span<const std::uint8_t> file) override;
+  Result<std::vector<wire::PlanView>> plans() override;
+  Result<wire::PlanView> plan(const wire::PlanId& id) override;
+  Result<std::vector<std::uint8_t>> plan_file(const wire::PlanId& id, std::int64_t version) override;
+  Result<wire::PlanView> rename_plan(const wire::PlanId& id, const std::string& name) override;
+  Status remove_plan(const wire::PlanId& id) override;
+  Status tie_map(const MapPlanRecord& tie) override;
+  Result<MapPlanRecord> map_plan(const MapId& map) override;
+  Status untie_map(const MapId& map) override;
+
   // --- Drafts ---
   Result<DraftRecord> add_draft(DraftRecord draft) override;
   Result<std::vector<DraftRecord>> drafts(const MapId& map) override;

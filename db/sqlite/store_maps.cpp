@@ -9,11 +9,13 @@ namespace homeward::db {
 namespace {
 
 constexpr const char* kMaps =
-    "SELECT id, name, state, revision, places, images, feature_config_id, created_us, refine, path FROM maps "
-    "ORDER BY created_us, rowid";
+    "SELECT id, name, state, revision, places, images, feature_config_id, created_us, refine, path, plan, version, "
+    "tied_us "
+    "FROM maps LEFT JOIN map_plans ON map = id ORDER BY created_us, maps.rowid";
 constexpr const char* kOneMap =
-    "SELECT id, name, state, revision, places, images, feature_config_id, created_us, refine, path FROM maps WHERE id "
-    "= ?";
+    "SELECT id, name, state, revision, places, images, feature_config_id, created_us, refine, path, plan, version, "
+    "tied_us "
+    "FROM maps LEFT JOIN map_plans ON map = id WHERE id = ?";
 
 MapRecord map_of(SQLite::Database& database, SQLite::Statement& row) {
   MapRecord map;
@@ -31,6 +33,9 @@ MapRecord map_of(SQLite::Database& database, SQLite::Statement& row) {
   if (!refine) refuse(ErrorCode::kCorruptFile, "The database holds an unknown setting.", "maps/" + map.id.str());
   map.refine = *refine;
   map.path = integer(row, 9) != 0;
+  if (const auto plan = optional_text(row, 10)) {
+    map.plan = wire::MapPlanInfo{wire::PlanId(*plan), integer(row, 11), integer(row, 12)};
+  }
   SQLite::Statement tour = prepared(database, "SELECT tour FROM map_tours WHERE map = ? ORDER BY position", map.id);
   while (tour.executeStep()) map.tours.emplace_back(text(tour, 0));
   return map;

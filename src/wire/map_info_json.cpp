@@ -7,6 +7,11 @@
 namespace homeward::wire {
 namespace {
 
+nlohmann::json plan_to_json(const std::optional<MapPlanInfo>& plan) {
+  if (!plan) return nullptr;
+  return {{"id", plan->plan.str()}, {"version", plan->version}, {"tied_us", plan->tied_us}};
+}
+
 constexpr EnumNames<MapState, 3> kMapStates({"building", "ready", "failed"});
 constexpr EnumNames<RefineMode, 3> kRefineModes({"off", "ask", "auto"});
 
@@ -29,7 +34,8 @@ nlohmann::json map_info_to_json(const MapInfoView& map) {
           {"images", map.images},
           {"tours", ids_to_json(map.tours)},
           {"feature_config_id", or_null(map.feature_config_id)},
-          {"refine", refine_mode_name(map.refine)}};
+          {"refine", refine_mode_name(map.refine)},
+          {"plan", plan_to_json(map.plan)}};
 }
 
 }  // namespace homeward::wire

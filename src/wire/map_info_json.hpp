@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "core/time.hpp"
 
 namespace homeward::wire {
 
@@ -24,6 +25,15 @@ enum class RefineMode { kOff, kAsk, kAuto };
 std::string_view refine_mode_name(RefineMode mode);
 std::optional<RefineMode> refine_mode(std::string_view name);
 
+using PlanId = Id<struct PlanTag>;  // of a drawn plan of a building
+
+/// The drawn plan that a map is tied to.
+struct MapPlanInfo {
+  PlanId plan;
+  std::int64_t version = 1;  // of the plan
+  TimeUs tied_us = 0;
+};
+
 /// A map in a list of maps (proto/schemas/map_info.schema.json).
 struct MapInfoView {
   MapId id;
@@ -35,6 +45,7 @@ struct MapInfoView {
   std::vector<TourId> tours;                     // it was built from
   std::optional<std::string> feature_config_id;  // nothing until the first build is done
   RefineMode refine = RefineMode::kAsk;
+  std::optional<MapPlanInfo> plan = {};  // nothing: tied to none
 };
 
 nlohmann::json map_info_to_json(const MapInfoView& map);

@@ -7,6 +7,7 @@
 #include "wire/kept_exploration_json.hpp"
 #include "wire/link_messages.hpp"
 #include "wire/mission_json.hpp"
+#include "wire/plan_json.hpp"
 #include "wire/problem_json.hpp"
 #include "wire/reason_json.hpp"
 #include "wire/rosbridge_json.hpp"
@@ -88,6 +89,7 @@ std::map<std::string, Recode> all_codecs() {
   codecs["mission"] = recode([](const json& v) { return wire::mission_from_json(v); }, wire::mission_to_json);
   codecs["reason"] = recode([](const json& v) { return wire::reason_from_json(v); },
                             [](const wire::Reason& reason) { return wire::reason_to_json(reason); });
+  codecs["plan_tie"] = recode([](const json& v) { return wire::plan_tie_from_json(v); }, wire::plan_tie_to_json);
   codecs["problem"] = recode(wire::problem_from_json, wire::problem_to_json);
   codecs["rosbridge"] = recode([](const json& v) { return wire::rosbridge_from_json(v); }, wire::rosbridge_to_json);
   codecs["state_row"] = recode([](const json& v) { return wire::state_row_from_json(v); }, wire::state_row_to_json);

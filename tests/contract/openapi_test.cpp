@@ -107,11 +107,13 @@ TEST(OpenApi, EveryReferenceNamesSomething) {
 
 TEST(OpenApi, RepeatsTheSchemasOfFilesAndMessages) {
   const std::map<std::string, std::string> pairs = {
-      {"Camera", "camera"},     {"Belief", "belief"},    {"Mission", "mission"},
-      {"Problem", "problem"},   {"Graph", "graph"},      {"Job", "job"},
-      {"Robot", "robot"},       {"MapInfo", "map_info"}, {"Tour", "tour_info"},
-      {"Marks", "tour"},        {"Lease", "lease"},      {"EditBatch", "edits"},
-      {"ServerEvent", "event"}, {"Sweep", "sweep"},      {"Exploration", "exploration"}};
+      {"Camera", "camera"},      {"Belief", "belief"},        {"Mission", "mission"},
+      {"Problem", "problem"},    {"Graph", "graph"},          {"Job", "job"},
+      {"Robot", "robot"},        {"MapInfo", "map_info"},     {"Tour", "tour_info"},
+      {"Marks", "tour"},         {"Lease", "lease"},          {"EditBatch", "edits"},
+      {"ServerEvent", "event"},  {"Sweep", "sweep"},          {"Exploration", "exploration"},
+      {"PlanInfo", "plan_info"}, {"PlanLines", "plan_lines"}, {"PlanTie", "plan_tie"},
+      {"MapPlan", "map_plan"}};
   for (const auto& [component, schema] : pairs) {
     ASSERT_TRUE(openapi()["components"]["schemas"].contains(component)) << component;
     const json differences =

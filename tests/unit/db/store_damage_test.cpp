@@ -60,6 +60,10 @@ class StoreDamage : public StoreTest {
     AlongWithContents along;
     along.build = MapBuild{std::string(6000, 'r'), std::vector<std::uint8_t>(3000, 5)};
     ASSERT_TRUE(store().save_map_contents(map.id, testing::sample_map(), {}, 0, along));
+    wire::PlanView plan;
+    plan.versions.resize(1);
+    const wire::PlanId drawn = store().add_plan(plan, std::vector<std::uint8_t>(3000, 9))->id;
+    ASSERT_TRUE(store().tie_map({map.id, drawn, 1, 5, "anna", {{ImageId("t/1.jpg"), {1.0, 2.0}, 0.5}}}));
     for (int i = 0; i < 10; ++i) {
       const Drive drive{MissionId("d" + std::to_string(i % 3)), map.id, "c", i, {{PlaceId("p"), {1, 2}}, {{}, {}}}};
       ASSERT_TRUE(store().add_drive(drive));
