@@ -19,6 +19,7 @@
 #include "server/routes/job_routes.hpp"
 #include "server/routes/map_routes.hpp"
 #include "server/routes/operation_routes.hpp"
+#include "server/routes/plan_routes.hpp"
 #include "server/routes/robot_routes.hpp"
 #include "server/routes/socket_routes.hpp"
 #include "server/routes/tour_routes.hpp"
@@ -100,6 +101,7 @@ struct App::Parts {
         driving(*store, maps, events, heavy, journal, clock, config.longest_mission_s),
         drafts(*store, maps, events, clock),
         inspection(*store, maps),
+        plans(*store, maps, events, clock),
         jobs(*store, maps, drafts, events, clock, threads_of(config)),
         front({router, access, files, authenticator, idempotency, metrics, workers, heavy, slow, bulk, passwords,
                clock}) {
@@ -116,6 +118,7 @@ struct App::Parts {
     add_draft_routes(router, drafts, jobs, *store);
     add_evidence_routes(router, maps);
     add_inspection_routes(router, inspection);
+    add_plan_routes(router, plans, *store);
     add_job_routes(router, jobs);
     add_robot_routes(router, driving, authenticator, *store);
     add_exploration_routes(router, driving);
@@ -232,6 +235,7 @@ struct App::Parts {
   Driving driving;
   DraftService drafts;
   InspectionService inspection;
+  PlanService plans;
   BuildJobs jobs;
   Router router;
   AppFront front;

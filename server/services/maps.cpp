@@ -50,7 +50,7 @@ Error stale(const MapId& id, std::int64_t present, std::int64_t asked) {
 wire::MapInfoView view_of(const db::MapRecord& record) {
   return {record.id,     record.name,   record.state, record.revision,
           record.places, record.images, record.tours, record.feature_config_id,
-          record.refine};
+          record.refine, record.plan};
 }
 
 Result<LoadedMap> MapService::load(const MapId& id) {

@@ -138,6 +138,42 @@ describe('the mock server', () => {
     expect((await ask('DELETE', path)).status).toBe(204);
   });
 
+  it('answers of plans as the schemas say', async () => {
+    const upload = (path, text, more = '') =>
+      fetch(`${mock.url}/api/v1/${path}?format=svg${more}`, {
+        method: 'POST',
+        headers: { cookie },
+        body: text,
+      });
+    const broken = await upload('plans', '<svg>\nbroken', '&name=x');
+    expect([broken.status, problemsOf('problem', await broken.json())]).toEqual([422, []]);
+    const plan = await (await upload('plans', '<svg/>', '&name=Ground')).json();
+    expect([plan.name, problemsOf('plan_info', plan)]).toEqual(['Ground', []]);
+    expect((await upload(`plans/${plan.id}/versions`, '<svg/>', '&metres_per_unit=0.01')).status).toBe(201);
+    const { body: lines } = await ask('GET', `plans/${plan.id}/lines`);
+    expect([lines.version, lines.segments.length > 0, problemsOf('plan_lines', lines)]).toEqual([
+      2,
+      true,
+      [],
+    ]);
+    expect((await ask('GET', 'maps/m1/plan')).status).toBe(404);
+    const pins = [
+      { place: 'p1', x_m: 1, y_m: 7 },
+      { place: 'p11', x_m: 14, y_m: 7.5, theta_rad: 0.5 },
+    ];
+    expect((await ask('PUT', 'maps/m1/plan', { plan: plan.id, pins: [pins[0]] })).status).toBe(422);
+    const { body: tied } = await ask('PUT', 'maps/m1/plan', { plan: plan.id, version: 1, pins });
+    expect([tied.newest_version, tied.places.length, problemsOf('map_plan', tied)]).toEqual([2, 13, []]);
+    const { body: maps } = await ask('GET', 'maps');
+    expect(maps.maps.flatMap((one) => problemsOf('map_info', one))).toEqual([]);
+    expect((await ask('GET', `plans/${plan.id}`)).body.maps).toEqual(['m1']);
+    expect((await ask('DELETE', `plans/${plan.id}`)).body.code).toBe('conflict');
+    expect((await ask('DELETE', 'maps/m1/plan')).status).toBe(204);
+    expect((await ask('PUT', `plans/${plan.id}/name`, { name: 'Annex' })).body.name).toBe('Annex');
+    expect((await ask('DELETE', `plans/${plan.id}`)).status).toBe(204);
+    expect((await ask('GET', 'plans')).body.plans).toEqual([]);
+  });
+
   it('answers of doubts and pairs of pictures as the schemas say', async () => {
     const { body: doubts } = await ask('GET', 'maps/m1/doubts?about=all');
     expect([doubts.doubts.length > 2, problemsOf('doubts', doubts)]).toEqual([true, []]);

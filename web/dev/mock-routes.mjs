@@ -7,6 +7,7 @@ import { kFormerRoutes } from './mock-former.mjs';
 import { edit, redo, undo } from './mock-edits.mjs';
 import { kitchenNote, noWayText, wayBetween } from './mock-house.mjs';
 import { Refusal } from './mock-refusal.mjs';
+import { kPlanRoutes } from './mock-plans.mjs';
 import { kReportRoutes } from './mock-report.mjs';
 import { kSimilarityRoutes } from './mock-similarity.mjs';
 
@@ -345,6 +346,7 @@ export const kRoutes = [
   ...kExplorationRoutes,
   ...kDraftRoutes,
   ...kDoubtRoutes,
+  ...kPlanRoutes,
   ...kFormerRoutes,
   ...kReportRoutes,
   ...kSimilarityRoutes,

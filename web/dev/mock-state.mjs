@@ -35,6 +35,8 @@ export class House {
     this.drives = newDrives();
     this.built = true; // on this server: there is a report of it, and how alike its pictures are
     this.drafts = []; // each with the log of its edits
+    this.plans = [];
+    this.ties = new Map(); // by map: the plan that it is tied to, and its pins
     const tour = {
       id: 't1',
       name: 'Ground floor',
@@ -79,6 +81,7 @@ export class House {
       tours,
       feature_config_id: null,
       refine: 'ask',
+      plan: null,
     };
   }
   newRobot(name, map) {

@@ -17,6 +17,7 @@ import './styles/evidence.css';
 import './styles/similarity.css';
 import './styles/pages.css';
 import './styles/explore.css';
+import './styles/floor_plan.css';
 
 startServerConnection();
 const root = document.getElementById('app');

@@ -12,8 +12,12 @@ import type {
   Lease,
   LoggedEdit,
   MapInfo,
+  MapPlan,
   Mission,
   Pair,
+  PlanInfo,
+  PlanLines,
+  PlanTie,
   RefineMode,
   ReplayCheck,
   Robot,
@@ -28,6 +32,7 @@ import type {
 
 const kRoot = '/api/v1';
 const kTimeoutMs = 20_000;
+const kPlanTimeoutMs = 180_000; // a large plan is read before it is kept
 
 /** Called when an answer says that nobody is signed in (any more). */
 let onSignedOut: () => void = () => undefined;
@@ -259,6 +264,49 @@ export const similarityTileUrl = (
 ) => `${kRoot}/maps/${id(map)}/similarity/${level}/${column}/${row}?r=${revision}`;
 export const pair = (map: string, image_a: string, image_b: string) =>
   call<Pair>(`/maps/${id(map)}/pair?${new URLSearchParams({ image_a, image_b }).toString()}`);
+
+// Drawn plans
+export const plans = () => call<{ plans: PlanInfo[] }>('/plans');
+export const plan = (of: string) => call<PlanInfo>(`/plans/${id(of)}`);
+/** What a person says of a file that is a plan. */
+export interface PlanUpload {
+  file: File;
+  format: string; // how its name ends
+  metres_per_unit: number;
+  wall_height_m: number;
+}
+const sendPlan = (
+  path: string,
+  { file, format, metres_per_unit, wall_height_m }: PlanUpload,
+  name?: string,
+) => {
+  const query = new URLSearchParams({
+    ...(name === undefined ? {} : { name }),
+    format,
+    metres_per_unit: String(metres_per_unit),
+    wall_height_m: String(wall_height_m),
+  });
+  return call<PlanInfo>(`${path}?${query.toString()}`, {
+    method: 'POST',
+    raw: file,
+    headers: { 'Content-Type': 'application/octet-stream' },
+    signal: AbortSignal.timeout(kPlanTimeoutMs),
+  });
+};
+export const addPlan = (name: string, upload: PlanUpload) => sendPlan('/plans', upload, name);
+export const addPlanVersion = (of: string, upload: PlanUpload) =>
+  sendPlan(`/plans/${id(of)}/versions`, upload);
+export const renamePlan = (of: string, name: string) =>
+  call<PlanInfo>(`/plans/${id(of)}/name`, { method: 'PUT', body: { name } });
+export const removePlan = (of: string) => call<unknown>(`/plans/${id(of)}`, { method: 'DELETE' });
+export const planFileUrl = (of: string) => `${kRoot}/plans/${id(of)}/file`;
+export const planLines = (of: string, version: number) =>
+  call<PlanLines>(`/plans/${id(of)}/lines?version=${version}`);
+/** Where the places of a map lie on the plan that it is tied to. */
+export const mapPlan = (map: string) => call<MapPlan>(`/maps/${id(map)}/plan`);
+export const tieMap = (map: string, body: PlanTie) =>
+  call<MapPlan>(`/maps/${id(map)}/plan`, { method: 'PUT', body });
+export const untieMap = (map: string) => call<unknown>(`/maps/${id(map)}/plan`, { method: 'DELETE' });
 
 // Tours
 export const tours = () => call<{ tours: Tour[] }>('/tours');

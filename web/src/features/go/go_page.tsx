@@ -9,6 +9,7 @@ import { chosen, chosenGraph, chosenMap, connected } from '../../lib/chosen';
 import { atLeast } from '../../lib/roles';
 import { destinationLabel, placeTitle } from '../../lib/whereabouts';
 import { titled } from '../../lib/words';
+import { SmallPlan } from '../plan/small_plan';
 import { DestinationCard } from './destination_card';
 import { DiversionPrompt } from './diversion_prompt';
 import { commands, forgetCommand, send, type Sure } from './driving';
@@ -111,6 +112,9 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
       </div>
       {graph && mayBeSaid(robot, connected.value, mayDrive) && (
         <SaidPlaceCard key={robot.id} robot={robot} graph={graph} />
+      )}
+      {graph && chosenMap.value?.plan && (
+        <SmallPlan map={chosenMap.value} graph={graph} robot={robot} journey={journey} />
       )}
       <WhoDrives robot={robot} />
       <section class="stack" aria-label="Places to go to">

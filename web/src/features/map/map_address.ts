@@ -2,7 +2,7 @@
 import { computed, effect, signal } from '@preact/signals';
 import { navigate, path } from '../../lib/router';
 
-export const kMapPages = ['drawing', 'evidence', 'changes', 'report', 'similarity'] as const;
+export const kMapPages = ['drawing', 'plan', 'evidence', 'changes', 'report', 'similarity'] as const;
 export type MapPageName = (typeof kMapPages)[number];
 
 /** What of the map pages an address shows: /map/m1/draft/d3/evidence/place/p4, /map/m1/changes/2/5. */

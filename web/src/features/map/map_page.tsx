@@ -11,6 +11,7 @@ import { chosenMap, maps } from '../../lib/chosen';
 import { useLoaded } from '../../lib/loaded';
 import { atLeast } from '../../lib/roles';
 import { follow } from '../../lib/router';
+import { FloorPlanPage } from '../plan/floor_plan_page';
 import { ChangesPage } from './changes_page';
 import { EvidencePage } from './evidence_page';
 import { ReportPage } from './report_page';
@@ -107,6 +108,7 @@ function WithDraft({ map, graph, mayEdit, draft }: OfMap & { draft: Draft }) {
 
 const kPages: readonly (readonly [MapPageName, string])[] = [
   ['drawing', 'Places'],
+  ['plan', 'Floor plan'],
   ['evidence', 'Evidence'],
   ['changes', 'Changes'],
   ['report', 'Report'],
@@ -115,6 +117,7 @@ const kPages: readonly (readonly [MapPageName, string])[] = [
 
 /** Pages about the map itself, whatever draft is open. */
 const kOwnPages: Readonly<Partial<Record<MapPageName, ComponentType<OfMap>>>> = {
+  plan: FloorPlanPage,
   changes: ChangesPage,
   report: ReportPage,
   similarity: SimilarityPage,

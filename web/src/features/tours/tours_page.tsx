@@ -12,6 +12,7 @@ import { useLoaded } from '../../lib/loaded';
 import { atLeast } from '../../lib/roles';
 import { follow, path } from '../../lib/router';
 import { count, dateText } from '../../lib/words';
+import { PlansCard } from '../plan/plans_card';
 import { BuildMap } from './build_map';
 import { DriveNews, RefineSetting } from './drive_news';
 import { BuildProgress } from './jobs';
@@ -31,6 +32,7 @@ export function ToursPage() {
             <div class="stack">
               <TourList tours={answer.tours} />
               <Maps mayInstall={mayInstall} />
+              <PlansCard mayInstall={mayInstall} />
             </div>
             <div class="stack">
               {mayInstall ? (
