@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "linemodel/read_plan.hpp"
+#include "linemodel/read_vrml.hpp"
 #include "map/lookup.hpp"
 
 namespace homeward::server {
@@ -12,7 +12,9 @@ namespace {
 constexpr std::size_t kMostKept = 2;  // plans in memory, of some megabytes each
 
 Result<linemodel::Plan> read(const PlanUpload& upload) {
-  return linemodel::read_plan(upload.file, upload.format, {upload.metres_per_unit, upload.wall_height_m}, "body");
+  const std::string_view text(reinterpret_cast<const char*>(upload.file.data()), upload.file.size());
+  if (upload.format != "wrl") return fail(ErrorCode::kUnsupportedFormat, "A plan is a .wrl file.", "query/format");
+  return linemodel::read_vrml(text, linemodel::PlanUp::kZ, "body");
 }
 
 wire::PlanVersionView described(const PlanUpload& upload, const linemodel::Plan& plan, TimeUs now_us) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useMemo, useState } from 'preact/hooks';
 import type { PlanLines } from '../../api/types';
-import { boundsOf, pressedAt, viewBoxOf, wallPath, wayPath, type Spot } from './plan_geometry';
+import { boundsOf, dotPath, pressedAt, viewBoxOf, wallPath, wayPath, type Spot } from './plan_geometry';
 
 /** Something at a spot of the plan. */
 export interface Mark extends Spot {
@@ -23,6 +23,8 @@ const kZooms = [1, 1.5, 2, 3, 4, 6];
 const kRadii = { place: 4, pinned: 6, chosen: 9, chair: 11, goal: 9 } as const;
 const kText_px = 14;
 
+const isDot = ({ kind, label }: Mark) => kind === 'place' && label === '';
+
 /** A plan from above with what is on it. Signs and words keep their size however large the building is. */
 export function PlanDrawing({ lines, marks, way = [], words, small = false, onPress }: Props) {
   const [zoom, setZoom] = useState(0);
@@ -32,6 +34,8 @@ export function PlanDrawing({ lines, marks, way = [], words, small = false, onPr
   const extent = spots.map((one) => `${one.x_m} ${one.y_m}`).join();
   // eslint-disable-next-line react-hooks/exhaustive-deps
   const bounds = useMemo(() => boundsOf(lines, spots), [lines, extent]);
+  // Thousands of places may have nothing to say but where they are: all of these are one stroke.
+  const dots = dotPath(marks.filter(isDot));
   const width_m = bounds.right_m - bounds.left_m;
   const height_m = bounds.top_m - bounds.bottom_m;
   const press = (event: MouseEvent & { currentTarget: Element }) => {
@@ -65,10 +69,13 @@ export function PlanDrawing({ lines, marks, way = [], words, small = false, onPr
           >
             <path class="walls" d={walls} />
             {way.length > 1 && <path class="way" d={wayPath(way)} />}
+            <path class="dots" d={dots} />
           </svg>
-          {marks.map((one) => (
-            <MarkSign key={one.key} mark={one} at={shares(one)} />
-          ))}
+          {marks
+            .filter((one) => !isDot(one))
+            .map((one) => (
+              <MarkSign key={one.key} mark={one} at={shares(one)} />
+            ))}
         </div>
       </div>
       {!small && (
@@ -113,7 +120,6 @@ function MarkSign({ mark, at }: { mark: Mark; at: { x: number; y: number } }) {
       width="1"
       height="1"
       aria-hidden="true"
-      data-place={mark.key}
       data-kind={mark.kind}
     >
       {mark.kind === 'goal' ? (

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
 import type { PlanLines } from '../../api/types';
-import { boundsOf, pressedAt, viewBoxOf, wallPath, wayPath } from './plan_geometry';
+import { boundsOf, dotPath, pressedAt, viewBoxOf, wallPath, wayPath } from './plan_geometry';
 
 const lines: PlanLines = {
   plan: 'plan1',
@@ -35,6 +35,7 @@ describe('a plan on paper', () => {
         { x_m: 3, y_m: 2.5 },
       ]),
     ).toBe('M1 -2L3 -2.5');
+    expect(dotPath([{ x_m: 1, y_m: 2 }])).toBe('M1 -2h0');
   });
 
   it('knows where it was pressed, to the centimetre', () => {

@@ -58,6 +58,11 @@ export function wayPath(spots: readonly Spot[]): string {
   return spots.map(({ x_m, y_m }, i) => `${i === 0 ? 'M' : 'L'}${short(x_m)} ${short(-y_m)}`).join('');
 }
 
+/** Spots as dots of a round pen. */
+export function dotPath(spots: readonly Spot[]): string {
+  return spots.map(({ x_m, y_m }) => `M${short(x_m)} ${short(-y_m)}h0`).join('');
+}
+
 /** Where on the plan a drawing was pressed, `x` and `y` as shares of its width and height, from its top left corner. */
 export function pressedAt(bounds: Bounds, x: number, y: number): Spot {
   return {

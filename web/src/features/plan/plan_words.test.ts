@@ -49,13 +49,14 @@ describe('what a plan shows', () => {
   it('marks places, the chair and where it goes', () => {
     const marks = marksOf(tie, graph, 'p1', 'p5');
     expect(marks.map(({ key, kind, label }) => [key, kind, label])).toEqual([
-      ['p1', 'pinned', 'Hall'],
+      ['p1', 'pinned', ''],
       ['p2', 'place', ''],
-      ['p5', 'place', 'Kitchen'],
-      ['goal', 'goal', ''],
-      ['chair', 'chair', ''],
+      ['p5', 'place', ''],
+      ['goal', 'goal', 'Kitchen'],
+      ['chair', 'chair', 'Hall'],
     ]);
     expect(marks.at(-1)).toMatchObject({ x_m: 1, y_m: 2 });
+    expect(marksOf(tie, graph, null, null)[2]?.label).toBe('Kitchen');
     expect(marksOf(tie, graph, 'p13', null)).toHaveLength(3);
   });
 

@@ -12,17 +12,22 @@ export function chairPlace(robot: Robot | null): string | null {
 
 /** Signs of all places, of the chair and of where it goes. */
 export function marksOf(tie: MapPlan, graph: Graph, chair: string | null, goal: string | null): Mark[] {
+  const titleOf = (place: string) => titled(nameOf(graph, place) ?? '');
+  // A larger sign at a place carries its name, so that none lies over the other.
+  const covered = new Set([goal, chair]);
   const marks: Mark[] = tie.places.map(({ place, x_m, y_m, pinned }) => ({
     key: place,
     kind: pinned ? 'pinned' : 'place',
     x_m,
     y_m,
-    label: titled(nameOf(graph, place) ?? ''),
+    label: covered.has(place) ? '' : titleOf(place),
   }));
-  const at = (place: string | null) => tie.places.find((one) => one.place === place);
-  const [to, here] = [at(goal), at(chair)];
-  if (to) marks.push({ key: 'goal', kind: 'goal', x_m: to.x_m, y_m: to.y_m, label: '' });
-  if (here) marks.push({ key: 'chair', kind: 'chair', x_m: here.x_m, y_m: here.y_m, label: '' });
+  const sign = (place: string | null, kind: 'goal' | 'chair', label: string) => {
+    const at = tie.places.find((one) => one.place === place);
+    if (at) marks.push({ key: kind, kind, x_m: at.x_m, y_m: at.y_m, label });
+  };
+  if (goal !== null) sign(goal, 'goal', goal === chair ? '' : titleOf(goal));
+  if (chair !== null) sign(chair, 'chair', titleOf(chair));
   return marks;
 }
 
