@@ -10,7 +10,8 @@ CREATE TABLE plan_versions (
   format TEXT NOT NULL,
   created_us INTEGER NOT NULL,
   author TEXT NOT NULL,
-  metres_per_unit REAL NOT NULL,
+  metres_per_unit REAL,  -- NULL: 1, or as the file itself says
+  up TEXT CHECK (up IN ('y', 'z')),  -- NULL: as is usual in its format
   wall_height_m REAL NOT NULL,
   line_count INTEGER NOT NULL,
   triangle_count INTEGER NOT NULL,

@@ -21,13 +21,14 @@ wire::PlanVersionView version_of(SQLite::Statement& row) {
   one.format = text(row, 1);
   one.created_us = integer(row, 2);
   one.by = text(row, 3);
-  one.metres_per_unit = real(row, 4);
+  one.metres_per_unit = optional_number(row, 4);
   one.wall_height_m = real(row, 5);
   one.lines = integer(row, 6);
   one.triangles = integer(row, 7);
   one.least_m = {real(row, 8), real(row, 9), real(row, 10)};
   one.most_m = {real(row, 11), real(row, 12), real(row, 13)};
   one.bytes = integer(row, 14);
+  if (const auto up = optional_text(row, 15)) one.up = wire::kPlanUpNames.find(*up);
   return one;
 }
 
@@ -36,7 +37,7 @@ void fill_plan(SQLite::Database& database, wire::PlanView& plan) {
   SQLite::Statement row = prepared(
       database,
       "SELECT version, format, created_us, author, metres_per_unit, wall_height_m, line_count, triangle_count, "
-      "min_x_m, min_y_m, min_z_m, max_x_m, max_y_m, max_z_m, length(contents) FROM plan_versions "
+      "min_x_m, min_y_m, min_z_m, max_x_m, max_y_m, max_z_m, length(contents), up FROM plan_versions "
       "WHERE plan = ? ORDER BY version",
       plan.id);
   while (row.executeStep()) plan.versions.push_back(version_of(row));
@@ -54,14 +55,15 @@ wire::PlanView need_plan(SQLite::Database& database, const PlanId& id) {
 
 void insert_version(SQLite::Database& database, const PlanId& plan, const wire::PlanVersionView& one,
                     std::span<const std::uint8_t> file) {
-  SQLite::Statement insert = prepared(
-      database,
-      "INSERT INTO plan_versions (plan, version, format, created_us, author, metres_per_unit, wall_height_m, "
-      "line_count, triangle_count, min_x_m, min_y_m, min_z_m, max_x_m, max_y_m, max_z_m, contents) "
-      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-      plan, one.version, one.format, one.created_us, one.by, one.metres_per_unit, one.wall_height_m, one.lines,
-      one.triangles, one.least_m.x(), one.least_m.y(), one.least_m.z(), one.most_m.x(), one.most_m.y(), one.most_m.z());
-  insert.bind(16, file.data(), static_cast<int>(file.size()));
+  SQLite::Statement insert =
+      prepared(database,
+               "INSERT INTO plan_versions (plan, version, format, created_us, author, metres_per_unit, wall_height_m, "
+               "line_count, triangle_count, min_x_m, min_y_m, min_z_m, max_x_m, max_y_m, max_z_m, up, contents) "
+               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+               plan, one.version, one.format, one.created_us, one.by, one.metres_per_unit, one.wall_height_m, one.lines,
+               one.triangles, one.least_m.x(), one.least_m.y(), one.least_m.z(), one.most_m.x(), one.most_m.y(),
+               one.most_m.z(), one.up ? std::optional(std::string(wire::kPlanUpNames.name(*one.up))) : std::nullopt);
+  insert.bind(17, file.data(), static_cast<int>(file.size()));
   insert.exec();
 }
 

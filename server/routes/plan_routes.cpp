@@ -22,7 +22,7 @@ constexpr double kFarthest_m = 100'000.0;
 constexpr std::int64_t kLastVersion = 1'000'000;
 
 PlanId plan_in(const Request& request) { return PlanId(request.parameter("plan")); }
-MapId map_in(const Request& request) { return MapId(request.parameter("map")); }
+MapId tied_map_in(const Request& request) { return MapId(request.parameter("map")); }
 
 std::string query_of(const Request& request, const std::string& name) {
   const auto found = request.query.find(name);
@@ -30,22 +30,22 @@ std::string query_of(const Request& request, const std::string& name) {
 }
 
 template <class Number>
-std::optional<Number> number_in(std::string_view text) {
+std::optional<Number> parsed_number(std::string_view text) {
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
 }
 
-/// A number of the query from `least`, which itself counts only where it is negative, to `most`; `otherwise` where it
-/// is absent.
-Result<double> number_of(const Request& request, const std::string& name, double least, double most, double otherwise) {
+/// A number of the query from `least`, which itself counts only where it is negative, to `most`; nothing where it is
+/// absent.
+Result<std::optional<double>> number_of(const Request& request, const std::string& name, double least, double most) {
   const std::string text = query_of(request, name);
-  if (text.empty()) return otherwise;
-  const auto value = number_in<double>(text);
+  if (text.empty()) return std::optional<double>();
+  const auto value = parsed_number<double>(text);
   const bool fits =
       value && std::isfinite(*value) && *value <= most && (least < 0.0 ? *value >= least : *value > least);
-  if (fits) return *value;
+  if (fits) return value;
   const std::string words = least < 0.0 ? "from " + std::to_string(std::lround(least)) + " to " : "above 0 and up to ";
   return fail(ErrorCode::kInvalidInput, "'" + name + "' is a number " + words + std::to_string(std::lround(most)) + ".",
               "query/" + name);
@@ -54,7 +54,7 @@ Result<double> number_of(const Request& request, const std::string& name, double
 Result<std::optional<std::int64_t>> version_in(const Request& request) {
   const std::string text = query_of(request, "version");
   if (text.empty()) return std::optional<std::int64_t>();
-  const auto version = number_in<std::int64_t>(text);
+  const auto version = parsed_number<std::int64_t>(text);
   if (version && *version >= 1 && *version <= kLastVersion) return version;
   return fail(ErrorCode::kInvalidInput, "A version is a whole number from 1.", "query/version");
 }
@@ -69,12 +69,17 @@ Result<PlanUpload> upload_in(const Request& request) {
     return fail(ErrorCode::kInvalidInput, "'format' says how the name of the file ends, such as wrl or svg.",
                 "query/format");
   }
-  const auto unit = number_of(request, "metres_per_unit", 0.0, 1000.0, upload.metres_per_unit);
+  const auto unit = number_of(request, "metres_per_unit", 0.0, 1000.0);
   if (!unit) return pass_on(unit);
-  const auto height = number_of(request, "wall_height_m", 0.0, 100.0, upload.wall_height_m);
+  const auto height = number_of(request, "wall_height_m", 0.0, 100.0);
   if (!height) return pass_on(height);
+  const std::string up = query_of(request, "up");
+  if (!up.empty()) {
+    upload.up = wire::kPlanUpNames.find(up);
+    if (!upload.up) return fail(ErrorCode::kInvalidInput, "'up' is y or z.", "query/up");
+  }
   upload.metres_per_unit = *unit;
-  upload.wall_height_m = *height;
+  upload.wall_height_m = height->value_or(upload.wall_height_m);
   upload.by = request.caller.name;
   upload.file = request.bytes();
   return upload;
@@ -136,12 +141,12 @@ Response plan_lines(PlanService& plans, const Request& request) {
   const auto asked = version_in(request);
   if (!asked) return problem_of(asked);
   linemodel::HeightRange heights;
-  const auto from = number_of(request, "from_z_m", -kFarthest_m, kFarthest_m, -kFarthest_m);
+  const auto from = number_of(request, "from_z_m", -kFarthest_m, kFarthest_m);
   if (!from) return problem_of(from);
-  const auto to = number_of(request, "to_z_m", -kFarthest_m, kFarthest_m, kFarthest_m);
+  const auto to = number_of(request, "to_z_m", -kFarthest_m, kFarthest_m);
   if (!to) return problem_of(to);
-  heights.from_m = static_cast<float>(*from);
-  heights.to_m = static_cast<float>(*to);
+  if (*from) heights.from_m = static_cast<float>(**from);
+  if (*to) heights.to_m = static_cast<float>(**to);
   const auto version = plans.version(plan_in(request), *asked);
   if (!version) return problem_of(version);
   const std::string tag = wire::entity_tag('v', version->version);
@@ -171,7 +176,7 @@ Response tie_map(PlanService& plans, const Request& request) {
   if (!body) return not_json(body.error());
   const auto tie = wire::plan_tie_from_json(*body);
   if (!tie) return problem_of(tie);
-  return map_plan_response(plans.tie(map_in(request), *tie, request.caller.name));
+  return map_plan_response(plans.tie(tied_map_in(request), *tie, request.caller.name));
 }
 
 }  // namespace
@@ -191,11 +196,11 @@ void add_plan_routes(Router& router, PlanService& plans, db::Store& store) {
   router.add({operation("add_plan_version"), [p](Request& request) { return add_version(*p, request); }});
   router.add({operation("get_plan_file"), [p, db](Request& request) { return plan_file(*p, *db, request); }});
   router.add({operation("get_plan_lines"), [p](Request& request) { return plan_lines(*p, request); }});
-  router.add(
-      {operation("get_map_plan"), [p](Request& request) { return map_plan_response(p->map_plan(map_in(request))); }});
+  router.add({operation("get_map_plan"),
+              [p](Request& request) { return map_plan_response(p->map_plan(tied_map_in(request))); }});
   router.add({operation("tie_map"), [p](Request& request) { return tie_map(*p, request); }});
   router.add({operation("untie_map"), [p](Request& request) {
-                const Status untied = p->untie(map_in(request));
+                const Status untied = p->untie(tied_map_in(request));
                 return untied ? empty_response(204) : problem_of(untied);
               }});
 }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "linemodel/read_vrml.hpp"
+#include "linemodel/read_plan.hpp"
 #include "map/lookup.hpp"
 
 namespace homeward::server {
@@ -11,10 +11,13 @@ namespace {
 
 constexpr std::size_t kMostKept = 2;  // plans in memory, of some megabytes each
 
-Result<linemodel::Plan> read(const PlanUpload& upload) {
+Result<linemodel::Plan> read_upload(const PlanUpload& upload) {
   const std::string_view text(reinterpret_cast<const char*>(upload.file.data()), upload.file.size());
-  if (upload.format != "wrl") return fail(ErrorCode::kUnsupportedFormat, "A plan is a .wrl file.", "query/format");
-  return linemodel::read_vrml(text, linemodel::PlanUp::kZ, "body");
+  linemodel::ReadPlanConfig config;
+  if (upload.up) config.up = *upload.up == wire::PlanUp::kY ? linemodel::PlanUp::kY : linemodel::PlanUp::kZ;
+  config.metres_per_unit = upload.metres_per_unit;
+  config.wall_height_m = upload.wall_height_m;
+  return linemodel::read_plan(text, upload.format, config, "body");
 }
 
 wire::PlanVersionView described(const PlanUpload& upload, const linemodel::Plan& plan, TimeUs now_us) {
@@ -24,6 +27,7 @@ wire::PlanVersionView described(const PlanUpload& upload, const linemodel::Plan&
   version.by = upload.by;
   version.bytes = static_cast<std::int64_t>(upload.file.size());
   version.metres_per_unit = upload.metres_per_unit;
+  version.up = upload.up;
   version.wall_height_m = upload.wall_height_m;
   version.lines = static_cast<std::int64_t>(plan.lines.size());
   version.triangles = static_cast<std::int64_t>(plan.triangles.rows());
@@ -64,7 +68,7 @@ Result<std::vector<map::PlanPin>> pins_of(const map::TopologicalMap& map, const 
 }  // namespace
 
 Result<wire::PlanView> PlanService::add(const std::string& name, const PlanUpload& upload) {
-  const auto read_plan = read(upload);
+  const auto read_plan = read_upload(upload);
   if (!read_plan) return pass_on(read_plan);
   wire::PlanView plan;
   plan.name = name;
@@ -75,7 +79,7 @@ Result<wire::PlanView> PlanService::add(const std::string& name, const PlanUploa
 
 Result<wire::PlanView> PlanService::add_version(const wire::PlanId& id, const PlanUpload& upload) {
   if (const auto known = store_.plan(id); !known) return known;
-  const auto read_plan = read(upload);
+  const auto read_plan = read_upload(upload);
   if (!read_plan) return pass_on(read_plan);
   return store_.add_plan_version(id, described(upload, *read_plan, clock_.wall_us()), upload.file);
 }
@@ -97,7 +101,8 @@ Result<PlanService::Lines> PlanService::lines_of(const wire::PlanId& id, const w
   }
   const auto file = store_.plan_file(id, version.version);
   if (!file) return pass_on(file);
-  auto plan = read({version.format, version.metres_per_unit, version.wall_height_m, version.by, *file});
+  auto plan =
+      read_upload({version.format, version.metres_per_unit, version.up, version.wall_height_m, version.by, *file});
   if (!plan) {
     return fail(ErrorCode::kCorruptFile, "The kept plan cannot be read: " + plan.error().message, "plans/" + id.str());
   }

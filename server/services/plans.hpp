@@ -21,9 +21,10 @@ namespace homeward::server {
 
 /// A file of a plan as somebody sends it.
 struct PlanUpload {
-  std::string format;  // how its name ends, in lower case: "wrl"
-  double metres_per_unit = 1.0;
-  double wall_height_m = 2.5;  // of a flat drawing
+  std::string format;                     // how its name ends, in lower case: "wrl"
+  std::optional<double> metres_per_unit;  // nothing: 1, or as the file itself says
+  std::optional<wire::PlanUp> up;         // nothing: as is usual in its format
+  double wall_height_m = 2.5;             // of a flat drawing
   std::string by;
   std::span<const std::uint8_t> file;
 };

@@ -14,16 +14,17 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kFarthest_m = 100'000.0;
+constexpr double kFarthestPin_m = 100'000.0;
 constexpr double kMostTheta_rad = 3.15;
 
-json version_to_json(const PlanVersionView& one) {
+json plan_version_to_json(const PlanVersionView& one) {
   return {{"version", one.version},
           {"format", one.format},
           {"created_us", one.created_us},
           {"by", one.by},
           {"bytes", one.bytes},
-          {"metres_per_unit", one.metres_per_unit},
+          {"metres_per_unit", or_null(one.metres_per_unit)},
+          {"up", one.up ? json(kPlanUpNames.name(*one.up)) : json(nullptr)},
           {"wall_height_m", one.wall_height_m},
           {"lines", one.lines},
           {"triangles", one.triangles},
@@ -55,8 +56,8 @@ PlanPinRequest pin_request(ObjectReader& reader) {
   if (pin.place.empty() && pin.image.empty()) {
     reader.problem(of_place ? "place" : "image", "A pin names a place or a picture.");
   }
-  pin.position_m.x() = reader.number("x_m", -kFarthest_m, kFarthest_m);
-  pin.position_m.y() = reader.number("y_m", -kFarthest_m, kFarthest_m);
+  pin.position_m.x() = reader.number("x_m", -kFarthestPin_m, kFarthestPin_m);
+  pin.position_m.y() = reader.number("y_m", -kFarthestPin_m, kFarthestPin_m);
   pin.theta_rad = heading_in(reader);
   return pin;
 }
@@ -65,7 +66,7 @@ PlanPinRequest pin_request(ObjectReader& reader) {
 
 json plan_info_to_json(const PlanView& plan) {
   json versions = json::array();
-  for (const PlanVersionView& one : plan.versions) versions.push_back(version_to_json(one));
+  for (const PlanVersionView& one : plan.versions) versions.push_back(plan_version_to_json(one));
   return {{"id", plan.id.str()},
           {"name", plan.name},
           {"created_us", plan.created_us},
@@ -136,8 +137,8 @@ Result<std::vector<map::PlanPin>> plan_pins_from_json(const json& value, const s
     ObjectReader reader(value[i], path + "/" + std::to_string(i));
     map::PlanPin pin;
     pin.image = ImageId(reader.text("image", 600));
-    pin.position_m.x() = reader.number("x_m", -kFarthest_m, kFarthest_m);
-    pin.position_m.y() = reader.number("y_m", -kFarthest_m, kFarthest_m);
+    pin.position_m.x() = reader.number("x_m", -kFarthestPin_m, kFarthestPin_m);
+    pin.position_m.y() = reader.number("y_m", -kFarthestPin_m, kFarthestPin_m);
     pin.theta_rad = heading_in(reader);
     if (const Status status = reader.finish(); !status) return pass_on(status);
     pins.push_back(std::move(pin));

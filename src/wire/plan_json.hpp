@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/enum_names.hpp"
 #include "core/ids.hpp"
 #include "core/result.hpp"
 #include "core/time.hpp"
@@ -21,15 +22,21 @@ inline constexpr std::size_t kMaxPlanSegments = 20'000;
 inline constexpr std::size_t kMaxPlanPins = 1000;
 inline constexpr std::size_t kMaxPlanVersions = 100;
 
+/// Which axis of a file points up.
+enum class PlanUp { kY, kZ };
+
+inline constexpr EnumNames<PlanUp, 2> kPlanUpNames({"y", "z"});
+
 /// One upload of a plan. Frame of the plan: metres, z up, floor at z = 0.
 struct PlanVersionView {
   std::int64_t version = 1;  // from 1
   std::string format;        // of its file, by the ending of its name: "wrl"
   TimeUs created_us = 0;
-  std::string by;          // who uploaded it
-  std::int64_t bytes = 0;  // of the file
-  double metres_per_unit = 1.0;
-  double wall_height_m = 2.5;  // of a flat drawing
+  std::string by;                         // who uploaded it
+  std::int64_t bytes = 0;                 // of the file
+  std::optional<double> metres_per_unit;  // nothing: 1, or as the file itself says
+  std::optional<PlanUp> up;               // nothing: as is usual in its format
+  double wall_height_m = 2.5;             // of a flat drawing
   std::int64_t lines = 0;
   std::int64_t triangles = 0;
   Eigen::Vector3d least_m = Eigen::Vector3d::Zero();  // corners of the box around its lines

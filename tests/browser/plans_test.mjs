@@ -207,6 +207,8 @@ const checks = [
         const small = page.getByRole('region', { name: 'Floor plan' });
         await small.getByRole('img', { name: /The chair is in the hall/ }).waitFor();
         assert.equal(await sign(page, 'goal').count(), 0);
+        const { width, height } = await paper(page).boundingBox();
+        assert.ok(Math.abs(width / height - 1) < 0.02, `a square house is drawn ${width} by ${height}`);
         const before = await shareOf(page, sign(page, 'chair'));
         await page.getByRole('button', { name: /Kitchen/ }).click();
         await small.getByRole('img', { name: /It goes to Kitchen/ }).waitFor();

@@ -27,10 +27,15 @@ PlanVersionView sample_version(std::int64_t version) {
 }
 
 TEST(PlanEncoders, WritePlansThatTheSchemaAccepts) {
-  const PlanView plan{PlanId("plan1"), "Ground floor", 7, {MapId("house")}, {sample_version(1), sample_version(2)}};
+  PlanView plan{PlanId("plan1"), "Ground floor", 7, {MapId("house")}, {sample_version(1), sample_version(2)}};
+  plan.versions[1].up = PlanUp::kY;
+  plan.versions[1].metres_per_unit = std::nullopt;
   const json value = plan_info_to_json(plan);
   EXPECT_THAT(schemas().problems("plan_info", value), IsEmpty());
   EXPECT_EQ(value["versions"][1]["version"], 2);
+  EXPECT_EQ(value["versions"][1]["up"], "y");
+  EXPECT_TRUE(value["versions"][0]["up"].is_null());
+  EXPECT_TRUE(value["versions"][1]["metres_per_unit"].is_null());
   EXPECT_EQ(value["versions"][0]["extent"]["min_y_m"], -2.0);
 }
 

@@ -19,6 +19,7 @@ class StorePlans : public StoreTest {
     one.created_us = 7;
     one.by = "anna";
     one.metres_per_unit = 0.01;
+    one.up = wire::PlanUp::kY;
     one.wall_height_m = 2.75;
     one.lines = 4;
     one.triangles = 8;
@@ -57,6 +58,7 @@ TEST_F(StorePlans, OutliveTheProgram) {
   EXPECT_EQ(one.by, "anna");
   EXPECT_EQ(one.bytes, 6);
   EXPECT_EQ(one.metres_per_unit, 0.01);
+  EXPECT_EQ(one.up, wire::PlanUp::kY);
   EXPECT_EQ(one.wall_height_m, 2.75);
   EXPECT_EQ(one.lines, 4);
   EXPECT_EQ(one.triangles, 8);
@@ -79,11 +81,15 @@ TEST_F(StorePlans, KeepEveryVersionAsItWasUploaded) {
   const std::vector<std::uint8_t> other = {'#', 'V'};
   wire::PlanVersionView next = version();
   next.format = "wrl";
+  next.metres_per_unit = std::nullopt;
+  next.up = std::nullopt;
   ASSERT_EQ(store().add_plan_version(id, next, other)->versions.size(), 2U);
   open();
   const wire::PlanView plan = store().plan(id).value();
   EXPECT_EQ(plan.versions[1].version, 2);
   EXPECT_EQ(plan.versions[1].format, "wrl");
+  EXPECT_FALSE(plan.versions[1].metres_per_unit);
+  EXPECT_FALSE(plan.versions[1].up);
   EXPECT_EQ(store().plan_file(id, 1).value(), file_);
   EXPECT_EQ(store().plan_file(id, 2).value(), other);
   EXPECT_EQ(store().plan_file(id, 3).error().code, ErrorCode::kNotFound);

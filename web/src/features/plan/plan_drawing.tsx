@@ -22,6 +22,7 @@ interface Props {
 const kZooms = [1, 1.5, 2, 3, 4, 6];
 const kRadii = { place: 4, pinned: 6, chosen: 9, chair: 11, goal: 9 } as const;
 const kText_px = 14;
+const kSmall_px = 340; // high at most
 
 const isDot = ({ kind, label }: Mark) => kind === 'place' && label === '';
 
@@ -44,7 +45,9 @@ export function PlanDrawing({ lines, marks, way = [], words, small = false, onPr
       pressedAt(bounds, (event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height),
     );
   };
-  const factor = small ? 1 : (kZooms[zoom] ?? 1);
+  const width = small
+    ? `min(100%, ${Math.round((kSmall_px * width_m) / height_m)}px)`
+    : `${100 * (kZooms[zoom] ?? 1)}%`;
   return (
     <div class="stack tight">
       {/* Scrolled by keys as well. */}
@@ -56,7 +59,7 @@ export function PlanDrawing({ lines, marks, way = [], words, small = false, onPr
       >
         <div
           class={onPress ? 'floor-plan-paper pressed' : 'floor-plan-paper'}
-          style={{ width: `${100 * factor}%`, aspectRatio: `${width_m} / ${height_m}` }}
+          style={{ width, aspectRatio: `${width_m} / ${height_m}` }}
           data-testid="floor-plan"
           onClick={onPress ? press : undefined}
         >
