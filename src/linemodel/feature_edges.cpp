@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "linemodel/crossing_edges.hpp"
 #include "linemodel/rim_edges.hpp"
 #include "linemodel/solids.hpp"
 #include "linemodel/welded_mesh.hpp"
@@ -246,8 +248,9 @@ std::vector<PlanLine> without_doubles(std::vector<PlanLine> lines, float within_
 std::vector<PlanLine> feature_edges(const raycast::Vertices& vertices_m, const raycast::Triangles& triangles,
                                     const FeatureEdgesConfig& config) {
   if (triangles.rows() == 0) return {};
-  const WeldedMesh mesh = weld(vertices_m, triangles, config.weld_m);
-  const std::vector<RimEdge> edges = rim_edges(mesh, config.crease_rad);
+  WeldedMesh mesh = weld(vertices_m, triangles, config.weld_m);
+  std::vector<RimEdge> edges = rim_edges(mesh, config.crease_rad);
+  std::ranges::move(crossing_edges(mesh, config.crease_rad), std::back_inserter(edges));
   const Judge judge(mesh, config);
   std::vector<PlanLine> lines;
   for (const Chain& chain : Chains(mesh.points_m, edges).take()) {

@@ -50,6 +50,11 @@ SOUND = {
         b"Shape { appearance NULL geometry Text { string \"a\\\"b\" } }\nCollision { collide TRUE children [ ] } # end",
         b"\x00#VRML V2.0 utf8\nShape { geometry IndexedFaceSet { convex FALSE coord Coordinate { point [ 0 0 0 2 0 0 2 1 0 1 1 0 1 2 0 0 2 0 ] }\n"
         b"coordIndex [ 0 1 2 3 4 5 -1 5 3 1 0 -1 ] } }",
+        b"\x02<svg xmlns='http://www.w3.org/2000/svg' width='10m' viewBox='0 0 100 80'>\n<g transform='translate(1 2) rotate(30, 1 1) scale(2)'>"
+        b"<path d='M0 0h10v-5l1,1 .5-.5C1 2 3 4 5 6A1 1 0 0 1 9 9z m1 1 2 2'/></g><rect x='1' y='2' width='30' height='20'/>"
+        b"<polyline points='0,0 1,1 2 0'/><polygon points='0 0 9 0 9 9'/><line x1='1' x2='2px' y1='0' y2='3'/></svg>",
+        b"\x02<!DOCTYPE svg [<!ENTITY a 'M0 0L9 9'>]><svg><g display='none' transform='matrix(1 0 0 1 2 3) skewX(9)'><path d='M0 0H1'/></g>"
+        b"<path d='&a;'/><defs/><text>a</text></svg>", b"\x02<svg><use href='#a'/></svg>",
         b"\x00#VRML V2.0 utf8\nInline { url \"a.wrl\" }", b"\x00#VRML V1.0 ascii\n",
         b"\x00#VRML V2.0 utf8\nShape { geometry IndexedLineSet { coord Coordinate { point [ 0 0 0 1e5 -1.5e-3 +0.5 ] } coordIndex [ 0 1 7 ] } }"],
     "recorded_texts": [b"\x00{}", b"\x01{}", b"\x02{}"],

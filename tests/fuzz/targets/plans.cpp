@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/targets/require.hpp"
+#include "linemodel/read_svg.hpp"
 #include "linemodel/read_vrml.hpp"
 #include "linemodel/write_vrml.hpp"
 
@@ -24,9 +25,11 @@ void sound_plan(const linemodel::Plan& plan) {
 }  // namespace
 
 void drawn_plans(Input input) {
-  const Choice choice = choose(input, 2);
+  const Choice choice = choose(input, 3);
+  const std::string text = choice.text();
   const auto up = choice.which == 0 ? linemodel::PlanUp::kZ : linemodel::PlanUp::kY;
-  const auto plan = linemodel::read_vrml(choice.text(), up, "plan.wrl");
+  const auto plan = choice.which == 2 ? linemodel::read_svg(text, {0.01, 2.5}, "plan.svg")
+                                      : linemodel::read_vrml(text, up, "plan.wrl");
   require_value_or_sentence(plan);
   if (!plan) return;
   sound_plan(*plan);

@@ -24,7 +24,7 @@ void tables(Input input);          // CSV, grey maps, sweeps and lists of tours:
 void map_files(Input input);       // SQLite: a sound one with what the input says changed
 void recordings(Input input);      // the same
 void recorded_texts(Input input);  // settings and memory in a recording: the first byte says which
-void drawn_plans(Input input);     // VRML97, each way up: the first byte says which
+void drawn_plans(Input input);     // VRML97, z or y up, and SVG: the first byte says which
 
 struct Target {
   std::string_view name;

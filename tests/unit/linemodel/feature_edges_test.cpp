@@ -78,6 +78,19 @@ TEST(FeatureEdges, InsideOfSolidsAreLeftOut) {
   EXPECT_GT(drawn_share(lines, {1, -1, 1}, {1, 0, 1}), 0.95F);
 }
 
+TEST(FeatureEdges, AreAlsoWhereSurfacesGoThroughOneAnother) {
+  MeshOfBoxes mesh;
+  mesh.quad({0, 0, 2.5F}, {5, 0, 2.5F}, {5, 4, 2.5F}, {0, 4, 2.5F});  // a ceiling, and a wall that goes on above it
+  mesh.quad({1, 3, 0}, {4, 3, 0}, {4, 3, 2.8F}, {1, 3, 2.8F});
+  const auto lines = lines_of(mesh);
+  EXPECT_GT(drawn_share(lines, {1, 3, 2.5F}, {4, 3, 2.5F}), 0.99F);
+  EXPECT_EQ(lines.size(), 9U);
+  MeshOfBoxes touching;
+  touching.quad({0, 0, 2.5F}, {5, 0, 2.5F}, {5, 4, 2.5F}, {0, 4, 2.5F});
+  touching.quad({1, 3, 0}, {4, 3, 0}, {4, 3, 2.5F}, {1, 3, 2.5F});
+  EXPECT_EQ(lines_of(touching).size(), 8U) << "the wall's top is an edge of its own";
+}
+
 TEST(FeatureEdges, OfARoundColumnAreNotItsSides) {
   MeshOfBoxes mesh;
   constexpr int kSides = 12;
