@@ -38,6 +38,7 @@ packages=(
   libssl-dev
   zlib1g-dev
   libassimp-dev
+  libexpat1-dev
   libembree-dev
   libtbb-dev
   libgtest-dev

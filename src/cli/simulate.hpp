@@ -16,6 +16,7 @@ namespace homeward::cli {
 void register_simulate_tour(CLI::App& simulate);
 void register_simulate_grid(CLI::App& simulate);
 void register_simulate_run(CLI::App& simulate);
+void register_simulate_plan(CLI::App& simulate);
 
 /// What tours and grids have in common on the command line.
 struct StageOptions {

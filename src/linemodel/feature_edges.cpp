@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "linemodel/crossing_edges.hpp"
 #include "linemodel/rim_edges.hpp"
+#include "linemodel/solids.hpp"
 #include "linemodel/welded_mesh.hpp"
 
 namespace homeward::linemodel {
@@ -99,7 +102,8 @@ class Chains {
 /// Whether somebody who looks at an edge sees a surface end or bend there.
 class Judge {
  public:
-  Judge(const raycast::RayScene& scene, const FeatureEdgesConfig& config) : scene_(scene), config_(config) {}
+  Judge(const WeldedMesh& mesh, const FeatureEdgesConfig& config)
+      : mesh_(mesh), config_(config), skins_(skins_of_solids(mesh)), scene_(scene_of(mesh)) {}
 
   [[nodiscard]] bool shows(const Eigen::Vector3f& at_m, const Eigen::Vector3f& axis,
                            const std::vector<Eigen::Vector3f>& faces) const {
@@ -133,22 +137,48 @@ class Judge {
     const auto around = [&](float angle_rad) {
       return Eigen::Vector3f(std::cos(angle_rad) * x + std::sin(angle_rad) * y);
     };
-    const Eigen::Vector3f middle = around(begin_rad + 0.5F * width_rad);
-    const Eigen::Vector3f eye_m = at_m + kOff_m * middle;
     int open = 0;
     for (int i = 0; i < kAround; ++i) {
       const float share = (static_cast<float>(i) + 0.5F) / static_cast<float>(kAround);
       const Eigen::Vector3f out = around(begin_rad + share * width_rad);
       for (const float slant_rad : kSlants_rad) {
         const Eigen::Vector3f direction = std::cos(slant_rad) * out + std::sin(slant_rad) * axis;
-        if (!scene_.blocked(eye_m, eye_m + config_.open_m * direction) && ++open == kNeeded) return true;
+        // From this side of what the edge may lie on.
+        const Eigen::Vector3f eye_m = at_m + kOff_m * out;
+        if (is_free(eye_m, direction) && ++open == kNeeded) return true;
       }
     }
     return false;
   }
 
-  const raycast::RayScene& scene_;
+  /// Whether one can look that way, and is not inside of a solid.
+  [[nodiscard]] bool is_free(const Eigen::Vector3f& eye_m, const Eigen::Vector3f& direction) const {
+    constexpr float kLargestSolid_m = 30.0F;
+    const auto hit = scene_.first_hit(eye_m, direction, kLargestSolid_m);
+    if (!hit) return true;
+    if (hit->distance_m < config_.open_m) return false;
+    if (!skins_[hit->triangle]) return true;
+    const auto& corners = mesh_.triangles[hit->triangle];
+    const auto point = [&](std::size_t k) { return mesh_.points_m[static_cast<std::size_t>(corners[k])]; };
+    return (point(1) - point(0)).cross(point(2) - point(0)).dot(direction) < 0.0F;
+  }
+
+  static raycast::RayScene scene_of(const WeldedMesh& mesh) {
+    raycast::Vertices vertices_m(static_cast<Eigen::Index>(mesh.points_m.size()), 3);
+    for (std::size_t i = 0; i < mesh.points_m.size(); ++i)
+      vertices_m.row(static_cast<Eigen::Index>(i)) = mesh.points_m[i].transpose();
+    raycast::Triangles triangles(static_cast<Eigen::Index>(mesh.triangles.size()), 3);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const auto& [a, b, c] = mesh.triangles[i];
+      triangles.row(static_cast<Eigen::Index>(i)) << a, b, c;
+    }
+    return {vertices_m, triangles};
+  }
+
+  const WeldedMesh& mesh_;
   const FeatureEdgesConfig& config_;
+  std::vector<bool> skins_;
+  raycast::RayScene scene_;
 };
 
 /// The stretches of a chain that show, as lines.
@@ -218,10 +248,10 @@ std::vector<PlanLine> without_doubles(std::vector<PlanLine> lines, float within_
 std::vector<PlanLine> feature_edges(const raycast::Vertices& vertices_m, const raycast::Triangles& triangles,
                                     const FeatureEdgesConfig& config) {
   if (triangles.rows() == 0) return {};
-  const WeldedMesh mesh = weld(vertices_m, triangles, config.weld_m);
-  const std::vector<RimEdge> edges = rim_edges(mesh, config.crease_rad);
-  const raycast::RayScene scene(vertices_m, triangles);
-  const Judge judge(scene, config);
+  WeldedMesh mesh = weld(vertices_m, triangles, config.weld_m);
+  std::vector<RimEdge> edges = rim_edges(mesh, config.crease_rad);
+  std::ranges::move(crossing_edges(mesh, config.crease_rad), std::back_inserter(edges));
+  const Judge judge(mesh, config);
   std::vector<PlanLine> lines;
   for (const Chain& chain : Chains(mesh.points_m, edges).take()) {
     if (chain.length_m() >= config.min_length_m) add_lines(lines, chain, edges, judge, config);

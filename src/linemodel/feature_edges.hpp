@@ -15,10 +15,10 @@ struct FeatureEdgesConfig {
   float open_m = 0.5F;         // how far one has to be able to look from an edge
 };
 
-/// The lines that a drawn plan shows of a mesh, metres: where its surfaces end or bend, in straight lines as long as
-/// they go on. The diagonals of flat faces, the seams between faces that go on as one, and edges that no one can look
-/// at from half a metre away because they lie inside walls or furniture are left out (ours: rays into each of the
-/// wedges of space around an edge). In no order that matters; the same mesh gives the same lines.
+/// The lines that a drawn plan shows of a mesh, metres: where its surfaces end, bend or cross, in straight lines as
+/// long as they go on. The diagonals of flat faces, the seams between faces that go on as one, and edges that no one
+/// can look at from half a metre away because they lie inside walls or furniture are left out (ours: rays into each of
+/// the wedges of space around an edge). In no order that matters; the same mesh gives the same lines.
 std::vector<PlanLine> feature_edges(const raycast::Vertices& vertices_m, const raycast::Triangles& triangles,
                                     const FeatureEdgesConfig& config = {});
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "linemodel/plan_builder.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -43,7 +44,8 @@ Status PlanBuilder::add_triangle(const std::array<Eigen::Vector3d, 3>& corners_m
   const Eigen::Vector3f a = corners_m[0].cast<float>();
   const Eigen::Vector3f b = corners_m[1].cast<float>();
   const Eigen::Vector3f c = corners_m[2].cast<float>();
-  if (a == b || b == c || a == c) return {};
+  const Eigen::Vector3d normal = (b.cast<double>() - a.cast<double>()).cross(c.cast<double>() - a.cast<double>());
+  if (!(normal.norm() > 0.0)) return {};
   if (triangles() >= kMostPlanTriangles)
     return fail(ErrorCode::kTooLarge, "The plan has more than 2,000,000 triangles.", where);
   corners_m_.insert(corners_m_.end(), {a, b, c});

@@ -14,8 +14,9 @@
 namespace homeward::linemodel {
 namespace {
 
-/// Nodes and indices that are looked at, each time that DEF and USE lead there.
-constexpr std::size_t kMostSteps = 100'000'000;
+/// Indices that are looked at, each time that DEF and USE lead there; a node counts as ten.
+constexpr std::size_t kMostSteps = 30'000'000;
+constexpr std::size_t kStepsOfNode = 10;
 
 constexpr std::array<std::string_view, 5> kGroups = {"Group", "Transform", "Anchor", "Billboard", "Collision"};
 constexpr std::array<std::string_view, 36> kWithoutEdges = {"Appearance",
@@ -88,7 +89,7 @@ class PlanOfTree {
 
   Status add_node(std::size_t index, const Eigen::Affine3d& world_from_parent) {
     const VrmlNode& node = tree_.nodes[index];
-    if (const Status counted = count_steps(1, node); !counted) return counted;
+    if (const Status counted = count_steps(kStepsOfNode, node); !counted) return counted;
     if (is_one_of(kGroups, node.type)) return add_group(node, world_from_parent);
     if (node.type == "Switch") return add_choice(node, world_from_parent);
     if (node.type == "LOD") {

@@ -40,6 +40,23 @@ SOUND = {
     "tables": [b"\x00filename,t_us\na.jpg,1\n", b"\x01P5\n# floor\n2 2\n255\nabcd", b"\x02filename,t_us\na.jpg,1\nb.jpg,2\n",
                b"\x03t_us,x_m,y_m,theta_rad\n1,0,0,0\n2,1.5,-0.25,3\n", b'\x04{"marks":[{"image":"a.jpg","label":"hall"}]}',
                b"\x05filename,r0,r1,r2\na.jpg,1.25,,12.000\n"],
+    "drawn_plans": [
+        b"\x00#VRML V2.0 utf8\nDEF P Transform { translation 1 2 3 rotation 0 0 1 1.5 center 1 0 0 scale 2 2 1 scaleOrientation 1 0 0 1\n"
+        b"children [ Shape { geometry IndexedLineSet { coord DEF C Coordinate { point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0 ] }\n"
+        b"coordIndex [ 0 1 2 3 0 -1 1 2 -1 ] } } ] }\nShape { geometry IndexedFaceSet { coord USE C coordIndex [ 0 1 2 -1 0 1 2 3 ] } }\nUSE P\n",
+        b"\x01#VRML V2.0 utf8\nPROTO X [ field SFFloat a 1 ] { Group { } }\nEXTERNPROTO Y [ ] [ \"y.wrl\" ]\n"
+        b"DEF S Switch { whichChoice 0 choice [ LOD { range [ 5 ] level [ Shape { geometry Box { size 1 2 3 } } ] } ] }\n"
+        b"ROUTE S.a TO S.b\nScript { url \"javascript:\" eventIn SFBool f }\nAnchor { children Billboard { children USE S } }\n"
+        b"Shape { appearance NULL geometry Text { string \"a\\\"b\" } }\nCollision { collide TRUE children [ ] } # end",
+        b"\x00#VRML V2.0 utf8\nShape { geometry IndexedFaceSet { convex FALSE coord Coordinate { point [ 0 0 0 2 0 0 2 1 0 1 1 0 1 2 0 0 2 0 ] }\n"
+        b"coordIndex [ 0 1 2 3 4 5 -1 5 3 1 0 -1 ] } }",
+        b"\x02<svg xmlns='http://www.w3.org/2000/svg' width='10m' viewBox='0 0 100 80'>\n<g transform='translate(1 2) rotate(30, 1 1) scale(2)'>"
+        b"<path d='M0 0h10v-5l1,1 .5-.5C1 2 3 4 5 6A1 1 0 0 1 9 9z m1 1 2 2'/></g><rect x='1' y='2' width='30' height='20'/>"
+        b"<polyline points='0,0 1,1 2 0'/><polygon points='0 0 9 0 9 9'/><line x1='1' x2='2px' y1='0' y2='3'/></svg>",
+        b"\x02<!DOCTYPE svg [<!ENTITY a 'M0 0L9 9'>]><svg><g display='none' transform='matrix(1 0 0 1 2 3) skewX(9)'><path d='M0 0H1'/></g>"
+        b"<path d='&a;'/><defs/><text>a</text></svg>", b"\x02<svg><use href='#a'/></svg>",
+        b"\x00#VRML V2.0 utf8\nInline { url \"a.wrl\" }", b"\x00#VRML V1.0 ascii\n",
+        b"\x00#VRML V2.0 utf8\nShape { geometry IndexedLineSet { coord Coordinate { point [ 0 0 0 1e5 -1.5e-3 +0.5 ] } coordIndex [ 0 1 7 ] } }"],
     "recorded_texts": [b"\x00{}", b"\x01{}", b"\x02{}"],
     "appearances": [bytes(6), b"\x00" + bytes([0, 0, 0, 44, 7])],
     "pictures": [bytes(7), b"\x01" + bytes(6), b"\x00\x00" + bytes([0, 0, 0, 160, 7])],

@@ -24,6 +24,7 @@ void tables(Input input);          // CSV, grey maps, sweeps and lists of tours:
 void map_files(Input input);       // SQLite: a sound one with what the input says changed
 void recordings(Input input);      // the same
 void recorded_texts(Input input);  // settings and memory in a recording: the first byte says which
+void drawn_plans(Input input);     // VRML97, z or y up, and SVG: the first byte says which
 
 struct Target {
   std::string_view name;
@@ -38,6 +39,7 @@ inline constexpr std::array kTargets{Target{"settings_files", settings_files},
                                      Target{"pictures", pictures},
                                      Target{"http_requests", http_requests},
                                      Target{"tables", tables},
+                                     Target{"drawn_plans", drawn_plans},
                                      Target{"map_files", map_files},
                                      Target{"recordings", recordings},
                                      Target{"recorded_texts", recorded_texts}};
