@@ -37,6 +37,7 @@ function tied(house) {
         by: 'anna',
         bytes: 900,
         metres_per_unit: 0.01,
+        up: null,
         wall_height_m: 2.5,
         lines: 16,
         triangles: 0,
@@ -158,6 +159,15 @@ const checks = [
       await card.getByRole('button', { name: 'Upload the plan' }).click();
       await card.getByText('16 lines').waitFor();
       assert.equal(house.plans[0].versions[0].metres_per_unit, 0.01);
+      await card.getByLabel('Name of the plan').fill('In space');
+      const add = page.getByRole('form', { name: 'Add a floor plan' });
+      await add.getByLabel('File', { exact: true }).setInputFiles(file('house.wrl', '#VRML V2.0 utf8'));
+      await add.getByLabel('Metres in a unit of the file').fill('');
+      await add.getByLabel('Which axis points up').selectOption('y');
+      await add.getByRole('button', { name: 'Upload the plan' }).click();
+      await card.getByText('In space', { exact: true }).waitFor();
+      const [version] = house.plans[1].versions;
+      assert.deepEqual([version.format, version.metres_per_unit, version.up], ['wrl', null, 'y']);
     }),
   ],
   [

@@ -272,18 +272,17 @@ export const plan = (of: string) => call<PlanInfo>(`/plans/${id(of)}`);
 export interface PlanUpload {
   file: File;
   format: string; // how its name ends
-  metres_per_unit: number;
+  metres_per_unit: number | null; // null: as the file itself says, else 1
+  up: 'y' | 'z' | null; // which axis of the file points up; null: as is usual in its format
   wall_height_m: number;
 }
-const sendPlan = (
-  path: string,
-  { file, format, metres_per_unit, wall_height_m }: PlanUpload,
-  name?: string,
-) => {
+const sendPlan = (path: string, upload: PlanUpload, name?: string) => {
+  const { file, format, metres_per_unit, up, wall_height_m } = upload;
   const query = new URLSearchParams({
     ...(name === undefined ? {} : { name }),
     format,
-    metres_per_unit: String(metres_per_unit),
+    ...(metres_per_unit === null ? {} : { metres_per_unit: String(metres_per_unit) }),
+    ...(up === null ? {} : { up }),
     wall_height_m: String(wall_height_m),
   });
   return call<PlanInfo>(`${path}?${query.toString()}`, {

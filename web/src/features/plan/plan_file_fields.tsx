@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useId, useState } from 'preact/hooks';
 import type { PlanUpload } from '../../api/calls';
-import { TextField } from '../../components/field';
+import { Choice, TextField } from '../../components/field';
 import { numberIn } from './pins';
 
 const kMost_mib = 16;
-const kFormats = ['wrl', 'vrml', 'svg', 'dxf', 'obj', 'ply', 'stl', 'glb'];
-const kFlat = new Set(['svg', 'dxf']);
+const kFormats = ['wrl', 'svg', 'glb', 'gltf', 'obj', 'ply', 'stl'];
+const kUps = [
+  { value: '', label: 'As usual in such files' },
+  { value: 'z', label: 'z' },
+  { value: 'y', label: 'y' },
+];
 
 export interface PlanFile {
   chosen: File | null;
   unit: string;
   height: string;
+  up: string;
   round: number; // a file field has no value to clear: a new one takes its place
   upload: PlanUpload | null; // once all of it is right
   trouble: string | null;
   choose: (file: File | null) => void;
   setUnit: (text: string) => void;
   setHeight: (text: string) => void;
+  setUp: (axis: string) => void;
   clear: () => void;
 }
 
@@ -26,23 +32,31 @@ const endingOf = (name: string) => (/\.([A-Za-z0-9]{1,8})$/.exec(name)?.[1] ?? '
 /** A file that is to become a plan, with what has to be said about it. */
 export function usePlanFile(): PlanFile {
   const [chosen, choose] = useState<File | null>(null);
-  const [unit, setUnit] = useState('1');
+  const [unit, setUnit] = useState('');
   const [height, setHeight] = useState('2.5');
+  const [up, setUp] = useState('');
   const [round, setRound] = useState(0);
-  const [metres_per_unit, wall_height_m] = [numberIn(unit, 1000), numberIn(height, 100)];
   const format = endingOf(chosen?.name ?? '');
-  const trouble = troubleOf(chosen, format, metres_per_unit, wall_height_m);
-  const whole = chosen && trouble === null && metres_per_unit !== null && wall_height_m !== null;
+  const unsaid = unit.trim() === '';
+  const metres_per_unit = unsaid ? null : numberIn(unit, 1000);
+  const wall_height_m = numberIn(height, 100);
+  const trouble = troubleOf(chosen, format, unsaid ? 1 : metres_per_unit, wall_height_m);
+  const axis = format !== 'svg' && (up === 'y' || up === 'z') ? up : null;
   return {
     chosen,
     unit,
     height,
     round,
-    upload: whole ? { file: chosen, format, metres_per_unit, wall_height_m } : null,
+    up,
+    upload:
+      chosen && trouble === null && wall_height_m !== null
+        ? { file: chosen, format, metres_per_unit, up: axis, wall_height_m }
+        : null,
     trouble,
     choose,
     setUnit,
     setHeight,
+    setUp,
     clear: () => {
       choose(null);
       setRound(round + 1);
@@ -62,7 +76,7 @@ function troubleOf(chosen: File | null, format: string, unit: number | null, hei
 
 export function PlanFileFields({ file, label }: { file: PlanFile; label: string }) {
   const id = useId();
-  const flat = kFlat.has(endingOf(file.chosen?.name ?? ''));
+  const format = endingOf(file.chosen?.name ?? '');
   return (
     <>
       <div class="field">
@@ -76,7 +90,8 @@ export function PlanFileFields({ file, label }: { file: PlanFile; label: string 
           onChange={(event) => file.choose(event.currentTarget.files?.[0] ?? null)}
         />
         <span class="hint small" id={`${id}-hint`}>
-          A drawing of the building from above, or its edges in space.
+          A drawing of the building from above (SVG), or its edges or walls in space (VRML97, glTF, OBJ, PLY,
+          STL).
         </span>
       </div>
       <div class="form-columns">
@@ -84,10 +99,15 @@ export function PlanFileFields({ file, label }: { file: PlanFile; label: string 
           label="Metres in a unit of the file"
           value={file.unit}
           onInput={file.setUnit}
+          required={false}
+          hint="Empty: as the file says, else 1."
           maxLength={20}
         />
-        {flat && (
+        {format === 'svg' && (
           <TextField label="Height of walls, m" value={file.height} onInput={file.setHeight} maxLength={20} />
+        )}
+        {format !== '' && format !== 'svg' && (
+          <Choice label="Which axis points up" value={file.up} onChange={file.setUp} options={kUps} />
         )}
       </div>
       {file.trouble !== null && <p class="warn-text">{file.trouble}</p>}

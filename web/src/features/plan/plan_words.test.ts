@@ -87,7 +87,15 @@ describe('what a plan shows', () => {
 
   it('says how large it is', () => {
     const extent = { min_x_m: -1, min_y_m: 0, min_z_m: 0, max_x_m: 13.25, max_y_m: 9.5, max_z_m: 2 };
-    const version = { version: 1, format: 'svg', created_us: 1, by: 'anna', bytes: 1, metres_per_unit: 1 };
+    const version = {
+      version: 1,
+      format: 'svg',
+      created_us: 1,
+      by: 'anna',
+      bytes: 1,
+      metres_per_unit: 1,
+      up: null,
+    };
     expect(sizeWords({ ...version, wall_height_m: 2.5, lines: 812, triangles: 0, extent })).toBe(
       '14 m by 9.50 m, 812 lines',
     );
