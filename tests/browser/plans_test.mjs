@@ -165,7 +165,7 @@ const checks = [
       await add.getByLabel('Metres in a unit of the file').fill('');
       await add.getByLabel('Which axis points up').selectOption('y');
       await add.getByRole('button', { name: 'Upload the plan' }).click();
-      await card.getByText('In space', { exact: true }).waitFor();
+      await card.getByText('In space', { exact: true }).first().waitFor();
       const [version] = house.plans[1].versions;
       assert.deepEqual([version.format, version.metres_per_unit, version.up], ['wrl', null, 'y']);
     }),
