@@ -27,7 +27,6 @@ enum class Lane {
 inline constexpr std::size_t kMaxSecretBody = 16UL * 1024;  // what a stranger may send: a name and a password
 inline constexpr std::size_t kMaxJsonBody = 1024UL * 1024;
 inline constexpr std::size_t kMaxImageBody = 32UL * 1024 * 1024;
-inline constexpr std::size_t kMaxPlanBody = 16UL * 1024 * 1024;
 inline constexpr std::size_t kMaxMapBody = 1024UL * 1024 * 1024;  // more than a map file of 50,000 places
 
 /// What holds of an operation whoever asks for it and whatever it does.

@@ -9,6 +9,8 @@
 
 namespace homeward::server {
 
+inline constexpr std::size_t kMaxPlanBody = 16UL * 1024 * 1024;  // a drawn plan of a large building
+
 /// Every operation of proto/openapi.yaml, in its order: who may call it, where its handler runs, how large a body it
 /// takes, and whether its answer holds a secret. A contract test compares roles and paths with the file.
 inline constexpr std::array kOperations = [] {

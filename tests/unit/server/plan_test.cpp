@@ -117,7 +117,7 @@ TEST_F(PlanTest, ViewersLookAndInstallersChange) {
   HttpClient vera = signed_in("vera", "viewer");
   HttpClient carl = signed_in("carl", "carer");
   HttpClient ines = signed_in("ines", "installer");
-  for (const std::string& part : {"", "/file", "/lines"}) EXPECT_EQ(vera.get(path(plan, part)).status, 200) << part;
+  for (const char* part : {"", "/file", "/lines"}) EXPECT_EQ(vera.get(path(plan, part)).status, 200) << part;
   EXPECT_EQ(upload(vera, "format=wrl&name=x", drawn_house()).status, 403);
   EXPECT_EQ(upload(carl, "format=wrl&name=x", drawn_house()).status, 403);
   EXPECT_EQ(carl.send("POST", path(plan, "/versions?format=wrl"), drawn_house()).status, 403);
