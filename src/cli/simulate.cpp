@@ -6,7 +6,8 @@
 namespace homeward::cli {
 
 void register_simulate(CLI::App& program) {
-  CLI::App* simulate = program.add_subcommand("simulate", "Tours, grids of pictures, drives and drawn plans of a simulated world");
+  CLI::App* simulate =
+      program.add_subcommand("simulate", "Tours, grids of pictures, drives and drawn plans of a simulated world");
   simulate->require_subcommand(1);
   register_simulate_tour(*simulate);
   register_simulate_grid(*simulate);

@@ -138,12 +138,13 @@ TEST(ChangedObjects, AreMovedAndTurnedWithinTheirRooms) {
 
 TEST(ChangedObjects, OfAMeshStayInTheirRoom) {
   const World room = mesh_room();
+  const std::vector<SceneObject> objects = objects_of(room);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const auto changed = change_objects(room, {0.0, 1.0, seed});
     ASSERT_TRUE(changed);
     EXPECT_EQ(changed->objects, 2);
     EXPECT_EQ(changed->moved, 2);
-    for (const Eigen::Index t : objects_of(room)[1].triangles) {
+    for (const Eigen::Index t : objects[1].triangles) {
       for (const Eigen::Vector3d& corner_m : corners_m(changed->scene, t)) {
         EXPECT_GT(corner_m.x(), 0.0);
         EXPECT_LT(corner_m.x(), 6.0);
