@@ -201,6 +201,31 @@ TEST(Repeating, FollowsATurnOnTheSpot) {
   EXPECT_EQ(said.arc, static_cast<int>(taught.path->arcs.size()) - 1);
 }
 
+/// Where a tour turned on the spot at a point of its way, and turned back while it drove on.
+std::vector<Pose2> swing() {
+  std::vector<Pose2> poses;
+  for (int i = 0; i < 4; ++i) poses.push_back({-2.0 + 0.1 * i, 0.0, 0.0});
+  for (int i = 1; i <= 5; ++i) poses.push_back({-1.7, 0.0, 0.09 * i});
+  for (int i = 1; i <= 12; ++i) poses.push_back({-1.7 + 0.07 * i, 0.0, std::max(0.0, 0.45 - 0.09 * i)});
+  return poses;
+}
+
+TEST(Repeating, LeavesATurnThatTheWayAfterItUndoesAlsoWhereItIsNotTurnedAsMuch) {
+  const Taught taught(swing());
+  Repeater repeater = taught.repeater();
+  ASSERT_TRUE(repeater.begin(0));
+  Repeated said;
+  for (int i = 0; i < static_cast<int>(taught.poses.size()); ++i) {
+    Pose2 pose = taught.poses[at(i)];
+    pose.theta_rad *= 0.7;
+    said = repeater.step(seen_from(pose)).value();
+    ASSERT_FALSE(said.is_lost()) << i;
+    EXPECT_LE(said.transitions, 3);
+  }
+  EXPECT_EQ(said.arc, static_cast<int>(taught.path->arcs.size()) - 1);
+  EXPECT_NEAR(said.progress, 1.0, 0.2);
+}
+
 TEST(Repeating, IsTheSameForTheSamePicturesAndCopiesAreIndependent) {
   const Taught& taught = taught_bend();
   Repeater first = taught.repeater();
@@ -246,10 +271,11 @@ TEST(RepeatConfig, NamesItsProblems) {
   bad.reach = -1;
   bad.fewest_features = 3;
   bad.back = 0.1;
+  bad.clear_way_rad = 0.0;
   bad.pose.agree_rad = 0.0;
   bad.tracker.window_px = 8;
   bad.recognition->most_compared = 0;
-  EXPECT_EQ(problems(bad).size(), 6U);
+  EXPECT_EQ(problems(bad).size(), 7U);
 }
 
 }  // namespace
