@@ -31,6 +31,8 @@ ArcProgress progress_along(const ArcSurroundings& around, int from_key, const Ar
   const double seen_way = around.nearness * way.norm();
   ArcProgress progress;
   if (seen_way > kLeast) progress.of_way = way.dot(pose.position - from.position) / way.squaredNorm();
+  if (from.is_placed) progress.gone_rad = around.nearness * from.ahead.dot(pose.position - from.position);
+  if (seen_way > kLeast) progress.past_rad = progress.gone_rad - seen_way;
   if (seen_turn > kTurnsFrom * seen_way && seen_turn > kLeast) {
     const Eigen::Vector3d turned = turn_vector(from.local_from_key.transpose() * pose.local_from_current);
     progress.of_turn = turn.dot(turned) / turn.squaredNorm();

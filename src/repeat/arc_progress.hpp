@@ -14,6 +14,9 @@ struct ArcProgress {
       of_way;  // passes 1 where <d, r> becomes negative (Segvic et al. 2007, §2.2.3: d the way between
                // the key images, r that from the camera to the second); none on a turn on the spot
   std::optional<double> of_turn;  // only where nearly all that changes on the arc is by its turn
+  double gone_rad = 0.0;  // way made from the first key image in the arc's direction, over the landmarks' distance: by
+                          // how much it changes what is seen; 0 on a turn on the spot
+  std::optional<double> past_rad;  // of that, beyond the second key image; none where its distance is not known
   /// The turn's where the arc is one; 1 for an arc that leads nowhere.
   [[nodiscard]] double value() const { return of_turn ? *of_turn : of_way.value_or(1.0); }
 };

@@ -132,6 +132,10 @@ std::vector<KeyPose> key_poses(const TaughtPath& path, const ArcSurroundings& ar
   };
   for (int k = here + 1; k < static_cast<int>(keys.size()); ++k) place(k - 1, k);
   for (int k = here - 1; k >= 0; --k) place(k + 1, k);
+  for (int j = 0; j < range.count(); ++j) {
+    const Arc& arc = range.arc(path, j);
+    if (arc.has_baseline) keys[at(j)].ahead = keys[at(j)].local_from_key * arc.motion.target_in_current;
+  }
   return keys;
 }
 

@@ -26,6 +26,8 @@ struct KeyPose {
   Eigen::Matrix3d local_from_key = Eigen::Matrix3d::Identity();
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // in units of the surroundings
   bool is_placed = true;                               // without: units on the way there are not joined
+  Eigen::Vector3d ahead = Eigen::Vector3d::Zero();  // unit, where the way goes on; zero before a turn on the spot and
+                                                    // at the last of the surroundings
 };
 
 /// An arc with those before and after it in one frame, that of its first key image, and one unit: its length, or where

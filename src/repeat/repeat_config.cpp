@@ -26,6 +26,7 @@ std::vector<std::string> problems(const RepeatConfig& config) {
   expect(is_share(config.turned), "turned is not 0 to 1");
   expect(is_share(config.nearly_passed), "nearly_passed is not 0 to 1");
   expect(config.turning > 0.0 && config.turning <= 1.0, "turning is not above 0, to 1");
+  expect(config.clear_way_rad > 0.0, "clear_way_rad is not positive");
   expect(config.back <= 0.0, "back is more than 0");
   expect(config.most_transitions >= 1, "most_transitions is not positive");
   expect(config.most_from_predicted_rad > 0.0, "most_from_predicted_rad is not positive");

@@ -44,8 +44,10 @@ struct RepeatConfig {
   double turned = 0.5;            // share of a turn that is enough where the way along the arc is behind
   double nearly_passed = 0.7;     // progress that is enough where so much of a turn that follows is made already
   double turning = 0.4;
-  double back = -0.15;                    // progress below which the arc before is gone back to
-  int most_transitions = 3;               // in one picture
+  double clear_way_rad = 0.03;  // way, over the landmarks' distance, that tells an arc where its turn does not: whoever
+                                // drives on may turn back before a turn is made
+  double back = -0.15;          // progress below which the arc before is gone back to
+  int most_transitions = 3;     // in one picture
   double most_from_predicted_rad = 0.05;  // a feature found farther from where it was predicted is another one
   double most_from_start_rad = 0.2;       // the same while lost
   int most_predicted = 150;               // features looked for where they are predicted, in one picture

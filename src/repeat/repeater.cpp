@@ -64,6 +64,7 @@ Status Repeater::go_to(int arc, const ArcPose& pose) {
   around_ = std::move(around);
   pose_ = pose;
   behind_ = 0;
+  turned_most_ = 0.0;
   follower_.renew(*around_, pose_, references_);
   return {};
 }
@@ -144,8 +145,10 @@ int Repeater::predict(const tracking::ImagePyramid& picture, Located& located) {
 
 /// Whether the second key image of an arc is passed, and the path goes on there. On a turn that is also where half of
 /// the turn is made and the way is behind, and before a turn where it is made already: whoever repeats a path may be
-/// turned a little less, or turn a little sooner.
-bool Repeater::has_passed(int arc) const {
+/// turned a little less, or turn a little sooner. A turn that was made and is undone since, on the way after it, is
+/// made: there, and wherever a way is clearly made, the way tells more than the turn. `turned_most`: the most of the
+/// arc's turn that was seen.
+bool Repeater::has_passed(int arc, double turned_most) const {
   if (!path_->arc_after(arc)) return false;
   const ArcProgress progress = progress_along(*around_, arc_of(arc).from, pose_);
   if (progress.value() >= config_.passed) return true;
@@ -154,6 +157,8 @@ bool Repeater::has_passed(int arc) const {
   if (!progress.of_turn) {
     return progress.value() >= config_.nearly_passed && next.of_turn && *next.of_turn >= config_.turning;
   }
+  if (progress.past_rad && *progress.past_rad >= config_.clear_way_rad) return true;
+  if (!progress.of_way && turned_most >= config_.turned && next.gone_rad >= config_.clear_way_rad) return true;
   if (*progress.of_turn < config_.turned) return false;
   if (progress.of_way) return *progress.of_way >= config_.passed;
   return next.of_way && !next.of_turn && *next.of_way > -config_.back;
@@ -164,7 +169,9 @@ bool Repeater::is_before(int arc) const {
   const auto before = path_->arc_before(arc);
   const KeyPose* after = before ? around_->next_key(arc_of(*before).from) : nullptr;
   if (after == nullptr || after->key != arc_of(arc).from) return false;
-  return progress_along(*around_, arc_of(arc).from, pose_).value() < config_.back && !has_passed(*before);
+  const ArcProgress progress = progress_along(*around_, arc_of(arc).from, pose_);
+  if (progress.of_turn && progress.gone_rad >= config_.clear_way_rad) return false;
+  return progress.value() < config_.back && !has_passed(*before, 0.0);
 }
 
 /// Goes on to the arcs that the pose has come to. By how many.
@@ -172,7 +179,8 @@ Result<int> Repeater::pass_key_images(const tracking::ImagePyramid& picture, Loc
   int passed = 0;
   for (int i = 0; i < config_.most_transitions; ++i) {
     const int arc = around_->arc;
-    const bool goes_on = has_passed(arc);
+    turned_most_ = std::max(turned_most_, progress_along(*around_, arc_of(arc).from, pose_).of_turn.value_or(0.0));
+    const bool goes_on = has_passed(arc, turned_most_);
     const bool is_behind = !goes_on && is_before(arc);
     behind_ = is_behind ? behind_ + (i == 0 ? 1 : 0) : 0;
     if (!goes_on && behind_ < 2) break;

@@ -117,7 +117,7 @@ class Repeater {
   int predict(const tracking::ImagePyramid& picture, Located& located);
   void drop_what_disagrees(const Located& located);
   Result<int> pass_key_images(const tracking::ImagePyramid& picture, Located& located, int& predicted);
-  [[nodiscard]] bool has_passed(int arc) const;
+  [[nodiscard]] bool has_passed(int arc, double turned_most) const;
   [[nodiscard]] bool is_before(int arc) const;
   [[nodiscard]] Repeated answer(const Located& located) const;
 
@@ -131,6 +131,7 @@ class Repeater {
   LandmarkFollower follower_;
   ArcPose pose_;                                          // the last that was found
   std::shared_ptr<const tracking::ImagePyramid> latest_;  // the picture that it was found in; null before the first
+  double turned_most_ = 0.0;                              // of the actual arc's turn, since it is the actual one
   int behind_ = 0;    // pictures in a row that were behind the arc's first key image
   int lost_for_ = 0;  // pictures in a row
   int pictures_seen_ = 0;

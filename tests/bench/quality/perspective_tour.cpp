@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
+#include <numeric>
 #include <string>
 #include <variant>
 
@@ -57,6 +59,17 @@ double at_share(std::vector<double> values, double share) {
   const auto k = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
   return values[k];
+}
+
+void print_tenths(const char* name, const std::vector<double>& ms) {
+  constexpr std::size_t kParts = 10;
+  std::printf("%s: ms of each tenth", name);
+  for (std::size_t part = 0; part < kParts; ++part) {
+    const auto begin = static_cast<std::ptrdiff_t>(part * ms.size() / kParts);
+    const auto end = static_cast<std::ptrdiff_t>((part + 1) * ms.size() / kParts);
+    std::printf(" %.1f", at_share({ms.begin() + begin, ms.begin() + end}, 0.5));
+  }
+  std::printf("; %.0f pictures/s\n", 1e3 * static_cast<double>(ms.size()) / std::accumulate(ms.begin(), ms.end(), 0.0));
 }
 
 }  // namespace homeward::bench

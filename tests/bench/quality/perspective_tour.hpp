@@ -27,4 +27,7 @@ double cpu_ms();
 /// The value below which a share of the values lies; not a number without values.
 double at_share(std::vector<double> values, double share);
 
+/// A line: the median, in milliseconds, of each tenth of a drive's pictures, and pictures a second of all.
+void print_tenths(const char* name, const std::vector<double>& ms);
+
 }  // namespace homeward::bench

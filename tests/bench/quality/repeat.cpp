@@ -11,6 +11,8 @@
 //   --reach R       arcs on both sides whose features are tracked
 //   --begin ARC     -1: anywhere, by recognition; 0
 //   --from PICTURE  the first one that is shown; 0
+//   --only COUNT    the first pictures of the taught drive alone, and the ones beside them of the other
+//   --growth        also what a picture takes, by tenths of each drive
 //   --cover FROM COUNT SHARE   a share of COUNT pictures from FROM on is covered
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -21,6 +23,7 @@
 #include <memory>
 #include <numeric>
 #include <opencv2/core.hpp>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -42,11 +45,13 @@ struct Options {
   int width_px = 320;
   int begin = 0;
   int from = 0;
+  int only = -1;
   int cover_from = -1;
   int cover_count = 0;
   double cover_share = 0.0;
   bool verbose = false;
   bool closes = false;
+  bool growth = false;
   repeat::TeachConfig teaching;
   repeat::RepeatConfig repeating;
 };
@@ -91,6 +96,10 @@ Options options_of(int argc, char** argv) {
       options.verbose = true;
     else if (name == "--close")
       options.closes = true;
+    else if (name == "--growth")
+      options.growth = true;
+    else if (name == "--only")
+      options.only = std::stoi(next());
     else if (name == "--cover") {
       options.cover_from = std::stoi(next());
       options.cover_count = std::stoi(next());
@@ -176,6 +185,7 @@ struct Taught {
   std::vector<Pose2> poses;  // of the pictures that it was taught with
   std::shared_ptr<const repeat::TaughtPath> path;
   std::vector<std::shared_ptr<const tracking::ImagePyramid>> keys;
+  std::vector<double> ms;  // that each picture took to teach
 
   [[nodiscard]] int picture_of(int key) const { return path->key_images[at(key)].picture; }
   [[nodiscard]] int arcs_between(int one, int other) const {
@@ -194,13 +204,23 @@ struct Taught {
   }
 };
 
+void keep_first(PerspectiveTour& tour, int count) {
+  tour.grey.resize(std::min(tour.grey.size(), at(count)));
+  tour.poses.resize(tour.grey.size());
+}
+
 Taught teach(const Options& options) {
-  const PerspectiveTour tour = read_perspective_tour(options.teach, options.width_px);
+  PerspectiveTour tour = read_perspective_tour(options.teach, options.width_px);
+  if (options.only >= 0) keep_first(tour, options.only);
   Taught taught;
   taught.camera = camera::Camera::create(tour.camera).value();
   taught.poses = tour.poses;
   auto teacher = repeat::Teacher::create(options.teaching, taught.camera).value();
-  for (const Image& grey : tour.grey) (void)teacher.add(tracking::ImagePyramid::build(grey).value()).value();
+  for (const Image& grey : tour.grey) {
+    const double before_ms = cpu_ms();
+    (void)teacher.add(tracking::ImagePyramid::build(grey).value()).value();
+    taught.ms.push_back(cpu_ms() - before_ms);
+  }
   repeat::TaughtPath path = teacher.path().value();
   for (const auto& key : path.key_images) {
     taught.keys.push_back(std::make_shared<const tracking::ImagePyramid>(
@@ -316,6 +336,7 @@ int run(const Options& options) {
   int truth = options.from;
   std::ofstream out(options.out);
   for (int number = options.from; number < static_cast<int>(drive.grey.size()); ++number) {
+    if (options.only >= 0 && truth >= options.only - 1) break;
     Image& grey = drive.grey[at(number)];
     const bool covered = number >= options.cover_from && number < options.cover_from + options.cover_count;
     if (covered) cover(grey, options.cover_share);
@@ -341,6 +362,16 @@ int run(const Options& options) {
         covered ? " covered" : "");
   }
   print(figures, taught.path->arcs.size());
+  if (options.growth) {
+    std::set<int> landmarks;
+    for (const map::KeyImage& key : taught.path->key_images) {
+      for (const repeat::KeyFeature& one : key.features) landmarks.insert(one.feature);
+    }
+    std::printf("%zu pictures, %zu arcs, %zu landmarks\n", taught.ms.size(), taught.path->arcs.size(),
+                landmarks.size());
+    print_tenths("teaching", taught.ms);
+    print_tenths("repeating", figures.ms);
+  }
   if (options.closes) {
     std::printf("closed at picture %d, past an end in %d pictures\n",
                 taught.path->closing ? taught.picture_of(taught.path->closing->key_image) : -1, figures.ends);

@@ -2,8 +2,8 @@
 // homeward_bench_teach TOUR [N [SIGMA [R [WIDTH [SEED [free] [cut]]]]]]: teaches a path from a folder of pictures with
 // camera.json and poses.csv (the truth) and says how good its arcs are. N: features below which an arc ends; SIGMA:
 // reprojection error above which it does; R: residual of a tracked feature; WIDTH: the pictures shrunk to it; free:
-// nothing is known of driving; cut: gaps are not bridged, and the path is not closed. The last line is a row of a table
-// of all that.
+// nothing is known of driving; cut: gaps are not bridged, and the path is not closed. Lines that begin with `key` say
+// where the key images are by their arcs alone, and in truth; the last line is a row of a table of all that.
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -116,6 +116,36 @@ Figures figures_of(const PerspectiveTour& tour, const TaughtPath& path) {
   return figures;
 }
 
+/// Where the key images are by their arcs alone, one after another from where the path truly begins, and in truth. A
+/// unit of length is taken from the truth where a piece begins and where the path says of no scale: `new`.
+void print_keys(const PerspectiveTour& tour, const TaughtPath& path) {
+  Eigen::Vector3d place_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
+  double unit_m = 0.0;
+  int next = -1;  // key image that the arc before leads to
+  const auto print = [&](int key, const char* unit) {
+    const Pose2& truth = tour.poses[at(path.key_images[at(key)].picture)];
+    std::printf("key | %d | %d | %.3f | %.3f | %.3f | %.3f | %s |\n", key, path.key_images[at(key)].picture,
+                place_m.x(), place_m.y(), truth.x_m, truth.y_m, unit);
+  };
+  for (const Arc& arc : path.arcs) {
+    const KeyImage& from = path.key_images[at(arc.from)];
+    const bool begins = next != arc.from;
+    if (begins) {
+      const Pose2& truth = tour.poses[at(from.picture)];
+      place_m = {truth.x_m, truth.y_m, 0.0};
+      turned = Eigen::AngleAxisd(truth.theta_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      print(arc.from, "begin");
+    }
+    const bool is_scaled = !begins && from.scale.has_value();
+    unit_m = is_scaled ? unit_m * from.scale->ratio : true_arc(tour, path, arc).way_m;
+    if (arc.has_baseline) place_m += unit_m * (turned * arc.motion.target_in_current);
+    turned = turned * arc.motion.current_from_target;
+    next = path.to_key(arc);
+    print(next, is_scaled ? "kept" : "new");
+  }
+}
+
 /// How right the arcs are that lead across a gap, and the one that closes the path.
 void print_bridges(const PerspectiveTour& tour, const TaughtPath& path) {
   const auto print = [&](const Arc& arc) {
@@ -145,6 +175,7 @@ void print_all(const PerspectiveTour& tour, const TaughtPath& path, const repeat
   }
   for (const int picture : path.skipped_pictures) std::printf("skipped picture %d\n", picture);
   print_bridges(tour, path);
+  print_keys(tour, path);
   std::printf("%zu pictures, %zu key images, %zu arcs, %d of them turns, %zu cuts, %d nodes without scale\n",
               tour.grey.size(), path.key_images.size(), path.arcs.size(), figures.turns, path.cuts.size(),
               figures.unscaled);

@@ -38,6 +38,18 @@ TEST(ArcProgress, OnATurnOnTheSpotIsTheShareOfTheTurn) {
   EXPECT_FALSE(lateral_of(around, 1, pose(0.1, 0.2, 0.2)));
 }
 
+TEST(ArcProgress, TellsByHowMuchTheWayChangesWhatIsSeen) {
+  StraightPath straight({0.0, 0.1, 0.1, 0.3});
+  straight.turn_at(1, 0.5);
+  const ArcSurroundings around = surroundings_of(straight.path, 1, 2, 3);
+  const ArcPose there = {Eigen::Matrix3d::Identity(), Eigen::Vector3d(2.0, 0.5, 0.0)};
+  EXPECT_EQ(progress_along(around, 1, there).gone_rad, 0.0);  // of the turn itself
+  EXPECT_FALSE(progress_along(around, 1, there).past_rad);
+  const ArcProgress after = progress_along(around, 2, there);
+  EXPECT_NEAR(after.gone_rad, 2.0 * around.nearness, 1e-9);
+  EXPECT_NEAR(after.past_rad.value(), 0.0, 1e-6);  // the way after the turn is twice as long as the one before
+}
+
 TEST(ArcProgress, AnArcThatLeadsNowhereIsPassed) {
   const StraightPath standing({0.0, 1.0, 1.0});
   const ArcSurroundings around = surroundings_of(standing.path, 1, 1, 3);

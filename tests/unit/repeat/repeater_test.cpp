@@ -200,6 +200,31 @@ TEST(Repeating, FollowsATurnOnTheSpot) {
   }
   EXPECT_EQ(said.arc, static_cast<int>(taught.path->arcs.size()) - 1);
 }
+/// A tour that turns on the spot by 57 degrees, and by half of that back again while it drives on.
+std::vector<Pose2> swing() {
+  std::vector<Pose2> poses;
+  for (int i = 0; i < 5; ++i) poses.push_back({-2.2 + 0.1 * i, -0.5, 0.0});
+  const Pose2 corner = poses.back();
+  for (const double turned_rad : {0.5, 1.0}) poses.push_back(corner * Pose2{0.0, 0.0, turned_rad});
+  const Pose2 way = corner * Pose2{0.0, 0.0, 0.5};
+  for (int i = 1; i <= 4; ++i) poses.push_back(way * Pose2{0.05 * i, 0.0, 0.5 - 0.125 * i});
+  for (int i = 1; i <= 8; ++i) poses.push_back(way * Pose2{0.2 + 0.08 * i, 0.0, 0.0});
+  return poses;
+}
+
+TEST(Repeating, LeavesATurnThatTheWayAfterItUndoes) {
+  const Taught taught(swing());
+  Repeater repeater = taught.repeater();
+  ASSERT_TRUE(repeater.begin(0));
+  Repeated said;
+  for (int i = 0; i < static_cast<int>(taught.poses.size()); ++i) {
+    said = repeater.step(seen_from(taught.poses[at(i)])).value();
+    ASSERT_FALSE(said.is_lost()) << i;
+    EXPECT_TRUE(taught.is_on(said.arc, i)) << i << " on " << said.arc;
+  }
+  EXPECT_EQ(said.arc, static_cast<int>(taught.path->arcs.size()) - 1);
+  EXPECT_NEAR(said.progress, 1.0, 0.05);
+}
 
 TEST(Repeating, IsTheSameForTheSamePicturesAndCopiesAreIndependent) {
   const Taught& taught = taught_bend();
@@ -246,10 +271,11 @@ TEST(RepeatConfig, NamesItsProblems) {
   bad.reach = -1;
   bad.fewest_features = 3;
   bad.back = 0.1;
+  bad.clear_way_rad = 0.0;
   bad.pose.agree_rad = 0.0;
   bad.tracker.window_px = 8;
   bad.recognition->most_compared = 0;
-  EXPECT_EQ(problems(bad).size(), 6U);
+  EXPECT_EQ(problems(bad).size(), 7U);
 }
 
 }  // namespace
