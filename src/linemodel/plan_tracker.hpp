@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "camera/camera.hpp"
+#include "core/image.hpp"
+#include "core/pose2.hpp"
+#include "core/range_sweep.hpp"
+#include "core/result.hpp"
+#include "linemodel/expected_view.hpp"
+#include "linemodel/image_line.hpp"
+#include "linemodel/monte_carlo.hpp"
+#include "linemodel/picture_lines.hpp"
+#include "linemodel/plan.hpp"
+#include "linemodel/plan_floor.hpp"
+#include "linemodel/visible_lines.hpp"
+
+namespace homeward::linemodel {
+
+struct PlanTrackerConfig {
+  MeasureConfig measure;
+  LineDetection detection;
+  VisibilityConfig visibility;
+  MonteCarloConfig monte_carlo;
+  double gain = 20.0;               // of the score in a weight's logarithm
+  double independent_m = 0.3;       // after so much driving a picture counts as much; before, in proportion
+  double wide_gain = 6.0;           // the same while it is not known where the robot is, ...
+  double wide_independent_m = 0.6;  // ... as neighbouring pictures err alike where furniture is not where it is drawn
+  double wide = 2.5;                // times as tolerant is the measure meanwhile
+  double doubted_lines = 15.0;      // a score counts as if so many lines more were expected, ...
+  double doubted_score = 0.5;       // ... confirmed by this share: few lines say little
+  double known_spread_m = 0.6;      // less spread than this: it is known where the robot is
+  double still_share = 0.6;         // of the weight at one place keeps it known; to become so it takes
+  double known_share = 0.9;         // of the weight that has to be at one place
+  double evidence_share = 0.07;     // by which the mean of the log odds at the estimate follows each picture
+  double least_evidence = 0.55;     // less than this mean: the robot is not said to be on this plan
+  double wrong_evidence = 0.4;      // less, though it seems known where it is: it is looked for anew
+  int most_wrong_pictures = 20;     // before that
+  int doubtful_lines = 8;           // fewer expected lines say nothing of whether it is this plan
+  double sweep_height_m = 0.3;      // of the range sensor over the floor
+};
+
+/// Settings for one measure, by which gains its scores tell poses apart best (docs/experiments/plan_localisation.md).
+PlanTrackerConfig tracker_config(LineMeasure measure);
+
+/// Why a tracker does not say where the robot is.
+enum class PlanLost { kNo, kSearching, kAmbiguous, kNotInPlan };
+
+/// Where on the plan one picture was taken.
+struct PlanEstimate {
+  Pose2 pose;  // of the robot, in the plan's frame; the best guess where it is lost
+  double spread_m = 0.0;
+  double spread_rad = 0.0;
+  double share = 0.0;               // of the belief that is there
+  std::vector<PoseCluster> others;  // where it may be as well, most probable first
+  std::size_t particles = 0;
+  int lines_seen = 0;       // in the picture
+  int lines_expected = 0;   // by the plan, from `pose`
+  int lines_confirmed = 0;  // of these, by the picture
+  double evidence = 0.0;    // mean log odds of late (PictureLines::log_odds): whether it is this plan at all
+  PlanLost lost = PlanLost::kSearching;
+};
+
+/// A line of the plan that should be in the last picture.
+struct JudgedLine {
+  PlanLine line;           // what of it is visible around there
+  bool confirmed = false;  // by an edge of the picture
+};
+
+/// Where a robot is on a drawn plan, picture by picture (Fichtner & Grossmann 2003): Monte Carlo localisation whose
+/// particles are weighed by how well the lines of the picture confirm those that the plan lets expect, and by a sweep
+/// of ranges where there is one (likelihood field; Thrun, Burgard & Fox 2005, section 6.4). Not thread-safe.
+class PlanTracker {
+ public:
+  /// Errors: kEmptyInput (a plan without lines, or without floor to be on), those of Camera::create and PlanFloor::of.
+  static Result<PlanTracker> create(Plan plan, const camera::CameraConfig& camera, const PlanTrackerConfig& config);
+
+  /// It may be anywhere on the plan. This is how it begins.
+  void start_anywhere();
+  void start_at(const Pose2& pose, double spread_m, double spread_rad);
+
+  /// The next picture, where odometry says it was taken (any frame, the same for all), and the sweep taken there.
+  /// Without odometry the robot is taken to have moved anywhere within half a metre. Errors: those of detect_lines.
+  Result<PlanEstimate> update(const Image& picture, const std::optional<Pose2>& odometry,
+                              const std::optional<RangeSweep>& sweep);
+
+  [[nodiscard]] const std::vector<Particle>& particles() const { return monte_carlo_.particles(); }
+  /// The lines of the last picture, and those expected from a pose.
+  [[nodiscard]] const std::vector<ImageLine>& picture_lines() const { return lines_; }
+  /// What should be in the last picture if it was taken at `pose`.
+  std::vector<JudgedLine> judged(const Pose2& pose);
+  [[nodiscard]] const Expectation& expectation() const { return expectation_; }
+  ExpectedView expected(const Pose2& pose);
+  [[nodiscard]] const PlanFloor& floor() const { return floor_; }
+
+ private:
+  PlanTracker(Plan plan, const camera::Camera& camera, PlanFloor floor, const PlanTrackerConfig& config);
+
+  /// Moves the particles; how far the robot drove and turned since the last picture, as metres.
+  double move(const std::optional<Pose2>& odometry);
+  [[nodiscard]] MonteCarlo::Fit fit(const PictureLines& lines, double gain, const RangeSweep* sweep, const Pose2& pose);
+  [[nodiscard]] double sweep_log_weight(const RangeSweep& sweep, const Pose2& pose) const;
+  [[nodiscard]] PlanEstimate estimate(const PictureLines& lines);
+  void follow_evidence(double log_odds, const PlanEstimate& said);
+
+  PlanTrackerConfig config_;
+  LineViews views_;
+  Expectation expectation_;
+  VisibleLines visible_;
+  PlanFloor floor_;
+  PlanSlice at_sweep_;
+  MonteCarlo monte_carlo_;
+  std::optional<Pose2> last_odometry_;
+  bool known_ = false;
+  double evidence_ = 0.0;
+  int wrong_pictures_ = 0;
+  std::vector<ImageLine> lines_;
+  ExpectedView view_;
+};
+
+}  // namespace homeward::linemodel

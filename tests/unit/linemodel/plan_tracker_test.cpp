@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "linemodel/plan_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/angles.hpp"
+#include "shaded_room.hpp"
+
+namespace homeward::linemodel {
+namespace {
+
+/// From the first room through the doorway into the second.
+std::vector<Pose2> way_through() {
+  std::vector<Pose2> poses;
+  for (int i = 0; i < 14; ++i) poses.push_back({1.2 + 0.3 * i, 2.2 + 0.065 * i, 0.2});
+  for (int i = 0; i < 12; ++i) poses.push_back({5.4 + 0.3 * i, 3.05 - 0.08 * i, -0.25});
+  return poses;
+}
+
+class DriveThroughTwoRooms : public ::testing::Test {
+ protected:
+  explicit DriveThroughTwoRooms(const camera::CameraConfig& config = small_panorama())
+      : config_(config), camera_(camera::Camera::create(config).value()) {
+    tracking_.monte_carlo.first_particles = 8'000;
+  }
+
+  [[nodiscard]] Image picture(const Pose2& robot) const { return shaded_picture(world_, rays_, *camera_, robot); }
+  [[nodiscard]] static double off_m(const PlanEstimate& said, const Pose2& truth) {
+    return (position_m(said.pose) - position_m(truth)).norm();
+  }
+
+  Plan world_ = two_rooms();
+  raycast::RayScene rays_{world_.vertices_m, world_.triangles};
+  camera::CameraConfig config_;
+  std::shared_ptr<const camera::Camera> camera_;
+  PlanTrackerConfig tracking_;
+};
+
+TEST_F(DriveThroughTwoRooms, IsFollowedFromAStartThatSomebodySays) {
+  PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  const std::vector<Pose2> way = way_through();
+  tracker.start_at({way[0].x_m + 0.2, way[0].y_m - 0.1, way[0].theta_rad + 0.1}, 0.3, 0.15);
+  std::vector<double> off;
+  for (const Pose2& robot : way) {
+    const Pose2 odometry{1.05 * robot.x_m, robot.y_m, wrap_angle(robot.theta_rad + 1.0)};  // 5 % too long, turned
+    const Pose2 turned = Pose2{0.0, 0.0, 1.0} * Pose2{odometry.x_m, odometry.y_m, robot.theta_rad};
+    const PlanEstimate said = tracker.update(picture(robot), turned, std::nullopt).value();
+    EXPECT_EQ(said.lost, PlanLost::kNo);
+    EXPECT_LE(said.lines_confirmed, said.lines_expected);
+    off.push_back(off_m(said, robot));
+  }
+  EXPECT_LT(*std::max_element(off.begin() + 5, off.end()), 0.25);
+}
+
+TEST_F(DriveThroughTwoRooms, IsFoundFromAnywhere) {
+  PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  PlanEstimate said;
+  for (const Pose2& robot : way_through()) said = tracker.update(picture(robot), robot, std::nullopt).value();
+  EXPECT_EQ(said.lost, PlanLost::kNo);
+  EXPECT_LT(off_m(said, way_through().back()), 0.25);
+}
+
+TEST_F(DriveThroughTwoRooms, IsNotOnThePlanOfAnotherBuilding) {
+  MeshOfBoxes other;
+  other.box({0.0F, 0.0F, -0.1F}, {15.0F, 9.0F, 0.0F});
+  other.box({0.0F, -0.2F, 0.0F}, {15.0F, 0.0F, 3.6F});
+  other.box({0.0F, 9.0F, 0.0F}, {15.0F, 9.2F, 3.6F});
+  other.box({-0.2F, 0.0F, 0.0F}, {0.0F, 9.0F, 3.6F});
+  other.box({15.0F, 0.0F, 0.0F}, {15.2F, 9.0F, 3.6F});
+  for (int i = 0; i < 6; ++i) {
+    const float x = 2.0F + 2.2F * static_cast<float>(i);
+    other.box({x, 4.2F, 0.0F}, {x + 0.4F, 4.6F, 3.6F});
+  }
+  PlanTracker tracker =
+      PlanTracker::create(plan_of_mesh(other.vertices_m(), other.triangles()), config_, tracking_).value();
+  for (const Pose2& robot : way_through()) {
+    EXPECT_NE(tracker.update(picture(robot), robot, std::nullopt)->lost, PlanLost::kNo);
+  }
+}
+
+TEST_F(DriveThroughTwoRooms, IsLostInTheDark) {
+  PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  for (const Pose2& robot : way_through()) {
+    const Image dark(config_.width_px, config_.height_px, 3);
+    EXPECT_NE(tracker.update(dark, robot, std::nullopt)->lost, PlanLost::kNo);
+  }
+}
+
+TEST_F(DriveThroughTwoRooms, GivesTheSameForTheSameSeed) {
+  PlanTracker one = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  PlanTracker twin = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  const std::vector<Pose2> way = way_through();
+  for (std::size_t i = 0; i < 4; ++i) {
+    const PlanEstimate a = one.update(picture(way[i]), way[i], std::nullopt).value();
+    const PlanEstimate b = twin.update(picture(way[i]), way[i], std::nullopt).value();
+    EXPECT_EQ(a.pose.x_m, b.pose.x_m);
+    EXPECT_EQ(a.particles, b.particles);
+  }
+}
+
+class LensThroughTwoRooms : public DriveThroughTwoRooms {
+ protected:
+  LensThroughTwoRooms() : DriveThroughTwoRooms(small_pinhole()) {}
+};
+
+TEST_F(LensThroughTwoRooms, IsFollowedByOneOrdinaryCameraAndARangeSensor) {
+  PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  const std::vector<Pose2> way = way_through();
+  tracker.start_at(way[0], 0.3, 0.15);
+  for (const Pose2& robot : way) {
+    RangeSweep sweep;
+    sweep.angle_step_rad = 2.0 * kPi / 180.0;
+    for (int i = 0; i < 180; ++i) {
+      const double turn = robot.theta_rad + i * sweep.angle_step_rad;
+      const auto hit = rays_.first_hit(
+          Eigen::Vector3f(static_cast<float>(robot.x_m), static_cast<float>(robot.y_m), 0.3F),
+          Eigen::Vector3f(static_cast<float>(std::cos(turn)), static_cast<float>(std::sin(turn)), 0.0F), 12.0F);
+      sweep.ranges_m.push_back(hit ? hit->distance_m : 12.0F);
+    }
+    const PlanEstimate said = tracker.update(picture(robot), robot, sweep).value();
+    EXPECT_EQ(said.lost, PlanLost::kNo);
+    EXPECT_LT(off_m(said, robot), 0.2);
+  }
+}
+
+TEST(PlanTracker, NamesWhatIsWrongWithAPlan) {
+  Plan no_lines = two_rooms();
+  no_lines.lines.clear();
+  EXPECT_EQ(PlanTracker::create(no_lines, small_panorama(), {}).error().code, ErrorCode::kEmptyInput);
+  Plan in_millimetres = two_rooms();
+  in_millimetres.vertices_m *= 1000.0F;
+  EXPECT_EQ(PlanTracker::create(in_millimetres, small_panorama(), {}).error().code, ErrorCode::kInvalidInput);
+  camera::CameraConfig blind = small_panorama();
+  blind.width_px = 0;
+  EXPECT_EQ(PlanTracker::create(two_rooms(), blind, {}).error().code, ErrorCode::kInvalidInput);
+}
+
+}  // namespace
+}  // namespace homeward::linemodel
