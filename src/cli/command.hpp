@@ -26,6 +26,7 @@ void register_retrieve(CLI::App& program);
 void register_route(CLI::App& program);
 void register_simulate(CLI::App& program);
 void register_teach(CLI::App& program);
+void register_track(CLI::App& program);
 
 /// Runs when the command line names `command`: what it returns becomes the exit code, an error is told on stderr.
 void run_on(CLI::App& command, const std::function<Status()>& run);

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   homeward::cli::register_route(program);
   homeward::cli::register_simulate(program);
   homeward::cli::register_teach(program);
+  homeward::cli::register_track(program);
   homeward::cli::register_replay(program);
   homeward::cli::register_repeat(program);
   homeward::cli::register_calibrate(program);

@@ -89,8 +89,8 @@ struct OdometrySample {
   Pose2 pose;
 };
 
-Result<std::vector<OdometrySample>> read_odometry_samples(const fs::path& folder) {
-  const auto rows = read_rows(folder / "odometry.csv", "t_us,x_m,y_m,theta_rad");
+Result<std::vector<OdometrySample>> read_odometry_samples(const fs::path& file) {
+  const auto rows = read_rows(file, "t_us,x_m,y_m,theta_rad");
   if (!rows) return pass_on(rows);
   std::vector<OdometrySample> samples;
   for (const Row& row : *rows) {
@@ -122,8 +122,8 @@ std::optional<Pose2> pose_at(const std::vector<OdometrySample>& samples, TimeUs 
                wrap_angle(a.pose.theta_rad + share * wrap_angle(b.pose.theta_rad - a.pose.theta_rad))};
 }
 
-Status read_odometry(const fs::path& folder, std::vector<TourImage>& images) {
-  auto samples = read_odometry_samples(folder);
+Status read_odometry(const fs::path& file, std::vector<TourImage>& images) {
+  auto samples = read_odometry_samples(file);
   if (!samples) return pass_on(samples);
   if (samples->empty()) return {};
   const bool timed = std::ranges::all_of(images, [](const TourImage& image) { return image.t_us.has_value(); });
@@ -132,7 +132,7 @@ Status read_odometry(const fs::path& folder, std::vector<TourImage>& images) {
       return fail(ErrorCode::kInvalidInput,
                   "Without times.csv the file has to have one row for each of the " + std::to_string(images.size()) +
                       " pictures; it has " + std::to_string(samples->size()) + ".",
-                  (folder / "odometry.csv").string());
+                  file.string());
     }
     for (std::size_t i = 0; i < images.size(); ++i) images[i].odometry = (*samples)[i].pose;
     return {};
@@ -142,8 +142,29 @@ Status read_odometry(const fs::path& folder, std::vector<TourImage>& images) {
   return {};
 }
 
-Status read_sweeps(const fs::path& folder, std::vector<TourImage>& images, const std::vector<fs::path>& files) {
-  auto sweeps = read_scans(folder);
+/// Odometry by the names of pictures.
+Status read_named_odometry(const fs::path& file, std::vector<TourImage>& images, const std::vector<fs::path>& files) {
+  const auto rows = read_rows(file, "filename,x_m,y_m,theta_rad");
+  if (!rows) return pass_on(rows);
+  std::map<std::string, Pose2> poses;
+  for (const Row& row : *rows) {
+    const auto x_m = number<double>(row.cells[1]);
+    const auto y_m = number<double>(row.cells[2]);
+    const auto theta_rad = number<double>(row.cells[3]);
+    if (!x_m || !y_m || !theta_rad) {
+      return fail(ErrorCode::kInvalidInput, "The line has to hold a name and three finite numbers.", row.where);
+    }
+    poses[row.cells[0]] = {*x_m, *y_m, wrap_angle(*theta_rad)};
+  }
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const auto found = poses.find(files[i].filename().string());
+    if (found != poses.end()) images[i].odometry = found->second;
+  }
+  return {};
+}
+
+Status keep_sweeps(Result<std::map<std::string, RangeSweep>> sweeps, std::vector<TourImage>& images,
+                   const std::vector<fs::path>& files) {
   if (!sweeps) return pass_on(sweeps);
   for (std::size_t i = 0; i < images.size(); ++i) {
     const auto found = sweeps->find(files[i].filename().string());
@@ -200,12 +221,25 @@ Result<TourFolder> TourFolder::open(const fs::path& folder) {
     tour.images_.push_back({ImageId(name + "/" + file.filename().string()), std::nullopt, std::nullopt});
   }
   if (const Status read = read_times(folder, tour.images_, tour.files_); !read) return pass_on(read);
-  if (const Status read = read_odometry(folder, tour.images_); !read) return pass_on(read);
-  if (const Status read = read_sweeps(folder, tour.images_, tour.files_); !read) return pass_on(read);
+  if (const Status read = read_odometry(folder / "odometry.csv", tour.images_); !read) return pass_on(read);
+  if (const Status read = keep_sweeps(read_scans(folder), tour.images_, tour.files_); !read) return pass_on(read);
   auto marks = read_marks(folder);
   if (!marks) return pass_on(marks);
   tour.marks_ = std::move(*marks);
   return tour;
+}
+
+Status TourFolder::use_odometry(const fs::path& file) {
+  const auto text = read_text(file);
+  if (!text) return pass_on(text);
+  for (TourImage& image : images_) image.odometry.reset();
+  if (text->rfind("filename,", 0) == 0) return read_named_odometry(file, images_, files_);
+  return read_odometry(file, images_);
+}
+
+Status TourFolder::use_scans(const fs::path& file) {
+  for (TourImage& image : images_) image.sweep.reset();
+  return keep_sweeps(read_scans_table(file), images_, files_);
 }
 
 Result<Image> TourFolder::read(std::size_t index) const { return read_picture(files_[index]); }

@@ -25,6 +25,12 @@ class TourFolder final : public TourSource {
   /// Errors: kNotFound, kEmptyInput, kInvalidInput (file and line of what is wrong).
   static Result<TourFolder> open(const std::filesystem::path& folder);
 
+  /// Takes the odometry of another file: t_us,x_m,y_m,theta_rad as above, or filename,x_m,y_m,theta_rad. Errors:
+  /// kNotFound and those of `open`.
+  Status use_odometry(const std::filesystem::path& file);
+  /// Takes the sweeps of another file (read_scans_table).
+  Status use_scans(const std::filesystem::path& file);
+
   [[nodiscard]] const std::vector<TourImage>& images() const override { return images_; }
   [[nodiscard]] const std::vector<TourMark>& marks() const override { return marks_; }
   [[nodiscard]] Result<Image> read(std::size_t index) const override;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/angles.hpp"
 #include "files/read_file.hpp"
 #include "wire/scans_json.hpp"
 
@@ -68,18 +69,9 @@ Result<RangeSweep> sweep_of(const std::vector<std::string_view>& cells, std::siz
   return sweep;
 }
 
-}  // namespace
-
-Result<std::map<std::string, RangeSweep>> read_scans(const fs::path& folder) {
+/// `geometry`: nothing for a whole turn of as many rays as the first line names.
+Result<std::map<std::string, RangeSweep>> sweeps_of(const fs::path& table, std::optional<RangeSweep> geometry) {
   std::map<std::string, RangeSweep> sweeps;
-  const fs::path table = folder / "scans.csv";
-  const fs::path about = folder / "scans.json";
-  std::error_code error;
-  if (!fs::exists(table, error) || !fs::exists(about, error)) return sweeps;
-  const auto about_text = read_text(about);
-  if (!about_text) return pass_on(about_text);
-  const auto geometry = wire::parse_scans(*about_text, about.string());
-  if (!geometry) return pass_on(geometry);
   const auto text = read_text(table);
   if (!text) return pass_on(text);
   std::istringstream lines(*text);
@@ -92,6 +84,7 @@ Result<std::map<std::string, RangeSweep>> read_scans(const fs::path& folder) {
       const auto named = rays_of(line, where);
       if (!named) return pass_on(named);
       rays = *named;
+      if (!geometry) geometry = RangeSweep{{}, 0.0, 2.0 * kPi / static_cast<double>(rays), 12.0, {}};
       continue;
     }
     if (line.empty()) continue;
@@ -109,6 +102,31 @@ Result<std::map<std::string, RangeSweep>> read_scans(const fs::path& folder) {
   if (rays == 0)
     return fail(ErrorCode::kInvalidInput, "The first line has to be \"filename,r0,r1,...\".", table.string() + ":1");
   return sweeps;
+}
+
+}  // namespace
+
+Result<std::map<std::string, RangeSweep>> read_scans(const fs::path& folder) {
+  const fs::path table = folder / "scans.csv";
+  const fs::path about = folder / "scans.json";
+  std::error_code error;
+  if (!fs::exists(table, error) || !fs::exists(about, error)) return std::map<std::string, RangeSweep>();
+  const auto about_text = read_text(about);
+  if (!about_text) return pass_on(about_text);
+  const auto geometry = wire::parse_scans(*about_text, about.string());
+  if (!geometry) return pass_on(geometry);
+  return sweeps_of(table, *geometry);
+}
+
+Result<std::map<std::string, RangeSweep>> read_scans_table(const fs::path& table) {
+  const fs::path about = table.parent_path() / "scans.json";
+  std::error_code error;
+  if (!fs::exists(about, error)) return sweeps_of(table, std::nullopt);
+  const auto about_text = read_text(about);
+  if (!about_text) return pass_on(about_text);
+  const auto geometry = wire::parse_scans(*about_text, about.string());
+  if (!geometry) return pass_on(geometry);
+  return sweeps_of(table, *geometry);
 }
 
 }  // namespace homeward::files

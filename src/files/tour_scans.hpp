@@ -19,4 +19,9 @@ inline constexpr std::size_t kMostSweeps = 100'000;
 /// kTooLarge (more than wire::kMostRays or kMostSweeps).
 Result<std::map<std::string, RangeSweep>> read_scans(const std::filesystem::path& folder);
 
+/// The same of one table, wherever it is, with the scans.json beside it. Without one its rays are taken to be spread
+/// evenly over a whole turn from straight ahead, counter-clockwise, and to reach 12 m. Errors: those of read_scans,
+/// kNotFound.
+Result<std::map<std::string, RangeSweep>> read_scans_table(const std::filesystem::path& table);
+
 }  // namespace homeward::files

@@ -26,6 +26,7 @@
 #include "wire/state_row_json.hpp"
 #include "wire/taught_json.hpp"
 #include "wire/tour_json.hpp"
+#include "wire/tracked_json.hpp"
 
 namespace homeward::wire::encoders_test {
 namespace {
@@ -96,6 +97,22 @@ TEST(Encoders, WriteTaughtPathsThatTheSchemaAccepts) {
   EXPECT_EQ(closed["closed_at"], "00000.jpg");
   EXPECT_EQ(closed["arcs"].back()["from"], "00002.jpg");
   EXPECT_EQ(closed["arcs"].back()["to"], "00000.jpg");
+}
+
+TEST(Encoders, WriteTrackedPicturesThatTheSchemaAccepts) {
+  TrackedView view;
+  view.image = "031.jpg";
+  view.pose = {1.5, -2.0, 0.3};
+  view.particles = 500;
+  view.may_be = {{view.pose, 0.9}, {{4.0, 2.0, -3.1}, 0.1}};
+  EXPECT_THAT(schemas().problems("tracked", tracked_to_json(view)), IsEmpty());
+  EXPECT_EQ(tracked_to_json(view)["x_m"], 1.5);
+  for (const char* why : {"searching", "ambiguous", "not_in_plan"}) {
+    view.lost = why;
+    const json lost = tracked_to_json(view);
+    EXPECT_THAT(schemas().problems("tracked", lost), IsEmpty()) << why;
+    EXPECT_TRUE(lost["x_m"].is_null() && lost["theta_rad"].is_null()) << "what is not known is no pose";
+  }
 }
 
 TEST(Encoders, WriteRepeatedPicturesThatTheSchemaAccepts) {
