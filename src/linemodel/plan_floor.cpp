@@ -12,13 +12,26 @@
 namespace homeward::linemodel {
 namespace {
 
-constexpr double kMost_m = 500.0;
+constexpr double kMost_m = 250.0;
 constexpr double kWallLeast_m = 1.6;  // what stands there reaches above furniture and below the lintels of doors
 constexpr double kWallMost_m = 1.9;
 constexpr double kRoom_m = 0.2;  // between the middle of a robot and a wall
 constexpr float kFar_m = 1e3F;
 constexpr double kLeastFloor_m2 = 4.0;
 constexpr double kLeastPart_m2 = 0.5;  // smaller free parts are the insides of cupboards
+
+/// The rectangle of the floor that a plan covers.
+Eigen::AlignedBox2d extent_of(const Plan& plan) {
+  Eigen::AlignedBox2d box;
+  for (Eigen::Index i = 0; i < plan.vertices_m.rows(); ++i) {
+    box.extend(Eigen::Vector2d(plan.vertices_m(i, 0), plan.vertices_m(i, 1)));
+  }
+  for (const PlanLine& line : plan.lines) {
+    box.extend(line.from_m.head<2>().cast<double>());
+    box.extend(line.to_m.head<2>().cast<double>());
+  }
+  return box;
+}
 
 using Corners = std::vector<Eigen::Vector3d>;
 
@@ -67,14 +80,7 @@ void cover_between(const Plan& plan, double least_m, double most_m, double step_
 
 PlanSlice::PlanSlice(const Plan& plan, double least_m, double most_m) {
   if (plan.vertices_m.rows() == 0 && plan.lines.empty()) return;
-  Eigen::AlignedBox2d box;
-  for (Eigen::Index i = 0; i < plan.vertices_m.rows(); ++i) {
-    box.extend(Eigen::Vector2d(plan.vertices_m(i, 0), plan.vertices_m(i, 1)));
-  }
-  for (const PlanLine& line : plan.lines) {
-    box.extend(line.from_m.head<2>().cast<double>());
-    box.extend(line.to_m.head<2>().cast<double>());
-  }
+  const Eigen::AlignedBox2d box = extent_of(plan);
   least_m_ = box.min() - Eigen::Vector2d::Constant(2.0 * kCell_m);  // free cells all around
   width_ = static_cast<int>(std::ceil(box.sizes().x() / kCell_m)) + 5;
   height_ = static_cast<int>(std::ceil(box.sizes().y() / kCell_m)) + 5;
@@ -104,11 +110,9 @@ float PlanSlice::clearance_m(const Eigen::Vector2d& point_m) const {
 }
 
 Result<PlanFloor> PlanFloor::of(const Plan& plan) {
-  const auto wide = [](const auto& values) {
-    return values.size() > 0 && values.maxCoeff() - values.minCoeff() > kMost_m;
-  };
-  if (wide(plan.vertices_m.col(0)) || wide(plan.vertices_m.col(1))) {
-    return fail(ErrorCode::kInvalidInput, "The plan is more than 500 m across. Is it drawn in metres?");
+  const Eigen::Vector2d size_m = extent_of(plan).sizes();
+  if (size_m.maxCoeff() > kMost_m) {
+    return fail(ErrorCode::kInvalidInput, "The plan is more than 250 m across. Is it drawn in metres?");
   }
   PlanFloor floor;
   floor.walls_ = PlanSlice(plan, kWallLeast_m, kWallMost_m);

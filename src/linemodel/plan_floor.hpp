@@ -38,7 +38,7 @@ class PlanSlice {
 class PlanFloor {
  public:
   /// Indoors is over the floor that is drawn, or, where none is, what cannot be reached from outside; all of the
-  /// plan's rectangle where that is nothing. Errors: kInvalidInput (the plan's rectangle is larger than 500 m).
+  /// plan's rectangle where that is nothing. Errors: kInvalidInput (the plan's rectangle is larger than 250 m).
   static Result<PlanFloor> of(const Plan& plan);
 
   /// Whether a robot may be thought to stand there: indoors, off what reaches up to the head. Furniture is no
