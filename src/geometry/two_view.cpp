@@ -14,6 +14,8 @@
 namespace homeward::geometry {
 namespace {
 
+constexpr double kFarOff_px = 1e4;
+
 constexpr double kSureParallax = 3.0;        // spreads: rays that part by more do not meet
 constexpr double kMostNearness = 5.0;        // a point is at least a fifth of the baseline away
 constexpr double kSameDirection_rad = 0.15;  // motions nearer to each other are no rivals
@@ -220,13 +222,14 @@ bool is_likelier(const TurnAlone& turn, const ErrorMixture& across_lines, const 
   return by_turn > log_likelihood_on_plane(across_lines, count, reach_px) - penalty;
 }
 
+/// At most kFarOff_px, as a point over a right angle off, which a wide lens may show, is off by no number of pixels.
 double upper_quarter(const std::vector<int>& of, const std::vector<double>& values) {
   std::vector<double> chosen;
   for (const int i : of) chosen.push_back(values[static_cast<std::size_t>(i)]);
   if (chosen.empty()) return 0.0;
   const auto at = chosen.begin() + static_cast<std::ptrdiff_t>(3 * chosen.size() / 4);
   std::nth_element(chosen.begin(), at, chosen.end());
-  return *at;
+  return std::min(*at, kFarOff_px);
 }
 
 }  // namespace

@@ -79,6 +79,38 @@ TEST(TwoView, KnowsHowWellItKnowsTheDirection) {
   }
 }
 
+/// A lens that sees all around among points so near that the way between the views takes it past many of them.
+std::vector<PointPair> pairs_passed_by(const ViewMotion& motion, double baseline_m) {
+  const auto seen = [](const Eigen::Vector3d& point) {
+    constexpr double kPixels_per_rad = 110.0;
+    SeenPoint one;
+    one.bearing = point.normalized();
+    one.bearing_per_px.col(0) = one.bearing.unitOrthogonal() / kPixels_per_rad;
+    one.bearing_per_px.col(1) = one.bearing.cross(one.bearing.unitOrthogonal()) / kPixels_per_rad;
+    return one;
+  };
+  std::vector<PointPair> pairs;
+  for (int i = 0; i < 150; ++i) {  // a spiral over the sphere, at three distances
+    const double up = 1.0 - 2.0 * (i + 0.5) / 150.0;
+    const double level = std::sqrt(1.0 - up * up);
+    const Eigen::Vector3d point =
+        (0.12 + 0.06 * (i % 3)) * Eigen::Vector3d(level * std::cos(2.4 * i), level * std::sin(2.4 * i), up);
+    const Eigen::Vector3d here = motion.current_from_target * point + baseline_m * motion.target_in_current;
+    pairs.push_back({seen(here), seen(point)});
+  }
+  return pairs;
+}
+
+TEST(TwoView, SaysTheParallaxOfPointsThatWerePassedAsANumber) {
+  const ViewMotion truth = motion_of({1.0, 0.2, 0.0}, 0.1);
+  const auto found = estimate_two_view(pairs_passed_by(truth, 0.4), {}, 1);
+  ASSERT_TRUE(found);
+  ASSERT_TRUE(found->has_baseline);
+  EXPECT_LT(direction_off_deg(found->motion, truth), 1.0);
+  EXPECT_TRUE(std::isfinite(found->parallax_px)) << "no map file takes another one";
+  EXPECT_GT(found->parallax_px, 50.0);
+}
+
 TEST(TwoView, ATurnIsNoBaseline) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const ViewMotion truth = motion_of(Eigen::Vector3d::UnitX(), 0.2);
