@@ -102,11 +102,15 @@ PlanSlice::PlanSlice(const Plan& plan, double least_m, double most_m) {
   }
 }
 
-float PlanSlice::clearance_m(const Eigen::Vector2d& point_m) const {
+bool PlanSlice::covers(const Eigen::Vector2d& point_m) const {
   const int u = column(point_m.x());
   const int v = row(point_m.y());
-  if (u < 0 || v < 0 || u >= width_ || v >= height_) return 0.0F;
-  return clearance_m_[at(v) * at(width_) + at(u)];
+  return u >= 0 && v >= 0 && u < width_ && v < height_;
+}
+
+float PlanSlice::clearance_m(const Eigen::Vector2d& point_m) const {
+  if (!covers(point_m)) return 0.0F;
+  return clearance_m_[at(row(point_m.y())) * at(width_) + at(column(point_m.x()))];
 }
 
 Result<PlanFloor> PlanFloor::of(const Plan& plan) {
@@ -165,11 +169,8 @@ void PlanFloor::leave_out_small_parts() {
 }
 
 bool PlanFloor::free(const Eigen::Vector2d& point_m) const {
-  if (walls_.clearance_m(point_m) < kRoom_m) return false;
-  const int u = walls_.column(point_m.x());
-  const int v = walls_.row(point_m.y());
-  if (u < 0 || v < 0 || u >= walls_.width_ || v >= walls_.height_) return false;
-  return indoors_[at(v) * at(walls_.width_) + at(u)] != 0;
+  if (!walls_.covers(point_m) || walls_.clearance_m(point_m) < kRoom_m) return false;
+  return indoors_[at(walls_.row(point_m.y())) * at(walls_.width_) + at(walls_.column(point_m.x()))] != 0;
 }
 
 }  // namespace homeward::linemodel

@@ -19,6 +19,8 @@ class PlanSlice {
 
   /// How far the nearest thing is; 0 outside the plan's rectangle, far (1e3) where nothing stands at these heights.
   [[nodiscard]] float clearance_m(const Eigen::Vector2d& point_m) const;
+  /// Whether a point is within the plan's rectangle.
+  [[nodiscard]] bool covers(const Eigen::Vector2d& point_m) const;
 
  private:
   friend class PlanFloor;

@@ -20,6 +20,7 @@ constexpr double kWithoutOdometry_m = 0.25;
 constexpr int kBeams = 60;
 constexpr double kBeamSpread_m = 0.12;
 constexpr double kBeamRandom = 0.15;  // share of ranges to what no plan shows
+constexpr double kUnmet = 10.0;       // spreads off whatever is drawn
 constexpr double kBeamsAlike = 0.15;  // of the beams' evidence counts, as neighbours hit the same
 
 }  // namespace
@@ -111,7 +112,8 @@ double PlanTracker::sweep_log_weight(const RangeSweep& sweep, const Pose2& pose)
     if (!(range_m > 0.0 && range_m < sweep.range_max_m)) continue;
     const double turn = scan.theta_rad + sweep.angle_min_rad + static_cast<double>(i) * sweep.angle_step_rad;
     const Eigen::Vector2d end_m(scan.x_m + range_m * std::cos(turn), scan.y_m + range_m * std::sin(turn));
-    const double spreads = at_sweep_.clearance_m(end_m) / kBeamSpread_m;
+    // A ray that ends beyond the plan met nothing that is drawn.
+    const double spreads = at_sweep_.covers(end_m) ? at_sweep_.clearance_m(end_m) / kBeamSpread_m : kUnmet;
     sum += std::log((1.0 - kBeamRandom) * std::exp(-0.5 * spreads * spreads) + kBeamRandom);
   }
   return kBeamsAlike * sum;

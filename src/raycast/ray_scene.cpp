@@ -28,6 +28,11 @@ struct RayScene::Embree {
 
 RayScene::RayScene(const Vertices& vertices_m, const Triangles& triangles, std::vector<bool> panes)
     : embree_(std::make_unique<Embree>()), panes_(std::move(panes)) {
+  if (triangles.rows() > 0) attach(vertices_m, triangles);
+  rtcCommitScene(embree_->scene);
+}
+
+void RayScene::attach(const Vertices& vertices_m, const Triangles& triangles) {
   RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   const auto vertex_count = static_cast<std::size_t>(vertices_m.rows());
   const auto triangle_count = static_cast<std::size_t>(triangles.rows());
@@ -42,7 +47,6 @@ RayScene::RayScene(const Vertices& vertices_m, const Triangles& triangles, std::
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(embree_->scene, geometry);
   rtcReleaseGeometry(geometry);
-  rtcCommitScene(embree_->scene);
 }
 
 RayScene::~RayScene() = default;

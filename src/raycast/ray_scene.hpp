@@ -54,6 +54,9 @@ class RayScene {
 
  private:
   struct Embree;
+
+  void attach(const Vertices& vertices_m, const Triangles& triangles);
+
   std::unique_ptr<Embree> embree_;
   std::vector<bool> panes_;  // of each triangle
 };

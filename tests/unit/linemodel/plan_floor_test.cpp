@@ -15,6 +15,8 @@ TEST(PlanSlice, MeasuresTheWayToWhatStandsAtItsHeight) {
   const PlanSlice high(two_rooms(), 1.6, 1.9);
   EXPECT_NEAR(high.clearance_m({3.9, 1.7}), 1.7, 0.06) << "over the table, to the wall";
   EXPECT_EQ(low.clearance_m({-5.0, 1.0}), 0.0F);
+  EXPECT_FALSE(low.covers({-5.0, 1.0}));
+  EXPECT_TRUE(low.covers({2.0, 2.0}));
 }
 
 TEST(PlanFloor, IsFreeIndoorsOffWalls) {

@@ -123,6 +123,23 @@ TEST_F(LensThroughTwoRooms, IsFollowedByOneOrdinaryCameraAndARangeSensor) {
   }
 }
 
+TEST_F(DriveThroughTwoRooms, IsNotDrawnOutOfThePlanByRaysThatEndBeyondIt) {
+  PlanTracker with_sweeps = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  PlanTracker without = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  const std::vector<Pose2> way = way_through();
+  for (PlanTracker* one : {&with_sweeps, &without}) one->start_at(way[0], 0.3, 0.15);
+  RangeSweep beyond;  // every ray is as long as the plan is wide: to them one pose in the plan is as good as another
+  beyond.range_max_m = 40.0;
+  beyond.angle_step_rad = 2.0 * kPi / 60.0;
+  beyond.ranges_m.assign(60, 30.0F);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const PlanEstimate a = with_sweeps.update(picture(way[i]), way[i], beyond).value();
+    const PlanEstimate b = without.update(picture(way[i]), way[i], std::nullopt).value();
+    EXPECT_NEAR(a.pose.x_m, b.pose.x_m, 0.01);
+    EXPECT_NEAR(a.pose.y_m, b.pose.y_m, 0.01);
+  }
+}
+
 TEST(PlanTracker, NamesWhatIsWrongWithAPlan) {
   Plan no_lines = two_rooms();
   no_lines.lines.clear();
