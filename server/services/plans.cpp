@@ -12,6 +12,11 @@ namespace {
 constexpr std::size_t kMostKept = 2;  // plans in memory, of some megabytes each
 
 Result<linemodel::Plan> read_upload(const PlanUpload& upload) {
+  // Meshes are read by a library that has not been tried on what somebody may make up; robots hang on this program.
+  if (upload.format != "wrl" && upload.format != "svg") {
+    return fail(ErrorCode::kUnsupportedFormat, "The server reads plans as wrl or svg, not as " + upload.format + ".",
+                "query/format");
+  }
   const std::string_view text(reinterpret_cast<const char*>(upload.file.data()), upload.file.size());
   linemodel::ReadPlanConfig config;
   if (upload.up) config.up = *upload.up == wire::PlanUp::kY ? linemodel::PlanUp::kY : linemodel::PlanUp::kZ;

@@ -35,7 +35,8 @@ class PlanService {
   PlanService(db::Store& store, MapService& maps, EventHub& events, const Clock& clock)
       : store_(store), maps_(maps), events_(events), clock_(clock) {}
 
-  /// Reads the file before it keeps it. Errors: those of linemodel::read_plan; `where` names the line of the file.
+  /// Reads the file, a wrl or svg, before it keeps it. Errors: kUnsupportedFormat, those of linemodel::read_plan;
+  /// `where` names the line of the file.
   Result<wire::PlanView> add(const std::string& name, const PlanUpload& upload);
   /// The same. Errors: also kNotFound, kConflict (too many versions).
   Result<wire::PlanView> add_version(const wire::PlanId& id, const PlanUpload& upload);

@@ -71,7 +71,9 @@ TEST_F(PlanTest, WhatIsBrokenIsRefusedWithItsLine) {
   EXPECT_THAT(broken.json().at("detail").get<std::string>() + broken.json().at("where").get<std::string>(),
               HasSubstr("3"));
   EXPECT_EQ(upload(*admin, "format=wrl&name=x", "").status, 422);
-  EXPECT_EQ(upload(*admin, "format=exe&name=x", drawn_house()).code(), "unsupported_format");
+  for (const char* format : {"exe", "glb", "stl"}) {
+    EXPECT_EQ(upload(*admin, std::string("format=") + format + "&name=x", drawn_house()).code(), "unsupported_format");
+  }
   EXPECT_EQ(upload(*admin, "name=x", drawn_house()).json().at("where"), "query/format");
   EXPECT_EQ(upload(*admin, "format=wrl", drawn_house()).json().at("where"), "query/name");
   EXPECT_EQ(upload(*admin, "format=wrl&name=x&metres_per_unit=0", drawn_house()).json().at("where"),

@@ -5,7 +5,7 @@ import { Choice, TextField } from '../../components/field';
 import { numberIn } from './pins';
 
 const kMost_mib = 16;
-const kFormats = ['wrl', 'svg', 'glb', 'gltf', 'obj', 'ply', 'stl'];
+const kFormats = ['wrl', 'svg'];
 const kUps = [
   { value: '', label: 'As usual in such files' },
   { value: 'z', label: 'z' },
