@@ -124,7 +124,11 @@ Status track(const TrackOptions& options) {
   const auto folder = folder_of(options);
   if (!folder) return pass_on(folder);
   auto tracker = linemodel::PlanTracker::create(*plan, *config, config_of(options));
-  if (!tracker) return fail(tracker.error().code, tracker.error().message, options.model);
+  if (!tracker) {
+    const bool of_camera = !tracker.error().where.empty();
+    return fail(tracker.error().code, tracker.error().message,
+                of_camera ? options.camera + ": " + tracker.error().where : options.model);
+  }
   if (!options.start.empty()) {
     const Pose2 start{options.start[0], options.start[1], wrap_angle(options.start[2])};
     tracker->start_at(start, kStartSpread_m, kStartSpread_rad);

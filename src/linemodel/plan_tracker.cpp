@@ -12,10 +12,11 @@ namespace {
 constexpr double kReach_m = 0.5;  // of one place where the robot may be
 constexpr double kReach_rad = 0.35;
 constexpr std::size_t kMostPlaces = 4;
-constexpr double kOther = 0.15;         // share of the belief that makes another place worth saying
-constexpr double kInWall = 0.1;         // times the weight of a pose where a robot cannot be
-constexpr double kNewSight_m = 1e3;     // a picture of which nothing is known in common with the last one
-constexpr double kMetresPerTurn = 0.3;  // a turn shows something new too
+constexpr double kLeastHeight_m = 0.05;  // of the camera: lower, the floor hides everything
+constexpr double kOther = 0.15;          // share of the belief that makes another place worth saying
+constexpr double kInWall = 0.1;          // times the weight of a pose where a robot cannot be
+constexpr double kNewSight_m = 1e3;      // a picture of which nothing is known in common with the last one
+constexpr double kMetresPerTurn = 0.3;   // a turn shows something new too
 constexpr double kWithoutOdometry_m = 0.25;
 constexpr int kBeams = 60;
 constexpr double kBeamSpread_m = 0.12;
@@ -40,6 +41,11 @@ Result<PlanTracker> PlanTracker::create(Plan plan, const camera::CameraConfig& c
                                         const PlanTrackerConfig& tracking) {
   const auto camera = camera::Camera::create(config);
   if (!camera) return pass_on(camera);
+  if (!(config.robot_from_camera_translation_m.z() > kLeastHeight_m)) {
+    return fail(ErrorCode::kInvalidInput,
+                "The camera has to be above the floor: say how high in robot_from_camera of its camera.json.",
+                "robot_from_camera/translation_m");
+  }
   if (plan.lines.empty()) return fail(ErrorCode::kEmptyInput, "The plan has no lines.");
   auto floor = PlanFloor::of(plan);
   if (!floor) return pass_on(floor);

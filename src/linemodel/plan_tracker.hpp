@@ -76,7 +76,8 @@ struct JudgedLine {
 /// of ranges where there is one (likelihood field; Thrun, Burgard & Fox 2005, section 6.4). Not thread-safe.
 class PlanTracker {
  public:
-  /// Errors: kEmptyInput (a plan without lines, or without floor to be on), those of Camera::create and PlanFloor::of.
+  /// Errors: kEmptyInput (a plan without lines, or without floor to be on), kInvalidInput (a camera that is not above
+  /// the floor), those of Camera::create and PlanFloor::of.
   static Result<PlanTracker> create(Plan plan, const camera::CameraConfig& camera, const PlanTrackerConfig& config);
 
   /// It may be anywhere on the plan. This is how it begins.

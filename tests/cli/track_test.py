@@ -11,7 +11,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from program import CliTest, Program
+from program import CliTest, Program, write_png
 
 TOUR = ("simulate", "tour", "--world", "offices:1", "--rooms", "office_1,corridor", "--step-m", 0.3)
 
@@ -83,6 +83,20 @@ class DrawnPlanAndDrive(CliTest):
         self.refused(2, ["own.csv:2"], "--odometry", own)
         self.refused(3, ["none.csv"], "--odometry", "none.csv")
 
+    def test_pictures_that_cannot_be_read_are_named(self):
+        drive = self.folder / "drive"
+        drive.mkdir()
+        track = ("track", "--model", self.shared / "old.wrl", "--camera", self.shared / "drive" / "camera.json",
+                 "--images", drive)
+        self.assert_refused(2, ["no pictures"], *track)
+        first = sorted(self.poses)[0]
+        whole = (self.shared / "drive" / first).read_bytes()
+        (drive / first).write_bytes(whole[:len(whole) // 2])
+        self.assert_refused(2, [first], *track)
+        write_png(drive / first.replace(".jpg", ".png"), 64, 48, 90)
+        (drive / first).unlink()
+        self.assert_refused(2, [first.replace(".jpg", ".png"), "64 x 48"], *track)
+
     def refused(self, code, words, *options, plan="old.wrl"):
         self.assert_refused(code, words, "track", "--model", self.shared / plan, "--camera",
                             self.shared / "drive" / "camera.json", "--images", self.shared / "drive", *options)
@@ -98,6 +112,11 @@ class DrawnPlanAndDrive(CliTest):
         self.refused(2, ["--measure"], "--measure", "guess")
         (self.folder / "scans.csv").write_text("filename,r0\n00000.jpg,-1\n")
         self.refused(2, ["scans.csv:2"], "--scans", "scans.csv")
+        low = json.loads((self.shared / "drive" / "camera.json").read_text())
+        low["robot_from_camera"]["translation_m"][2] = 0.0
+        (self.folder / "low.json").write_text(json.dumps(low))
+        self.assert_refused(2, ["low.json", "above the floor"], "track", "--model", self.shared / "old.wrl", "--camera",
+                            "low.json", "--images", self.shared / "drive")
         self.assert_refused(3, ["no such folder"], "track", "--model", self.shared / "old.wrl", "--camera",
                             self.shared / "drive" / "camera.json", "--images", "nobody")
 

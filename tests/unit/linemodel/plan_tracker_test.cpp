@@ -149,6 +149,12 @@ TEST(PlanTracker, NamesWhatIsWrongWithAPlan) {
   Plan in_millimetres = two_rooms();
   in_millimetres.vertices_m *= 1000.0F;
   EXPECT_EQ(PlanTracker::create(in_millimetres, small_panorama(), {}).error().code, ErrorCode::kInvalidInput);
+  camera::CameraConfig on_the_floor = small_panorama();
+  on_the_floor.robot_from_camera_translation_m.z() = 0.0;
+  const auto too_low = PlanTracker::create(two_rooms(), on_the_floor, {});
+  ASSERT_FALSE(too_low);
+  EXPECT_EQ(too_low.error().code, ErrorCode::kInvalidInput);
+  EXPECT_EQ(too_low.error().where, "robot_from_camera/translation_m");
   camera::CameraConfig blind = small_panorama();
   blind.width_px = 0;
   EXPECT_EQ(PlanTracker::create(two_rooms(), blind, {}).error().code, ErrorCode::kInvalidInput);
