@@ -41,7 +41,6 @@ class Expectation {
   void expect(const Pose2& robot, std::span<const PlanLine> around, ExpectedView& view) const;
 
   [[nodiscard]] const HoughSpace& space() const { return space_; }
-  [[nodiscard]] const SightMap& sights() const { return sights_; }
 
  private:
   Eigen::Vector3d robot_from_eye_m_;

@@ -108,7 +108,6 @@ void MonteCarlo::spread(double spread_m) {
 }
 
 void MonteCarlo::follow_scores(double mean_score) {
-  mean_score_ = mean_score;
   const bool first = slow_score_ == 0.0;
   slow_score_ = first ? mean_score : slow_score_ + config_.slow_share * (mean_score - slow_score_);
   fast_score_ = first ? mean_score : fast_score_ + config_.fast_share * (mean_score - fast_score_);

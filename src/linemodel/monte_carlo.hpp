@@ -73,8 +73,6 @@ class MonteCarlo {
   /// heaviest left, at most `most` of them.
   [[nodiscard]] std::vector<PoseCluster> clusters(double reach_m, double reach_rad, std::size_t most) const;
   [[nodiscard]] const std::vector<Particle>& particles() const { return particles_; }
-  /// The mean score of the last time.
-  [[nodiscard]] double mean_score() const { return mean_score_; }
 
  private:
   [[nodiscard]] Pose2 anywhere();
@@ -88,7 +86,6 @@ class MonteCarlo {
   MonteCarloConfig config_;
   std::mt19937_64 random_;
   std::vector<Particle> particles_;
-  double mean_score_ = 0.0;
   double slow_score_ = 0.0;
   double fast_score_ = 0.0;
 };

@@ -46,9 +46,8 @@ class PlanFloor {
   /// Whether a robot may be thought to stand there: indoors, off what reaches up to the head. Furniture is no
   /// obstacle, as it may have been moved since the plan was drawn.
   [[nodiscard]] bool free(const Eigen::Vector2d& point_m) const;
-  /// Middles of all squares of half a metre with a free point, for drawing where a robot may be at all.
+  /// The free ones of points kSpacing_m apart, for drawing where a robot may be at all.
   [[nodiscard]] const std::vector<Eigen::Vector2d>& free_points_m() const { return free_points_m_; }
-  /// Of the grid of `free_points_m`.
   static constexpr double kSpacing_m = 0.25;
 
  private:

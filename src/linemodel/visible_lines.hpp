@@ -34,7 +34,6 @@ class VisibleLines {
 
   /// The lines visible around a point of the floor; valid until this is destroyed.
   [[nodiscard]] std::span<const PlanLine> around(const Eigen::Vector2d& point_m);
-  [[nodiscard]] double height_m() const { return height_m_; }
 
  private:
   struct Piece {
