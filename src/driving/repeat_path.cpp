@@ -142,7 +142,11 @@ Motion along_way(DrivingState& state, const Rest& rest, const Situation& now) {
   if (corner && (rest.nearest == corner->begins || left_m < config.at_corner_m) &&
       position_m(rest.way[corner->begins]).norm() < config.look_m) {
     const double left_rad = wrap_angle(rest.way[corner->begins].theta_rad) + corner->turn_rad;
-    if (std::abs(left_rad) > config.turned_rad) return turn_in_place(left_rad, now.config.approach);
+    if (std::abs(left_rad) > config.turned_rad) {
+      // Whoever turns as the way does stands before nobody.
+      if (state.repeat.got_on_ms == now.sensors_ms) forget_standing(state.give_way);
+      return turn_in_place(left_rad, now.config.approach);
+    }
   }
   const bool stops = state.repeat.known->ends && last == end;
   const Eigen::Vector2d end_m = position_m(rest.way.back());

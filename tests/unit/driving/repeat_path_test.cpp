@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "unit/driving/step_fixture.hpp"
@@ -84,6 +85,19 @@ TEST_F(RepeatPathTest, ItDrivesTheWayRoundItsCornerAndTakesTheHeadingAtItsEnd) {
   EXPECT_NEAR(pose_.y_m, 1.0, 0.05);
   EXPECT_NEAR(pose_.theta_rad, 0.5 * kPi, 0.03);
   EXPECT_LT(most_beside_m_, 0.1) << "the corner is not cut";
+}
+
+TEST_F(RepeatPathTest, WhereTheWayTurnsRoundOnTheSpotItMakesRoomForNobody) {
+  way_.clear();
+  for (int i = 0; i <= 20; ++i) way_.push_back({0.1 * i, 0.0, 0.0});
+  for (int i = 1; i <= 10; ++i) way_.push_back({2.0, 0.0, 0.3 * i});
+  for (int i = 1; i <= 15; ++i) way_.push_back({2.0 + 0.1 * i * std::cos(3.0), 0.1 * i * std::sin(3.0), 3.0});
+  for (int k = 0; k < 800 && state_.drive == DriveState::kDriving; ++k) {
+    on();
+    ASSERT_EQ(state_.give_way.phase, GiveWay::Phase::kOnTheWay) << k << ": nobody stands there";
+  }
+  EXPECT_EQ(state_.drive, DriveState::kArrived) << state_.reason;
+  EXPECT_LT(most_beside_m_, 0.1);
 }
 
 TEST_F(RepeatPathTest, BegunBesideTheWayItComesBackToIt) {
