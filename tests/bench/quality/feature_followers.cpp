@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "feature_followers.hpp"
 
+#include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 #include <utility>
+#include <variant>
 
 #include "tracking/tracking_frame.hpp"
 
@@ -171,16 +173,87 @@ class ByHoming final : public Follower {
   tracking::TrackingFrame before_;
 };
 
+/// Another way on the strip of a panorama that the lens sees: azimuth and elevation instead of the pinhole's pixels, as
+/// many of them an angle as in the middle of the picture.
+class OnStrip final : public Follower {
+ public:
+  OnStrip(const camera::CameraConfig& camera, std::unique_ptr<Follower> way)
+      : lens_(std::get<camera::Pinhole>(camera.model).intrinsics), way_(std::move(way)) {
+    const double left_rad = std::atan(lens_.cx_px / lens_.fx_px);
+    const double right_rad = std::atan((camera.width_px - 1.0 - lens_.cx_px) / lens_.fx_px);
+    const double top_rad = std::atan(lens_.cy_px / lens_.fy_px);
+    const double bottom_rad = std::atan((camera.height_px - 1.0 - lens_.cy_px) / lens_.fy_px);
+    middle_px_ = {left_rad * lens_.fx_px, top_rad * lens_.fx_px};
+    width_px_ = static_cast<int>((left_rad + right_rad) * lens_.fx_px) + 1;
+    height_px_ = static_cast<int>((top_rad + bottom_rad) * lens_.fx_px) + 1;
+    columns_ = cv::Mat(height_px_, width_px_, CV_32FC1);
+    rows_ = cv::Mat(height_px_, width_px_, CV_32FC1);
+    for (int v = 0; v < height_px_; ++v) {
+      for (int u = 0; u < width_px_; ++u) {
+        const Eigen::Vector2d raw_px = in_picture({u, v});
+        columns_.at<float>(v, u) = static_cast<float>(raw_px.x());
+        rows_.at<float>(v, u) = static_cast<float>(raw_px.y());
+      }
+    }
+  }
+
+  void start(const Image& grey, const std::vector<Eigen::Vector2d>& points_px) override {
+    std::vector<Eigen::Vector2d> on_strip_px;
+    for (const Eigen::Vector2d& point_px : points_px) on_strip_px.push_back(on_strip(point_px));
+    way_->start(strip(grey), on_strip_px);
+    at_px = points_px;
+    is_alive = way_->is_alive;
+  }
+
+  void follow(const Image& grey) override {
+    way_->follow(strip(grey));
+    is_alive = way_->is_alive;
+    for (std::size_t i = 0; i < at_px.size(); ++i) {
+      at_px[i] = in_picture(way_->at_px[i]);
+      const bool in = at_px[i].x() >= 0.0 && at_px[i].y() >= 0.0 && at_px[i].x() <= grey.width_px - 1.0 &&
+                      at_px[i].y() <= grey.height_px - 1.0;
+      is_alive[i] = is_alive[i] && in;
+    }
+  }
+
+ private:
+  [[nodiscard]] Eigen::Vector2d in_picture(const Eigen::Vector2d& strip_px) const {
+    const double azimuth_rad = (strip_px.x() - middle_px_.x()) / lens_.fx_px;  // to the right
+    const double elevation_rad = (middle_px_.y() - strip_px.y()) / lens_.fx_px;
+    return {lens_.cx_px + lens_.fx_px * std::tan(azimuth_rad),
+            lens_.cy_px - lens_.fy_px * std::tan(elevation_rad) / std::cos(azimuth_rad)};
+  }
+  [[nodiscard]] Eigen::Vector2d on_strip(const Eigen::Vector2d& raw_px) const {
+    const double right = (raw_px.x() - lens_.cx_px) / lens_.fx_px;
+    const double down = (raw_px.y() - lens_.cy_px) / lens_.fy_px;
+    return {middle_px_.x() + lens_.fx_px * std::atan(right),
+            middle_px_.y() + lens_.fx_px * std::atan(down / std::hypot(1.0, right))};
+  }
+  [[nodiscard]] Image strip(const Image& grey) const {
+    const cv::Mat raw(grey.height_px, grey.width_px, CV_8UC1, const_cast<std::uint8_t*>(grey.data.data()));
+    Image made(width_px_, height_px_, 1);
+    cv::Mat there(height_px_, width_px_, CV_8UC1, made.data.data());
+    cv::remap(raw, there, columns_, rows_, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    return made;
+  }
+
+  camera::Intrinsics lens_;
+  std::unique_ptr<Follower> way_;
+  Eigen::Vector2d middle_px_ = Eigen::Vector2d::Zero();
+  int width_px_ = 0;
+  int height_px_ = 0;
+  cv::Mat columns_, rows_;
+};
+
 }  // namespace
 
-std::vector<NamedFollower> all_followers() {
+std::vector<NamedFollower> all_followers(const camera::CameraConfig& camera) {
   std::vector<NamedFollower> all;
   const auto add = [&](const std::string& name, auto change, bool renews = false) {
     all.push_back({name, [change, renews]() -> std::unique_ptr<Follower> {
                      tracking::FeatureTrackerConfig config;
                      tracking::PyramidConfig pyramid;
                      change(config, pyramid);
-                     if (getenv("LT")) config.least_texture = atof(getenv("LT"));
                      return std::make_unique<ByReference>(config, pyramid, renews);
                    }});
   };
@@ -202,6 +275,13 @@ std::vector<NamedFollower> all_followers() {
   all.push_back({"OpenCV LK, picture to picture", [] { return std::make_unique<ByOpenCv>(false); }});
   all.push_back({"OpenCV LK, from the first", [] { return std::make_unique<ByOpenCv>(true); }});
   all.push_back({"homing's (TrackingFrame)", [] { return std::make_unique<ByHoming>(); }});
+  const auto on_strip = [&](const std::string& name, auto make) {
+    all.push_back({name + ", on the panorama's strip", [camera, make]() -> std::unique_ptr<Follower> {
+                     return std::make_unique<OnStrip>(camera, make());
+                   }});
+  };
+  on_strip("feature tracker", all.front().make);
+  on_strip("homing's (TrackingFrame)", [] { return std::make_unique<ByHoming>(); });
   return all;
 }
 

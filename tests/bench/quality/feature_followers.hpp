@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "camera/camera_config.hpp"
 #include "core/image.hpp"
 #include "tracking/feature_tracker.hpp"
 
@@ -30,7 +31,8 @@ struct NamedFollower {
   std::function<std::unique_ptr<Follower>()> make;
 };
 
-/// The feature tracker, what is left when one of its parts is switched off, and the two others.
-std::vector<NamedFollower> all_followers();
+/// The feature tracker, what is left when one of its parts is switched off, the two others, and both that are used on
+/// the strip of a panorama. Precondition: the camera is a pinhole.
+std::vector<NamedFollower> all_followers(const camera::CameraConfig& camera);
 
 }  // namespace homeward::bench

@@ -124,7 +124,7 @@ void draw(const PerspectiveTour& tour, int most, const std::string& file) {
   for (const std::size_t first : kDrawnStarts) {
     for (const int age : kDrawnAges) {
       const auto points = corners(tour.grey[first], most);
-      const auto follower = all_followers().front().make();
+      const auto follower = all_followers(tour.camera).front().make();
       follower->start(tour.grey[first], points);
       for (int i = 1; i <= age; ++i) follower->follow(tour.grey[first + static_cast<std::size_t>(i)]);
       const Image& grey = tour.grey[first + static_cast<std::size_t>(age)];
@@ -184,7 +184,7 @@ int main(int argc, char** argv) try {
   std::printf(
       "| way | pictures held | alive after 1 | 5 | 10 | 20 | 40 | error after 10: median, 90 %%, wrong | 20 | 40 | ms "
       "|\n");
-  for (const NamedFollower& named : all_followers()) measure(tour, named, most);
+  for (const NamedFollower& named : all_followers(tour.camera)) measure(tour, named, most);
   if (argc > 4) draw(tour, most, argv[4]);
   return 0;
 } catch (const tl::bad_expected_access<homeward::Error>& stopped) {
