@@ -10,7 +10,10 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/ssl.hpp>
 #include <chrono>
+#include <cstdint>
+#include <optional>
 #include <random>
+#include <stdexcept>
 #include <thread>
 
 namespace homeward::agent {
@@ -21,7 +24,9 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using Tcp = asio::ip::tcp;
 
-constexpr std::size_t kMaxAnswerBytes = 64UL * 1024 * 1024;
+constexpr std::uint64_t kMaxAnswerBytes = 64ULL * 1024 * 1024;
+constexpr std::uint64_t kMaxFileBytes = 16ULL * 1024 * 1024 * 1024;
+constexpr int kTries = 3;
 
 /// By which the server knows a POST that it has answered before.
 std::string new_key() {
@@ -34,18 +39,32 @@ std::string new_key() {
 }  // namespace
 
 struct RestClient::Impl {
+  using Request = http::request<http::string_body>;
+
   ServerAddress address;
   std::string token;
+  std::chrono::milliseconds most_silence{};
   asio::io_context context{1};
   asio::ssl::context tls{asio::ssl::context::tls_client};
   std::unique_ptr<beast::tcp_stream> plain;
   std::unique_ptr<beast::ssl_stream<beast::tcp_stream>> secure;
 
+  /// Begins something and waits until it is done or the server has been silent for too long. Throws its error.
+  template <class Begin>
+  void wait(beast::tcp_stream& stream, Begin begin) {
+    beast::error_code trouble;
+    stream.expires_after(most_silence);
+    begin([&trouble](beast::error_code error, auto&&...) { trouble = error; });
+    context.restart();
+    context.run();
+    if (trouble) throw beast::system_error(trouble);
+  }
+
   void connect() {
     const auto targets = Tcp::resolver(context).resolve(address.host, address.port);
     if (!address.tls) {
       plain = std::make_unique<beast::tcp_stream>(context);
-      plain->connect(targets);
+      wait(*plain, [&](auto done) { plain->async_connect(targets, done); });
       return;
     }
     tls.set_default_verify_paths();
@@ -54,8 +73,9 @@ struct RestClient::Impl {
     secure->set_verify_callback(asio::ssl::rfc2818_verification(address.host));
     // What SSL_set_tlsext_host_name does, without its old-style cast.
     SSL_ctrl(secure->native_handle(), SSL_CTRL_SET_TLSEXT_HOSTNAME, TLSEXT_NAMETYPE_host_name, address.host.data());
-    beast::get_lowest_layer(*secure).connect(targets);
-    secure->handshake(asio::ssl::stream_base::client);
+    beast::tcp_stream& below = beast::get_lowest_layer(*secure);
+    wait(below, [&](auto done) { below.async_connect(targets, done); });
+    wait(below, [&](auto done) { secure->async_handshake(asio::ssl::stream_base::client, done); });
   }
 
   void drop() {
@@ -63,23 +83,65 @@ struct RestClient::Impl {
     secure.reset();
   }
 
-  template <class Stream>
-  RestAnswer exchange(Stream& stream, const http::request<http::string_body>& request) {
-    http::write(stream, request);
+  Request request(http::verb method, const std::string& path) const {
+    Request made{method, path, 11};
+    made.set(http::field::host, address.host_header());
+    made.set(http::field::user_agent, "homeward-agent");
+    if (!token.empty()) made.set(http::field::authorization, "Bearer " + token);
+    return made;
+  }
+
+  template <class Stream, class Parser>
+  void exchange(Stream& stream, const Request& request, Parser& parser) {
+    beast::tcp_stream& below = beast::get_lowest_layer(stream);
+    http::request_serializer<http::string_body> serializer(request);
+    while (!serializer.is_done()) {
+      wait(below, [&](auto done) { http::async_write_some(stream, serializer, done); });
+    }
     beast::flat_buffer buffer;
-    http::response_parser<http::string_body> parser;
-    parser.body_limit(kMaxAnswerBytes);
-    http::read(stream, buffer, parser);
-    const auto& response = parser.get();
-    RestAnswer answer{static_cast<int>(response.result_int()), response.body()};
-    if (!response.keep_alive()) drop();
-    return answer;
+    while (!parser.is_done()) {
+      wait(below, [&](auto done) { http::async_read_some(stream, buffer, parser, done); });
+    }
+    if (!parser.get().keep_alive()) drop();
+  }
+
+  /// Asks until there is an answer, with what `begin` makes ready for each try.
+  template <class Parser, class Begin>
+  Status ask(const Request& request, std::optional<Parser>& parser, Begin begin) {
+    std::string trouble;
+    for (int attempt = 0; attempt < kTries; ++attempt) {
+      try {
+        begin();
+        if (!plain && !secure) connect();
+        plain ? exchange(*plain, request, *parser) : exchange(*secure, request, *parser);
+        return {};
+      } catch (const beast::system_error& broken) {
+        // A kept connection may have been closed meanwhile. Made again it does nothing twice: a POST has its key.
+        trouble = broken.what();
+        drop();
+        if (broken.code() == beast::error::timeout) {
+          trouble = "it has said nothing for " + std::to_string(most_silence.count()) + " ms";
+          break;
+        }
+      } catch (const std::exception& broken) {
+        trouble = broken.what();
+        drop();
+      }
+      if (attempt + 1 < kTries) std::this_thread::sleep_for(std::chrono::milliseconds(200 * (attempt + 1)));
+    }
+    return fail(ErrorCode::kIo, "The server does not answer: " + trouble + ".", url(std::string(request.target())));
+  }
+
+  std::string url(const std::string& path) const {
+    return (address.tls ? "https://" : "http://") + address.host_header() + path;
   }
 };
 
-RestClient::RestClient(ServerAddress address, std::string token) : impl_(std::make_unique<Impl>()) {
+RestClient::RestClient(ServerAddress address, std::string token, std::chrono::milliseconds most_silence)
+    : impl_(std::make_unique<Impl>()) {
   impl_->address = std::move(address);
   impl_->token = std::move(token);
+  impl_->most_silence = most_silence;
 }
 RestClient::~RestClient() = default;
 RestClient::RestClient(RestClient&&) noexcept = default;
@@ -87,29 +149,38 @@ RestClient& RestClient::operator=(RestClient&&) noexcept = default;
 
 Result<RestAnswer> RestClient::call(const std::string& method, const std::string& path, std::string_view body,
                                     const std::map<std::string, std::string>& headers) {
-  http::request<http::string_body> request{http::string_to_verb(method), path, 11};
-  request.set(http::field::host, impl_->address.host_header());
-  request.set(http::field::user_agent, "homeward-agent");
-  if (!impl_->token.empty()) request.set(http::field::authorization, "Bearer " + impl_->token);
+  Impl::Request request = impl_->request(http::string_to_verb(method), path);
   if (method == "POST") request.set("Idempotency-Key", new_key());
   for (const auto& [name, value] : headers) request.set(name, value);
   request.body() = std::string(body);
   request.prepare_payload();
-  std::string trouble;
-  constexpr int kTries = 3;
-  for (int attempt = 0; attempt < kTries; ++attempt) {
-    try {
-      if (!impl_->plain && !impl_->secure) impl_->connect();
-      return impl_->plain ? impl_->exchange(*impl_->plain, request) : impl_->exchange(*impl_->secure, request);
-    } catch (const std::exception& broken) {
-      // A kept connection may have been closed meanwhile. Made again it does nothing twice: a POST has its key.
-      trouble = broken.what();
-      impl_->drop();
-      if (attempt + 1 < kTries) std::this_thread::sleep_for(std::chrono::milliseconds(200 * (attempt + 1)));
-    }
-  }
-  return fail(ErrorCode::kIo, "The server does not answer: " + trouble + ".",
-              (impl_->address.tls ? "https://" : "http://") + impl_->address.host_header() + path);
+  std::optional<http::response_parser<http::string_body>> parser;
+  const Status asked = impl_->ask(request, parser, [&] {
+    parser.emplace();
+    parser->body_limit(kMaxAnswerBytes);
+  });
+  if (!asked) return pass_on(asked);
+  return RestAnswer{static_cast<int>(parser->get().result_int()), std::move(parser->get().body())};
+}
+
+Status RestClient::download(const std::string& path, const std::filesystem::path& file) {
+  const Impl::Request request = impl_->request(http::verb::get, path);
+  std::optional<http::response_parser<http::file_body>> parser;
+  const Status asked = impl_->ask(request, parser, [&] {
+    parser.emplace();
+    parser->body_limit(kMaxFileBytes);
+    beast::error_code trouble;
+    parser->get().body().open(file.c_str(), beast::file_mode::write, trouble);
+    if (trouble) throw std::runtime_error(file.string() + " cannot be written: " + trouble.message());
+  });
+  const int status = asked ? static_cast<int>(parser->get().result_int()) : 0;
+  parser.reset();
+  if (status == 200) return {};
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+  if (!asked) return pass_on(asked);
+  return fail(status == 404 ? ErrorCode::kNotFound : ErrorCode::kIo,
+              "The server answered " + std::to_string(status) + " when asked for the file.", impl_->url(path));
 }
 
 }  // namespace homeward::agent

@@ -9,7 +9,6 @@
 
 #include "agent/link/rest_client.hpp"
 #include "db/map_file.hpp"
-#include "files/write_file.hpp"
 
 namespace homeward::agent {
 namespace {
@@ -45,17 +44,11 @@ class TemporaryFolder {
 Result<std::shared_ptr<const map::TopologicalMap>> fetch_map(const ServerAddress& server, const std::string& token,
                                                              const MapId& map) {
   RestClient client(server, token);
-  const std::string where = "maps/" + map.str();
-  const auto answer = client.call("GET", "/api/v1/" + where + "/export", "", {});
-  if (!answer) return pass_on(answer);
-  if (answer->status != 200) {
-    return fail(answer->status == 404 ? ErrorCode::kNotFound : ErrorCode::kIo,
-                "The server answered " + std::to_string(answer->status) + " when asked for the map.", where);
-  }
   const auto folder = TemporaryFolder::create();
   if (!folder) return pass_on(folder);
   const std::filesystem::path file = folder->path() / "path.hwmap";
-  if (const Status written = files::write_file(file, answer->body); !written) return pass_on(written);
+  const Status fetched = client.download("/api/v1/maps/" + map.str() + "/export", file);
+  if (!fetched) return pass_on(fetched);
   auto loaded = db::load_map(file);
   if (!loaded) return pass_on(loaded);
   return std::make_shared<const map::TopologicalMap>(std::move(loaded->map));
