@@ -102,7 +102,7 @@ Fit fitted(const ViewMotion& start, std::span<const PointPair> pairs, const TwoV
 
 /// What a motion can be near: that of samples, the one expected, and driving straight.
 std::vector<ViewMotion> starts_of(std::span<const PointPair> pairs, const TwoViewConfig& config, std::uint64_t seed,
-                                  const std::optional<ViewMotion>& expected, const TurnAlone& turn) {
+                                  const MotionExpectation& expected, const TurnAlone& turn) {
   std::vector<Correspondence> matches;
   std::vector<double> scales;
   for (const PointPair& pair : pairs) {
@@ -110,8 +110,7 @@ std::vector<ViewMotion> starts_of(std::span<const PointPair> pairs, const TwoVie
     scales.push_back(radians_per_px(pair.current));
   }
   const double most_px = config.search_error_px;
-  std::vector<ViewMotion> starts;
-  if (expected) starts.push_back(*expected);
+  std::vector<ViewMotion> starts = expected.motions;
   if (config.driving) {
     const ViewMotion ahead{level_turn(turn.current_from_target), Eigen::Vector3d::UnitX()};
     starts.push_back(in_front(ahead, pairs, most_px));
@@ -136,12 +135,13 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 std::optional<Likeliest> likeliest(std::span<const ViewMotion> starts, std::span<const PointPair> pairs,
-                                   const TwoViewConfig& config) {
+                                   const TwoViewConfig& config, const MotionExpectation& expected) {
   std::vector<Likeliest> fits;
   for (const ViewMotion& start : starts) {
     Likeliest one;
     one.fit = fitted(start, pairs, config);
     one.log_likelihood = one.fit.errors.log_likelihood - 0.5 * unlike_driving(one.fit.refined.motion, config.driving);
+    if (expected.log_likelihood) one.log_likelihood += expected.log_likelihood(one.fit.refined.motion);
     fits.push_back(std::move(one));
   }
   if (fits.empty()) return std::nullopt;
@@ -255,13 +255,13 @@ std::vector<std::string> problems(const TwoViewConfig& config) {
 }
 
 Result<TwoViewEstimate> estimate_two_view(std::span<const PointPair> pairs, const TwoViewConfig& config,
-                                          std::uint64_t seed, const std::optional<ViewMotion>& expected) {
+                                          std::uint64_t seed, const MotionExpectation& expected) {
   if (const auto wrong = problems(config); !wrong.empty()) return fail(ErrorCode::kInvalidInput, wrong.front());
   const auto fewest = static_cast<std::size_t>(config.fewest_pairs);
   if (pairs.size() < fewest) return fail(ErrorCode::kTooLittleSupport, "Too few points are seen in both views.");
   const TurnAlone turn = fit_turn(pairs, config.search_error_px, seed);
   TwoViewEstimate by_turn = judged(turn, pairs, config);
-  const auto found = likeliest(starts_of(pairs, config, seed, expected, turn), pairs, config);
+  const auto found = likeliest(starts_of(pairs, config, seed, expected, turn), pairs, config, expected);
   TwoViewEstimate estimate = by_turn;
   if (found) {
     estimate = judged(found->fit.refined, pairs, found->fit.errors.spread_px, config);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,12 +46,18 @@ struct TwoViewEstimate {
   double lead = 0.0;  // by how much the log likelihood exceeds that of the best motion in another direction
 };
 
+/// What is known of a motion beside the pairs of points.
+struct MotionExpectation {
+  std::vector<ViewMotion> motions;                          // to begin at
+  std::function<double(const ViewMotion&)> log_likelihood;  // of one, by what else was seen; none: nothing was
+};
+
 /// The motion between two views of a central camera, and where the points are: five-point samples (Nistér 2004) beside
-/// the motion `expected` if there is one, each refined in pixels (Sampson error) on the pairs that agree with it, the
-/// likeliest taken (by a mixture of right and wrong pairs, and the prior); points by triangulation. Where a turn alone
-/// explains what the pairs show, it is what is given. Deterministic by `seed`.
-/// Errors: kInvalidInput with the first of `problems`, kTooLittleSupport (fewer than `fewest_pairs` pairs or inliers).
+/// those that are expected, each refined in pixels (Sampson error) on the pairs that agree with it, the
+/// likeliest taken (by a mixture of right and wrong pairs, the prior, and what else is known); points by triangulation.
+/// Where a turn alone explains what the pairs show, it is what is given. Deterministic by `seed`. Errors: kInvalidInput
+/// with the first of `problems`, kTooLittleSupport (fewer than `fewest_pairs` pairs or inliers).
 Result<TwoViewEstimate> estimate_two_view(std::span<const PointPair> pairs, const TwoViewConfig& config,
-                                          std::uint64_t seed, const std::optional<ViewMotion>& expected = {});
+                                          std::uint64_t seed, const MotionExpectation& expected = {});
 
 }  // namespace homeward::geometry

@@ -22,11 +22,6 @@ constexpr double kDoubtfulLead = 10.0;
 constexpr std::size_t kDoubtfulFeatures = 30;
 constexpr double kDoubtfulLogSpread = 0.3;
 
-bool is_doubtful(const Arc& arc) {
-  return arc.direction_spread_rad > kDoubtfulSpread_rad || arc.lead < kDoubtfulLead ||
-         arc.matches.size() < kDoubtfulFeatures;
-}
-
 /// Arcs around one, in the order of the way, without a gap: indices in the path.
 struct Range {
   std::vector<int> arcs;
@@ -168,6 +163,11 @@ bool is_better(const Landmark& now, const Landmark& before) {
 }
 
 }  // namespace
+
+bool is_doubtful(const Arc& arc) {
+  return arc.direction_spread_rad > kDoubtfulSpread_rad || arc.lead < kDoubtfulLead ||
+         arc.matches.size() < kDoubtfulFeatures;
+}
 
 std::optional<int> ArcSurroundings::position_of(int key) const {
   const auto found = std::ranges::find(keys, key, &KeyPose::key);

@@ -51,6 +51,9 @@ struct ArcSurroundings {
   [[nodiscard]] const KeyPose* next_key(int number) const;
 };
 
+/// Whether something warns of an arc that may be far off (docs/experiments/teaching_a_path.md).
+bool is_doubtful(const Arc& arc);
+
 /// The surroundings of an arc, up to `reach` arcs before and after it as far as the path is in one piece; where it is
 /// closed they go on round it, but never to the same key image again, and without the landmarks from beyond. Units are
 /// joined by the nodes' scales, and past a turn on the spot by the landmarks that the arcs on both sides have in

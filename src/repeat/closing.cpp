@@ -100,8 +100,8 @@ std::optional<ClosingArc> arc_between(const Common& common, const WideMatch& mat
     view.paired.push_back(static_cast<int>(i));
   }
   view.tracked = static_cast<int>(pairs.size());
-  std::optional<geometry::ViewMotion> expected;
-  if (match.estimate.has_baseline) expected = match.estimate.motion;
+  geometry::MotionExpectation expected;
+  if (match.estimate.has_baseline) expected.motions.push_back(match.estimate.motion);
   auto geometry = geometry::estimate_two_view(pairs, any_way(config.geometry), config.seed, expected);
   if (!geometry) return std::nullopt;
   view.geometry = *std::move(geometry);

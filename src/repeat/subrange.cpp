@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "core/index.hpp"
+#include "core/median.hpp"
 #include "repeat/seen.hpp"
 #include "repeat/turned_pixels.hpp"
 
@@ -17,6 +19,28 @@ using tracking::FeatureState;
 bool is_tracked(const tracking::TrackedFeature& feature) { return feature.state == FeatureState::kTracked; }
 
 }  // namespace
+
+std::optional<geometry::ViewMotion> motion_between(const SubrangeView& one, const SubrangeView& other) {
+  constexpr std::size_t kFewest = 6;
+  if (!one.geometry || !other.geometry || !one.geometry->has_baseline || !other.geometry->has_baseline)
+    return std::nullopt;
+  std::map<int, double> nearness;
+  for (std::size_t i = 0; i < one.geometry->inliers.size(); ++i)
+    nearness[one.paired[at(one.geometry->inliers[i])]] = one.geometry->rays[i].nearness;
+  std::vector<double> longer;
+  for (std::size_t i = 0; i < other.geometry->inliers.size(); ++i) {
+    const auto known = nearness.find(other.paired[at(other.geometry->inliers[i])]);
+    const double now = other.geometry->rays[i].nearness;
+    if (known != nearness.end() && known->second > 0.0 && now > 0.0) longer.push_back(now / known->second);
+  }
+  if (longer.size() < kFewest) return std::nullopt;
+  const geometry::ViewMotion& a = one.geometry->motion;
+  const geometry::ViewMotion& b = other.geometry->motion;
+  const Eigen::Vector3d way = median(std::move(longer)) * b.target_in_current - a.target_in_current;
+  if (!(way.norm() > 0.0)) return std::nullopt;
+  return geometry::ViewMotion{a.current_from_target.transpose() * b.current_from_target,
+                              a.current_from_target.transpose() * way.normalized()};
+}
 
 Arc arc_of(const geometry::TwoViewEstimate& geometry, int from, ArcEnd ended_by) {
   Arc arc;
@@ -125,14 +149,34 @@ SubrangeView Subrange::look_where(const NumberedPicture& picture, const TeachCon
     pairs.push_back({seen_[guessed[i]], *seen});
     view.paired.push_back(static_cast<int>(guessed[i]));
   }
-  std::optional<geometry::ViewMotion> expected;
-  if (latest_ && latest_->geometry && latest_->geometry->has_baseline) expected = latest_->geometry->motion;
   const std::uint64_t seed = config.seed + static_cast<std::uint64_t>(picture.number);
-  auto geometry = geometry::estimate_two_view(pairs, config.geometry, seed, expected);
+  auto geometry = geometry::estimate_two_view(pairs, config.geometry, seed, expectation(pairs, view.paired, config));
   if (!geometry) return view;
   view.geometry = *std::move(geometry);
   for (const int inlier : view.geometry->inliers) view.common += view.paired[at(inlier)] < carried_ ? 1 : 0;
   return view;
+}
+
+/// The motion of the latest kept view, and what the arc before says of the points that both share.
+geometry::MotionExpectation Subrange::expectation(std::span<const geometry::PointPair> pairs,
+                                                  std::span<const int> paired, const TeachConfig& config) const {
+  geometry::MotionExpectation expected;
+  if (latest_ && latest_->geometry && latest_->geometry->has_baseline)
+    expected.motions.push_back(latest_->geometry->motion);
+  if (!latest_ && expected_) expected.motions.push_back(*expected_);
+  std::vector<KnownPair> seen;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Landmark* landmark = known_.landmark(features_[at(paired[i])].feature);
+    if (landmark != nullptr) seen.push_back({*landmark, pairs[i]});
+  }
+  if (!(config.known_weight > 0.0) || static_cast<int>(seen.size()) < config.fewest_known) return expected;
+  std::vector<geometry::ViewMotion> starts = expected.motions;
+  starts.emplace_back();
+  if (const auto motion = motion_by_structure(seen, starts)) expected.motions.push_back(*motion);
+  expected.log_likelihood = [seen = std::move(seen), weight = config.known_weight](const geometry::ViewMotion& motion) {
+    return weight * structure_log_likelihood(seen, motion);
+  };
+  return expected;
 }
 
 Arc Subrange::arc(int from, ArcEnd ended_by) const {

@@ -9,6 +9,7 @@
 #include "camera/camera.hpp"
 #include "core/result.hpp"
 #include "geometry/two_view.hpp"
+#include "repeat/known_structure.hpp"
 #include "repeat/taught_path.hpp"
 #include "repeat/teach_config.hpp"
 #include "repeat/wide_match.hpp"
@@ -40,6 +41,10 @@ struct SeenTwice {
   Eigen::Vector2d to_px = Eigen::Vector2d::Zero();
 };
 
+/// The motion from one view to another, both seen from one key image; nothing where their features do not tell how long
+/// one way is over the other.
+std::optional<geometry::ViewMotion> motion_between(const SubrangeView& one, const SubrangeView& other);
+
 /// An arc of a two-view geometry, without its matches, and one of those: of an inlier, its rays and how it is seen in
 /// the first key image. `spread_px`: of the geometry.
 Arc arc_of(const geometry::TwoViewEstimate& geometry, int from, ArcEnd ended_by);
@@ -69,6 +74,10 @@ class Subrange {
                                         const GuessPlace& guess) const;
   /// Takes more features of the key image, numbered on, where none is within the corners' spacing.
   void add(std::span<const Eigen::Vector2d> pixels_px, const TeachConfig& config);
+  /// Takes what the arc that ends in the key image knows of its points: it helps to tell the motion to later views.
+  void know(const Arc& before) { known_ = KnownStructure::of(before); }
+  /// Takes a motion that the first look may begin at.
+  void expect(const std::optional<geometry::ViewMotion>& motion) { expected_ = motion; }
   /// Goes on from a view; what is lost in it is not looked for again.
   void keep(SubrangeView view) { latest_ = std::move(view); }
   /// None before the second picture of the subrange was kept.
@@ -83,6 +92,8 @@ class Subrange {
   Subrange(NumberedPicture key, tracking::FeatureTracker tracker, std::shared_ptr<const camera::Camera> camera)
       : key_(std::move(key)), tracker_(std::move(tracker)), camera_(std::move(camera)) {}
   void take(std::span<const KeyFeature> features);
+  [[nodiscard]] geometry::MotionExpectation expectation(std::span<const geometry::PointPair> pairs,
+                                                        std::span<const int> paired, const TeachConfig& config) const;
 
   NumberedPicture key_;
   tracking::FeatureTracker tracker_;
@@ -91,6 +102,8 @@ class Subrange {
   std::vector<geometry::SeenPoint> seen_;  // the same in the key image
   int carried_ = 0;                        // the first so many are in the arc before, too
   int next_feature_ = 0;
+  KnownStructure known_;
+  std::optional<geometry::ViewMotion> expected_;
   std::optional<SubrangeView> latest_;
 };
 

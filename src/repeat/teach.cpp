@@ -86,7 +86,9 @@ TaughtPicture Teacher::take(NumberedPicture picture) {
     const bool may_end = subrange_->carried() >= config_.least_common;
     if (!why && may_end && view.common < config_.least_common) why = ArcEnd::kTooFewCommon;
     if (!why) return keep(std::move(picture), std::move(view), fate);
+    const auto on = motion_between(*subrange_->latest(), view);
     close_arc(*why);
+    subrange_->expect(on);
     view = look(picture);
     fate = PictureFate::kAfterKey;
   }
@@ -170,6 +172,7 @@ void Teacher::close_arc(ArcEnd why) {
   const auto carried = subrange_->agreeing_in_latest();
   // Cannot fail: the configuration was checked, and it is all that can be wrong.
   subrange_ = Subrange::begin(*std::exchange(latest_, std::nullopt), carried, next_feature_, camera_, config_).value();
+  subrange_->know(path_.arcs.back());
   next_feature_ = subrange_->next_feature();
   path_.key_images.push_back(key_image_of(*subrange_));
   is_key_in_path_ = true;

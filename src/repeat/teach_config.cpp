@@ -28,6 +28,8 @@ std::vector<std::string> problems(const TeachConfig& config) {
   expect(config.least_agreeing >= 0.0 && config.least_agreeing <= 1.0, "least_agreeing is not 0 to 1");
   expect(config.least_kept >= 0.0 && config.least_kept <= 1.0, "least_kept is not 0 to 1");
   expect(config.least_common >= 0, "least_common is negative");
+  expect(config.fewest_known >= 6, "fewest_known is less than 6");
+  expect(config.known_weight >= 0.0, "known_weight is negative");
   expect(config.fewest_scaled >= 1, "fewest_scaled is not positive");
   expect(config.retry_share >= 0.0 && config.retry_share <= 1.0, "retry_share is not 0 to 1");
   expect(config.most_skipped >= 0, "most_skipped is negative");

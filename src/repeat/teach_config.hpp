@@ -51,11 +51,13 @@ struct TeachConfig {
   double least_agreeing = 0.5;  // of the features that are tracked: with a smaller share on the geometry there is none
   double least_kept = 0.15;  // of a key image's features: a smaller share agreeing in an arc's second picture is chance
   int least_common = 10;     // features of the arc before: fewer left end an arc (there: at least one)
-  int fewest_scaled = 5;     // common points that a scale ratio is taken from
-  int most_skipped = 3;      // pictures in a row that nothing can be followed into; more cut the path
-  double retry_share = 0.7;  // where less of what agreed before does so again, features are looked for by the shift
-                             // of the whole picture, too
-  int most_features = 500;   // of a key image
+  int fewest_known = 12;     // points whose distance the arc before tells: fewer say nothing of the motion
+  double known_weight = 1.0;  // of what they say, beside the pairs; 0: they are not asked
+  int fewest_scaled = 5;      // common points that a scale ratio is taken from
+  int most_skipped = 3;       // pictures in a row that nothing can be followed into; more cut the path
+  double retry_share = 0.7;   // where less of what agreed before does so again, features are looked for by the shift
+                              // of the whole picture, too
+  int most_features = 500;    // of a key image
   tracking::HarrisConfig corners = key_corners();
   tracking::FeatureTrackerConfig tracker{};  // most_residual is R, there
   geometry::TwoViewConfig geometry = driving_geometry();

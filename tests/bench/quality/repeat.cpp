@@ -7,6 +7,7 @@
 //   --width W       the pictures shrunk to it; 320
 //   --close         the path is closed where it can be
 //   --dense         taught with repeat::dense_teaching()
+//   --known W       weight of what the arc before knows of an arc's motion, after --dense; 0: nothing
 //   --n N, --share S, --spacing PX, --strength S, --texture T, --sens K, --R R, --most M    of the teaching
 //   --reach R       arcs on both sides whose features are tracked
 //   --begin ARC     -1: anywhere, by recognition; 0
@@ -90,7 +91,9 @@ Options options_of(int argc, char** argv) {
     else if (name == "--dense") {
       options.teaching = repeat::dense_teaching();
       options.repeating.tracker = options.teaching.tracker;
-    } else if (name == "--out")
+    } else if (name == "--known")
+      options.teaching.known_weight = std::stod(next());
+    else if (name == "--out")
       options.out = next();
     else if (name == "--verbose")
       options.verbose = true;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// homeward_bench_teach TOUR [N [SIGMA [R [WIDTH [SEED [free] [cut]]]]]]: teaches a path from a folder of pictures with
-// camera.json and poses.csv (the truth) and says how good its arcs are. N: features below which an arc ends; SIGMA:
-// reprojection error above which it does; R: residual of a tracked feature; WIDTH: the pictures shrunk to it; free:
-// nothing is known of driving; cut: gaps are not bridged, and the path is not closed. Lines that begin with `key` say
-// where the key images are by their arcs alone, and in truth; the last line is a row of a table of all that.
+// homeward_bench_teach TOUR [N [SIGMA [R [WIDTH [SEED [dense] [free] [cut] [known W]]]]]]: teaches a path from a folder
+// of pictures with camera.json and poses.csv (the truth) and says how good its arcs are. N: features below which an arc
+// ends; SIGMA: reprojection error above which it does; R: residual of a tracked feature; WIDTH: the pictures shrunk to
+// it; dense: with dense_teaching(); free: nothing is known of driving; cut: gaps are not bridged, and the path is not
+// closed; known: the weight of what the arc before knows (0: nothing). Lines that begin with `key` say where the key
+// images are by their arcs alone, and in truth; the last line is a row of a table of all that.
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -211,7 +212,7 @@ void print_all(const PerspectiveTour& tour, const TaughtPath& path, const repeat
 int main(int argc, char** argv) try {
   using namespace homeward;
   if (argc < 2) {
-    std::fprintf(stderr, "usage: homeward_bench_teach TOUR [N [SIGMA [R [WIDTH [SEED [free] [cut]]]]]]\n");
+    std::fprintf(stderr, "usage: homeward_bench_teach TOUR [N [SIGMA [R [WIDTH [SEED [dense] [free] [cut] [known W]]]]]]\n");
     return 2;
   }
   cv::setNumThreads(1);
@@ -225,6 +226,7 @@ int main(int argc, char** argv) try {
     if (std::string(argv[i]) == "free") config.geometry.driving.reset();
     if (std::string(argv[i]) == "cut") config.bridging.reset();
     if (std::string(argv[i]) == "dense") config = repeat::dense_teaching();
+    if (std::string(argv[i]) == "known") config.known_weight = std::stod(argv[++i]);
   }
   config.fewest_features = std::min(config.fewest_features, config.least_features);
   const bench::PerspectiveTour tour = bench::read_perspective_tour(argv[1], width_px);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 #include "support/taught_room.hpp"
@@ -73,6 +74,18 @@ TEST_F(SubrangeOfARoom, LooksWithoutChangingAndKeepsWhatItIsTold) {
     EXPECT_LT((from_second.normalized() - match.to_bearing).norm(), 1e-6);
     EXPECT_NEAR(1.0 / from_second.norm(), match.to_nearness, 1e-6 + 1e-6 * match.to_nearness);
   }
+}
+
+TEST_F(SubrangeOfARoom, TwoViewsFromItTellTheMotionFromOneToTheOther) {
+  const auto subrange = Subrange::begin(picture(0), {}, 0, camera, config).value();
+  const auto motion = motion_between(subrange.look(picture(3), config), subrange.look(picture(5), config));
+  ASSERT_TRUE(motion);
+  const Pose2 truth = inverse(poses[3]) * poses[5];
+  const Eigen::Matrix3d& turn = motion->current_from_target;
+  EXPECT_NEAR(std::atan2(turn(1, 0), turn(0, 0)), truth.theta_rad, 0.005);
+  const Eigen::Vector3d& way = motion->target_in_current;
+  EXPECT_NEAR(std::atan2(way.y(), way.x()), std::atan2(truth.y_m, truth.x_m), 0.1);
+  EXPECT_FALSE(motion_between(subrange.look(picture(3), config), SubrangeView{}));
 }
 
 TEST_F(SubrangeOfARoom, WhatIsLostStaysLost) {
