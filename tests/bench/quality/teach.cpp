@@ -212,7 +212,8 @@ void print_all(const PerspectiveTour& tour, const TaughtPath& path, const repeat
 int main(int argc, char** argv) try {
   using namespace homeward;
   if (argc < 2) {
-    std::fprintf(stderr, "usage: homeward_bench_teach TOUR [N [SIGMA [R [WIDTH [SEED [dense] [free] [cut] [known W]]]]]]\n");
+    std::fprintf(stderr,
+                 "usage: homeward_bench_teach TOUR [N [SIGMA [R [WIDTH [SEED [dense] [free] [cut] [known W]]]]]]\n");
     return 2;
   }
   cv::setNumThreads(1);
