@@ -12,6 +12,7 @@ void register_map_diff(CLI::App& map);
 void register_map_doubts(CLI::App& map);
 void register_map_edit(CLI::App& map);
 void register_map_export(CLI::App& map);
+void register_map_pins(CLI::App& map);
 void register_map_refine(CLI::App& map);
 void register_map_shortcuts(CLI::App& map);
 

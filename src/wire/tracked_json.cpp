@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "wire/json_reader.hpp"
+
 namespace homeward::wire {
 
 nlohmann::json tracked_to_json(const TrackedView& view) {
@@ -32,6 +34,26 @@ nlohmann::json tracked_to_json(const TrackedView& view) {
                                {"probability", one.probability}});
   }
   return value;
+}
+
+Result<TrackedPose> tracked_pose_from_json(const nlohmann::json& value, const std::string& path) {
+  if (!value.is_object()) return fail(ErrorCode::kInvalidInput, "This is no line of homeward track.", path);
+  nlohmann::json asked = nlohmann::json::object();
+  for (const char* key : {"image", "lost", "x_m", "y_m", "theta_rad", "spread_m"}) {
+    if (value.contains(key)) asked[key] = value[key];
+  }
+  ObjectReader reader(asked, path);
+  TrackedPose tracked;
+  tracked.image = reader.text("image");
+  const bool lost = reader.boolean("lost");
+  if (!lost) {
+    tracked.pose = Pose2{reader.number("x_m"), reader.number("y_m"), reader.number("theta_rad", -4.0, 4.0)};
+    tracked.spread_m = reader.number("spread_m", 0.0, 1e6);
+  } else {
+    for (const char* key : {"x_m", "y_m", "theta_rad", "spread_m"}) reader.has(key);
+  }
+  if (const Status status = reader.finish(); !status) return pass_on(status);
+  return tracked;
 }
 
 }  // namespace homeward::wire

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/pose2.hpp"
+#include "core/result.hpp"
 
 namespace homeward::wire {
 
@@ -31,5 +33,15 @@ struct TrackedView {
 };
 
 nlohmann::json tracked_to_json(const TrackedView& view);
+
+/// What such a line says of where its picture was taken.
+struct TrackedPose {
+  std::string image;
+  std::optional<Pose2> pose;  // nothing: lost
+  double spread_m = 0.0;      // means nothing while lost
+};
+
+/// Errors: kInvalidInput, with the path of the field below `path`; other fields of a line are not looked at.
+Result<TrackedPose> tracked_pose_from_json(const nlohmann::json& value, const std::string& path);
 
 }  // namespace homeward::wire

@@ -74,6 +74,29 @@ class DrawnPlanAndDrive(CliTest):
         for name in sorted(self.poses)[:2]:
             self.assertEqual((self.folder / "drawn" / name).read_bytes()[:2], b"\xff\xd8")
 
+    def test_a_map_is_laid_onto_the_plan_by_where_its_tour_was_tracked(self):
+        tracked = self.folder / "tracked.jsonl"
+        tracked.write_text("".join(json.dumps(line) + "\n" for line in self.track("old.wrl", "--start", self.start)))
+        self.result_of("map", "build", "--tour", self.shared / "drive", "--camera", self.shared / "drive" / "camera.json",
+                       "--out", "drive.hwmap")
+        pins = ("map", "pins", "--map", "drive.hwmap", "--tracked", tracked, "--plan", "p1")
+        tie = json.loads(self.result_of(*pins, "--version", 3))
+        self.assertEqual((tie["plan"], tie["version"]), ("p1", 3))
+        self.assertGreaterEqual(len(tie["pins"]), 2)
+        for pin in tie["pins"]:
+            x_m, y_m, theta_rad = self.poses[pin["image"].split("/")[-1]]
+            self.assertLess(math.hypot(pin["x_m"] - x_m, pin["y_m"] - y_m), 0.3)
+            self.assertLess(abs(math.remainder(pin["theta_rad"] - theta_rad, 2 * math.pi)), 0.1)
+        self.assertIn(f"{len(tie['pins'])} of ", self.result_of(*pins, "--out", "tie.json"))
+        self.assertEqual(json.loads((self.folder / "tie.json").read_text())["pins"], tie["pins"])
+        self.assert_refused(3, ["--tour", "elsewhere"], *pins, "--tour", "elsewhere")
+        broken = self.folder / "broken.jsonl"
+        broken.write_text(tracked.read_text().splitlines()[0] + "\n{\"image\": 4}\n")
+        self.assert_refused(2, ["broken.jsonl: line 2"], *pins[:5], broken, *pins[6:])
+        lost = self.folder / "lost.jsonl"
+        lost.write_text('{"image": "00000.jpg", "lost": true}\n')
+        self.assert_refused(4, ["fewer than two places"], *pins[:5], lost, *pins[6:])
+
     def test_odometry_may_come_from_another_file(self):
         own = self.folder / "own.csv"
         own.write_text("filename,x_m,y_m,theta_rad\n" + "".join(f"{name},{x},{y},{turn}\n" for name, (x, y, turn) in
