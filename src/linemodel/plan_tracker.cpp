@@ -275,8 +275,7 @@ void PlanTracker::follow(const PoseCluster& place, double evidence) {
 }
 
 void PlanTracker::follow_evidence(double log_odds, const PlanEstimate& said) {
-  if (said.lines_expected < config_.doubtful_lines) return;
-  evidence_ += config_.evidence_share * (log_odds - evidence_);
+  if (said.lines_expected >= config_.doubtful_lines) evidence_ += config_.evidence_share * (log_odds - evidence_);
   wrong_pictures_ = known_ && evidence_ < config_.wrong_evidence ? wrong_pictures_ + 1 : 0;
 }
 

@@ -113,7 +113,7 @@ TEST_F(DriveThroughTwoRooms, IsLookedForAnewWhenItWasCarriedAway) {
   }
   PlanEstimate said;
   int wrong = 0;
-  for (int i = 0; i < 40; ++i) {  // around in the other room, of which odometry does not know how it got there
+  for (int i = 0; i < 60; ++i) {  // around in the other room, of which odometry does not know how it got there
     const double turn = 0.2 * i;
     const Pose2 robot{8.8 + 1.4 * std::cos(turn), 2.0 + std::sin(turn), wrap_angle(turn + 0.5 * kPi)};
     const Pose2 odometry = way[4] * (inverse(Pose2{10.2, 2.0, 0.5 * kPi}) * robot);
