@@ -75,6 +75,11 @@ PlanTracker::PlanTracker(Plan plan, const camera::Camera& camera, PlanFloor floo
       places_(config.places) {}
 
 void PlanTracker::start_anywhere() {
+  of_this_plan_ = true;
+  look_everywhere();
+}
+
+void PlanTracker::look_everywhere() {
   monte_carlo_.start_anywhere();
   places_.clear();
   searching_ = true;
@@ -261,7 +266,7 @@ PlanEstimate PlanTracker::estimate_places(const PictureLines& lines) {
   if (judged) of_this_plan_ = said.evidence >= config_.least_place_evidence;
   said.lost = !of_this_plan_ ? PlanLost::kNotInPlan : at.size() > 1 ? PlanLost::kAmbiguous : PlanLost::kSearching;
   if (said.evidence < config_.wrong_evidence && places_.driven_m() >= config_.most_search_m) {
-    start_anywhere();
+    look_everywhere();
   } else if (of_this_plan_ && judged && places_.decided()) {
     said.lost = PlanLost::kNo;
     follow(at.front(), said.evidence);

@@ -122,6 +122,7 @@ class PlanTracker {
   double move(const std::optional<Pose2>& odometry);
   [[nodiscard]] MonteCarlo::Fit fit(const PictureLines& lines, double gain, const RangeSweep* sweep, const Pose2& pose);
   [[nodiscard]] double sweep_log_weight(const RangeSweep& sweep, const Pose2& pose) const;
+  void look_everywhere();
   void weigh_everywhere(double driven_m, const RangeSweep* sweep);
   void weigh_places(const PictureLines& lines, double driven_m, const RangeSweep* sweep);
   [[nodiscard]] PlanEstimate estimate(const PictureLines& lines, double driven_m);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // homeward_bench_line_measures TOUR PLAN [EVERY]: how the measures of localisation on a drawn plan fall off beside the
 // true pose. TOUR is a folder of pictures with camera.json and poses.csv in the plan's frame, PLAN a .wrl; every
-// EVERYth picture is looked at. A row of Markdown for each measure and setting, then milliseconds of an update's parts
-// (medians over pictures).
+// EVERYth picture is looked at. A row of Markdown for each measure and setting, then milliseconds (of one
+// processor, medians over pictures) of an update's parts.
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -72,9 +72,8 @@ struct Falloff {
   double unused = 0.0;          // so that what is timed is done
 };
 
-double ms_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-}
+/// Of processor time, which a busy machine lengthens less than it does the clock's.
+double ms_since(std::clock_t begin) { return 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC; }
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
@@ -116,7 +115,7 @@ void add_picture(linemodel::PlanTracker& tracker, Asked& asked, LineMeasure meas
     const Eigen::Vector2d& point_m = points_m[random() % points_m.size()];
     sums.anywhere += score({point_m.x(), point_m.y(), 0.01 * static_cast<double>(random() % 628)}) / kAnywhere;
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = std::clock();
   double sum = 0.0;
   for (int k = 0; k < kPoses; ++k) {
     sum += lines.score(asked.at({truth.x_m + 1e-4 * k, truth.y_m, truth.theta_rad}, measure));
@@ -166,7 +165,7 @@ Status measure(const std::filesystem::path& folder, const std::string& plan_file
   for (std::size_t i = 0; i < pictures->size(); i += every) {
     const auto picture = files::read_picture((*pictures)[i]);
     if (!picture) return pass_on(picture);
-    const auto begin = std::chrono::steady_clock::now();
+    const auto begin = std::clock();
     const auto lines = linemodel::detect_lines(*picture, views, {});
     if (!lines) return pass_on(lines);
     detect_ms.push_back(ms_since(begin));
