@@ -52,7 +52,7 @@ void PlaceHypotheses::spread(double spread_m) {
   for (Place& place : places_) place.monte_carlo.spread(spread_m);
 }
 
-void PlaceHypotheses::weigh(const MonteCarlo::Weigh& weigh, const Evidence& evidence, double driven_m) {
+void PlaceHypotheses::weigh(const MonteCarlo::Weigh& weigh, const Look& look, double driven_m) {
   driven_m_ += driven_m;
   const std::array<int, 2> here{static_cast<int>(std::floor(way_.x_m / config_.square_m + 0.5)),
                                 static_cast<int>(std::floor(way_.y_m / config_.square_m + 0.5))};
@@ -61,34 +61,36 @@ void PlaceHypotheses::weigh(const MonteCarlo::Weigh& weigh, const Evidence& evid
     const auto middle = place.monte_carlo.clusters(kWithin_m, kWithin_rad, 1);
     if (!middle.empty()) place.at = middle.front();
     Square& square = place.squares[here];
-    square.evidence_m += driven_m * evidence(place.at.pose);
+    const Evidence evidence = look(place.at.pose);
+    square.all_m += driven_m * evidence.all;
+    square.built_m += driven_m * evidence.built;
     square.driven_m += driven_m;
   }
   sort_out();
   gather_particles();
 }
 
-double PlaceHypotheses::lead(const Place& one, const Place& other) const {
-  double sum = 0.0;
+double PlaceHypotheses::lead(const Place& one, const Place& other, double Square::*sum) const {
+  double lead = 0.0;
   for (const auto& [where, its] : one.squares) {  // both have been in the same squares for as long
     if (!(its.driven_m > 0.0)) continue;
-    const double more = (its.evidence_m - other.squares.at(where).evidence_m) / its.driven_m;
-    sum += std::min(1.0, its.driven_m / config_.whole_m) * std::clamp(more, -config_.most_lead, config_.most_lead);
+    const double more = (its.*sum - other.squares.at(where).*sum) / its.driven_m;
+    lead += std::min(1.0, its.driven_m / config_.whole_m) * std::clamp(more, -config_.most_lead, config_.most_lead);
   }
-  return sum;
+  return lead;
 }
 
-double PlaceHypotheses::least_lead(const Place& one) const {
+double PlaceHypotheses::least_lead(const Place& one, double Square::*sum) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Place& other : places_) {
-    if (&other != &one) least = std::min(least, lead(one, other));
+    if (&other != &one) least = std::min(least, lead(one, other, sum));
   }
   return least;
 }
 
 void PlaceHypotheses::sort_out() {
   std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < places_.size(); ++i) order.emplace_back(-least_lead(places_[i]), i);
+  for (std::size_t i = 0; i < places_.size(); ++i) order.emplace_back(-least_lead(places_[i], &Square::built_m), i);
   std::sort(order.begin(), order.end());
   std::vector<Place> kept;
   for (const auto& [unused, index] : order) {
@@ -97,7 +99,9 @@ void PlaceHypotheses::sort_out() {
       return (position_m(better.at.pose) - position_m(one.at.pose)).norm() < config_.same_m &&
              std::abs(wrap_angle(better.at.pose.theta_rad - one.at.pose.theta_rad)) < config_.same_rad;
     });
-    if (known || (!kept.empty() && lead(kept.front(), one) >= config_.drop_lead)) continue;
+    const bool behind = !kept.empty() && (lead(kept.front(), one, &Square::built_m) >= config_.drop_lead ||
+                                          lead(kept.front(), one, &Square::all_m) >= config_.drop_all);
+    if (known || behind) continue;
     kept.push_back(std::move(one));
   }
   places_ = std::move(kept);
@@ -107,8 +111,8 @@ std::vector<PlaceHypothesis> PlaceHypotheses::places() const {
   std::vector<PlaceHypothesis> said;
   double all = 0.0;
   for (const Place& one : places_) {
-    PlaceHypothesis place{one.at, 0.0, lead(places_.front(), one)};
-    for (const auto& [unused, square] : one.squares) place.evidence += square.evidence_m;
+    PlaceHypothesis place{one.at, 0.0, lead(places_.front(), one, &Square::built_m)};
+    for (const auto& [unused, square] : one.squares) place.evidence += square.all_m;
     if (driven_m_ > 0.0) place.evidence /= driven_m_;
     place.at.share = std::exp(-kShareOfLead * place.behind / config_.lead);
     all += place.at.share;
@@ -119,7 +123,9 @@ std::vector<PlaceHypothesis> PlaceHypotheses::places() const {
 }
 
 bool PlaceHypotheses::decided() const {
-  return !places_.empty() && driven_m_ >= config_.least_m && least_lead(places_.front()) >= config_.lead;
+  return !places_.empty() && driven_m_ >= config_.least_m &&
+         least_lead(places_.front(), &Square::built_m) >= config_.lead &&
+         least_lead(places_.front(), &Square::all_m) >= 0.0;
 }
 
 void PlaceHypotheses::gather_particles() {

@@ -24,26 +24,31 @@ struct PlaceConfig {
   double whole_m = 3.0;     // ... in full after so much driving in it, ...
   double most_lead = 0.5;   // ... and puts one place before another by no more than this
   double lead = 0.35;       // before every other place by so much: the robot is there
-  double drop_lead = 0.75;  // behind the first by so much: given up
+  double drop_lead = 0.70;  // behind the first by so much, or by
+  double drop_all = 1.20;   // so much of what all lines tell: given up
   double least_m = 2.0;     // driven before anything is decided
 };
 
 /// A place where the robot may be.
 struct PlaceHypothesis {
   PoseCluster at;         // its share is what the leads make of it
-  double evidence = 0.0;  // mean over the way
-  double behind = 0.0;    // the first, in evidence summed over the squares of the way
+  double evidence = 0.0;  // of all lines, mean over the way
+  double behind = 0.0;    // the first, in evidence of what is built, summed over the squares of the way
 };
 
 /// Several places that look alike, each followed by particles of its own so that none dies out by chance (clustered
 /// particle filtering; Milstein, Sanchez & Williamson 2002), and what the way driven tells of which it is. Within a
-/// place particles are weighed sharply. Between places evidence is summed over the floor that the robot has seen, not
-/// over pictures: furniture that is not where it is drawn speaks for a wrong place as long as it is in view, however
-/// often it is looked at (ours). Deterministic by the seed.
+/// place particles are weighed sharply. Between places what is built tells alone, as furniture that is not where it is
+/// drawn speaks for a wrong one; and evidence is summed over the floor that the robot has seen, not over pictures, as
+/// the same error is in view for long (ours). Deterministic by the seed.
 class PlaceHypotheses {
  public:
-  /// How much likelier what is seen is from this pose than by chance, as a logarithm.
-  using Evidence = std::function<double(const Pose2&)>;
+  /// How much likelier what is seen is from a pose than by chance, as a logarithm.
+  struct Evidence {
+    double all = 0.0;    // lines
+    double built = 0.0;  // those of what cannot be moved
+  };
+  using Look = std::function<Evidence(const Pose2&)>;
 
   explicit PlaceHypotheses(const PlaceConfig& config) : config_(config) {}
 
@@ -57,11 +62,11 @@ class PlaceHypotheses {
   /// It has moved somehow, by about so much.
   void spread(double spread_m);
   /// What is seen after driving `driven_m`. When it stood, particles are weighed, but nothing is told of places.
-  void weigh(const MonteCarlo::Weigh& weigh, const Evidence& evidence, double driven_m);
+  void weigh(const MonteCarlo::Weigh& weigh, const Look& look, double driven_m);
 
   /// Most probable first.
   [[nodiscard]] std::vector<PlaceHypothesis> places() const;
-  /// Whether the first is so far before all others that the robot is there.
+  /// Whether the first is so far before all others that the robot is there, and furniture does not speak against it.
   [[nodiscard]] bool decided() const;
   [[nodiscard]] double driven_m() const { return driven_m_; }
   /// Those of all places, as probable as these are.
@@ -69,7 +74,8 @@ class PlaceHypotheses {
 
  private:
   struct Square {
-    double evidence_m = 0.0;  // summed over metres driven
+    double all_m = 0.0;    // evidence summed over metres driven
+    double built_m = 0.0;  // the same
     double driven_m = 0.0;
   };
   struct Place {
@@ -78,8 +84,9 @@ class PlaceHypotheses {
     std::map<std::array<int, 2>, Square> squares;
   };
 
-  [[nodiscard]] double lead(const Place& one, const Place& other) const;
-  [[nodiscard]] double least_lead(const Place& one) const;
+  /// Of one place over another, by one of the sums of their squares.
+  [[nodiscard]] double lead(const Place& one, const Place& other, double Square::*sum) const;
+  [[nodiscard]] double least_lead(const Place& one, double Square::*sum) const;
   void sort_out();
   void gather_particles();
 

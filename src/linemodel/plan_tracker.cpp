@@ -31,6 +31,15 @@ constexpr double kBeamRandom = 0.15;  // share of ranges to what no plan shows
 constexpr double kUnmet = 10.0;       // spreads off whatever is drawn
 constexpr double kBeamsAlike = 0.15;  // of the beams' evidence counts, as neighbours hit the same
 
+/// Lines that reach so high are of what is built: walls, beams, ceilings.
+float built_height_m(const Plan& plan) {
+  constexpr float kAboveFurniture_m = 2.15F;
+  constexpr float kOfHighest = 0.85F;  // in a low building
+  float highest_m = 0.0F;
+  for (const PlanLine& line : plan.lines) highest_m = std::max({highest_m, line.from_m.z(), line.to_m.z()});
+  return std::min(kAboveFurniture_m, kOfHighest * highest_m);
+}
+
 }  // namespace
 
 PlanTrackerConfig tracker_config(LineMeasure measure) {
@@ -72,7 +81,8 @@ PlanTracker::PlanTracker(Plan plan, const camera::Camera& camera, PlanFloor floo
       floor_(std::move(floor)),
       at_sweep_(plan, config.sweep_height_m - 0.03, config.sweep_height_m + 0.03),
       monte_carlo_(floor_.free_points_m(), PlanFloor::kSpacing_m, config.monte_carlo),
-      places_(config.places) {}
+      places_(config.places),
+      built_height_m_(built_height_m(plan)) {}
 
 void PlanTracker::start_anywhere() {
   of_this_plan_ = true;
@@ -194,11 +204,22 @@ void PlanTracker::weigh_everywhere(double driven_m, const RangeSweep* sweep) {
 void PlanTracker::weigh_places(const PictureLines& lines, double driven_m, const RangeSweep* sweep) {
   const double gain = config_.gain * std::min(1.0, driven_m / config_.independent_m);
   const auto weigh = [&](const Pose2& pose) { return fit(lines, gain, sweep, pose); };
-  const auto evidence = [&](const Pose2& pose) {
-    const double log_odds = lines.log_odds(expected(pose));
-    return floor_.free(position_m(pose)) ? log_odds : config_.in_wall_evidence * log_odds;
+  const auto look = [&](const Pose2& pose) {
+    const std::span<const PlanLine> around = visible_.around(expectation_.eye_m(pose).head<2>());
+    ExpectedView view = expected(pose);
+    PlaceHypotheses::Evidence evidence{lines.log_odds(view), 0.0};
+    std::erase_if(view.lines, [&](const ExpectedLine& line) {
+      const PlanLine& drawn = around[static_cast<std::size_t>(line.index)];
+      return std::max(drawn.from_m.z(), drawn.to_m.z()) < built_height_m_;
+    });
+    evidence.built = lines.log_odds(view);
+    if (!floor_.free(position_m(pose))) {
+      evidence.all *= config_.in_wall_evidence;
+      evidence.built *= config_.in_wall_evidence;
+    }
+    return evidence;
   };
-  places_.weigh(weigh, evidence, driven_m);
+  places_.weigh(weigh, look, driven_m);
 }
 
 PlanEstimate PlanTracker::said_of(std::span<const PoseCluster> places, double least_share, const PictureLines& lines) {

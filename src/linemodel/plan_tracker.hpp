@@ -39,7 +39,7 @@ struct PlanTrackerConfig {
   double still_share = 0.6;           // of the weight at one place keeps it known; to become so again it takes
   double known_share = 0.9;           // of the weight there, not far from where it was known to be
   double most_doubted_m = 3.0;        // driven without that: it is looked for everywhere
-  std::size_t most_places = 24;       // that are told apart ...
+  std::size_t most_places = 40;       // that are told apart ...
   double places_share = 0.75;         // ... once particles that were everywhere are so many in them, ...
   double least_search_m = 2.0;        // ... not before so much driving, and after
   double most_search_m = 8.0;         // so much however many they are
@@ -143,6 +143,7 @@ class PlanTracker {
   PlanSlice at_sweep_;
   MonteCarlo monte_carlo_;
   PlaceHypotheses places_;
+  float built_height_m_;
   std::optional<Pose2> last_odometry_;
   bool searching_ = true;     // particles were everywhere, or are at places told apart
   bool of_this_plan_ = true;  // as far as has been seen

@@ -35,7 +35,8 @@ class RobotBetweenTwins : public ::testing::Test {
     return (position_m(pose) - position_m(where)).norm() < 0.5;
   }
   /// One step, and a picture that fits both places, of the true one by so much more.
-  void step(const Pose2& moved, double more) {
+  void step(const Pose2& moved, double more) { step(moved, more, more); }
+  void step(const Pose2& moved, double more, double more_built) {
     truth_ = truth_ * moved;
     places_.move(moved);
     const auto fit = [this](const Pose2& pose) {
@@ -44,8 +45,11 @@ class RobotBetweenTwins : public ::testing::Test {
       const double score = std::exp(-off_m * off_m / 0.05);
       return MonteCarlo::Fit{score, std::exp(5.0 * score)};
     };
-    const auto evidence = [&](const Pose2& pose) { return at(pose, truth_) ? 0.7 + more : 0.7; };
-    places_.weigh(fit, evidence, std::hypot(moved.x_m, moved.y_m));
+    const auto look = [&](const Pose2& pose) {
+      return at(pose, truth_) ? PlaceHypotheses::Evidence{0.7 + more, 0.7 + more_built}
+                              : PlaceHypotheses::Evidence{0.7, 0.7};
+    };
+    places_.weigh(fit, look, std::hypot(moved.x_m, moved.y_m));
   }
 
   Pose2 truth_{2.0, 2.5, 0.0};
@@ -87,6 +91,18 @@ TEST_F(RobotBetweenTwins, LearnsWhatOneCornerTellsOnce) {
   EXPECT_GT(places_.driven_m(), 19.0);
   EXPECT_FALSE(places_.decided());
   EXPECT_NEAR(places_.places().back().behind, 0.3, 0.01);
+}
+
+TEST_F(RobotBetweenTwins, IsNotFoundByFurnitureAlone) {
+  for (int i = 0; i < 24; ++i) step({0.25, 0.0, 0.0}, 0.2, 0.0);
+  EXPECT_FALSE(places_.decided());
+  EXPECT_EQ(places_.places().size(), 2U);
+}
+
+TEST_F(RobotBetweenTwins, IsNotFoundAgainstWhatFurnitureTells) {
+  for (int i = 0; i < 24; ++i) step({0.25, 0.0, 0.0}, -0.1, 0.3);
+  EXPECT_FALSE(places_.decided());
+  EXPECT_TRUE(at(places_.places().front().at.pose, truth_));
 }
 
 TEST_F(RobotBetweenTwins, IsNotWhereNothingSpeaksForIt) {

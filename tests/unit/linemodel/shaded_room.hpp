@@ -52,7 +52,8 @@ inline Plan twin_rooms() {
   twin_boxes({4.2F, 3.3F, 0.0F}, {5.4F, 4.0F, 2.0F});  // wardrobes
   twin_boxes({6.5F, 0.0F, 0.0F}, {8.3F, 0.7F, 0.8F});  // tables
   twin_boxes({7.0F, 3.7F, 0.9F}, {8.2F, 4.0F, 1.5F});  // shelves
-  mesh.box({3.3F, 2.0F, 0.0F}, {4.0F, 3.0F, 2.0F});
+  mesh.box({3.3F, 2.0F, 0.0F}, {4.0F, 3.0F, 2.6F});    // a closet
+  mesh.box({1.5F, 2.8F, 0.0F}, {1.7F, 4.0F, 2.6F});    // a wall
   mesh.box({2.2F, 3.3F, 0.0F}, {3.9F, 4.0F, 0.9F});
   mesh.box({2.0F, 0.0F, 0.0F}, {3.6F, 0.3F, 1.5F});
   return plan_of_mesh(mesh.vertices_m(), mesh.triangles());
