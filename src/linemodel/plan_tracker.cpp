@@ -251,10 +251,11 @@ PlanEstimate PlanTracker::estimate(const PictureLines& lines, double driven_m) {
   keep_known(said, driven_m);
   follow_evidence(lines.log_odds(expected(said.pose)), said);
   said.evidence = evidence_;
-  said.lost = evidence_ < config_.least_evidence ? PlanLost::kNotInPlan
-              : known_                           ? PlanLost::kNo
-              : said.others.empty()              ? PlanLost::kSearching
-                                                 : PlanLost::kAmbiguous;
+  of_this_plan_ = evidence_ >= (of_this_plan_ ? config_.still_evidence : config_.least_evidence);
+  said.lost = !of_this_plan_        ? PlanLost::kNotInPlan
+              : known_              ? PlanLost::kNo
+              : said.others.empty() ? PlanLost::kSearching
+                                    : PlanLost::kAmbiguous;
   if (wrong_pictures_ > config_.most_wrong_pictures || unknown_m_ > config_.most_doubted_m) start_anywhere();
   return said;
 }

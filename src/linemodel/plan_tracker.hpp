@@ -44,7 +44,8 @@ struct PlanTrackerConfig {
   double least_search_m = 2.0;        // ... not before so much driving, and after
   double most_search_m = 8.0;         // so much however many they are
   double evidence_share = 0.07;       // by which the mean of the log odds at the estimate follows each picture
-  double least_evidence = 0.55;       // less than this mean: the robot is not said to be on this plan
+  double still_evidence = 0.45;       // less than this mean: the robot is not said to be on this plan any more; ...
+  double least_evidence = 0.55;       // ... to be so again it takes this
   double least_place_evidence = 0.5;  // the same of a place among others, over all the way since they were taken up
   double least_judged_m = 3.0;        // driven among places before that is said of all of them
   double in_wall_evidence = 0.3;      // times that of a place where a robot cannot be

@@ -104,6 +104,29 @@ TEST_F(DriveThroughTwoRooms, IsSearchedForBeforeItIsSaidNotToBeOnThePlan) {
   }
 }
 
+TEST_F(DriveThroughTwoRooms, IsOffThePlanBelowOneLimitAndOnItAgainAboveAHigherOne) {
+  PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  const std::vector<Pose2> way = way_through();
+  tracker.start_at(way[0], 0.3, 0.15);
+  bool dark = true;  // until that is taken for another building
+  double last = 1.0;
+  PlanEstimate said;
+  for (const Pose2& robot : way) {
+    said = tracker.update(dark ? Image(config_.width_px, config_.height_px, 3) : picture(robot), robot, std::nullopt)
+               .value();
+    if (dark && said.lost == PlanLost::kNotInPlan) {
+      EXPECT_LT(said.evidence, tracking_.still_evidence);
+      EXPECT_GE(last, tracking_.still_evidence);
+      dark = false;
+    } else if (!dark) {
+      EXPECT_EQ(said.lost == PlanLost::kNotInPlan, said.evidence < tracking_.least_evidence);
+    }
+    last = said.evidence;
+  }
+  EXPECT_FALSE(dark);
+  EXPECT_EQ(said.lost, PlanLost::kNo);
+}
+
 TEST_F(DriveThroughTwoRooms, IsLookedForAnewWhenItWasCarriedAway) {
   PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
   const std::vector<Pose2> way = way_through();
