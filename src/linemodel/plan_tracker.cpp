@@ -107,6 +107,8 @@ void PlanTracker::start_at(const Pose2& pose, double spread_m, double spread_rad
   unknown_m_ = 0.0;
   known_ = true;
   known_at_ = pose;
+  jump_m_ = kJump_m + 3.0 * spread_m;
+  jump_rad_ = kJump_rad + 3.0 * spread_rad;
   evidence_ = 1.5 * config_.least_evidence;  // somebody has said so
   wrong_pictures_ = 0;
 }
@@ -262,11 +264,14 @@ PlanEstimate PlanTracker::estimate(const PictureLines& lines, double driven_m) {
 
 void PlanTracker::keep_known(const PlanEstimate& said, double driven_m) {
   const bool at_one = said.share >= (known_ ? config_.still_share : config_.known_share);
-  const bool jumped = (position_m(said.pose) - position_m(known_at_)).norm() > kJump_m ||
-                      std::abs(wrap_angle(said.pose.theta_rad - known_at_.theta_rad)) > kJump_rad;
+  const bool jumped = (position_m(said.pose) - position_m(known_at_)).norm() > jump_m_ ||
+                      std::abs(wrap_angle(said.pose.theta_rad - known_at_.theta_rad)) > jump_rad_;
   known_ = at_one && !jumped && said.spread_m <= config_.known_spread_m;
   unknown_m_ = known_ ? 0.0 : unknown_m_ + driven_m;
-  if (known_) known_at_ = said.pose;
+  if (!known_) return;
+  known_at_ = said.pose;
+  jump_m_ = kJump_m;
+  jump_rad_ = kJump_rad;
 }
 
 void PlanTracker::take_up_places(double driven_m) {

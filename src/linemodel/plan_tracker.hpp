@@ -150,7 +150,9 @@ class PlanTracker {
   bool of_this_plan_ = true;  // as far as has been seen
   double unknown_m_ = 0.0;    // driven since it was known where the robot is
   bool known_ = false;
-  Pose2 known_at_;  // there it was when that was known last, and moved since
+  Pose2 known_at_;       // there it was when that was known last, and moved since
+  double jump_m_ = 0.0;  // so far from there is another place
+  double jump_rad_ = 0.0;
   double evidence_ = 0.0;
   int wrong_pictures_ = 0;
   std::vector<ImageLine> lines_;

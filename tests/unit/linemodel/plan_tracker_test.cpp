@@ -104,6 +104,17 @@ TEST_F(DriveThroughTwoRooms, IsSearchedForBeforeItIsSaidNotToBeOnThePlan) {
   }
 }
 
+TEST_F(DriveThroughTwoRooms, IsFollowedFromAStartThatIsFarOffAsItsSpreadSays) {
+  PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  const std::vector<Pose2> way = way_through();
+  tracker.start_at({way[0].x_m + 1.7, way[0].y_m, way[0].theta_rad}, 1.2, 0.3);
+  PlanEstimate said;
+  for (std::size_t i = 0; i < 12; ++i) said = tracker.update(picture(way[i]), way[i], std::nullopt).value();
+  EXPECT_EQ(said.lost, PlanLost::kNo);
+  EXPECT_LT(off_m(said, way[11]), 0.25);
+  EXPECT_TRUE(tracker.places().empty());  // nobody looked elsewhere
+}
+
 TEST_F(DriveThroughTwoRooms, IsOffThePlanBelowOneLimitAndOnItAgainAboveAHigherOne) {
   PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
   const std::vector<Pose2> way = way_through();
