@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/angles.hpp"
+#include "linemodel/sight_map.hpp"
 
 namespace homeward::linemodel {
 namespace {
@@ -40,8 +41,8 @@ HoughSpace::HoughSpace(const camera::CameraConfig& camera) {
 
 std::optional<HoughPoint> HoughSpace::point(const Eigen::Vector3f& normal) const {
   if (!of_pinhole()) {
-    const float level = std::hypot(normal.x(), normal.y());
-    return in_half(std::atan2(normal.y(), normal.x()), std::atan2(normal.z(), level));
+    const float level = std::sqrt(normal.x() * normal.x() + normal.y() * normal.y());
+    return in_half(rough_atan2(normal.y(), normal.x()), rough_atan2(normal.z(), level));
   }
   // n . (x, y, f) = 0 along the line in the picture, so that its own normal is (nx, ny) and rho is -f nz / |(nx, ny)|.
   const Eigen::Vector3f in_camera = camera_from_robot_ * normal;

@@ -49,7 +49,13 @@ Pose2 moved_by(const Pose2& pose, const Eigen::Vector3d& off) {
 }  // namespace
 
 MonteCarlo::MonteCarlo(std::vector<Eigen::Vector2d> points_m, double spacing_m, const MonteCarloConfig& config)
+    : MonteCarlo(std::make_shared<const std::vector<Eigen::Vector2d>>(std::move(points_m)), spacing_m, config) {}
+
+MonteCarlo::MonteCarlo(std::shared_ptr<const std::vector<Eigen::Vector2d>> points_m, double spacing_m,
+                       const MonteCarloConfig& config)
     : points_m_(std::move(points_m)), spacing_m_(spacing_m), config_(config), random_(config.seed) {}
+
+MonteCarlo MonteCarlo::sibling(const MonteCarloConfig& config) const { return {points_m_, spacing_m_, config}; }
 
 double MonteCarlo::uniform() { return static_cast<double>(random_() >> 11) * 0x1.0p-53; }
 
@@ -59,8 +65,8 @@ double MonteCarlo::gaussian(double spread) {
 }
 
 Pose2 MonteCarlo::anywhere() {
-  const auto index = static_cast<std::size_t>(uniform() * static_cast<double>(points_m_.size()));
-  const Eigen::Vector2d& point_m = points_m_[std::min(index, points_m_.size() - 1)];
+  const auto index = static_cast<std::size_t>(uniform() * static_cast<double>(points_m_->size()));
+  const Eigen::Vector2d& point_m = (*points_m_)[std::min(index, points_m_->size() - 1)];
   return {point_m.x() + (uniform() - 0.5) * spacing_m_, point_m.y() + (uniform() - 0.5) * spacing_m_,
           wrap_angle(2.0 * kPi * uniform())};
 }

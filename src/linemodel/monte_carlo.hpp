@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <random>
 #include <span>
 #include <vector>
@@ -58,6 +59,9 @@ class MonteCarlo {
   /// The robot can be within half of `spacing_m` of any of the points. Precondition: not empty.
   MonteCarlo(std::vector<Eigen::Vector2d> points_m, double spacing_m, const MonteCarloConfig& config);
 
+  /// Another one without particles on the same floor.
+  [[nodiscard]] MonteCarlo sibling(const MonteCarloConfig& config) const;
+
   /// Nothing is known: anywhere, with any heading.
   void start_anywhere();
   void start_at(const Pose2& pose, double spread_m, double spread_rad);
@@ -75,13 +79,15 @@ class MonteCarlo {
   [[nodiscard]] const std::vector<Particle>& particles() const { return particles_; }
 
  private:
+  MonteCarlo(std::shared_ptr<const std::vector<Eigen::Vector2d>> points_m, double spacing_m,
+             const MonteCarloConfig& config);
   [[nodiscard]] Pose2 anywhere();
   double gaussian(double spread);
   double uniform();
   void follow_scores(double mean_score);
   void inject(const Weigh& weigh);
 
-  std::vector<Eigen::Vector2d> points_m_;
+  std::shared_ptr<const std::vector<Eigen::Vector2d>> points_m_;
   double spacing_m_;
   MonteCarloConfig config_;
   std::mt19937_64 random_;

@@ -15,14 +15,30 @@ constexpr std::size_t kMostPlaces = 4;
 constexpr double kLeastHeight_m = 0.05;  // of the camera: lower, the floor hides everything
 constexpr double kOther = 0.15;          // share of the belief that makes another place worth saying
 constexpr double kInWall = 0.1;          // times the weight of a pose where a robot cannot be
-constexpr double kNewSight_m = 1e3;      // a picture of which nothing is known in common with the last one
 constexpr double kMetresPerTurn = 0.3;   // a turn shows something new too
 constexpr double kWithoutOdometry_m = 0.25;
+constexpr double kNewSight_m = 0.5;     // a picture of which nothing is known in common with the last one
+constexpr double kPlaceReach_m = 0.75;  // of a place that is taken up
+constexpr double kPlaceReach_rad = 0.5;
+constexpr std::size_t kFewParticles = 45'000;  // more of them are still everywhere
+constexpr double kLeastSpread_m = 0.1;         // of a start at a place that has been found
+constexpr double kLeastSpread_rad = 0.05;
+constexpr double kJump_m = 1.5;  // from where the robot was known to be: another place
+constexpr double kJump_rad = 0.8;
 constexpr int kBeams = 60;
 constexpr double kBeamSpread_m = 0.12;
 constexpr double kBeamRandom = 0.15;  // share of ranges to what no plan shows
 constexpr double kUnmet = 10.0;       // spreads off whatever is drawn
 constexpr double kBeamsAlike = 0.15;  // of the beams' evidence counts, as neighbours hit the same
+
+/// Lines that reach so high are of what is built: walls, beams, ceilings.
+float built_height_m(const Plan& plan) {
+  constexpr float kAboveFurniture_m = 2.15F;
+  constexpr float kOfHighest = 0.85F;  // in a low building
+  float highest_m = 0.0F;
+  for (const PlanLine& line : plan.lines) highest_m = std::max({highest_m, line.from_m.z(), line.to_m.z()});
+  return std::min(kAboveFurniture_m, kOfHighest * highest_m);
+}
 
 }  // namespace
 
@@ -64,10 +80,20 @@ PlanTracker::PlanTracker(Plan plan, const camera::Camera& camera, PlanFloor floo
       visible_(plan, camera.config().robot_from_camera_translation_m.z(), config.visibility),
       floor_(std::move(floor)),
       at_sweep_(plan, config.sweep_height_m - 0.03, config.sweep_height_m + 0.03),
-      monte_carlo_(floor_.free_points_m(), PlanFloor::kSpacing_m, config.monte_carlo) {}
+      monte_carlo_(floor_.free_points_m(), PlanFloor::kSpacing_m, config.monte_carlo),
+      places_(config.places),
+      built_height_m_(built_height_m(plan)) {}
 
 void PlanTracker::start_anywhere() {
+  of_this_plan_ = true;
+  look_everywhere();
+}
+
+void PlanTracker::look_everywhere() {
   monte_carlo_.start_anywhere();
+  places_.clear();
+  searching_ = true;
+  unknown_m_ = 0.0;
   known_ = false;
   evidence_ = 0.0;
   wrong_pictures_ = 0;
@@ -75,7 +101,14 @@ void PlanTracker::start_anywhere() {
 
 void PlanTracker::start_at(const Pose2& pose, double spread_m, double spread_rad) {
   monte_carlo_.start_at(pose, spread_m, spread_rad);
+  places_.clear();
+  searching_ = false;
+  of_this_plan_ = true;
+  unknown_m_ = 0.0;
   known_ = true;
+  known_at_ = pose;
+  jump_m_ = kJump_m + 3.0 * spread_m;
+  jump_rad_ = kJump_rad + 3.0 * spread_rad;
   evidence_ = 1.5 * config_.least_evidence;  // somebody has said so
   wrong_pictures_ = 0;
 }
@@ -101,9 +134,10 @@ double PlanTracker::move(const std::optional<Pose2>& odometry) {
   if (odometry && last_odometry_) {
     const Pose2 moved = inverse(*last_odometry_) * *odometry;
     driven_m = std::hypot(moved.x_m, moved.y_m) + kMetresPerTurn * std::abs(moved.theta_rad);
-    monte_carlo_.move(moved);
+    places_.empty() ? monte_carlo_.move(moved) : places_.move(moved);
+    known_at_ = known_at_ * moved;
   } else if (!odometry) {
-    monte_carlo_.spread(kWithoutOdometry_m);
+    places_.empty() ? monte_carlo_.spread(kWithoutOdometry_m) : places_.spread(kWithoutOdometry_m);
   }
   last_odometry_ = odometry;
   return driven_m;
@@ -127,7 +161,8 @@ double PlanTracker::sweep_log_weight(const RangeSweep& sweep, const Pose2& pose)
 
 MonteCarlo::Fit PlanTracker::fit(const PictureLines& lines, double gain, const RangeSweep* sweep, const Pose2& pose) {
   const Eigen::Vector3d eye_m = expectation_.eye_m(pose);
-  expectation_.expect(pose, visible_.around(eye_m.head<2>()), view_);
+  expectation_.expect(pose, visible_.around(eye_m.head<2>()), view_,
+                      config_.measure.measure == LineMeasure::kDistanceTransform);
   MonteCarlo::Fit fit;
   const auto count = static_cast<double>(view_.lines.size());
   fit.score =
@@ -145,6 +180,17 @@ Result<PlanEstimate> PlanTracker::update(const Image& picture, const std::option
   if (!lines) return pass_on(lines);
   lines_ = std::move(*lines);
   const double driven_m = move(odometry);
+  const RangeSweep* ranges = sweep ? &*sweep : nullptr;
+  const PictureLines seen(lines_, expectation_.space(), config_.measure);
+  if (!places_.empty()) {
+    weigh_places(seen, driven_m, ranges);
+    return estimate_places(seen);
+  }
+  weigh_everywhere(driven_m, ranges);
+  return estimate(seen, driven_m);
+}
+
+void PlanTracker::weigh_everywhere(double driven_m, const RangeSweep* sweep) {
   MeasureConfig measure = config_.measure;
   if (!known_) {
     measure.tolerance_rad *= config_.wide;
@@ -154,42 +200,114 @@ Result<PlanEstimate> PlanTracker::update(const Image& picture, const std::option
   const PictureLines seen(lines_, expectation_.space(), measure);
   const double independent_m = known_ ? config_.independent_m : config_.wide_independent_m;
   const double gain = (known_ ? config_.gain : config_.wide_gain) * std::min(1.0, driven_m / independent_m);
-  const RangeSweep* ranges = sweep ? &*sweep : nullptr;
-  monte_carlo_.weigh([&](const Pose2& pose) { return fit(seen, gain, ranges, pose); });
-  return estimate(PictureLines(lines_, expectation_.space(), config_.measure));
+  monte_carlo_.weigh([&](const Pose2& pose) { return fit(seen, gain, sweep, pose); });
 }
 
-PlanEstimate PlanTracker::estimate(const PictureLines& lines) {
-  const std::vector<PoseCluster> places = monte_carlo_.clusters(kReach_m, kReach_rad, kMostPlaces);
+void PlanTracker::weigh_places(const PictureLines& lines, double driven_m, const RangeSweep* sweep) {
+  const double gain = config_.gain * std::min(1.0, driven_m / config_.independent_m);
+  const auto weigh = [&](const Pose2& pose) { return fit(lines, gain, sweep, pose); };
+  const auto look = [&](const Pose2& pose) {
+    const std::span<const PlanLine> around = visible_.around(expectation_.eye_m(pose).head<2>());
+    ExpectedView view = expected(pose);
+    PlaceHypotheses::Evidence evidence{lines.log_odds(view), 0.0};
+    std::erase_if(view.lines, [&](const ExpectedLine& line) {
+      const PlanLine& drawn = around[static_cast<std::size_t>(line.index)];
+      return std::max(drawn.from_m.z(), drawn.to_m.z()) < built_height_m_;
+    });
+    evidence.built = lines.log_odds(view);
+    if (!floor_.free(position_m(pose))) {
+      evidence.all *= config_.in_wall_evidence;
+      evidence.built *= config_.in_wall_evidence;
+    }
+    return evidence;
+  };
+  places_.weigh(weigh, look, driven_m);
+}
+
+PlanEstimate PlanTracker::said_of(std::span<const PoseCluster> places, double least_share, const PictureLines& lines) {
   PlanEstimate said;
-  said.particles = monte_carlo_.particles().size();
+  said.particles = particles().size();
   said.lines_seen = static_cast<int>(lines_.size());
   if (places.empty()) return said;
   said.pose = places.front().pose;
   said.spread_m = places.front().spread_m;
   said.spread_rad = places.front().spread_rad;
   said.share = places.front().share;
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    if (places[i].share >= kOther) said.others.push_back(places[i]);
+  for (std::size_t i = 1; i < places.size() && i < kMostPlaces; ++i) {
+    if (places[i].share >= least_share) said.others.push_back(places[i]);
   }
   const ExpectedView view = expected(said.pose);
   said.lines_expected = static_cast<int>(view.lines.size());
   said.lines_confirmed = lines.confirmed_count(view);
-  known_ =
-      said.share >= (known_ ? config_.still_share : config_.known_share) && said.spread_m <= config_.known_spread_m;
-  follow_evidence(lines.log_odds(view), said);
-  said.evidence = evidence_;
-  said.lost = evidence_ < config_.least_evidence ? PlanLost::kNotInPlan
-              : known_                           ? PlanLost::kNo
-              : said.others.empty()              ? PlanLost::kSearching
-                                                 : PlanLost::kAmbiguous;
-  if (wrong_pictures_ > config_.most_wrong_pictures) start_anywhere();
   return said;
 }
 
+PlanEstimate PlanTracker::estimate(const PictureLines& lines, double driven_m) {
+  PlanEstimate said = said_of(monte_carlo_.clusters(kReach_m, kReach_rad, kMostPlaces), kOther, lines);
+  if (searching_) {
+    said.lost = of_this_plan_ ? PlanLost::kSearching : PlanLost::kNotInPlan;
+    take_up_places(driven_m);
+    return said;
+  }
+  if (said.share == 0.0) return said;
+  keep_known(said, driven_m);
+  follow_evidence(lines.log_odds(expected(said.pose)), said);
+  said.evidence = evidence_;
+  of_this_plan_ = evidence_ >= (of_this_plan_ ? config_.still_evidence : config_.least_evidence);
+  said.lost = !of_this_plan_        ? PlanLost::kNotInPlan
+              : known_              ? PlanLost::kNo
+              : said.others.empty() ? PlanLost::kSearching
+                                    : PlanLost::kAmbiguous;
+  if (wrong_pictures_ > config_.most_wrong_pictures || unknown_m_ > config_.most_doubted_m) start_anywhere();
+  return said;
+}
+
+void PlanTracker::keep_known(const PlanEstimate& said, double driven_m) {
+  const bool at_one = said.share >= (known_ ? config_.still_share : config_.known_share);
+  const bool jumped = (position_m(said.pose) - position_m(known_at_)).norm() > jump_m_ ||
+                      std::abs(wrap_angle(said.pose.theta_rad - known_at_.theta_rad)) > jump_rad_;
+  known_ = at_one && !jumped && said.spread_m <= config_.known_spread_m;
+  unknown_m_ = known_ ? 0.0 : unknown_m_ + driven_m;
+  if (!known_) return;
+  known_at_ = said.pose;
+  jump_m_ = kJump_m;
+  jump_rad_ = kJump_rad;
+}
+
+void PlanTracker::take_up_places(double driven_m) {
+  unknown_m_ += driven_m;
+  const bool must = unknown_m_ >= config_.most_search_m;
+  if (!must && (unknown_m_ < config_.least_search_m || monte_carlo_.particles().size() > kFewParticles)) return;
+  const std::vector<PoseCluster> places = monte_carlo_.clusters(kPlaceReach_m, kPlaceReach_rad, config_.most_places);
+  double share = 0.0;
+  for (const PoseCluster& place : places) share += place.share;
+  if (must || share >= config_.places_share) places_.begin(monte_carlo_, config_.monte_carlo, places);
+}
+
+PlanEstimate PlanTracker::estimate_places(const PictureLines& lines) {
+  std::vector<PoseCluster> at;
+  for (const PlaceHypothesis& place : places_.places()) at.push_back(place.at);
+  PlanEstimate said = said_of(at, kOther, lines);
+  said.evidence = places_.places().front().evidence;
+  const bool judged = places_.driven_m() >= config_.least_judged_m;
+  if (judged) of_this_plan_ = said.evidence >= config_.least_place_evidence;
+  said.lost = !of_this_plan_ ? PlanLost::kNotInPlan : at.size() > 1 ? PlanLost::kAmbiguous : PlanLost::kSearching;
+  if (said.evidence < config_.wrong_evidence && places_.driven_m() >= config_.most_search_m) {
+    look_everywhere();
+  } else if (of_this_plan_ && judged && places_.decided()) {
+    said.lost = PlanLost::kNo;
+    follow(at.front(), said.evidence);
+  }
+  return said;
+}
+
+void PlanTracker::follow(const PoseCluster& place, double evidence) {
+  start_at(place.pose, std::max(kLeastSpread_m, place.spread_m), std::max(kLeastSpread_rad, place.spread_rad));
+  evidence_ = std::max(evidence, config_.least_evidence);
+}
+
 void PlanTracker::follow_evidence(double log_odds, const PlanEstimate& said) {
-  if (said.lines_expected < config_.doubtful_lines) return;
-  evidence_ += config_.evidence_share * (log_odds - evidence_);
+  if (said.lines_expected >= config_.doubtful_lines) evidence_ += config_.evidence_share * (log_odds - evidence_);
   wrong_pictures_ = known_ && evidence_ < config_.wrong_evidence ? wrong_pictures_ + 1 : 0;
 }
 

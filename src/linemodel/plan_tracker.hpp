@@ -15,6 +15,7 @@
 #include "linemodel/image_line.hpp"
 #include "linemodel/monte_carlo.hpp"
 #include "linemodel/picture_lines.hpp"
+#include "linemodel/place_hypotheses.hpp"
 #include "linemodel/plan.hpp"
 #include "linemodel/plan_floor.hpp"
 #include "linemodel/visible_lines.hpp"
@@ -26,22 +27,32 @@ struct PlanTrackerConfig {
   LineDetection detection;
   VisibilityConfig visibility;
   MonteCarloConfig monte_carlo;
-  double gain = 20.0;               // of the score in a weight's logarithm
-  double independent_m = 0.3;       // after so much driving a picture counts as much; before, in proportion
-  double wide_gain = 9.0;           // the same while it is not known where the robot is, ...
-  double wide_independent_m = 0.6;  // ... as neighbouring pictures err alike where furniture is not where it is drawn
-  double wide = 2.5;                // times as tolerant is the measure meanwhile
-  double doubted_lines = 15.0;      // a score counts as if so many lines more were expected, ...
-  double doubted_score = 0.5;       // ... confirmed by this share: few lines say little
-  double known_spread_m = 0.6;      // less spread than this: it is known where the robot is
-  double still_share = 0.6;         // of the weight at one place keeps it known; to become so it takes
-  double known_share = 0.9;         // of the weight that has to be at one place
-  double evidence_share = 0.07;     // by which the mean of the log odds at the estimate follows each picture
-  double least_evidence = 0.55;     // less than this mean: the robot is not said to be on this plan
-  double wrong_evidence = 0.4;      // less, though it seems known where it is: it is looked for anew
-  int most_wrong_pictures = 20;     // before that
-  int doubtful_lines = 8;           // fewer expected lines say nothing of whether it is this plan
-  double sweep_height_m = 0.3;      // of the range sensor over the floor
+  PlaceConfig places;
+  double gain = 20.0;                 // of the score in a weight's logarithm
+  double independent_m = 0.3;         // after so much driving a picture counts as much; before, in proportion
+  double wide_gain = 9.0;             // the same while it is not known where the robot is, ...
+  double wide_independent_m = 0.6;    // ... as neighbouring pictures err alike where furniture is not where it is drawn
+  double wide = 2.5;                  // times as tolerant is the measure meanwhile
+  double doubted_lines = 15.0;        // a score counts as if so many lines more were expected, ...
+  double doubted_score = 0.5;         // ... confirmed by this share: few lines say little
+  double known_spread_m = 0.6;        // less spread than this: it is known where the robot is
+  double still_share = 0.6;           // of the weight at one place keeps it known; to become so again it takes
+  double known_share = 0.9;           // of the weight there, not far from where it was known to be
+  double most_doubted_m = 3.0;        // driven without that: it is looked for everywhere
+  std::size_t most_places = 40;       // that are told apart ...
+  double places_share = 0.75;         // ... once particles that were everywhere are so many in them, ...
+  double least_search_m = 2.0;        // ... not before so much driving, and after
+  double most_search_m = 8.0;         // so much however many they are
+  double evidence_share = 0.07;       // by which the mean of the log odds at the estimate follows each picture
+  double still_evidence = 0.45;       // less than this mean: the robot is not said to be on this plan any more; ...
+  double least_evidence = 0.55;       // ... to be so again it takes this
+  double least_place_evidence = 0.5;  // the same of a place among others, over all the way since they were taken up
+  double least_judged_m = 3.0;        // driven among places before that is said of all of them
+  double in_wall_evidence = 0.3;      // times that of a place where a robot cannot be
+  double wrong_evidence = 0.4;        // less, though it seems known where it is: it is looked for anew
+  int most_wrong_pictures = 20;       // before that
+  int doubtful_lines = 8;             // fewer expected lines say nothing of whether it is this plan
+  double sweep_height_m = 0.3;        // of the range sensor over the floor
 };
 
 /// Settings for one measure, by which gains its scores tell poses apart best (docs/experiments/plan_localisation.md).
@@ -61,7 +72,8 @@ struct PlanEstimate {
   int lines_seen = 0;       // in the picture
   int lines_expected = 0;   // by the plan, from `pose`
   int lines_confirmed = 0;  // of these, by the picture
-  double evidence = 0.0;    // mean log odds of late (PictureLines::log_odds): whether it is this plan at all
+  double evidence = 0.0;    // mean log odds of late (PictureLines::log_odds): whether it is this plan at all; 0 until
+                            // places are told apart
   PlanLost lost = PlanLost::kSearching;
 };
 
@@ -73,7 +85,9 @@ struct JudgedLine {
 
 /// Where a robot is on a drawn plan, picture by picture (Fichtner & Grossmann 2003): Monte Carlo localisation whose
 /// particles are weighed by how well the lines of the picture confirm those that the plan lets expect, and by a sweep
-/// of ranges where there is one (likelihood field; Thrun, Burgard & Fox 2005, section 6.4). Not thread-safe.
+/// of ranges where there is one (likelihood field; Thrun, Burgard & Fox 2005, section 6.4). Started anywhere, particles
+/// come down to some places first, which are then followed apart until one is ahead of all others
+/// (PlaceHypotheses). Not thread-safe.
 class PlanTracker {
  public:
   /// Errors: kEmptyInput (a plan without lines, or without floor to be on), kInvalidInput (a camera that is not above
@@ -89,7 +103,11 @@ class PlanTracker {
   Result<PlanEstimate> update(const Image& picture, const std::optional<Pose2>& odometry,
                               const std::optional<RangeSweep>& sweep);
 
-  [[nodiscard]] const std::vector<Particle>& particles() const { return monte_carlo_.particles(); }
+  [[nodiscard]] const std::vector<Particle>& particles() const {
+    return places_.empty() ? monte_carlo_.particles() : places_.particles();
+  }
+  /// The places that are told apart; none while particles are everywhere, or at one place.
+  [[nodiscard]] const PlaceHypotheses& places() const { return places_; }
   /// The lines of the last picture, and those expected from a pose.
   [[nodiscard]] const std::vector<ImageLine>& picture_lines() const { return lines_; }
   /// What should be in the last picture if it was taken at `pose`.
@@ -105,7 +123,17 @@ class PlanTracker {
   double move(const std::optional<Pose2>& odometry);
   [[nodiscard]] MonteCarlo::Fit fit(const PictureLines& lines, double gain, const RangeSweep* sweep, const Pose2& pose);
   [[nodiscard]] double sweep_log_weight(const RangeSweep& sweep, const Pose2& pose) const;
-  [[nodiscard]] PlanEstimate estimate(const PictureLines& lines);
+  void look_everywhere();
+  void weigh_everywhere(double driven_m, const RangeSweep* sweep);
+  void weigh_places(const PictureLines& lines, double driven_m, const RangeSweep* sweep);
+  [[nodiscard]] PlanEstimate estimate(const PictureLines& lines, double driven_m);
+  [[nodiscard]] PlanEstimate estimate_places(const PictureLines& lines);
+  /// What is said of the first of these places, and of the others that are believed.
+  [[nodiscard]] PlanEstimate said_of(std::span<const PoseCluster> places, double least_share,
+                                     const PictureLines& lines);
+  void take_up_places(double driven_m);
+  void follow(const PoseCluster& place, double evidence);
+  void keep_known(const PlanEstimate& said, double driven_m);
   void follow_evidence(double log_odds, const PlanEstimate& said);
 
   PlanTrackerConfig config_;
@@ -115,8 +143,16 @@ class PlanTracker {
   PlanFloor floor_;
   PlanSlice at_sweep_;
   MonteCarlo monte_carlo_;
+  PlaceHypotheses places_;
+  float built_height_m_;
   std::optional<Pose2> last_odometry_;
+  bool searching_ = true;     // particles were everywhere, or are at places told apart
+  bool of_this_plan_ = true;  // as far as has been seen
+  double unknown_m_ = 0.0;    // driven since it was known where the robot is
   bool known_ = false;
+  Pose2 known_at_;       // there it was when that was known last, and moved since
+  double jump_m_ = 0.0;  // so far from there is another place
+  double jump_rad_ = 0.0;
   double evidence_ = 0.0;
   int wrong_pictures_ = 0;
   std::vector<ImageLine> lines_;

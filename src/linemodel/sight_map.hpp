@@ -25,11 +25,20 @@ class SightMap {
     const std::int32_t index = cell_of(direction);
     return index == kNowhere || seen_[static_cast<std::size_t>(index)] == 0 ? kNowhere : index;
   }
-  /// The same whether the camera sees it or not; kNowhere far above and below.
+  /// How many of `samples` (at most kMostSamples) directions spread evenly over the chord from one unit vector to
+  /// another the camera sees. The same as asking `cell` of each, to a tenth of a cell.
+  [[nodiscard]] int count_seen(const Eigen::Vector3f& from, const Eigen::Vector3f& to, int samples) const;
+  static constexpr int kMostSamples = 12;
+  /// The cell of a direction, whether the camera sees it or not; kNowhere far above and below.
   [[nodiscard]] static std::int32_t cell_of(const Eigen::Vector3f& direction);
 
  private:
+  void find_ring();
+
   std::vector<std::uint8_t> seen_;  // kHeight x kWidth
+  bool ring_ = false;               // what it sees is the same all around, between two elevations: ...
+  float least_slope_ = 0.0F;        // ... their tangents
+  float most_slope_ = 0.0F;
 };
 
 /// atan2 to 2e-4 rad, for what is counted in cells (ours: a polynomial of the ratio of the smaller to the larger).

@@ -3,11 +3,12 @@
 """How well pictures are placed on a drawn plan that is out of date: tours of generated worlds, odometry with 5 % drift.
 
 usage: plan_tracking.py HOMEWARD WORLD... [--runs N] [--light L] [--camera C] [--step-m M] [--measure M] [--scans] [--anywhere]
-       [--plan OTHER_WORLD] [--pictures N] [--missing S] [--moved S] [--keep DIR]
+       [--plan OTHER_WORLD] [--after-m M] [--pictures N] [--missing S] [--moved S] [--keep DIR]
 
 For each WORLD (house:SEED, offices:SEED or a folder of pictures with poses.csv and camera.json and, after a comma, its
 world.json) and each run: another drift of the odometry, another plan (20 % of the objects missing, 10 % moved), another seed
-of the particles, another stretch of the tour. A row of Markdown for each world. Frames are counted from the 20th on.
+of the particles, another stretch of the tour. A row of Markdown for each world. Frames are counted from the 20th on, and what is said
+of those without a pose again after --after-m metres alone.
 """
 import argparse
 import csv
@@ -85,20 +86,23 @@ def one_run(options, folder, world, number, work):
     if not options.anywhere:
         arguments += ["--start", ",".join(f"{value:.4f}" for value in poses[0])]
     lines = [json.loads(line) for line in run(options.homeward, *arguments).splitlines()]
-    return judged(lines, poses)
+    return judged(lines, poses, options.after_m)
 
 
-def judged(lines, poses):
-    said = {"m": [], "deg": [], "ms": [], "lost": 0, "pictures": 0, "wrong": 0, "found_m": None, "reasons": {}}
+def judged(lines, poses, after_m):
+    said = {"m": [], "deg": [], "ms": [], "lost": 0, "pictures": 0, "wrong": 0, "found_m": None, "reasons": {}, "late": 0, "late_reasons": {}}
     driven = 0.0
     for number, (line, pose) in enumerate(zip(lines, poses)):
         if number:
             driven += math.dist(pose[:2], poses[number - 1][:2])
         said["pictures"] += 1
         said["ms"].append(line["ms"])
+        late = driven > after_m
+        said["late"] += late
         if line["lost"]:
             said["lost"] += 1
-            said["reasons"][line["why_lost"]] = said["reasons"].get(line["why_lost"], 0) + 1
+            for reasons in [said["reasons"]] + [said["late_reasons"]] * late:
+                reasons[line["why_lost"]] = reasons.get(line["why_lost"], 0) + 1
             continue
         off = math.dist((line["x_m"], line["y_m"]), pose[:2])
         if off > 0.5:
@@ -115,15 +119,12 @@ def row(name, runs):
     every = lambda key: [value for one in runs for value in one[key]]
     found = [one["found_m"] for one in runs if one["found_m"] is not None]
     pictures = sum(one["pictures"] for one in runs)
-    reasons = {}
-    for one in runs:
-        for why, count in one["reasons"].items():
-            reasons[why] = reasons.get(why, 0) + count
+    added = lambda key: {why: sum(one[key].get(why, 0) for one in runs) for why in sorted({why for one in runs for why in one[key]})}
     return (f"| {name} | {len(runs)} | {quantile(every('m'), 0.5):.3f} | {quantile(every('m'), 0.95):.3f} | "
             f"{quantile(every('deg'), 0.5):.2f} | {quantile(every('deg'), 0.95):.2f} | "
             f"{sum(one['lost'] for one in runs) / pictures:.3f} | {sum(one['wrong'] for one in runs)} of {pictures} | "
             f"{sum(value <= 20.0 for value in found)} of {len(runs)} ({', '.join(f'{value:.0f}' for value in sorted(found))} m) | "
-            f"{reasons} | {quantile(every('ms'), 0.5):.0f} |")
+            f"{added('reasons')} | {added('late_reasons')} of {sum(one['late'] for one in runs)} | {quantile(every('ms'), 0.5):.0f} |")
 
 
 def main():
@@ -140,11 +141,12 @@ def main():
     parser.add_argument("--scans", action="store_true")
     parser.add_argument("--anywhere", action="store_true")
     parser.add_argument("--plan")
+    parser.add_argument("--after-m", type=float, default=12.0)
     parser.add_argument("--missing", type=float, default=0.2)
     parser.add_argument("--moved", type=float, default=0.1)
     parser.add_argument("--keep", type=Path)
     options = parser.parse_args()
-    print("| world | runs | m | m, 95 % | degrees | degrees, 95 % | lost | wrong by 0.5 m | found within 20 m | lost because | ms |",
+    print("| world | runs | m | m, 95 % | degrees | degrees, 95 % | lost | wrong by 0.5 m | found within 20 m | lost because | after --after-m | ms |",
           flush=True)
     for world in options.worlds:
         work = Path(tempfile.mkdtemp(prefix="homeward-plan-"))

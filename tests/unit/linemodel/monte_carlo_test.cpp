@@ -108,6 +108,20 @@ TEST_F(RobotAmongPosts, StaysWhereItIsBelievedToBeWhenNothingFits) {
   EXPECT_LT(off_m(filter_.clusters(0.5, 0.35, 1).front()), 0.1);
 }
 
+TEST_F(RobotAmongPosts, HasSiblingsOnTheSameFloorWithoutParticles) {
+  filter_.start_at(truth_, 0.1, 0.05);
+  MonteCarloConfig config = small_config();
+  config.first_particles = 500;
+  MonteCarlo sibling = filter_.sibling(config);
+  EXPECT_TRUE(sibling.particles().empty());
+  sibling.start_anywhere();
+  ASSERT_EQ(sibling.particles().size(), 500U);
+  for (const Particle& one : sibling.particles()) {
+    ASSERT_GE(one.pose.x_m, -0.125);
+    ASSERT_LE(one.pose.x_m, 9.875);
+  }
+}
+
 TEST(Clusters, ComeMostProbableFirst) {
   MonteCarlo filter(floor_of_ten_by_ten(), 0.25, small_config());
   filter.start_anywhere();

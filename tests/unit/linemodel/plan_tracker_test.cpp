@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "core/angles.hpp"
 #include "shaded_room.hpp"
 
@@ -17,10 +19,25 @@ std::vector<Pose2> way_through() {
   return poses;
 }
 
+/// Another building: one room with pillars.
+Plan hall() {
+  MeshOfBoxes other;
+  other.box({0.0F, 0.0F, -0.1F}, {15.0F, 9.0F, 0.0F});
+  other.box({0.0F, -0.2F, 0.0F}, {15.0F, 0.0F, 3.6F});
+  other.box({0.0F, 9.0F, 0.0F}, {15.0F, 9.2F, 3.6F});
+  other.box({-0.2F, 0.0F, 0.0F}, {0.0F, 9.0F, 3.6F});
+  other.box({15.0F, 0.0F, 0.0F}, {15.2F, 9.0F, 3.6F});
+  for (int i = 0; i < 6; ++i) {
+    const float x = 2.0F + 2.2F * static_cast<float>(i);
+    other.box({x, 4.2F, 0.0F}, {x + 0.4F, 4.6F, 3.6F});
+  }
+  return plan_of_mesh(other.vertices_m(), other.triangles());
+}
+
 class DriveThroughTwoRooms : public ::testing::Test {
  protected:
-  explicit DriveThroughTwoRooms(const camera::CameraConfig& config = small_panorama())
-      : config_(config), camera_(camera::Camera::create(config).value()) {
+  explicit DriveThroughTwoRooms(const camera::CameraConfig& config = small_panorama(), Plan world = two_rooms())
+      : world_(std::move(world)), config_(config), camera_(camera::Camera::create(config).value()) {
     tracking_.monte_carlo.first_particles = 5'000;
     tracking_.monte_carlo.kld.least = 300;
   }
@@ -30,7 +47,7 @@ class DriveThroughTwoRooms : public ::testing::Test {
     return (position_m(said.pose) - position_m(truth)).norm();
   }
 
-  Plan world_ = two_rooms();
+  Plan world_;
   raycast::RayScene rays_{world_.vertices_m, world_.triangles};
   camera::CameraConfig config_;
   std::shared_ptr<const camera::Camera> camera_;
@@ -62,21 +79,83 @@ TEST_F(DriveThroughTwoRooms, IsFoundFromAnywhere) {
 }
 
 TEST_F(DriveThroughTwoRooms, IsNotOnThePlanOfAnotherBuilding) {
-  MeshOfBoxes other;
-  other.box({0.0F, 0.0F, -0.1F}, {15.0F, 9.0F, 0.0F});
-  other.box({0.0F, -0.2F, 0.0F}, {15.0F, 0.0F, 3.6F});
-  other.box({0.0F, 9.0F, 0.0F}, {15.0F, 9.2F, 3.6F});
-  other.box({-0.2F, 0.0F, 0.0F}, {0.0F, 9.0F, 3.6F});
-  other.box({15.0F, 0.0F, 0.0F}, {15.2F, 9.0F, 3.6F});
-  for (int i = 0; i < 6; ++i) {
-    const float x = 2.0F + 2.2F * static_cast<float>(i);
-    other.box({x, 4.2F, 0.0F}, {x + 0.4F, 4.6F, 3.6F});
-  }
-  PlanTracker tracker =
-      PlanTracker::create(plan_of_mesh(other.vertices_m(), other.triangles()), config_, tracking_).value();
+  PlanTracker tracker = PlanTracker::create(hall(), config_, tracking_).value();
   for (const Pose2& robot : way_through()) {
     EXPECT_NE(tracker.update(picture(robot), robot, std::nullopt)->lost, PlanLost::kNo);
   }
+}
+
+TEST_F(DriveThroughTwoRooms, IsSearchedForBeforeItIsSaidNotToBeOnThePlan) {
+  PlanTracker here = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  PlanTracker elsewhere = PlanTracker::create(hall(), config_, tracking_).value();
+  std::vector<Pose2> way = way_through();
+  for (int i = 0; i < 12; ++i) way.push_back({8.7 - 0.25 * i, 2.2 + 0.06 * i, 2.9});
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    const Image seen = picture(way[i]);
+    const PlanLost lost = elsewhere.update(seen, way[i], std::nullopt)->lost;
+    EXPECT_NE(lost, PlanLost::kNo);
+    if (i < 5) {
+      EXPECT_EQ(lost, PlanLost::kSearching);
+    }
+    if (i + 5 > way.size()) {
+      EXPECT_EQ(lost, PlanLost::kNotInPlan);
+    }
+    EXPECT_NE(here.update(seen, way[i], std::nullopt)->lost, PlanLost::kNotInPlan);
+  }
+}
+
+TEST_F(DriveThroughTwoRooms, IsFollowedFromAStartThatIsFarOffAsItsSpreadSays) {
+  PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  const std::vector<Pose2> way = way_through();
+  tracker.start_at({way[0].x_m + 1.7, way[0].y_m, way[0].theta_rad}, 1.2, 0.3);
+  PlanEstimate said;
+  for (std::size_t i = 0; i < 12; ++i) said = tracker.update(picture(way[i]), way[i], std::nullopt).value();
+  EXPECT_EQ(said.lost, PlanLost::kNo);
+  EXPECT_LT(off_m(said, way[11]), 0.25);
+  EXPECT_TRUE(tracker.places().empty());  // nobody looked elsewhere
+}
+
+TEST_F(DriveThroughTwoRooms, IsOffThePlanBelowOneLimitAndOnItAgainAboveAHigherOne) {
+  PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  const std::vector<Pose2> way = way_through();
+  tracker.start_at(way[0], 0.3, 0.15);
+  bool dark = true;  // until that is taken for another building
+  double last = 1.0;
+  PlanEstimate said;
+  for (const Pose2& robot : way) {
+    said = tracker.update(dark ? Image(config_.width_px, config_.height_px, 3) : picture(robot), robot, std::nullopt)
+               .value();
+    if (dark && said.lost == PlanLost::kNotInPlan) {
+      EXPECT_LT(said.evidence, tracking_.still_evidence);
+      EXPECT_GE(last, tracking_.still_evidence);
+      dark = false;
+    } else if (!dark) {
+      EXPECT_EQ(said.lost == PlanLost::kNotInPlan, said.evidence < tracking_.least_evidence);
+    }
+    last = said.evidence;
+  }
+  EXPECT_FALSE(dark);
+  EXPECT_EQ(said.lost, PlanLost::kNo);
+}
+
+TEST_F(DriveThroughTwoRooms, IsLookedForAnewWhenItWasCarriedAway) {
+  PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  const std::vector<Pose2> way = way_through();
+  tracker.start_at(way[0], 0.3, 0.15);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(tracker.update(picture(way[i]), way[i], std::nullopt)->lost, PlanLost::kNo);
+  }
+  PlanEstimate said;
+  int wrong = 0;
+  for (int i = 0; i < 60; ++i) {  // around in the other room, of which odometry does not know how it got there
+    const double turn = 0.2 * i;
+    const Pose2 robot{8.8 + 1.4 * std::cos(turn), 2.0 + std::sin(turn), wrap_angle(turn + 0.5 * kPi)};
+    const Pose2 odometry = way[4] * (inverse(Pose2{10.2, 2.0, 0.5 * kPi}) * robot);
+    said = tracker.update(picture(robot), odometry, std::nullopt).value();
+    if (said.lost == PlanLost::kNo && off_m(said, robot) > 0.5) ++wrong;
+  }
+  EXPECT_LT(wrong, 8);  // until it is noticed
+  EXPECT_EQ(said.lost, PlanLost::kNo);
 }
 
 TEST_F(DriveThroughTwoRooms, IsLostInTheDark) {
@@ -140,6 +219,37 @@ TEST_F(DriveThroughTwoRooms, IsNotDrawnOutOfThePlanByRaysThatEndBeyondIt) {
     EXPECT_NEAR(a.pose.x_m, b.pose.x_m, 0.01);
     EXPECT_NEAR(a.pose.y_m, b.pose.y_m, 0.01);
   }
+}
+
+class DriveThroughTwinRooms : public DriveThroughTwoRooms {
+ protected:
+  DriveThroughTwinRooms() : DriveThroughTwoRooms(small_panorama(), twin_rooms()) {}
+};
+
+TEST_F(DriveThroughTwinRooms, IsKnownOnceSomethingTellsTheEndsApartAndNotBefore) {
+  PlanTracker tracker = PlanTracker::create(twin_rooms(), config_, tracking_).value();
+  std::vector<Pose2> way;
+  for (int i = 0; i < 28; ++i) way.push_back({5.8 + 0.28 * i, 2.0, 0.0});
+  const std::size_t alike = way.size();
+  for (int i = 0; i < 20; ++i) way.push_back({13.5 + 0.2 * i, 2.0 + std::min(0.9, 0.15 * i), 0.1});
+  PlanEstimate said;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    said = tracker.update(picture(way[i]), way[i], std::nullopt).value();
+    if (i < alike) {
+      ASSERT_NE(said.lost, PlanLost::kNo) << "at " << way[i].x_m << " m";
+    }
+    if (said.lost == PlanLost::kNo) {
+      ASSERT_LT(off_m(said, way[i]), 0.3);
+    }
+    if (i + 1 == alike) {
+      EXPECT_EQ(said.lost, PlanLost::kAmbiguous);
+      ASSERT_FALSE(said.others.empty());
+      const Pose2 twin{18.6 - way[i].x_m, 4.0 - way[i].y_m, kPi};
+      const auto far_m = [&](const Pose2& pose) { return (position_m(pose) - position_m(twin)).norm(); };
+      EXPECT_LT(std::min(far_m(said.pose), far_m(said.others.front().pose)), 0.3);
+    }
+  }
+  EXPECT_EQ(said.lost, PlanLost::kNo);
 }
 
 TEST(PlanTracker, NamesWhatIsWrongWithAPlan) {

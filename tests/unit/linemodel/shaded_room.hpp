@@ -34,6 +34,31 @@ inline Plan two_rooms() {
   return plan_of_mesh(mesh.vertices_m(), mesh.triangles());
 }
 
+/// Four rooms in a row, x 0 to 4, 4.2 to 9.2, 9.4 to 14.4 and 14.6 to 18.6. A half turn about (9.3, 2) makes the same
+/// of the two in the middle, of all walls and doorways; of the outer ones the first is furnished, out of sight from the
+/// middle, and the last is bare.
+inline Plan twin_rooms() {
+  MeshOfBoxes mesh;
+  const auto twin_boxes = [&](const Eigen::Vector3f& least, const Eigen::Vector3f& most) {
+    mesh.box(least, most);
+    mesh.box({18.6F - most.x(), 4.0F - most.y(), least.z()}, {18.6F - least.x(), 4.0F - least.y(), most.z()});
+  };
+  mesh.box({-0.2F, -0.2F, -0.1F}, {18.8F, 4.2F, 0.0F});  // floor
+  twin_boxes({-0.2F, -0.2F, 0.0F}, {18.8F, 0.0F, 2.6F});
+  twin_boxes({-0.2F, 0.0F, 0.0F}, {0.0F, 4.0F, 2.6F});
+  twin_boxes({4.0F, 0.0F, 0.0F}, {4.2F, 0.6F, 2.6F});
+  twin_boxes({4.0F, 1.6F, 0.0F}, {4.2F, 4.0F, 2.6F});
+  twin_boxes({9.2F, 0.0F, 0.0F}, {9.4F, 1.5F, 2.6F});
+  twin_boxes({4.2F, 3.3F, 0.0F}, {5.4F, 4.0F, 2.0F});  // wardrobes
+  twin_boxes({6.5F, 0.0F, 0.0F}, {8.3F, 0.7F, 0.8F});  // tables
+  twin_boxes({7.0F, 3.7F, 0.9F}, {8.2F, 4.0F, 1.5F});  // shelves
+  mesh.box({3.3F, 2.0F, 0.0F}, {4.0F, 3.0F, 2.6F});    // a closet
+  mesh.box({1.5F, 2.8F, 0.0F}, {1.7F, 4.0F, 2.6F});    // a wall
+  mesh.box({2.2F, 3.3F, 0.0F}, {3.9F, 4.0F, 0.9F});
+  mesh.box({2.0F, 0.0F, 0.0F}, {3.6F, 0.3F, 1.5F});
+  return plan_of_mesh(mesh.vertices_m(), mesh.triangles());
+}
+
 /// What a camera sees of a plan, each face in a grey of its own.
 inline Image shaded_picture(const Plan& plan, const raycast::RayScene& rays, const camera::Camera& camera,
                             const Pose2& robot) {

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "linemodel/place_hypotheses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/angles.hpp"
+
+namespace homeward::linemodel {
+namespace {
+
+constexpr double kWithin_m = 0.75;  // of one place: its particles around their middle
+constexpr double kWithin_rad = 0.5;
+constexpr double kShareOfLead = 3.0;  // a place behind by what decides has e^-3 of the belief of the first
+
+}  // namespace
+
+void PlaceHypotheses::clear() {
+  places_.clear();
+  particles_.clear();
+  way_ = {};
+  driven_m_ = 0.0;
+}
+
+void PlaceHypotheses::begin(const MonteCarlo& floor, const MonteCarloConfig& particles,
+                            std::span<const PoseCluster> places) {
+  clear();
+  for (const PoseCluster& place : places) {
+    MonteCarloConfig config = particles;
+    config.start_particles = config_.particles;
+    config.kld.least = config_.least_particles;
+    config.kld.most = config_.particles;
+    config.most_injected = 0.0;
+    config.seed = particles.seed + 1 + places_.size();
+    Place one{floor.sibling(config), place, {}};
+    one.monte_carlo.start_at(place.pose, std::max(config_.spread_m, place.spread_m / std::sqrt(2.0)),
+                             std::max(config_.spread_rad, place.spread_rad));
+    places_.push_back(std::move(one));
+  }
+  gather_particles();
+}
+
+void PlaceHypotheses::move(const Pose2& moved) {
+  way_ = way_ * moved;
+  for (Place& place : places_) place.monte_carlo.move(moved);
+}
+
+void PlaceHypotheses::spread(double spread_m) {
+  way_ = way_ * Pose2{spread_m, 0.0, 0.0};
+  for (Place& place : places_) place.monte_carlo.spread(spread_m);
+}
+
+void PlaceHypotheses::weigh(const MonteCarlo::Weigh& weigh, const Look& look, double driven_m) {
+  driven_m_ += driven_m;
+  const std::array<int, 2> here{static_cast<int>(std::floor(way_.x_m / config_.square_m + 0.5)),
+                                static_cast<int>(std::floor(way_.y_m / config_.square_m + 0.5))};
+  for (Place& place : places_) {
+    place.monte_carlo.weigh(weigh);
+    const auto middle = place.monte_carlo.clusters(kWithin_m, kWithin_rad, 1);
+    if (!middle.empty()) place.at = middle.front();
+    Square& square = place.squares[here];
+    const Evidence evidence = look(place.at.pose);
+    square.all_m += driven_m * evidence.all;
+    square.built_m += driven_m * evidence.built;
+    square.driven_m += driven_m;
+  }
+  sort_out();
+  gather_particles();
+}
+
+double PlaceHypotheses::lead(const Place& one, const Place& other, double Square::*sum) const {
+  double lead = 0.0;
+  for (const auto& [where, its] : one.squares) {  // both have been in the same squares for as long
+    if (!(its.driven_m > 0.0)) continue;
+    const double more = (its.*sum - other.squares.at(where).*sum) / its.driven_m;
+    lead += std::min(1.0, its.driven_m / config_.whole_m) * std::clamp(more, -config_.most_lead, config_.most_lead);
+  }
+  return lead;
+}
+
+double PlaceHypotheses::least_lead(const Place& one, double Square::*sum) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Place& other : places_) {
+    if (&other != &one) least = std::min(least, lead(one, other, sum));
+  }
+  return least;
+}
+
+void PlaceHypotheses::sort_out() {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < places_.size(); ++i) order.emplace_back(-least_lead(places_[i], &Square::built_m), i);
+  std::sort(order.begin(), order.end());
+  std::vector<Place> kept;
+  for (const auto& [unused, index] : order) {
+    Place& one = places_[index];
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Place& better) {
+      return (position_m(better.at.pose) - position_m(one.at.pose)).norm() < config_.same_m &&
+             std::abs(wrap_angle(better.at.pose.theta_rad - one.at.pose.theta_rad)) < config_.same_rad;
+    });
+    const bool behind = !kept.empty() && (lead(kept.front(), one, &Square::built_m) >= config_.drop_lead ||
+                                          lead(kept.front(), one, &Square::all_m) >= config_.drop_all);
+    if (known || behind) continue;
+    kept.push_back(std::move(one));
+  }
+  places_ = std::move(kept);
+}
+
+std::vector<PlaceHypothesis> PlaceHypotheses::places() const {
+  std::vector<PlaceHypothesis> said;
+  double all = 0.0;
+  for (const Place& one : places_) {
+    PlaceHypothesis place{one.at, 0.0, lead(places_.front(), one, &Square::built_m)};
+    for (const auto& [unused, square] : one.squares) place.evidence += square.all_m;
+    if (driven_m_ > 0.0) place.evidence /= driven_m_;
+    place.at.share = std::exp(-kShareOfLead * place.behind / config_.lead);
+    all += place.at.share;
+    said.push_back(place);
+  }
+  for (PlaceHypothesis& place : said) place.at.share /= all;
+  return said;
+}
+
+bool PlaceHypotheses::decided() const {
+  return !places_.empty() && driven_m_ >= config_.least_m &&
+         least_lead(places_.front(), &Square::built_m) >= config_.lead &&
+         least_lead(places_.front(), &Square::all_m) >= 0.0;
+}
+
+void PlaceHypotheses::gather_particles() {
+  particles_.clear();
+  const std::vector<PlaceHypothesis> said = places();
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    for (const Particle& one : places_[i].monte_carlo.particles()) {
+      particles_.push_back({one.pose, one.weight * said[i].at.share});
+    }
+  }
+}
+
+}  // namespace homeward::linemodel

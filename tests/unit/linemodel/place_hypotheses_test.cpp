@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "linemodel/place_hypotheses.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "core/angles.hpp"
+
+namespace homeward::linemodel {
+namespace {
+
+std::vector<Eigen::Vector2d> floor_of_twelve_by_twelve() {
+  std::vector<Eigen::Vector2d> points_m;
+  for (int i = 0; i < 48; ++i) {
+    for (int j = 0; j < 48; ++j) points_m.emplace_back(0.25 * i, 0.25 * j);
+  }
+  return points_m;
+}
+
+/// A robot on a floor that a half turn about its middle makes the same again.
+class RobotBetweenTwins : public ::testing::Test {
+ protected:
+  RobotBetweenTwins() { begin({truth_, twin()}); }
+
+  void begin(const std::vector<Pose2>& poses) {
+    std::vector<PoseCluster> clusters;
+    for (const Pose2& pose : poses) clusters.push_back({pose, 0.5, 0.1, 0.05});
+    places_.begin(floor_, {}, clusters);
+  }
+  [[nodiscard]] Pose2 twin() const {
+    return {12.0 - truth_.x_m, 12.0 - truth_.y_m, wrap_angle(truth_.theta_rad + kPi)};
+  }
+  [[nodiscard]] static bool at(const Pose2& pose, const Pose2& where) {
+    return (position_m(pose) - position_m(where)).norm() < 0.5;
+  }
+  /// One step, and a picture that fits both places, of the true one by so much more.
+  void step(const Pose2& moved, double more) { step(moved, more, more); }
+  void step(const Pose2& moved, double more, double more_built) {
+    truth_ = truth_ * moved;
+    places_.move(moved);
+    const auto fit = [this](const Pose2& pose) {
+      const double off_m =
+          std::min((position_m(pose) - position_m(truth_)).norm(), (position_m(pose) - position_m(twin())).norm());
+      const double score = std::exp(-off_m * off_m / 0.05);
+      return MonteCarlo::Fit{score, std::exp(5.0 * score)};
+    };
+    const auto look = [&](const Pose2& pose) {
+      return at(pose, truth_) ? PlaceHypotheses::Evidence{0.7 + more, 0.7 + more_built}
+                              : PlaceHypotheses::Evidence{0.7, 0.7};
+    };
+    places_.weigh(fit, look, std::hypot(moved.x_m, moved.y_m));
+  }
+
+  Pose2 truth_{2.0, 2.5, 0.0};
+  MonteCarlo floor_{floor_of_twelve_by_twelve(), 0.25, {}};
+  PlaceHypotheses places_{{}};
+};
+
+TEST_F(RobotBetweenTwins, IsAtNeitherWhileNothingTellsThemApart) {
+  for (int i = 0; i < 30; ++i) {
+    step({0.25, 0.0, i < 20 ? 0.0 : 0.15}, 0.0);
+    ASSERT_FALSE(places_.decided());
+    ASSERT_EQ(places_.places().size(), 2U);
+  }
+  for (const PlaceHypothesis& place : places_.places()) {
+    EXPECT_TRUE(at(place.at.pose, truth_) || at(place.at.pose, twin()));
+    EXPECT_NEAR(place.at.share, 0.5, 0.01);
+    EXPECT_NEAR(place.evidence, 0.7, 1e-6);
+  }
+}
+
+TEST_F(RobotBetweenTwins, IsFoundSoonAfterSomethingTellsThemApart) {
+  for (int i = 0; i < 12; ++i) step({0.25, 0.0, 0.0}, 0.0);
+  for (int i = 0; i < 12; ++i) step({0.25, 0.0, 0.0}, 0.5);
+  EXPECT_TRUE(places_.decided());
+  EXPECT_TRUE(at(places_.places().front().at.pose, truth_));
+  EXPECT_GT(places_.places().front().at.share, 0.9);
+}
+
+TEST_F(RobotBetweenTwins, LearnsNothingFromStanding) {
+  for (int i = 0; i < 12; ++i) step({0.25, 0.0, 0.0}, 0.0);
+  for (int i = 0; i < 50; ++i) step({0.0, 0.0, 0.0}, 1.0);
+  EXPECT_FALSE(places_.decided());
+  EXPECT_NEAR(places_.places().back().behind, 0.0, 1e-9);
+}
+
+TEST_F(RobotBetweenTwins, LearnsWhatOneCornerTellsOnce) {
+  // To and fro within one square, where a wrong chair speaks for one of them all the while.
+  for (int i = 0; i < 80; ++i) step({i % 8 < 4 ? 0.25 : -0.25, 0.0, 0.0}, 0.3);
+  EXPECT_GT(places_.driven_m(), 19.0);
+  EXPECT_FALSE(places_.decided());
+  EXPECT_NEAR(places_.places().back().behind, 0.3, 0.01);
+}
+
+TEST_F(RobotBetweenTwins, IsNotFoundByFurnitureAlone) {
+  for (int i = 0; i < 24; ++i) step({0.25, 0.0, 0.0}, 0.2, 0.0);
+  EXPECT_FALSE(places_.decided());
+  EXPECT_EQ(places_.places().size(), 2U);
+}
+
+TEST_F(RobotBetweenTwins, IsNotFoundAgainstWhatFurnitureTells) {
+  for (int i = 0; i < 24; ++i) step({0.25, 0.0, 0.0}, -0.1, 0.3);
+  EXPECT_FALSE(places_.decided());
+  EXPECT_TRUE(at(places_.places().front().at.pose, truth_));
+}
+
+TEST_F(RobotBetweenTwins, IsNotWhereNothingSpeaksForIt) {
+  begin({truth_, twin(), {6.0, 9.0, 1.0}});
+  for (int i = 0; i < 24; ++i) step({0.25, 0.0, 0.0}, 0.8);
+  ASSERT_EQ(places_.places().size(), 1U);  // the others have been given up
+  EXPECT_TRUE(at(places_.places().front().at.pose, truth_));
+}
+
+TEST_F(RobotBetweenTwins, HasOneHypothesisWhereTwoHaveMet) {
+  begin({truth_, truth_ * Pose2{0.3, 0.0, 0.05}, twin()});
+  for (int i = 0; i < 6; ++i) step({0.25, 0.0, 0.0}, 0.0);
+  EXPECT_EQ(places_.places().size(), 2U);
+}
+
+TEST_F(RobotBetweenTwins, HasParticlesAtBothPlaces) {
+  step({0.25, 0.0, 0.0}, 0.0);
+  double all = 0.0;
+  double here = 0.0;
+  for (const Particle& one : places_.particles()) {
+    all += one.weight;
+    if (at(one.pose, truth_)) here += one.weight;
+  }
+  EXPECT_NEAR(all, 1.0, 1e-9);
+  EXPECT_NEAR(here, 0.5, 0.05);
+  places_.clear();
+  EXPECT_TRUE(places_.empty());
+  EXPECT_TRUE(places_.particles().empty());
+  EXPECT_FALSE(places_.decided());
+}
+
+}  // namespace
+}  // namespace homeward::linemodel
