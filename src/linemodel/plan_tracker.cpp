@@ -18,6 +18,7 @@ constexpr double kInWall = 0.1;          // times the weight of a pose where a r
 constexpr double kNewSight_m = 1e3;      // a picture of which nothing is known in common with the last one
 constexpr double kMetresPerTurn = 0.3;   // a turn shows something new too
 constexpr double kWithoutOdometry_m = 0.25;
+constexpr double kFacesAbout_rad = 0.5;  // a start with a wider spread of headings does not say where the robot faces
 constexpr int kBeams = 60;
 constexpr double kBeamSpread_m = 0.12;
 constexpr double kBeamRandom = 0.15;  // share of ranges to what no plan shows
@@ -75,7 +76,7 @@ void PlanTracker::start_anywhere() {
 
 void PlanTracker::start_at(const Pose2& pose, double spread_m, double spread_rad) {
   monte_carlo_.start_at(pose, spread_m, spread_rad);
-  known_ = true;
+  known_ = spread_m <= config_.known_spread_m && spread_rad <= kFacesAbout_rad;
   evidence_ = 1.5 * config_.least_evidence;  // somebody has said so
   wrong_pictures_ = 0;
 }
@@ -177,7 +178,8 @@ PlanEstimate PlanTracker::estimate(const PictureLines& lines) {
   said.lines_confirmed = lines.confirmed_count(view);
   known_ =
       said.share >= (known_ ? config_.still_share : config_.known_share) && said.spread_m <= config_.known_spread_m;
-  follow_evidence(lines.log_odds(view), said);
+  said.log_odds = lines.log_odds(view);
+  follow_evidence(said.log_odds, said);
   said.evidence = evidence_;
   said.lost = evidence_ < config_.least_evidence ? PlanLost::kNotInPlan
               : known_                           ? PlanLost::kNo
