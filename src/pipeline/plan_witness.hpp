@@ -31,8 +31,8 @@ struct PlanWitnessConfig {
   int least_lines = 8;                 // expected in a picture: fewer say nothing
   double place_reach_m = 2.0;          // how far from a disputed place the robot is looked for
   double odds_share = 0.4;             // by which the mean of a dispute follows each picture
-  double least_odds = 0.05;            // of that mean, against the place: less, and they are silent
-  double beaten_odds = -0.1;           // less than this after
+  double least_odds = -0.15;           // of that mean, against the place: less, and they are silent
+  double beaten_odds = -0.25;          // less than this after
   int beaten_pictures = 4;             // so many pictures of a dispute, and they begin anew at the place
   int most_disputed = 8;     // pictures on end, and they do so too: a belief that stays sure so long is seldom wrong
   double most_jump_m = 1.5;  // of the particles, off what odometry says: they are trusted no longer
