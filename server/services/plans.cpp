@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "linemodel/read_plan.hpp"
-#include "map/lookup.hpp"
 
 namespace homeward::server {
 namespace {
@@ -49,25 +48,6 @@ wire::PlanVersionView described(const PlanUpload& upload, const linemodel::Plan&
   }
   for (Eigen::Index i = 0; i < plan.vertices_m.rows(); ++i) take(plan.vertices_m.row(i));
   return version;
-}
-
-/// Pins by their pictures.
-Result<std::vector<map::PlanPin>> pins_of(const map::TopologicalMap& map, const wire::PlanTieRequest& request) {
-  std::vector<map::PlanPin> pins;
-  for (std::size_t i = 0; i < request.pins.size(); ++i) {
-    const wire::PlanPinRequest& asked = request.pins[i];
-    ImageId image = asked.image;
-    if (!asked.place.empty()) {
-      const map::Place* place = map::find_place(map, asked.place);
-      if (place == nullptr) {
-        return fail(ErrorCode::kUnknownPlace, "The map has no place " + asked.place.str() + ".",
-                    "body/pins/" + std::to_string(i) + "/place");
-      }
-      image = place->prototype;
-    }
-    pins.push_back({image, asked.position_m, asked.theta_rad});
-  }
-  return pins;
 }
 
 }  // namespace
@@ -148,7 +128,7 @@ Result<wire::MapPlanView> PlanService::tie(const MapId& map, const wire::PlanTie
   if (!loaded) return pass_on(loaded);
   const auto asked = version(request.plan, request.version);
   if (!asked) return pass_on(asked);
-  const auto pins = pins_of((*loaded)->map, request);
+  const auto pins = wire::pins_by_picture((*loaded)->map, request);
   if (!pins) return pass_on(pins);
   const Status fits = map::check_pins((*loaded)->map, *maps_.layout(*loaded), *pins, "body/pins");
   if (!fits) return pass_on(fits);

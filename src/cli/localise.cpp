@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <chrono>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/plan_file.hpp"
 #include "db/map_file.hpp"
 #include "files/read_file.hpp"
 #include "files/tour_folder.hpp"
 #include "map/lookup.hpp"
 #include "pipeline/belief_tracker.hpp"
+#include "pipeline/plan_witness.hpp"
+#include "wire/localised_json.hpp"
 
 namespace homeward::cli {
 namespace {
@@ -21,21 +26,36 @@ struct LocaliseOptions {
   std::string images;
   std::string camera;
   std::string start;
+  PlanFile plan;
+  std::string pins;
   int restart_every = 0;
   bool no_odometry = false;
 };
 
-nlohmann::json line_of(const std::string& image, const localisation::Belief& belief, double ms) {
-  nlohmann::json top = nlohmann::json::array();
-  for (const localisation::PlaceProbability& at : belief.top) {
-    top.push_back({{"place", at.place.str()}, {"probability", at.probability}});
-  }
-  nlohmann::json line{{"image", image},      {"updates", belief.updates},
-                      {"top", top},          {"near_share", belief.near_share},
-                      {"lost", belief.lost}, {"ms", ms}};
-  line["place"] = belief.top.empty() ? nlohmann::json() : nlohmann::json(belief.top.front().place.str());
-  line["probability"] = belief.top.empty() ? nlohmann::json() : nlohmann::json(belief.near_probability);
-  return line;
+constexpr std::array<std::string_view, 4> kWhyLost{"", "searching", "ambiguous", "not_in_plan"};
+constexpr std::array<std::string_view, 3> kPlanWords{"silent", "possible", "impossible"};
+
+wire::LocalisedView view_of(const localisation::Belief& belief) {
+  wire::LocalisedView view;
+  view.updates = belief.updates;
+  for (const localisation::PlaceProbability& at : belief.top) view.top.push_back({at.place, at.probability});
+  view.near_share = belief.near_share;
+  view.probability = belief.near_probability;
+  view.lost = belief.lost;
+  return view;
+}
+
+/// The belief as the plan lets it be told.
+Result<wire::LocalisedView> witnessed(pipeline::PlanWitness& witness, const localisation::Belief& belief,
+                                      const Image& picture, const std::optional<Pose2>& odometry) {
+  const auto estimate = witness.update(picture, odometry);
+  if (!estimate) return pass_on(estimate);
+  const pipeline::PlanWord word = witness.hear(belief);
+  wire::LocalisedView view = view_of(witness.told(belief, word));
+  view.plan = wire::PlanWitnessView{estimate->pose, estimate->spread_m,
+                                    std::string(kWhyLost[static_cast<std::size_t>(estimate->lost)]),
+                                    std::string(kPlanWords[static_cast<std::size_t>(word)]), witness.trusted()};
+  return view;
 }
 
 /// Where each picture was taken, as far as the folder says.
@@ -64,12 +84,19 @@ Status localise(const LocaliseOptions& options) {
   }
   auto tracker = pipeline::BeliefTracker::create(map, camera);
   if (!tracker) return pass_on(tracker);
+  std::optional<pipeline::PlanWitness> witness;
+  if (!options.plan.path.empty()) {
+    auto on_plan = witness_on_plan(*map, camera, options.plan, options.pins);
+    if (!on_plan) return pass_on(on_plan);
+    witness = std::move(*on_plan);
+  }
   if (!options.start.empty()) {
     const std::vector<PlaceId> places = map::places_named(*map, options.start);
     if (places.empty()) {
       return fail(ErrorCode::kUnknownPlace, "No place has the id or label '" + options.start + "'.", "--start");
     }
     tracker->start_at(places);
+    if (witness) witness->start_at(places);
   }
   for (std::size_t i = 0; i < files->size(); ++i) {
     const auto picture = files::read_picture((*files)[i]);
@@ -79,8 +106,11 @@ Status localise(const LocaliseOptions& options) {
     const auto begin = std::chrono::steady_clock::now();
     const auto belief = tracker->update(*picture, (*odometry)[i]);
     if (!belief) return fail(belief.error().code, belief.error().message, (*files)[i].string());
-    const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-    std::cout << line_of((*files)[i].filename().string(), *belief, ms).dump() << "\n";
+    auto view = witness ? witnessed(*witness, *belief, *picture, (*odometry)[i]) : view_of(*belief);
+    if (!view) return fail(view.error().code, view.error().message, (*files)[i].string());
+    view->image = (*files)[i].filename().string();
+    view->ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    std::cout << wire::localised_to_json(*view).dump() << "\n";
   }
   return {};
 }
@@ -99,6 +129,19 @@ void register_localise(CLI::App& program) {
   command->add_option("--start", options->start,
                       "Where the first picture was taken, as somebody says: place (id or label). It and its neighbours "
                       "are believed at first; pictures of another place overrule that");
+  CLI::Option* plan = command->add_option("--plan", options->plan.path,
+                                          "Drawn plan on which the map lies: .wrl, .svg, .glb, .obj, .ply or .stl. A "
+                                          "sure belief whose place is impossible by "
+                                          "the straight edges of the pictures is told as unsure");
+  CLI::Option* pins =
+      command->add_option("--pins", options->pins, "Where places lie on it: JSON as in PUT maps/{map}/plan");
+  plan->needs(pins);
+  pins->needs(plan);
+  command
+      ->add_option("--metres-per-unit", options->plan.metres_per_unit,
+                   "Scale of the plan, when its file does not say it")
+      ->check(CLI::PositiveNumber)
+      ->needs(plan);
   command->add_option("--restart-every", options->restart_every, "Forget everything after so many pictures (0: never)")
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--no-odometry", options->no_odometry, "Leave odometry.csv aside");

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "cli/command.hpp"
+#include "cli/plan_file.hpp"
 #include "cli/plan_picture.hpp"
 #include "core/angles.hpp"
 #include "files/read_file.hpp"
@@ -17,7 +18,6 @@
 #include "files/write_file.hpp"
 #include "imageio/decode.hpp"
 #include "linemodel/plan_tracker.hpp"
-#include "linemodel/read_plan.hpp"
 #include "wire/tracked_json.hpp"
 
 namespace homeward::cli {
@@ -28,7 +28,7 @@ constexpr double kStartSpread_m = 0.3;  // somebody points at a plan
 constexpr double kStartSpread_rad = 0.15;
 
 struct TrackOptions {
-  std::string model;
+  PlanFile model;
   std::string camera;
   std::string images;
   std::string odometry;
@@ -36,23 +36,10 @@ struct TrackOptions {
   std::vector<double> start;  // x, y, theta
   std::string measure = "count";
   std::string pictures;
-  double metres_per_unit = 0.0;  // 0: as the file says
-  double wall_height_m = 2.5;
   double sweep_height_m = 0.3;
   std::uint64_t seed = 1;
   bool json = false;
 };
-
-Result<linemodel::Plan> plan_of(const TrackOptions& options) {
-  const auto bytes = files::read_text(options.model);
-  if (!bytes) return pass_on(bytes);
-  std::string extension = std::filesystem::path(options.model).extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  linemodel::ReadPlanConfig config;
-  if (options.metres_per_unit > 0.0) config.metres_per_unit = options.metres_per_unit;
-  config.wall_height_m = options.wall_height_m;
-  return linemodel::read_plan(*bytes, extension, config, options.model);
-}
 
 Result<files::TourFolder> folder_of(const TrackOptions& options) {
   auto folder = files::TourFolder::open(options.images);
@@ -115,7 +102,7 @@ Status draw(const std::string& pictures, const std::string& name, const Image& i
 }
 
 Status track(const TrackOptions& options) {
-  const auto plan = plan_of(options);
+  const auto plan = read_plan_file(options.model);
   if (!plan) return pass_on(plan);
   const auto config = files::read_camera(options.camera);
   if (!config) return pass_on(config);
@@ -127,7 +114,7 @@ Status track(const TrackOptions& options) {
   if (!tracker) {
     const bool of_camera = !tracker.error().where.empty();
     return fail(tracker.error().code, tracker.error().message,
-                of_camera ? options.camera + ": " + tracker.error().where : options.model);
+                of_camera ? options.camera + ": " + tracker.error().where : options.model.path);
   }
   if (!options.start.empty()) {
     const Pose2 start{options.start[0], options.start[1], wrap_angle(options.start[2])};
@@ -161,7 +148,7 @@ Status track(const TrackOptions& options) {
 void register_track(CLI::App& program) {
   CLI::App* command = program.add_subcommand("track", "Where on a drawn plan pictures were taken: a line for each");
   const auto options = std::make_shared<TrackOptions>();
-  command->add_option("--model", options->model, "Drawn plan: .wrl, .svg, .glb, .obj, .ply or .stl")->required();
+  command->add_option("--model", options->model.path, "Drawn plan: .wrl, .svg, .glb, .obj, .ply or .stl")->required();
   command->add_option("--camera", options->camera, "camera.json of the pictures; its height over the floor counts")
       ->required();
   command->add_option("--images", options->images, "Folder of pictures of one drive, in name order")->required();
@@ -185,9 +172,11 @@ void register_track(CLI::App& program) {
       ->check(CLI::IsMember({"count", "length", "distance", "odds"}))
       ->capture_default_str();
   command->add_option("--pictures", options->pictures, "Also draw particles and matched lines into this folder");
-  command->add_option("--metres-per-unit", options->metres_per_unit, "Scale of the plan, when its file does not say it")
+  command
+      ->add_option("--metres-per-unit", options->model.metres_per_unit,
+                   "Scale of the plan, when its file does not say it")
       ->check(CLI::PositiveNumber);
-  command->add_option("--wall-height-m", options->wall_height_m, "Height of the walls of a floor plan")
+  command->add_option("--wall-height-m", options->model.wall_height_m, "Height of the walls of a floor plan")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--sweep-height-m", options->sweep_height_m, "Height of the range sensor over the floor")

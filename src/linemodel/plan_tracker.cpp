@@ -25,6 +25,7 @@ constexpr double kLeastSpread_m = 0.1;         // of a start at a place that has
 constexpr double kLeastSpread_rad = 0.05;
 constexpr double kJump_m = 1.5;  // from where the robot was known to be: another place
 constexpr double kJump_rad = 0.8;
+constexpr double kFacesAbout_rad = 0.5;  // a start with a wider spread of headings does not say where the robot faces
 constexpr int kBeams = 60;
 constexpr double kBeamSpread_m = 0.12;
 constexpr double kBeamRandom = 0.15;  // share of ranges to what no plan shows
@@ -105,7 +106,7 @@ void PlanTracker::start_at(const Pose2& pose, double spread_m, double spread_rad
   searching_ = false;
   of_this_plan_ = true;
   unknown_m_ = 0.0;
-  known_ = true;
+  known_ = spread_m <= config_.known_spread_m && spread_rad <= kFacesAbout_rad;
   known_at_ = pose;
   jump_m_ = kJump_m + 3.0 * spread_m;
   jump_rad_ = kJump_rad + 3.0 * spread_rad;
@@ -239,6 +240,7 @@ PlanEstimate PlanTracker::said_of(std::span<const PoseCluster> places, double le
   const ExpectedView view = expected(said.pose);
   said.lines_expected = static_cast<int>(view.lines.size());
   said.lines_confirmed = lines.confirmed_count(view);
+  said.log_odds = lines.log_odds(view);
   return said;
 }
 
@@ -251,7 +253,7 @@ PlanEstimate PlanTracker::estimate(const PictureLines& lines, double driven_m) {
   }
   if (said.share == 0.0) return said;
   keep_known(said, driven_m);
-  follow_evidence(lines.log_odds(expected(said.pose)), said);
+  follow_evidence(said.log_odds, said);
   said.evidence = evidence_;
   of_this_plan_ = evidence_ >= (of_this_plan_ ? config_.still_evidence : config_.least_evidence);
   said.lost = !of_this_plan_        ? PlanLost::kNotInPlan

@@ -72,7 +72,8 @@ struct PlanEstimate {
   int lines_seen = 0;       // in the picture
   int lines_expected = 0;   // by the plan, from `pose`
   int lines_confirmed = 0;  // of these, by the picture
-  double evidence = 0.0;    // mean log odds of late (PictureLines::log_odds): whether it is this plan at all; 0 until
+  double log_odds = 0.0;    // of the picture at `pose` (PictureLines::log_odds)
+  double evidence = 0.0;    // their mean of late: whether it is this plan at all; 0 until
                             // places are told apart
   PlanLost lost = PlanLost::kSearching;
 };
@@ -96,6 +97,7 @@ class PlanTracker {
 
   /// It may be anywhere on the plan. This is how it begins.
   void start_anywhere();
+  /// It is about there. With a wide spread it is not yet known where.
   void start_at(const Pose2& pose, double spread_m, double spread_rad);
 
   /// The next picture, where odometry says it was taken (any frame, the same for all), and the sweep taken there.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "map/lookup.hpp"
 #include "wire/json_reader.hpp"
 #include "wire/json_write.hpp"
 
@@ -117,6 +118,25 @@ json plan_tie_to_json(const PlanTieRequest& request) {
   json value = {{"plan", request.plan.str()}, {"pins", std::move(pins)}};
   if (request.version) value["version"] = *request.version;
   return value;
+}
+
+Result<std::vector<map::PlanPin>> pins_by_picture(const map::TopologicalMap& map, const PlanTieRequest& request,
+                                                  const std::string& path) {
+  std::vector<map::PlanPin> pins;
+  for (std::size_t i = 0; i < request.pins.size(); ++i) {
+    const PlanPinRequest& asked = request.pins[i];
+    ImageId image = asked.image;
+    if (!asked.place.empty()) {
+      const map::Place* place = map::find_place(map, asked.place);
+      if (place == nullptr) {
+        return fail(ErrorCode::kUnknownPlace, "The map has no place " + asked.place.str() + ".",
+                    path + "/pins/" + std::to_string(i) + "/place");
+      }
+      image = place->prototype;
+    }
+    pins.push_back({image, asked.position_m, asked.theta_rad});
+  }
+  return pins;
 }
 
 json plan_pins_to_json(const std::vector<map::PlanPin>& pins) {

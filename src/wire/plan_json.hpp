@@ -84,6 +84,11 @@ struct PlanTieRequest {
 Result<PlanTieRequest> plan_tie_from_json(const nlohmann::json& value, const std::string& path = "body");
 nlohmann::json plan_tie_to_json(const PlanTieRequest& request);
 
+/// Pins by their pictures; that of a place is its prototype. Errors: kUnknownPlace, with the path of the pin below
+/// `path`.
+Result<std::vector<map::PlanPin>> pins_by_picture(const map::TopologicalMap& map, const PlanTieRequest& request,
+                                                  const std::string& path = "body");
+
 /// Pins as they are kept: an array of objects with image, x_m, y_m and theta_rad.
 nlohmann::json plan_pins_to_json(const std::vector<map::PlanPin>& pins);
 /// Errors: kInvalidInput.

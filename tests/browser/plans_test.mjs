@@ -219,6 +219,10 @@ const checks = [
         assert.equal(await sign(page, 'goal').count(), 0);
         const { width, height } = await paper(page).boundingBox();
         assert.ok(Math.abs(width / height - 1) < 0.02, `a square house is drawn ${width} by ${height}`);
+        const goals = await page.getByRole('region', { name: 'Places to go to' }).boundingBox();
+        const [card, drawn] = [await small.boundingBox(), await paper(page).boundingBox()];
+        assert.ok(card.y >= goals.y + goals.height, 'it keeps nobody from the places to go to');
+        assert.ok(Math.abs(drawn.x + drawn.width / 2 - card.x - card.width / 2) < 2, 'it is centred');
         const before = await shareOf(page, sign(page, 'chair'));
         await page.getByRole('button', { name: /Kitchen/ }).click();
         await small.getByRole('img', { name: /It goes to Kitchen/ }).waitFor();

@@ -17,6 +17,7 @@
 #include "wire/graph_export.hpp"
 #include "wire/graph_json.hpp"
 #include "wire/inspect_json.hpp"
+#include "wire/localised_json.hpp"
 #include "wire/pair_json.hpp"
 #include "wire/problem_json.hpp"
 #include "wire/repeated_json.hpp"
@@ -113,6 +114,21 @@ TEST(Encoders, WriteTrackedPicturesThatTheSchemaAccepts) {
     EXPECT_THAT(schemas().problems("tracked", lost), IsEmpty()) << why;
     EXPECT_TRUE(lost["x_m"].is_null() && lost["theta_rad"].is_null()) << "what is not known is no pose";
   }
+}
+
+TEST(Encoders, WriteLocalisedPicturesThatTheSchemaAccepts) {
+  LocalisedView view{"031.jpg", 4, {{PlaceId("p1"), 0.9}, {PlaceId("p2"), 0.05}}, 0.95, 0.97, false, 30.5, {}};
+  EXPECT_THAT(schemas().problems("localised", localised_to_json(view)), IsEmpty());
+  EXPECT_EQ(localised_to_json(view)["place"], "p1");
+  EXPECT_FALSE(localised_to_json(view).contains("plan"));
+  view.plan = PlanWitnessView{{1.5, -2.0, 0.3}, 0.05, "", "impossible", true};
+  EXPECT_THAT(schemas().problems("localised", localised_to_json(view)), IsEmpty());
+  EXPECT_EQ(localised_to_json(view)["plan"]["x_m"], 1.5);
+  view.plan->lost = "searching";
+  view.top.clear();
+  const json lost = localised_to_json(view);
+  EXPECT_THAT(schemas().problems("localised", lost), IsEmpty());
+  EXPECT_TRUE(lost["plan"]["x_m"].is_null() && lost["place"].is_null()) << "what is not known is no pose";
 }
 
 TEST(Encoders, WriteRepeatedPicturesThatTheSchemaAccepts) {

@@ -113,9 +113,6 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
       {graph && mayBeSaid(robot, connected.value, mayDrive) && (
         <SaidPlaceCard key={robot.id} robot={robot} graph={graph} />
       )}
-      {graph && chosenMap.value?.plan && (
-        <SmallPlan map={chosenMap.value} graph={graph} robot={robot} journey={journey} />
-      )}
       <WhoDrives robot={robot} />
       <section class="stack" aria-label="Places to go to">
         {graph ? (
@@ -130,6 +127,9 @@ function Going({ robot, graph }: { robot: Robot; graph: Graph | null }) {
           <NoGraph map={chosenMap.value} />
         )}
       </section>
+      {graph && chosenMap.value?.plan && (
+        <SmallPlan map={chosenMap.value} graph={graph} robot={robot} journey={journey} />
+      )}
     </>
   );
 }
