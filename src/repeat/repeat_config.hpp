@@ -27,6 +27,14 @@ inline PoseFitConfig repeat_pose() {
   return pose;
 }
 
+/// Also by much less light than there was in teaching (docs/experiments/repeating_a_path.md).
+inline tracking::FeatureTrackerConfig repeat_tracker() {
+  tracking::FeatureTrackerConfig tracker;
+  tracker.darker_residual = true;
+  tracker.least_gain = 0.15;
+  return tracker;
+}
+
 struct RepeatConfig {
   int reach = 3;                   // arcs before and after the actual one whose features are tracked, too (Segvic et
                                    // al. 2007: 1)
@@ -59,7 +67,7 @@ struct RepeatConfig {
   double steering_gain = 1.0;     // lambda, there
   PoseFitConfig pose = repeat_pose();
   geometry::TwoViewConfig geometry = repeat_geometry();
-  tracking::FeatureTrackerConfig tracker{};                            // most_residual is R, there
+  tracking::FeatureTrackerConfig tracker = repeat_tracker();           // most_residual is R, there
   std::optional<RecognitionConfig> recognition = RecognitionConfig{};  // none: what is lost is looked for nearby alone
   std::uint64_t seed = 1;
 };

@@ -66,7 +66,8 @@ FeatureState judged(const TrackedFeature& feature, const FeatureGuess& guess, co
     return FeatureState::kLostDiverged;
   }
   if (!(feature.gain >= config.least_gain && feature.gain <= config.most_gain)) return FeatureState::kLostContrast;
-  return feature.residual <= config.most_residual ? FeatureState::kTracked : FeatureState::kLostResidual;
+  const double residual = config.darker_residual ? feature.residual * std::min(1.0, feature.gain) : feature.residual;
+  return residual <= config.most_residual ? FeatureState::kTracked : FeatureState::kLostResidual;
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ Options options_of(int argc, char** argv) {
       options.from = std::stoi(next());
     else if (name == "--dense") {
       options.teaching = repeat::dense_teaching();
-      options.repeating.tracker = options.teaching.tracker;
+      options.repeating.tracker.least_texture = options.teaching.tracker.least_texture;
     } else if (name == "--known")
       options.teaching.known_weight = std::stod(next());
     else if (name == "--out")

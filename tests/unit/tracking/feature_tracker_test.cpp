@@ -110,6 +110,27 @@ TEST_F(FeatureTrackerOfATexture, ContrastOutOfItsBoundsIsLostByContrast) {
   }
 }
 
+TEST_F(FeatureTrackerOfATexture, ADarkPictureWithNoiseIsTrackedWhereItsOwnGreyLevelsAreJudged) {
+  Image dark = picture_of(texture, {.gain = 0.25, .offset = 20.0});
+  for (std::size_t i = 0; i < dark.data.size(); ++i) {
+    // Of 3 grey levels, root mean square: 12 of the reference.
+    dark.data[i] = static_cast<std::uint8_t>(std::clamp(dark.data[i] + (i * 2654435761U >> 7U & 1U ? 3 : -3), 0, 255));
+  }
+  const ImagePyramid picture = ImagePyramid::build(dark, {.smoothing_px = 0.0}).value();
+  const ImagePyramid sharp = ImagePyramid::build(picture_of(texture, {}), {.smoothing_px = 0.0}).value();
+  const auto tracked = [&](bool darker_residual) {
+    FeatureTrackerConfig config;
+    config.least_gain = 0.15;
+    config.darker_residual = darker_residual;
+    auto by = FeatureTracker::create(config).value();
+    by.add(sharp, points_px);
+    const auto found = by.track(picture, guesses());
+    return std::ranges::count(found, FeatureState::kTracked, &TrackedFeature::state);
+  };
+  EXPECT_GE(tracked(true), static_cast<std::ptrdiff_t>(9 * points_px.size() / 10));
+  EXPECT_LE(tracked(false), static_cast<std::ptrdiff_t>(points_px.size() / 10));
+}
+
 TEST_F(FeatureTrackerOfATexture, WhatIsHiddenIsLostAndTheRestIsNot) {
   Image picture = picture_of(texture, {});
   const WavyTexture other(99);
