@@ -10,7 +10,8 @@
 #include "core/angles.hpp"
 #include "driving/approach.hpp"
 #include "driving/end_mission.hpp"
-#include "driving/give_way.hpp"
+#include "driving/pursuit.hpp"
+#include "driving/way_following.hpp"
 
 namespace homeward::driving {
 namespace {
@@ -109,11 +110,6 @@ double most_speed_mps(const DrivingState& state, const RepeatPathConfig& config)
   return std::min(speed_mps, state.mission->speed_limit_mps);
 }
 
-Motion stand(DrivingState& state) {
-  forget_standing(state.give_way);
-  return {};
-}
-
 /// Steers so that features move to where the next key image has them.
 Motion by_features(DrivingState& state, const Situation& now) {
   constexpr double kMost_rad = 0.5;
@@ -142,11 +138,7 @@ Motion along_way(DrivingState& state, const Rest& rest, const Situation& now) {
   if (corner && (rest.nearest == corner->begins || left_m < config.at_corner_m) &&
       position_m(rest.way[corner->begins]).norm() < config.look_m) {
     const double left_rad = wrap_angle(rest.way[corner->begins].theta_rad) + corner->turn_rad;
-    if (std::abs(left_rad) > config.turned_rad) {
-      // Whoever turns as the way does stands before nobody.
-      if (state.repeat.got_on_ms == now.sensors_ms) forget_standing(state.give_way);
-      return turn_in_place(left_rad, now.config.approach);
-    }
+    if (std::abs(left_rad) > config.turned_rad) return turn_in_place(left_rad, now.config.approach);
   }
   const bool stops = state.repeat.known->ends && last == end;
   const Eigen::Vector2d end_m = position_m(rest.way.back());
@@ -160,6 +152,11 @@ Motion along_way(DrivingState& state, const Rest& rest, const Situation& now) {
   const double bend_radpm = aim.turn_rad / std::max(config.look_m, 1e-9);
   speed_mps = std::min(speed_mps, std::max(config.turn_mps, config.bend_radps / std::max(bend_radpm, 1e-9)));
   if (stops || corner) speed_mps = std::min(speed_mps, std::max(config.least_mps, config.brakes_per_s * left_m));
+  const DrivingConfig& driving = now.config;
+  if (const auto freely = pursue(driving.body, now.points_m, aim.point_m, speed_mps, driving.pursuit)) return *freely;
+  const std::span<const Pose2> onwards(rest.way.begin() + static_cast<std::ptrdiff_t>(rest.nearest),
+                                       last + 1 - rest.nearest);
+  if (const auto closely = follow_way(driving.body, now.points_m, onwards, speed_mps)) return *closely;
   return drive_towards(state, aim.point_m, speed_mps, now);
 }
 
@@ -287,13 +284,12 @@ void judge_repeat(DrivingState& state, const Inputs& inputs, const DrivingConfig
 
 Motion repeat_motion(DrivingState& state, const Situation& now) {
   const RepeatPathConfig& config = now.config.repeat_path;
-  if (!state.pictured || !knows(state, now.inputs, config, now.sensors_ms)) return stand(state);
+  if (!state.pictured || !knows(state, now.inputs, config, now.sensors_ms)) return {};
   const Rest rest = rest_of(*state.repeat.known, now.inputs.odometry, config);
   const bool is_there =
       state.repeat.known->ends && !rest.way.empty() && position_m(rest.way.back()).norm() < now.config.near_m;
   state.repeat.at_end = state.repeat.at_end && is_there;
   if (state.repeat.at_end) return take_end_heading(state, rest, now);
-  if (const auto making_room = give_way_motion(state, now)) return *making_room;
   if (!rest.way.empty() && !config.steers_by_features) return along_way(state, rest, now);
   if (!reached_by_features(state, rest)) return by_features(state, now);
   end_mission(state, wire::DriveState::kArrived, std::nullopt);
