@@ -21,8 +21,8 @@ struct FeatureTrackerConfig {
   double most_residual = 6.0;    // R of Segvic et al. 2007, §2.1: grey levels of the reference, root mean square,
   bool darker_residual = false;  // or of what has less contrast, reference or picture: what noise leaves of a picture
                                  // by night looks as much larger in the reference as that has more contrast
-  double least_texture = 0.5;  // of a reference, (grey levels a pixel)^2: PatchReference::make
-  double least_gain = 0.4;     // contrast against the reference's: what is less or more is something else
+  double least_texture = 0.5;    // of a reference, (grey levels a pixel)^2: PatchReference::make
+  double least_gain = 0.4;       // contrast against the reference's: what is less or more is something else
   double most_gain = 2.5;
   double least_scale = 0.4;  // size against the reference's
   double most_scale = 2.5;
