@@ -2,6 +2,7 @@
 #include "linemodel/plan_tracker.hpp"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/angles.hpp"
@@ -107,9 +108,11 @@ void PlanTracker::start_at(const Pose2& pose, double spread_m, double spread_rad
   of_this_plan_ = true;
   unknown_m_ = 0.0;
   known_ = spread_m <= config_.known_spread_m && spread_rad <= kFacesAbout_rad;
+  most_unknown_m_ = known_ ? config_.most_doubted_m : config_.most_unfound_m;
   known_at_ = pose;
-  jump_m_ = kJump_m + 3.0 * spread_m;
-  jump_rad_ = kJump_rad + 3.0 * spread_rad;
+  // Moved by odometry, a start that faces anywhere goes anywhere.
+  jump_m_ = known_ ? kJump_m + 3.0 * spread_m : std::numeric_limits<double>::infinity();
+  jump_rad_ = known_ ? kJump_rad + 3.0 * spread_rad : std::numeric_limits<double>::infinity();
   evidence_ = 1.5 * config_.least_evidence;  // somebody has said so
   wrong_pictures_ = 0;
 }
@@ -260,7 +263,7 @@ PlanEstimate PlanTracker::estimate(const PictureLines& lines, double driven_m) {
               : known_              ? PlanLost::kNo
               : said.others.empty() ? PlanLost::kSearching
                                     : PlanLost::kAmbiguous;
-  if (wrong_pictures_ > config_.most_wrong_pictures || unknown_m_ > config_.most_doubted_m) start_anywhere();
+  if (wrong_pictures_ > config_.most_wrong_pictures || unknown_m_ > most_unknown_m_) start_anywhere();
   return said;
 }
 
@@ -271,6 +274,7 @@ void PlanTracker::keep_known(const PlanEstimate& said, double driven_m) {
   known_ = at_one && !jumped && said.spread_m <= config_.known_spread_m;
   unknown_m_ = known_ ? 0.0 : unknown_m_ + driven_m;
   if (!known_) return;
+  most_unknown_m_ = config_.most_doubted_m;
   known_at_ = said.pose;
   jump_m_ = kJump_m;
   jump_rad_ = kJump_rad;

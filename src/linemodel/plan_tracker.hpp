@@ -38,7 +38,8 @@ struct PlanTrackerConfig {
   double known_spread_m = 0.6;        // less spread than this: it is known where the robot is
   double still_share = 0.6;           // of the weight at one place keeps it known; to become so again it takes
   double known_share = 0.9;           // of the weight there, not far from where it was known to be
-  double most_doubted_m = 3.0;        // driven without that: it is looked for everywhere
+  double most_doubted_m = 3.0;        // driven without that: it is looked for everywhere;
+  double most_unfound_m = 12.0;       // so much after a start so wide that it was not known at first
   std::size_t most_places = 40;       // that are told apart ...
   double places_share = 0.75;         // ... once particles that were everywhere are so many in them, ...
   double least_search_m = 2.0;        // ... not before so much driving, and after
@@ -148,9 +149,10 @@ class PlanTracker {
   PlaceHypotheses places_;
   float built_height_m_;
   std::optional<Pose2> last_odometry_;
-  bool searching_ = true;     // particles were everywhere, or are at places told apart
-  bool of_this_plan_ = true;  // as far as has been seen
-  double unknown_m_ = 0.0;    // driven since it was known where the robot is
+  bool searching_ = true;        // particles were everywhere, or are at places told apart
+  bool of_this_plan_ = true;     // as far as has been seen
+  double unknown_m_ = 0.0;       // driven since it was known where the robot is
+  double most_unknown_m_ = 0.0;  // of it; then it is looked for everywhere
   bool known_ = false;
   Pose2 known_at_;       // there it was when that was known last, and moved since
   double jump_m_ = 0.0;  // so far from there is another place

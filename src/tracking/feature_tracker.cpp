@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kSmallestWindow_px = 7;
 constexpr double kSmallestStep_px = 0.4;
+constexpr double kDarkGain = 0.6;          // with less contrast than that a picture is dark
 constexpr double kPlaceFirst_px = 0.3;     // a step shorter than this: the scale is looked for, too
 constexpr double kNearlyAtRest_px = 0.1;   // with all iterations done, a last step shorter than this counts as rest
 constexpr double kCoarserConverged = 5.0;  // times as far from rest is enough where a finer level follows
@@ -66,7 +67,8 @@ FeatureState judged(const TrackedFeature& feature, const FeatureGuess& guess, co
     return FeatureState::kLostDiverged;
   }
   if (!(feature.gain >= config.least_gain && feature.gain <= config.most_gain)) return FeatureState::kLostContrast;
-  const double residual = config.darker_residual ? feature.residual * std::min(1.0, feature.gain) : feature.residual;
+  const bool is_dark = config.darker_residual && feature.gain < kDarkGain;
+  const double residual = is_dark ? feature.residual * feature.gain : feature.residual;
   return residual <= config.most_residual ? FeatureState::kTracked : FeatureState::kLostResidual;
 }
 

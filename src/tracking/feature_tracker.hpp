@@ -19,8 +19,8 @@ struct FeatureTrackerConfig {
   int iterations = 20;           // at most, on each level
   double converged_px = 0.01;    // a step shorter than this ends the finest level; five times as much the others
   double most_residual = 6.0;    // R of Segvic et al. 2007, §2.1: grey levels of the reference, root mean square,
-  bool darker_residual = false;  // or of what has less contrast, reference or picture: what noise leaves of a picture
-                                 // by night looks as much larger in the reference as that has more contrast
+  bool darker_residual = false;  // or of the picture, where it has much less contrast (a gain below 0.6): what noise
+                                 // leaves of it by night looks larger in the reference by as much
   double least_texture = 0.5;    // of a reference, (grey levels a pixel)^2: PatchReference::make
   double least_gain = 0.4;       // contrast against the reference's: what is less or more is something else
   double most_gain = 2.5;
