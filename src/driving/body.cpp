@@ -109,6 +109,18 @@ double clearance_m(const Body& body, std::span<const Eigen::Vector2d> points_m) 
   return nearest_m;
 }
 
+double clearance_at_m(const Body& body, std::span<const Eigen::Vector2d> points_m, const Pose2& pose) {
+  const Pose2 back = inverse(pose);
+  const double c = std::cos(back.theta_rad);
+  const double s = std::sin(back.theta_rad);
+  double nearest_m = 100.0;
+  for (const Eigen::Vector2d& point : points_m) {
+    const Eigen::Vector2d seen(back.x_m + c * point.x() - s * point.y(), back.y_m + s * point.x() + c * point.y());
+    nearest_m = std::min(nearest_m, distance_m(body.outline, seen));
+  }
+  return nearest_m;
+}
+
 Motion made_safe(const Motion& wanted, const Body& body, std::span<const Eigen::Vector2d> points_m,
                  double turning_radps, const SafetyConfig& config) {
   // Far points cannot matter within one braking distance.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/outline.hpp"
+#include "core/pose2.hpp"
 #include "driving/scan.hpp"
 
 namespace homeward::driving {
@@ -45,6 +46,9 @@ struct SafetyConfig {
 
 /// From the body's outline to the nearest point, metres; negative inside. Far when there is no point.
 double clearance_m(const Body& body, std::span<const Eigen::Vector2d> points_m);
+
+/// The same of a body that stands at a pose, in the frame of the points.
+double clearance_at_m(const Body& body, std::span<const Eigen::Vector2d> points_m, const Pose2& pose);
 
 /// The points as the robot sees them after it moved along an arc for so many seconds, robot frame then, metres.
 std::vector<Eigen::Vector2d> seen_after(std::span<const Eigen::Vector2d> points_m, const Motion& motion,

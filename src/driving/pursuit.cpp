@@ -11,18 +11,6 @@
 namespace homeward::driving {
 namespace {
 
-bool has_room(const Body& body, std::span<const Eigen::Vector2d> points_m, const Pose2& pose, double room_m) {
-  const Pose2 back = inverse(pose);
-  const double c = std::cos(back.theta_rad);
-  const double s = std::sin(back.theta_rad);
-  std::vector<Eigen::Vector2d> then;
-  then.reserve(points_m.size());
-  std::ranges::transform(points_m, std::back_inserter(then), [&](const Eigen::Vector2d& point) -> Eigen::Vector2d {
-    return {back.x_m + c * point.x() - s * point.y(), back.y_m + s * point.x() + c * point.y()};
-  });
-  return clearance_m(body, then) >= room_m;
-}
-
 Pose2 along_arc(double length_m, double curvature) {
   const double turned_rad = length_m * curvature;
   const double half_rad = 0.5 * turned_rad;
@@ -46,13 +34,13 @@ std::optional<Motion> pursue(const Body& body, std::span<const Eigen::Vector2d> 
   const double driven_m = std::min(distance_m, config.farthest_m);
   const double arc_m = std::min(look_m, distance_m);
   for (double along_m = 0.0; along_m < arc_m; along_m += config.step_m) {
-    if (!has_room(body, near, along_arc(along_m, curvature), config.room_m)) return std::nullopt;
+    if (clearance_at_m(body, near, along_arc(along_m, curvature)) < config.room_m) return std::nullopt;
   }
   const Eigen::Vector2d direction = goal_m / std::max(distance_m, 1e-9);
   for (double along_m = arc_m; along_m < driven_m + config.step_m; along_m += config.step_m) {
     const double reached_m = std::min(along_m, driven_m);
-    if (!has_room(body, near, {reached_m * direction.x(), reached_m * direction.y(), ahead_rad}, config.room_m))
-      return std::nullopt;
+    const Pose2 there{reached_m * direction.x(), reached_m * direction.y(), ahead_rad};
+    if (clearance_at_m(body, near, there) < config.room_m) return std::nullopt;
   }
   const double share =
       std::clamp(1.0 / (config.comfort_radius_m * std::max(std::abs(curvature), 1e-9)), config.slowest_share, 1.0);

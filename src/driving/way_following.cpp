@@ -84,16 +84,6 @@ Pose2 moved_along(const Pose2& pose, double length_m, double curvature) {
   return pose * Pose2{length_m * std::cos(0.5 * turned_rad), length_m * std::sin(0.5 * turned_rad), turned_rad};
 }
 
-double clearance_at_m(const Body& body, std::span<const Eigen::Vector2d> points_m, const Pose2& pose) {
-  const Pose2 there = inverse(pose);
-  std::vector<Eigen::Vector2d> seen;
-  seen.reserve(points_m.size());
-  std::ranges::transform(points_m, std::back_inserter(seen), [&](const Eigen::Vector2d& point) {
-    return position_m(there * Pose2{point.x(), point.y(), 0.0});
-  });
-  return clearance_m(body, seen);
-}
-
 /// What comes of keeping so far to the left of a way.
 struct Drive {
   double curvature = 0.0;    // at first
