@@ -46,6 +46,7 @@ std::vector<std::string> problems(const RecognitionConfig& config) {
   expect(config.most_compared >= 1, "most_compared is not positive");
   expect(config.most_verified >= 1, "most_verified is not positive");
   expect(config.fewest_agreeing >= 5, "fewest_agreeing is less than 5");
+  expect(config.vouching >= config.fewest_agreeing, "vouching is less than fewest_agreeing");
   expect(config.least_agreeing >= 0.0 && config.least_agreeing <= 1.0, "least_agreeing is not 0 to 1");
   return found;
 }

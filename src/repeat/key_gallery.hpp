@@ -24,6 +24,7 @@ struct RecognitionConfig {
   int most_verified = 3;        // of those, by geometry
   int fewest_agreeing = 15;     // matches that agree with one motion
   double least_agreeing = 0.3;  // of the matches
+  int vouching = 30;            // so many that agree also make up for landmarks that are not found
 };
 /// Empty when valid; lists all problems.
 std::vector<std::string> problems(const RecognitionConfig& config);

@@ -48,7 +48,7 @@ Repeater::Located Repeater::look_around(const tracking::ImagePyramid& picture) {
   Located best;
   for (const Start& start : starts) {
     follower_ = nothing;
-    Located located = locate_from(start.pose, start.key, picture);
+    Located located = locate_from(start.pose, start.key, 0, picture);
     if (located.is_lost() || located.agreeing <= best.agreeing) continue;
     best = std::move(located);
     best_follower = std::move(follower_);
@@ -59,8 +59,10 @@ Repeater::Located Repeater::look_around(const tracking::ImagePyramid& picture) {
 }
 
 /// Looks for everything from a pose that may be some way off: widely first, then again from where that says. More has
-/// to agree than where a place is expected.
-Repeater::Located Repeater::locate_from(const ArcPose& start, int key, const tracking::ImagePyramid& picture) {
+/// to agree than where a place is expected, which other features that one motion explains make up for: by little light
+/// few landmarks are found of those that are there.
+Repeater::Located Repeater::locate_from(const ArcPose& start, int key, int others_agreeing,
+                                        const tracking::ImagePyramid& picture) {
   pose_ = start;
   follower_.search(picture, pose_, config_.most_from_start_rad, config_);
   Located located = locate(key);
@@ -69,8 +71,8 @@ Repeater::Located Repeater::locate_from(const ArcPose& start, int key, const tra
   drop_what_disagrees(located);
   follower_.search(picture, pose_, config_.most_from_predicted_rad, config_);
   located = locate(key);
-  const double least =
-      std::max<double>(config_.fewest_recovered, config_.least_recovered * follower_.expected(located.pose));
+  const double least = std::max<double>(config_.fewest_recovered,
+                                        config_.least_recovered * follower_.expected(located.pose) - others_agreeing);
   if (!located.is_lost() && located.agreeing < least) located.lost = LostReason::kTooFewFeatures;
   return located;
 }

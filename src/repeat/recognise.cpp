@@ -26,8 +26,10 @@ std::vector<int> Repeater::keys_to_compare() const {
   return {keys.begin() + first, keys.begin() + std::min(count, first + most)};
 }
 
-/// Goes to a key image that was recognised, if the landmarks there say the same.
-bool Repeater::try_at(const RecognisedKey& found, const tracking::ImagePyramid& picture, Located& located) {
+/// Goes to a key image that was recognised, if the landmarks there say the same: from the first beginning from which
+/// they do, or, where the features that were recognised make up for landmarks, from the one with the most of them.
+bool Repeater::try_at(const RecognisedKey& found, int others_agreeing, const tracking::ImagePyramid& picture,
+                      Located& located) {
   const int arc = arc_at(found.key);
   if (arc < 0 || !go_to(arc, {})) return false;
   const KeyPose& key = around_->key(found.key);
@@ -45,27 +47,37 @@ bool Repeater::try_at(const RecognisedKey& found, const tracking::ImagePyramid& 
     starts.push_back(start);
   }
   const LandmarkFollower nothing = follower_;
+  LandmarkFollower best_follower = nothing;
   for (const ArcPose& from : starts) {
     follower_ = nothing;
-    located = locate_from(from, found.key, picture);
-    if (!located.is_lost()) return true;
+    Located there = locate_from(from, found.key, others_agreeing, picture);
+    if (there.is_lost() || there.agreeing <= located.agreeing) continue;
+    located = std::move(there);
+    best_follower = std::move(follower_);
+    if (others_agreeing == 0) break;
   }
-  return false;
+  follower_ = std::move(best_follower);
+  return !located.is_lost();
 }
 
-/// Finds the place among the key images; nothing is changed where that fails.
+/// Finds the place among the key images; nothing is changed where that fails. By little light few landmarks are found
+/// of those that are there, and those that were recognised count as well where no place has enough without them.
 bool Repeater::recognise(const tracking::ImagePyramid& picture, Located& located) {
   const DescribedPicture described = describe(picture, *camera_, *config_.recognition);
   const auto found = gallery_->recognise(described, keys_to_compare(), *config_.recognition, config_.geometry,
                                          config_.seed + static_cast<std::uint64_t>(pictures_seen_));
-  for (const RecognisedKey& key : found) {
-    Repeater tried = *this;
-    Located there;
-    tried.follower_.lose_all();
-    if (!tried.try_at(key, picture, there)) continue;
-    *this = std::move(tried);
-    located = std::move(there);
-    return true;
+  for (const bool vouching : {false, true}) {
+    for (const RecognisedKey& key : found) {
+      const auto agreeing = static_cast<int>(key.estimate.inliers.size());
+      if (vouching && agreeing < config_.recognition->vouching) continue;
+      Repeater tried = *this;
+      Located there;
+      tried.follower_.lose_all();
+      if (!tried.try_at(key, vouching ? agreeing : 0, picture, there)) continue;
+      *this = std::move(tried);
+      located = std::move(there);
+      return true;
+    }
   }
   return false;
 }

@@ -107,12 +107,12 @@ class Repeater {
   [[nodiscard]] ArcPose turned_by_shift(ArcPose pose, const tracking::ImagePyramid& there,
                                         const tracking::ImagePyramid& picture) const;
   Located look_around(const tracking::ImagePyramid& picture);
-  Located locate_from(const ArcPose& start, int key, const tracking::ImagePyramid& picture);
+  Located locate_from(const ArcPose& start, int key, int others_agreeing, const tracking::ImagePyramid& picture);
   [[nodiscard]] Located locate(int key) const;
   [[nodiscard]] Located locate_by_keys(int from, std::span<const SeenLandmark> seen, Located best) const;
   bool recognise(const tracking::ImagePyramid& picture, Located& located);
   [[nodiscard]] std::vector<int> keys_to_compare() const;
-  bool try_at(const RecognisedKey& found, const tracking::ImagePyramid& picture, Located& located);
+  bool try_at(const RecognisedKey& found, int others_agreeing, const tracking::ImagePyramid& picture, Located& located);
   [[nodiscard]] int arc_at(int key) const;
   int predict(const tracking::ImagePyramid& picture, Located& located);
   void drop_what_disagrees(const Located& located);

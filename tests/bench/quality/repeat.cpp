@@ -13,6 +13,9 @@
 //   --begin ARC     -1: anywhere, by recognition; 0
 //   --from PICTURE  the first one that is shown; 0
 //   --only COUNT    the first pictures of the taught drive alone, and the ones beside them of the other
+//   --anywhere N    instead: each Nth picture is begun from nowhere, with as many more as it takes to compare all key
+//                   images; how many are found, and on a right arc
+//   --contrast C    that features have that are recognised
 //   --growth        also what a picture takes, by tenths of each drive
 //   --cover FROM COUNT SHARE   a share of COUNT pictures from FROM on is covered
 #include <Eigen/Geometry>
@@ -46,6 +49,7 @@ struct Options {
   int width_px = 320;
   int begin = 0;
   int from = 0;
+  int anywhere = 0;
   int only = -1;
   int cover_from = -1;
   int cover_count = 0;
@@ -86,6 +90,10 @@ Options options_of(int argc, char** argv) {
       options.repeating.reach = std::stoi(next());
     else if (name == "--begin")
       options.begin = std::stoi(next());
+    else if (name == "--anywhere")
+      options.anywhere = std::stoi(next());
+    else if (name == "--contrast")
+      options.repeating.recognition->contrast = std::stod(next());
     else if (name == "--from")
       options.from = std::stoi(next());
     else if (name == "--dense") {
@@ -279,6 +287,15 @@ void judge_way(Figures& figures, const Taught& taught, const repeat::Repeated& s
   figures.bearing_off_deg.push_back(degrees(std::abs(wrap_angle(*said.bearing_to_next_rad - bearing_rad))));
 }
 
+/// Whether a picture that is beside a taught one is on the arc that is said, or at most its length outside.
+bool on_right_arc(const Taught& taught, const repeat::Repeated& said, int truth) {
+  const int from = taught.picture_of(said.from_key);
+  const int to = taught.picture_of(said.to_key);
+  constexpr int kNear = 5;  // pictures before and after where the path is closed
+  if (to <= from) return truth >= from - kNear || std::abs(truth - to) <= kNear;
+  return truth >= from - (to - from) && truth <= to + (to - from);
+}
+
 /// Judges what was said of a picture, which is beside a taught one.
 void judge(Figures& figures, const Taught& taught, const repeat::Repeater& repeater, const repeat::Repeated& said,
            int truth, const Pose2& here, const Options& options) {
@@ -291,14 +308,7 @@ void judge(Figures& figures, const Taught& taught, const repeat::Repeater& repea
     ++figures.lost;
     return;
   }
-  const int from = taught.picture_of(said.from_key);
-  const int to = taught.picture_of(said.to_key);
-  if (to > from) {
-    figures.right += truth >= from - (to - from) && truth <= to + (to - from) ? 1 : 0;
-  } else {
-    constexpr int kNear = 5;  // pictures before and after where the path is closed
-    figures.right += truth >= from - kNear || std::abs(truth - to) <= kNear ? 1 : 0;
-  }
+  figures.right += on_right_arc(taught, said, truth) ? 1 : 0;
   figures.enough += said.tracked >= 50 ? 1 : 0;
   judge_way(figures, taught, said, here);
   figures.wrong_far += taught.arcs_between(said.arc, taught.arc_of(truth)) > 1 ? 1 : 0;
@@ -328,11 +338,41 @@ void print(const Figures& figures, std::size_t arcs) {
       1e3 * n / std::accumulate(figures.ms.begin(), figures.ms.end(), 0.0));
 }
 
+/// How often a path is found that nothing is known of the place on.
+void begin_anywhere(const Options& options, const Taught& taught, const PerspectiveTour& drive,
+                    const repeat::Repeater& unbegun) {
+  const int keys = static_cast<int>(taught.keys.size());
+  const int windows = 1 + (keys - 1) / options.repeating.recognition->most_compared;
+  int tried = 0, found = 0, right = 0, truth = 0;
+  for (int number = 0; number + windows <= static_cast<int>(drive.grey.size()); ++number) {
+    truth = beside(taught.poses, *taught.path, drive.poses[at(number)], truth);
+    if (number % options.anywhere != 0) continue;
+    ++tried;
+    repeat::Repeater repeater = unbegun;
+    for (int k = 0; k < windows; ++k) {
+      const auto grey = tracking::ImagePyramid::build(drive.grey[at(number + k)]).value();
+      const repeat::Repeated said = repeater.step(std::make_shared<const tracking::ImagePyramid>(grey)).value();
+      if (said.is_lost()) continue;
+      ++found;
+      const bool is_right = on_right_arc(taught, said, truth);
+      right += is_right ? 1 : 0;
+      if (options.verbose && !is_right)
+        std::printf("%d: arc %d, and is on %d\n", number, said.arc, taught.arc_of(truth));
+      break;
+    }
+  }
+  std::printf("begun anywhere %d times, found %d, on a right arc %d\n", tried, found, right);
+}
+
 int run(const Options& options) {
   const Taught taught = teach(options);
   PerspectiveTour drive = read_perspective_tour(options.repeat, options.width_px);
   const auto picture_of = [&taught](int key) { return taught.keys[at(key)]; };
   auto repeater = repeat::Repeater::create(options.repeating, taught.path, picture_of, taught.camera).value();
+  if (options.anywhere > 0) {
+    begin_anywhere(options, taught, drive, repeater);
+    return 0;
+  }
   const auto begun = options.begin < 0 ? Status{} : repeater.begin(options.begin);
   if (!begun) throw std::runtime_error(begun.error().message);
   Figures figures;

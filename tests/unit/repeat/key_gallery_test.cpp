@@ -63,7 +63,7 @@ TEST_F(AGallery, KeepsNoMoreFeaturesThanAsked) {
 
 TEST(RecognitionConfig, NamesAllItsProblems) {
   EXPECT_TRUE(problems(RecognitionConfig{}).empty());
-  EXPECT_EQ(problems(RecognitionConfig{0, 0.0, 1.5, 0, 0, 4, 1.2}).size(), 7U);
+  EXPECT_EQ(problems(RecognitionConfig{0, 0.0, 1.5, 0, 0, 4, 1.2, 3}).size(), 8U);
 }
 
 }  // namespace

@@ -180,6 +180,18 @@ TEST(Repeating, BeginsAnywhereByRecognition) {
   EXPECT_EQ(unbegun.step(seen_from(taught.poses[15])).value().lost, LostReason::kNotBegun);
 }
 
+TEST(Repeating, WhatIsRecognisedMakesUpForLandmarksThatAreNotFound) {
+  const Taught& taught = taught_bend();
+  Image half = testing::lens_picture({}, taught.poses[15], *lens());
+  std::fill(half.data.begin(), half.data.begin() + static_cast<std::ptrdiff_t>(half.data.size() / 2), std::uint8_t{90});
+  const auto picture = std::make_shared<const tracking::ImagePyramid>(tracking::ImagePyramid::build(half).value());
+  RepeatConfig strict;
+  strict.least_recovered = 0.9;  // of the landmarks: half of them are hidden
+  EXPECT_FALSE(taught.repeater(strict).step(picture).value().is_lost());
+  strict.recognition->vouching = 10'000;
+  EXPECT_TRUE(taught.repeater(strict).step(picture).value().is_lost());
+}
+
 TEST(Repeating, FollowsATurnOnTheSpot) {
   std::vector<Pose2> poses;
   for (int i = 0; i < 9; ++i) poses.push_back({-1.0, 0.2, 0.09 * i});
