@@ -11,6 +11,7 @@
 #include "driving/approach.hpp"
 #include "driving/end_mission.hpp"
 #include "driving/pursuit.hpp"
+#include "driving/steering.hpp"
 #include "driving/way_following.hpp"
 
 namespace homeward::driving {
@@ -157,7 +158,8 @@ Motion along_way(DrivingState& state, const Rest& rest, const Situation& now) {
   const std::span<const Pose2> onwards(rest.way.begin() + static_cast<std::ptrdiff_t>(rest.nearest),
                                        last + 1 - rest.nearest);
   if (const auto closely = follow_way(driving.body, now.points_m, onwards, speed_mps)) return *closely;
-  return drive_towards(state, aim.point_m, speed_mps, now);
+  return steer_round(state.plan, driving.body, now.points_m, aim.point_m, now.inputs.odometry, speed_mps,
+                     driving.turn_gain, driving.steering);
 }
 
 bool reached_by_features(const DrivingState& state, const Rest& rest) {

@@ -9,11 +9,11 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/ssl.hpp>
+#include <cerrno>
 #include <chrono>
 #include <cstdint>
 #include <optional>
 #include <random>
-#include <stdexcept>
 #include <thread>
 
 namespace homeward::agent {
@@ -34,6 +34,18 @@ std::string new_key() {
   std::string key(32, '0');
   for (char& letter : key) letter = "0123456789abcdef"[random() % 16];
   return key;
+}
+
+/// What a socket never fails with, but a disk does.
+bool is_of_disk(const beast::error_code& trouble) {
+  namespace errc = boost::system::errc;
+  return trouble == errc::no_space_on_device || trouble == errc::file_too_large || trouble == errc::io_error ||
+         trouble == errc::read_only_file_system ||
+         trouble == beast::error_code(EDQUOT, boost::system::system_category());
+}
+
+Status not_written(const std::string& file, const beast::error_code& trouble) {
+  return fail(ErrorCode::kIo, "What the server sends cannot be written: " + trouble.message() + ".", file);
 }
 
 }  // namespace
@@ -105,13 +117,13 @@ struct RestClient::Impl {
     if (!parser.get().keep_alive()) drop();
   }
 
-  /// Asks until there is an answer, with what `begin` makes ready for each try.
+  /// Asks until there is an answer, with what `begin` makes ready for each try. `into`: the file that is written.
   template <class Parser, class Begin>
-  Status ask(const Request& request, std::optional<Parser>& parser, Begin begin) {
+  Status ask(const Request& request, std::optional<Parser>& parser, const std::string& into, Begin begin) {
     std::string trouble;
     for (int attempt = 0; attempt < kTries; ++attempt) {
+      if (const Status ready = begin(); !ready) return ready;
       try {
-        begin();
         if (!plain && !secure) connect();
         plain ? exchange(*plain, request, *parser) : exchange(*secure, request, *parser);
         return {};
@@ -119,6 +131,7 @@ struct RestClient::Impl {
         // A kept connection may have been closed meanwhile. Made again it does nothing twice: a POST has its key.
         trouble = broken.what();
         drop();
+        if (is_of_disk(broken.code())) return not_written(into, broken.code());
         if (broken.code() == beast::error::timeout) {
           trouble = "it has said nothing for " + std::to_string(most_silence.count()) + " ms";
           break;
@@ -155,9 +168,10 @@ Result<RestAnswer> RestClient::call(const std::string& method, const std::string
   request.body() = std::string(body);
   request.prepare_payload();
   std::optional<http::response_parser<http::string_body>> parser;
-  const Status asked = impl_->ask(request, parser, [&] {
+  const Status asked = impl_->ask(request, parser, {}, [&]() -> Status {
     parser.emplace();
     parser->body_limit(kMaxAnswerBytes);
+    return {};
   });
   if (!asked) return pass_on(asked);
   return RestAnswer{static_cast<int>(parser->get().result_int()), std::move(parser->get().body())};
@@ -166,12 +180,12 @@ Result<RestAnswer> RestClient::call(const std::string& method, const std::string
 Status RestClient::download(const std::string& path, const std::filesystem::path& file) {
   const Impl::Request request = impl_->request(http::verb::get, path);
   std::optional<http::response_parser<http::file_body>> parser;
-  const Status asked = impl_->ask(request, parser, [&] {
+  const Status asked = impl_->ask(request, parser, file.string(), [&]() -> Status {
     parser.emplace();
     parser->body_limit(kMaxFileBytes);
     beast::error_code trouble;
     parser->get().body().open(file.c_str(), beast::file_mode::write, trouble);
-    if (trouble) throw std::runtime_error(file.string() + " cannot be written: " + trouble.message());
+    return trouble ? not_written(file.string(), trouble) : Status{};
   });
   const int status = asked ? static_cast<int>(parser->get().result_int()) : 0;
   parser.reset();

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/no_room.hpp"
 #include "support/rest_server.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -109,6 +110,25 @@ TEST(RestClient, ADownloadMayBeLargerThanAnAnswer) {
   ASSERT_TRUE(fetched) << fetched.error().message;
   EXPECT_EQ(std::filesystem::file_size(folder.path() / "map"), large.size());
   EXPECT_FALSE(client.call("GET", "/api/v1/maps/m1/export", "", {})) << "not into memory";
+}
+
+TEST(RestClient, ADownloadOntoAFullDiskSaysSoAtOnceAndLeavesNoFile) {
+  int asked = 0;  // the server's thread, but after an answer
+  const RestServer server([&](const RestServer::Request&) {
+    ++asked;
+    return RestServer::Reply{200, std::string(100'000, 'm'), false};
+  });
+  const homeward::testing::ScratchFolder folder;
+  const std::filesystem::path file = folder.path() / "map";
+  RestClient client({false, "127.0.0.1", std::to_string(server.port())}, "token");
+  const homeward::testing::NoRoom full;
+  const Status fetched = client.download("/api/v1/maps/m1/export", file);
+  ASSERT_FALSE(fetched);
+  EXPECT_EQ(fetched.error().code, ErrorCode::kIo);
+  EXPECT_EQ(fetched.error().where, file.string());
+  EXPECT_EQ(fetched.error().message, "What the server sends cannot be written: File too large.");
+  EXPECT_EQ(asked, 1);
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST(RestClient, WhatTheServerDoesNotHaveIsNotDownloaded) {

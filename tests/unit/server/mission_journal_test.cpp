@@ -2,34 +2,14 @@
 #include "server/driving/mission_journal.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
-
+#include "support/no_room.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace homeward::server::mission_journal_test {
 namespace {
 
-/// While it lives, no file of this process may be written beyond its first byte.
-class NoRoom {
- public:
-  NoRoom() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit none{1, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &none);
-  }
-  NoRoom(const NoRoom&) = delete;
-  NoRoom& operator=(const NoRoom&) = delete;
-  ~NoRoom() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  void (*handler_)(int);
-  rlimit before_{};
-};
+using testing::NoRoom;
 
 class MissionJournalTest : public ::testing::Test {
  protected:
