@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "core/median.hpp"
 #include "repeat/seen.hpp"
 
 namespace homeward::repeat {
@@ -48,6 +49,7 @@ void LandmarkFollower::renew(const ArcSurroundings& around, const ArcPose& pose,
       one.pixel_px = known->pixel_px;
       one.seen = known->seen;
       one.scale = known->scale;
+      one.gain = known->gain;
       const auto same = std::ranges::find_if(one.references, [&](const FollowedLandmark::Reference& reference) {
         return references_[reference.slot]->key() == references_before[old.slot]->key();
       });
@@ -86,6 +88,7 @@ bool LandmarkFollower::track(FollowedLandmark& one, const tracking::ImagePyramid
   one.is_tracked = true;
   one.pixel_px = found.pixel_px;
   one.scale = found.scale;
+  one.gain = found.gain;
   one.seen = *seen;
   return true;
 }
@@ -140,9 +143,24 @@ std::vector<std::size_t> LandmarkFollower::tracked_ones() const {
   return ones;
 }
 
-int LandmarkFollower::expected(const ArcPose& pose) const {
+/// Of what is tracked, against its references: 1 where that is about as much, or where too few say so.
+double LandmarkFollower::contrast() const {
+  constexpr std::size_t kFewest = 8;
+  std::vector<double> gains;
+  for (const FollowedLandmark& one : landmarks_) {
+    if (one.is_tracked) gains.push_back(one.gain);
+  }
+  const double gain = gains.size() < kFewest ? 1.0 : median(std::move(gains));
+  return gain < tracking::kDarkGain ? gain : 1.0;
+}
+
+int LandmarkFollower::expected(const ArcPose& pose, double least_visible) const {
+  const double gain = contrast();
   int count = 0;
   for (const FollowedLandmark& one : landmarks_) {
+    const FollowedLandmark::Reference& reference = one.references[one.by];
+    const double texture = references_[reference.slot]->tracker().texture(reference.reference);
+    if (gain < 1.0 && texture * gain * gain < least_visible) continue;
     const auto at_px = camera_->pixel(expected_at(pose, one.landmark).bearing);
     count += at_px && is_inside(*camera_, *at_px) ? 1 : 0;
   }

@@ -28,6 +28,7 @@ struct FollowedLandmark {
   bool is_tracked = false;
   std::size_t by = 0;  // the reference that it is, or is to be, tracked by
   double scale = 1.0;  // against that one
+  double gain = 1.0;   // contrast against that one, where it is tracked
   Eigen::Vector2d pixel_px = Eigen::Vector2d::Zero();
   geometry::SeenPoint seen;  // at pixel_px
 };
@@ -61,13 +62,15 @@ class LandmarkFollower {
   [[nodiscard]] int tracked() const;
   /// Indices of those that are tracked, rising.
   [[nodiscard]] std::vector<std::size_t> tracked_ones() const;
-  /// How many should be in the picture from `pose`.
-  [[nodiscard]] int expected(const ArcPose& pose) const;
+  /// How many should be seen in the picture from `pose`: where what is tracked has little contrast by little light,
+  /// those alone that still show as much as this, (grey levels a pixel)^2.
+  [[nodiscard]] int expected(const ArcPose& pose, double least_visible) const;
   /// Where a landmark is in a key image; null where that does not show it.
   [[nodiscard]] const geometry::SeenPoint* in_key(std::size_t landmark, int key) const;
 
  private:
   void choose_reference(FollowedLandmark& one, const ArcPose& pose, double turn_from) const;
+  [[nodiscard]] double contrast() const;
   bool track(FollowedLandmark& one, const tracking::ImagePyramid& picture, const Eigen::Vector2d& at_px);
 
   std::shared_ptr<const camera::Camera> camera_;

@@ -71,8 +71,9 @@ Repeater::Located Repeater::locate_from(const ArcPose& start, int key, int other
   drop_what_disagrees(located);
   follower_.search(picture, pose_, config_.most_from_predicted_rad, config_);
   located = locate(key);
-  const double least = std::max<double>(config_.fewest_recovered,
-                                        config_.least_recovered * follower_.expected(located.pose) - others_agreeing);
+  const double least = std::max<double>(
+      config_.fewest_recovered,
+      config_.least_recovered * follower_.expected(located.pose, config_.least_visible) - others_agreeing);
   if (!located.is_lost() && located.agreeing < least) located.lost = LostReason::kTooFewFeatures;
   return located;
 }
@@ -97,8 +98,8 @@ Repeater::Located Repeater::locate(int key) const {
   const double count = static_cast<double>(seen.size());
   if (fit.agreeing < config_.enough_agreeing * count) located = locate_by_keys(key, seen, std::move(located));
   located.lost = LostReason::kNone;
-  const double least =
-      std::max<double>(config_.fewest_features, config_.least_expected * follower_.expected(located.pose));
+  const double least = std::max<double>(
+      config_.fewest_features, config_.least_expected * follower_.expected(located.pose, config_.least_visible));
   if (located.agreeing < least) located.lost = LostReason::kTooFewFeatures;
   if (located.agreeing < config_.least_agreeing * count) located.lost = LostReason::kNoGeometry;
   if (located.error_rad > config_.most_error_rad) located.lost = LostReason::kErrorTooLarge;

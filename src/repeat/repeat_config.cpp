@@ -16,6 +16,7 @@ std::vector<std::string> problems(const RepeatConfig& config) {
   expect(config.reach >= 0, "reach is negative");
   expect(config.most_error_rad > 0.0, "most_error_rad is not positive");
   expect(config.doubtful_error_rad > 0.0, "doubtful_error_rad is not positive");
+  expect(config.least_visible >= 0.0, "least_visible is negative");
   expect(config.fewest_features >= 4, "fewest_features is less than 4");
   expect(is_share(config.least_agreeing), "least_agreeing is not 0 to 1");
   expect(is_share(config.least_expected), "least_expected is not 0 to 1");

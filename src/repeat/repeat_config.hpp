@@ -44,6 +44,8 @@ struct RepeatConfig {
   int fewest_features = 8;            // with fewer that agree the picture is lost
   double least_agreeing = 0.5;        // of the features that are tracked: with a smaller share there is no geometry
   double least_expected = 0.12;       // of the features that should be in the picture: a smaller share is chance
+  double least_visible = 2.0;         // (grey levels a pixel)^2: by little light, what shows less than that is not
+                                      // expected, as a camera's noise is more
   int fewest_recovered = 15;          // the same two after the place was lost
   double least_recovered = 0.2;
   double enough_agreeing = 0.75;  // of the features that are tracked: with fewer the arc's geometry is doubted, and the

@@ -243,7 +243,7 @@ Repeated Repeater::answer(const Located& located) const {
   said.to_key = to_key(said.arc);
   if (said.is_lost()) return said;
   said.tracked = follower_.tracked();
-  said.expected = follower_.expected(pose_);
+  said.expected = follower_.expected(pose_, config_.least_visible);
   said.error_px = located.error_px;
   said.structure_agrees = located.structure_agrees && located.error_rad <= config_.doubtful_error_rad;
   said.progress = progress_along(*around_, said.from_key, pose_).value();

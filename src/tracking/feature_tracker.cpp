@@ -10,7 +10,6 @@ namespace {
 
 constexpr int kSmallestWindow_px = 7;
 constexpr double kSmallestStep_px = 0.4;
-constexpr double kDarkGain = 0.6;          // with less contrast than that a picture is dark
 constexpr double kPlaceFirst_px = 0.3;     // a step shorter than this: the scale is looked for, too
 constexpr double kNearlyAtRest_px = 0.1;   // with all iterations done, a last step shorter than this counts as rest
 constexpr double kCoarserConverged = 5.0;  // times as far from rest is enough where a finer level follows

@@ -14,6 +14,9 @@
 
 namespace homeward::tracking {
 
+/// With less contrast against a reference than that, a picture is dark.
+constexpr double kDarkGain = 0.6;
+
 struct FeatureTrackerConfig {
   int window_px = 15;            // side of the patch on every level: odd, 7 to 15
   int iterations = 20;           // at most, on each level
@@ -83,6 +86,8 @@ class FeatureTracker {
   /// Lets go of all references.
   void clear() { references_.clear(); }
   [[nodiscard]] std::size_t size() const { return references_.size(); }
+  /// How much a reference shows to be found by, (grey levels a pixel)^2: PatchReference::texture.
+  [[nodiscard]] double texture(std::size_t reference) const { return references_[reference].front()->texture(); }
 
   /// Where references are in a picture. As many results as guesses, in their order; a reference may be asked for twice.
   [[nodiscard]] std::vector<TrackedFeature> track(const ImagePyramid& picture,

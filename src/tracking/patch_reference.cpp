@@ -82,7 +82,8 @@ bool PatchReference::prepare(double least_texture) {
       normal_.block<2, 2>(2, 2) -
       normal_.block<2, 2>(2, 0) * normal_.block<2, 2>(0, 0).ldlt().solve(normal_.block<2, 2>(0, 2));
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(moved, Eigen::EigenvaluesOnly);
-  if (!(solver.eigenvalues()(0) >= least_texture * side_ * side_)) return false;
+  texture_ = solver.eigenvalues()(0) / (side_ * side_);
+  if (!(texture_ >= least_texture)) return false;
 
   Matrix5 damped = normal_;
   damped(4, 4) += kScaleDamping * half * half * (normal_(2, 2) + normal_(3, 3));

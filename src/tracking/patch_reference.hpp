@@ -48,6 +48,8 @@ class PatchReference {
                                             const PatchChanges& changes, double least_texture);
 
   [[nodiscard]] PatchView view() const;
+  /// What `least_texture` is about, of this one.
+  [[nodiscard]] double texture() const { return texture_; }
   /// The step from the sums (patch_sums.hpp) at a place. Moves nothing where what is seen there is plain.
   [[nodiscard]] PatchStep step(const PatchSums& sums, StepOf of) const;
 
@@ -59,6 +61,7 @@ class PatchReference {
   int side_ = 0;
   PatchChanges changes_;
   float mean_ = 0.0F;
+  double texture_ = 0.0;
   std::vector<float> planes_;  // grey, du, dv: side x kPatchStride each
   Matrix5 normal_ = Matrix5::Zero();
   Matrix5 inverse_ = Matrix5::Zero();           // of the unknowns that there are; zero elsewhere

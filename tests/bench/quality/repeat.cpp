@@ -16,6 +16,8 @@
 //   --anywhere N    instead: each Nth picture is begun from nowhere, with as many more as it takes to compare all key
 //                   images; how many are found, and on a right arc
 //   --contrast C    that features have that are recognised
+//   --vouching N    so many that are recognised make up for landmarks (RecognitionConfig)
+//   --visible T     what shows less is not expected by little light (RepeatConfig)
 //   --growth        also what a picture takes, by tenths of each drive
 //   --cover FROM COUNT SHARE   a share of COUNT pictures from FROM on is covered
 #include <Eigen/Geometry>
@@ -94,6 +96,10 @@ Options options_of(int argc, char** argv) {
       options.anywhere = std::stoi(next());
     else if (name == "--contrast")
       options.repeating.recognition->contrast = std::stod(next());
+    else if (name == "--vouching")
+      options.repeating.recognition->vouching = std::stoi(next());
+    else if (name == "--visible")
+      options.repeating.least_visible = std::stod(next());
     else if (name == "--from")
       options.from = std::stoi(next());
     else if (name == "--dense") {

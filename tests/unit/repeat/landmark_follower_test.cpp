@@ -42,7 +42,7 @@ class Following : public ::testing::Test {
 
 TEST_F(Following, FindsLandmarksWhereTheyArePredictedAndFollowsThem) {
   EXPECT_EQ(follower.tracked(), 0);
-  const int expected = follower.expected({});
+  const int expected = follower.expected({}, config.least_visible);
   EXPECT_GT(follower.search(picture(taught.poses[0]), {}, config.most_from_predicted_rad, config), 0.9 * expected);
   const int before = follower.tracked();
   follower.follow(picture(taught.poses[1]), {}, same, config);
@@ -59,6 +59,23 @@ TEST_F(Following, FindsLandmarksWhereTheyArePredictedAndFollowsThem) {
   }
   follower.lose_all();
   EXPECT_EQ(follower.tracked(), 0);
+}
+
+TEST_F(Following, ByLittleLightExpectsOnlyWhatStillShowsEnough) {
+  Image dim = testing::lens_picture({}, taught.poses[0], *taught.camera);
+  for (std::uint8_t& grey : dim.data) grey = static_cast<std::uint8_t>(std::lround(0.25 * grey));
+  follower.search(picture(taught.poses[0]), {}, config.most_from_predicted_rad, config);
+  const int by_day = follower.expected({}, config.least_visible);
+  EXPECT_EQ(by_day, follower.expected({}, 1e9)) << "by day all are expected";
+  follower.lose_all();
+  follower.search(tracking::ImagePyramid::build(dim).value(), {}, config.most_from_predicted_rad, config);
+  ASSERT_GE(follower.tracked(), 8);
+  EXPECT_EQ(follower.expected({}, 0.0), by_day);
+  const int most = follower.expected({}, 1.0);
+  const int fewer = follower.expected({}, 20.0);
+  EXPECT_LE(most, by_day);
+  EXPECT_LT(fewer, most);
+  EXPECT_EQ(follower.expected({}, 1e9), 0);
 }
 
 TEST_F(Following, TakesNothingThatIsFarFromItsPrediction) {

@@ -282,12 +282,13 @@ TEST(RepeatConfig, NamesItsProblems) {
   RepeatConfig bad;
   bad.reach = -1;
   bad.fewest_features = 3;
+  bad.least_visible = -1.0;
   bad.back = 0.1;
   bad.clear_way_rad = 0.0;
   bad.pose.agree_rad = 0.0;
   bad.tracker.window_px = 8;
   bad.recognition->most_compared = 0;
-  EXPECT_EQ(problems(bad).size(), 7U);
+  EXPECT_EQ(problems(bad).size(), 8U);
 }
 
 }  // namespace

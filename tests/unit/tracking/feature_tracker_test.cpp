@@ -212,6 +212,15 @@ TEST_F(FeatureTrackerOfATexture, ResultsDoNotDependOnWhatElseIsAskedFor) {
   EXPECT_TRUE(tracker.track(picture, {}).empty());
 }
 
+TEST_F(FeatureTrackerOfATexture, TextureGrowsAsTheSquareOfTheContrast) {
+  FeatureTracker by_day = FeatureTracker::create({}).value();
+  FeatureTracker dimmed = FeatureTracker::create({}).value();
+  const std::vector<Eigen::Vector2d> pixels_px{{80.0, 60.0}};
+  ASSERT_EQ(by_day.add(pyramid({}), pixels_px).front(), ReferenceState::kTaken);
+  ASSERT_EQ(dimmed.add(pyramid({.gain = 0.5, .offset = 60.0}), pixels_px).front(), ReferenceState::kTaken);
+  EXPECT_NEAR(dimmed.texture(0) / by_day.texture(0), 0.25, 0.02);
+}
+
 TEST(FeatureTracker, TakesNoReferenceWithoutTextureOrOffThePicture) {
   auto tracker = FeatureTracker::create({}).value();
   Image edge(120, 100, 1);  // an edge alone does not say where along it
