@@ -102,7 +102,7 @@ struct App::Parts {
         tours(*store, clock),
         maps(*store, events, clock),
         plans(*store, maps, events, clock),
-        plan_follower(*store, maps, plans, events, on_plans, clock),
+        plan_follower(*store, maps, plans, events, on_plans, journal, clock),
         driving(*store, maps, plan_follower, events, heavy, journal, clock, config.longest_mission_s),
         drafts(*store, maps, events, clock),
         inspection(*store, maps),
@@ -143,6 +143,7 @@ struct App::Parts {
     slow.stop();
     on_plans.stop();
     bulk.stop();
+    plan_follower.keep_what_is_left();
     driving.keep_what_is_left();
     journal.finish();
   }

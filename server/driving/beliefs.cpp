@@ -131,6 +131,7 @@ Driving::Look Driving::take_up(RobotUnit& unit) {
   look.anew = std::exchange(unit.restart_tracking, false);
   if (look.anew) unit.tracking.reset();
   look.tracking = unit.tracking;
+  if (unit.under_way) look.on_plan.mission = unit.mission->id;
   look.new_odometry = std::exchange(unit.restart_odometry, false);
   look.map = unit.map;
   look.camera = unit.hello.camera;

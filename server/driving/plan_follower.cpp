@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -80,6 +81,7 @@ void PlanFollower::begin(const RobotId& id, const Robot& robot) {
 }
 
 void PlanFollower::forget(const RobotId& robot) {
+  record_.note(robot, std::nullopt, nullptr);
   Robot gone;
   {
     const std::scoped_lock lock(mutex_);
@@ -98,6 +100,7 @@ void PlanFollower::tick(SteadyTime now) {
     const std::scoped_lock lock(mutex_);
     std::erase_if(robots_, [&](auto& one) {
       if (one.second->in_hand || now - one.second->seen_at <= kKept) return false;
+      record_.note(one.first, std::nullopt, nullptr);
       gone.push_back(std::move(one.second));
       return true;
     });
@@ -137,6 +140,7 @@ void PlanFollower::work(const RobotId& id, const Robot& robot) {
 }
 
 PlanFollower::Told PlanFollower::follow(Followed& robot, const SeenPicture& seen) {
+  record_.note(seen.robot, seen.mission, nullptr);  // the mission before this one may be over
   const auto tie = store_.map_plan(seen.map);
   if (!tie) {
     if (tie.error().code != ErrorCode::kNotFound) {
@@ -153,6 +157,22 @@ PlanFollower::Told PlanFollower::follow(Followed& robot, const SeenPicture& seen
     return nullptr;
   }
   if (!robot.witness) return nullptr;
+  if (stands(robot, seen)) return robot.told;
+  robot.told = show(robot, seen, *tie);
+  record_.note(seen.robot, seen.mission, robot.told.get());
+  return robot.told;
+}
+
+bool PlanFollower::stands(const Followed& robot, const SeenPicture& seen) const {
+  constexpr double kMoved_m = 0.03;
+  constexpr double kTurned_rad = 0.03;
+  if (!robot.told || seen.anew || seen.odometry_anew || !seen.said.empty()) return false;
+  if (!robot.looked_from || !seen.odometry || clock_.steady() - robot.looked_at >= kLooksAgain) return false;
+  const Pose2 moved = inverse(*robot.looked_from) * *seen.odometry;
+  return position_m(moved).norm() < kMoved_m && std::abs(moved.theta_rad) < kTurned_rad;
+}
+
+PlanFollower::Told PlanFollower::show(Followed& robot, const SeenPicture& seen, const db::MapPlanRecord& tie) {
   pipeline::PlanWitness& witness = *robot.witness;
   if (seen.anew) witness.start_anywhere();
   if (seen.odometry_anew) witness.restart_odometry();
@@ -163,12 +183,14 @@ PlanFollower::Told PlanFollower::follow(Followed& robot, const SeenPicture& seen
     return nullptr;
   }
   robot.problem.clear();
+  robot.looked_from = seen.odometry;
+  robot.looked_at = clock_.steady();
   auto view = std::make_shared<wire::PlanPoseView>();
   view->robot = seen.robot;
   view->map = seen.map;
-  view->plan = tie->plan;
-  view->version = tie->version;
-  view->tied_us = tie->tied_us;
+  view->plan = tie.plan;
+  view->version = tie.version;
+  view->tied_us = tie.tied_us;
   view->t_us = seen.t_us;
   view->pose = estimate->pose;
   view->spread_m = estimate->spread_m;
@@ -195,6 +217,7 @@ Status PlanFollower::make_ready(Followed& robot, const SeenPicture& seen, const 
     return {};
   }
   robot.witness.reset();
+  robot.told.reset();
   robot.subject = std::move(subject);
   auto witness = new_witness(seen, tie, places);
   if (!witness) {
@@ -219,12 +242,14 @@ PlanFollower::Witness PlanFollower::new_witness(const SeenPicture& seen, const d
   const std::string where = "plans/" + tie.plan.str();
   const auto version = plans_.version(tie.plan, tie.version);
   if (!version) return pass_on(version);
-  if (version->lines > kMostLines || version->triangles > kMostLines) {
+  if (version->lines > kMostLines || version->triangles > kMostTriangles) {
     return fail(ErrorCode::kInvalidInput, "The plan has too many lines to follow a robot by.", where);
   }
   auto plan = plans_.read(tie.plan, *version);
   if (!plan) return pass_on(plan);
-  auto made = pipeline::PlanWitness::create(std::move(*plan), seen.camera, places);
+  pipeline::PlanWitnessConfig config;
+  config.tracker.visibility.most_kept_bytes = kMostKept_bytes;
+  auto made = pipeline::PlanWitness::create(std::move(*plan), seen.camera, places, config);
   if (!made) return pass_on(made);
   auto witness = std::make_shared<pipeline::PlanWitness>(std::move(*made));
   const std::scoped_lock lock(mutex_);

@@ -16,6 +16,7 @@
 #include "db/store.hpp"
 #include "localisation/localiser.hpp"
 #include "pipeline/plan_witness.hpp"
+#include "server/driving/plan_record.hpp"
 #include "server/services/maps.hpp"
 #include "server/services/plans.hpp"
 #include "server/time/clock.hpp"
@@ -31,11 +32,12 @@ struct SeenPicture {
   camera::CameraConfig camera;
   std::shared_ptr<const Image> picture;
   std::optional<Pose2> odometry;
-  TimeUs t_us = 0;              // when it was taken
-  localisation::Belief belief;  // after it
-  bool anew = false;            // what was seen before says nothing of where the robot is
-  bool odometry_anew = false;   // odometry was begun anew since the picture before
-  std::vector<PlaceId> said;    // where the robot is, as somebody has said since the picture before
+  TimeUs t_us = 0;                   // when it was taken
+  localisation::Belief belief;       // after it
+  std::optional<MissionId> mission;  // that it was on
+  bool anew = false;                 // what was seen before says nothing of where the robot is
+  bool odometry_anew = false;        // odometry was begun anew since the picture before
+  std::vector<PlaceId> said;         // where the robot is, as somebody has said since the picture before
 };
 
 /// Follows robots on the drawn plans that their maps are tied to (pipeline::PlanWitness), by the pictures that their
@@ -46,13 +48,22 @@ class PlanFollower {
  public:
   static constexpr std::chrono::milliseconds kToldEvery{500};  // of each robot, at most
   static constexpr std::chrono::seconds kKept{60};             // a robot that sends no pictures, as its belief is
-  static constexpr int kMostRobots = 8;                // that are followed at a time: each has its own particles
-  static constexpr std::int64_t kMostLines = 100'000;  // of a plan, and of the triangles that hide them
+  static constexpr std::chrono::seconds kLooksAgain{5};        // where a robot stands: it sees the same
+  static constexpr int kMostRobots = 8;                    // that are followed at a time: each has its own particles
+  static constexpr std::int64_t kMostLines = 10'000;       // of a plan,
+  static constexpr std::int64_t kMostTriangles = 100'000;  // that hide them,
+  static constexpr std::size_t kMostKept_bytes = 128U << 20U;  // and of what is visible from where, of each robot
 
   /// All have to outlive it.
   PlanFollower(db::Store& store, MapService& maps, PlanService& plans, EventHub& events, WorkPool& pool,
-               const Clock& clock)
-      : store_(store), maps_(maps), plans_(plans), events_(events), pool_(pool), clock_(clock) {}
+               WorkPool& journal, const Clock& clock)
+      : store_(store),
+        maps_(maps),
+        plans_(plans),
+        events_(events),
+        pool_(pool),
+        clock_(clock),
+        record_(store, journal) {}
 
   /// Takes a picture up, and does not wait for what comes of it.
   void look(SeenPicture seen);
@@ -60,6 +71,8 @@ class PlanFollower {
   void forget(const RobotId& robot);
   /// Every now and then: forgets robots that have sent no picture for kKept.
   void tick(SteadyTime now);
+  /// At the end: hands to the journal what was said and is not kept yet. Once the pool has stopped.
+  void keep_what_is_left() { record_.keep_what_is_left(); }
 
  private:
   /// What a witness is of; another one: another witness.
@@ -71,6 +84,7 @@ class PlanFollower {
     std::string camera;
     bool operator==(const Subject&) const = default;
   };
+  using Told = std::shared_ptr<const wire::PlanPoseView>;
   struct Followed {
     // Guarded by mutex_:
     std::optional<SeenPicture> waiting;
@@ -81,10 +95,12 @@ class PlanFollower {
     Subject subject;
     std::int64_t revision = 0;  // of the map, whose places the witness knows
     std::shared_ptr<pipeline::PlanWitness> witness;
+    Told told;                         // of the last picture that it was shown,
+    std::optional<Pose2> looked_from;  // and where that was taken, by odometry
+    SteadyTime looked_at;
     std::string problem;  // why it is not followed, as it was logged last
   };
   using Robot = std::shared_ptr<Followed>;
-  using Told = std::shared_ptr<const wire::PlanPoseView>;
 
   /// With mutex_ held: hands what waits to the pool.
   void begin(const RobotId& id, const Robot& robot);
@@ -96,6 +112,10 @@ class PlanFollower {
   using Witness = Result<std::shared_ptr<pipeline::PlanWitness>>;
   Witness new_witness(const SeenPicture& seen, const db::MapPlanRecord& tie,
                       const std::vector<map::PlacedOnPlan>& places);
+  /// A picture from where the last one was taken, soon after it.
+  [[nodiscard]] bool stands(const Followed& robot, const SeenPicture& seen) const;
+  /// Shows it the picture. Null where that cannot be.
+  Told show(Followed& robot, const SeenPicture& seen, const db::MapPlanRecord& tie);
   /// Logs why a robot is not followed, once.
   static void note_problem(Followed& robot, const SeenPicture& seen, const std::string& why);
   /// Frees a witness, whose particles and lines are many, on the pool.
@@ -107,6 +127,7 @@ class PlanFollower {
   EventHub& events_;
   WorkPool& pool_;
   const Clock& clock_;
+  PlanRecord record_;
   std::mutex mutex_;
   std::map<RobotId, Robot> robots_;
   std::vector<std::weak_ptr<const pipeline::PlanWitness>> witnesses_;  // those that live

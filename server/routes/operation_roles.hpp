@@ -121,6 +121,8 @@ inline constexpr std::array kOperations = [] {
       Operation{"finish_exploration", "POST", "/api/v1/robots/{robot}/exploration/finish", kInstaller, Lane::kWork,
                 kJson},
       Operation{"get_mission", "GET", "/api/v1/robots/{robot}/missions/{mission}", kViewer, Lane::kWork, kJson},
+      Operation{"get_mission_plan", "GET", "/api/v1/robots/{robot}/missions/{mission}/plan", kViewer, Lane::kWork,
+                kJson},
       Operation{"answer_question", "POST", "/api/v1/robots/{robot}/missions/{mission}/answer", kRider, Lane::kWork,
                 kJson},
       Operation{"stop_robot", "POST", "/api/v1/robots/{robot}/stop", kViewer, Lane::kNow, 4096},

@@ -45,6 +45,12 @@ struct PlanPoseView {
   std::vector<Pose2> particles;  // at most kMaxPlanParticles
 };
 
+/// What is kept of a mission at most: of a picture each 0.2 s for more than an hour.
+inline constexpr std::size_t kMaxMissionPlanPoses = 20'000;
+
+/// What a plan said of the pictures of a mission, without particles (proto/schemas/mission_plan.schema.json).
+nlohmann::json mission_plan_to_json(const MissionId& mission, const std::vector<PlanPoseView>& poses);
+
 /// Particles to the centimetre and the hundredth of a radian.
 nlohmann::json plan_pose_to_json(const PlanPoseView& view);
 

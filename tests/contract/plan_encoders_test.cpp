@@ -111,6 +111,10 @@ TEST(PlanEncoders, WritePosesOnPlansThatTheSchemaAccepts) {
     EXPECT_THAT(schemas().problems("plan_pose", lost), IsEmpty());
     EXPECT_TRUE(lost["x_m"].is_null() && lost["theta_rad"].is_null() && lost["spread_m"].is_null());
   }
+  view.lost.reset();
+  const json kept = mission_plan_to_json(MissionId("m1"), {view, view});
+  EXPECT_THAT(schemas().problems("mission_plan", kept), IsEmpty());
+  EXPECT_EQ(kept["poses"].size(), 2U);
   const json event = event_to_json(PlanPoseTold{std::make_shared<const PlanPoseView>(view)}, 7);
   EXPECT_THAT(schemas().problems("event", event), IsEmpty());
 }

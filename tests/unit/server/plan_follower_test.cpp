@@ -54,12 +54,15 @@ class PlanFollowerTest : public ::testing::Test {
     store_ = db::open_sqlite_store(folder_.path()).value();
     maps_ = std::make_unique<MapService>(*store_, events_, clock_);
     plans_ = std::make_unique<PlanService>(*store_, *maps_, events_, clock_);
-    follower_ = std::make_unique<PlanFollower>(*store_, *maps_, *plans_, events_, pool_, clock_);
+    follower_ = std::make_unique<PlanFollower>(*store_, *maps_, *plans_, events_, pool_, journal_, clock_);
     map_ = add_map();
     page_ = events_.subscribe([] { return wire::Snapshot{}; });
     heard();
   }
-  void TearDown() override { pool_.stop(); }
+  void TearDown() override {
+    pool_.stop();
+    journal_.stop();
+  }
 
   MapId add_map() {
     map::TopologicalMap map = testing::sample_map();
@@ -164,6 +167,7 @@ class PlanFollowerTest : public ::testing::Test {
   std::unique_ptr<MapService> maps_;
   std::unique_ptr<PlanService> plans_;
   WorkPool pool_{1, 16};
+  WorkPool journal_{1, 16};
   std::unique_ptr<PlanFollower> follower_;
   std::shared_ptr<SocketHandler> page_;
   MapId map_;
@@ -192,6 +196,7 @@ TEST_F(PlanFollowerTest, FindsARobotWhereItIsAndSaysWhatThatIsWorth) {
   EXPECT_TRUE(begun_in_first_room(pose));
   SeenPicture wrong = seen_at(truth);
   wrong.belief = sure_of(kSecondRoom);
+  clock_.pass(PlanFollower::kLooksAgain);
   look(std::move(wrong));
   EXPECT_EQ(newest().at("word"), "impossible");
 }
@@ -256,6 +261,66 @@ TEST_F(PlanFollowerTest, TellsAtMostTwiceASecond) {
   follower_->look(seen_at(in_first(3)));
   pool_.work_off();
   EXPECT_EQ(heard().size(), 1U);
+}
+
+TEST_F(PlanFollowerTest, LooksAtWhatAStandingRobotSeesOnceInAWhile) {
+  tie(add_plan(*world_));
+  SeenPicture seen = seen_at(in_first(0));
+  seen.said = {kFirstRoom};
+  look(std::move(seen));
+  EXPECT_EQ(newest().at("t_us"), 1);
+  look(seen_at(in_first(0)));
+  EXPECT_EQ(newest().at("t_us"), 1) << "told again, so that it is known to be of now";
+  Pose2 turned = in_first(0);
+  turned.theta_rad += 0.1;
+  look(seen_at(turned));
+  EXPECT_EQ(newest().at("t_us"), 3);
+  clock_.pass(PlanFollower::kLooksAgain);
+  look(seen_at(turned));
+  EXPECT_EQ(newest().at("t_us"), 4);
+  SeenPicture blind = seen_at(turned);
+  blind.odometry.reset();
+  look(std::move(blind));
+  EXPECT_EQ(newest().at("t_us"), 5) << "who knows whether it stands";
+}
+
+TEST_F(PlanFollowerTest, KeepsWhatWasSaidOfThePicturesOfMissions) {
+  tie(add_plan(*world_));
+  db::RobotRecord robot;
+  robot.id = kRobot;
+  robot.name = "chair";
+  ASSERT_TRUE(store_->add_robot(robot));
+  wire::MissionView mission;
+  mission.robot = kRobot;
+  mission.map = map_;
+  const MissionId first = store_->add_mission(mission).value().id;
+  const MissionId second = store_->add_mission(mission).value().id;
+  const auto look_on = [&](const std::optional<MissionId>& on, int i) {
+    SeenPicture seen = seen_at(in_first(i));
+    if (i == 0) seen.said = {kFirstRoom};
+    seen.mission = on;
+    look(std::move(seen));
+    journal_.work_off();
+  };
+  for (int i = 0; i < 3; ++i) look_on(first, i);
+  EXPECT_TRUE(store_->plan_poses(first)->empty()) << "some at a time";
+  look_on(second, 3);
+  const auto kept = store_->plan_poses(first).value();
+  ASSERT_EQ(kept.size(), 3U);
+  EXPECT_EQ(kept[1].t_us, 2);
+  EXPECT_EQ(kept[1].place, kFirstRoom);
+  EXPECT_EQ(kept[1].version, 1);
+  EXPECT_TRUE(kept[1].particles.empty());
+  look_on(std::nullopt, 3);
+  EXPECT_EQ(store_->plan_poses(second)->size(), 1U) << "it is over";
+  look_on(second, 4);
+  follower_->keep_what_is_left();
+  journal_.work_off();
+  EXPECT_EQ(store_->plan_poses(second)->size(), 2U);
+  look_on(MissionId("gone"), 5);
+  follower_->forget(kRobot);
+  journal_.work_off();
+  EXPECT_TRUE(store_->plan_poses(MissionId("gone"))->empty());
 }
 
 TEST_F(PlanFollowerTest, FollowsNobodyWhereNobodyTiedAPlanOrNobodyDoesAnyMore) {
@@ -358,6 +423,7 @@ TEST_F(PlanFollowerTest, PlacesOfAnEditedMapAreItsOwnAndTheParticlesStay) {
   ASSERT_TRUE(saved) << saved.error().message;
   SeenPicture seen = seen_at(in_first(kBack));
   seen.belief = sure_of(kSecondRoom);
+  clock_.pass(PlanFollower::kLooksAgain);
   look(std::move(seen));
   const json pose = newest();
   EXPECT_EQ(pose.at("word"), "possible");

@@ -125,5 +125,29 @@ TEST_F(PlanPoseTest, BeginsWhereSomebodySaysAndEndsWithTheMap) {
   EXPECT_TRUE(poses(page).empty()) << "nobody tied that one";
 }
 
+TEST_F(PlanPoseTest, WhatWasSaidOfAMissionCanBeReadAfterIt) {
+  connect();
+  tie(add_plan(8.0));
+  const std::string lease = take_lease(*admin);
+  find_itself(agent);
+  const auto sent = send_home(lease);
+  ASSERT_EQ(sent.status, 201) << sent.body;
+  const std::string plan = root + "/missions/" + sent.json().at("id").get<std::string>() + "/plan";
+  EXPECT_TRUE(admin->get(plan).json().at("poses").empty());
+  look();
+  look();
+  ASSERT_EQ(admin->post(root + "/stop", json::object()).status, 202);
+  look();
+  HttpClient viewer = signed_in("vera", "viewer");
+  const json kept = viewer.get(plan).json();
+  EXPECT_EQ(kept.at("mission"), sent.json().at("id"));
+  ASSERT_EQ(kept.at("poses").size(), 2U);
+  EXPECT_EQ(kept.at("poses")[1].at("t_us"), agent.frame_seq - 1);
+  EXPECT_EQ(admin->get(root + "/missions/none/plan").status, 404);
+  EXPECT_EQ(admin->get("/api/v1/robots/none/missions/none/plan").status, 404);
+  HttpClient stranger(app->port());
+  EXPECT_EQ(stranger.get(plan).status, 401);
+}
+
 }  // namespace
 }  // namespace homeward::server::plan_pose_test
