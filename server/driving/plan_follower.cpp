@@ -205,7 +205,10 @@ PlanFollower::Told PlanFollower::show(Followed& robot, const SeenPicture& seen, 
 
 Status PlanFollower::make_ready(Followed& robot, const SeenPicture& seen, const db::MapPlanRecord& tie) {
   const auto loaded = maps_.load(seen.map);
-  if (!loaded) return pass_on(loaded);
+  if (!loaded) {
+    robot.subject = {};
+    return pass_on(loaded);
+  }
   const std::int64_t revision = (*loaded)->map.revision;
   Subject subject{seen.map, tie.plan, tie.version, tie.tied_us, wire::camera_to_json(seen.camera).dump()};
   const bool known = robot.subject == subject;
