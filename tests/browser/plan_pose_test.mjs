@@ -161,6 +161,11 @@ async function run(page) {
   assert.ok(compared >= 8 && farthest_m < kAsOldAs_m, 'it follows the chair');
   assert.ok(apart_m(shown, real) < kNear_m && turned_rad(shown, real) < 0.2, JSON.stringify([shown, real]));
   await look(page, 'plan-arrived');
+  const [{ mission }] = (await call(page, 'GET', '/robots')).robots;
+  const { poses } = await call(page, 'GET', `/robots/${robot.id}/missions/${mission.id}/plan`);
+  const impossible = poses.filter(({ word }) => word === 'impossible').length;
+  say(`${poses.length} pictures of it are kept, ${impossible} of which called the place impossible`);
+  assert.ok(poses.length > 30 && poses.at(-1).x_m !== null, 'what was said of the mission is kept');
   await page.goto(`/map/${robot.map}/plan`);
   await page.locator('[data-kind=arrow]').waitFor({ timeout: kPatienceMs });
   await shoot(page, values.out, 'plan-map-page');
