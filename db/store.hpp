@@ -211,6 +211,12 @@ class Store {
   /// Errors: kNotFound.
   virtual Result<wire::MissionView> mission(const MissionId& id) = 0;
 
+  /// What a plan said of pictures of the mission, besides what is kept of it; without particles, and of a picture that
+  /// is known already the newest word. What is more than wire::kMaxMissionPlanPoses is left out. Errors: kNotFound.
+  virtual Status add_plan_poses(const MissionId& mission, const std::vector<wire::PlanPoseView>& poses) = 0;
+  /// In the order in which the pictures were taken; none of a mission that is not known.
+  virtual Result<std::vector<wire::PlanPoseView>> plan_poses(const MissionId& mission) = 0;
+
   // --- Its condition ------------------------------------------------------------------------------------------------
   /// Files that came back are no longer missing; what is quarantined is of the start.
   virtual StoreCondition condition() = 0;

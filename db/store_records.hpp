@@ -18,6 +18,7 @@
 #include "wire/map_info_json.hpp"
 #include "wire/mission_json.hpp"
 #include "wire/plan_json.hpp"
+#include "wire/plan_pose_json.hpp"
 #include "wire/role.hpp"
 #include "wire/tour_json.hpp"
 

@@ -36,6 +36,8 @@ constexpr int kRequestNiceness = 5;  // behind the pictures of those who drive
 constexpr std::size_t kHeavyQueue = 64;
 constexpr std::size_t kSlowQueue = 64;
 constexpr int kSlowNiceness = 7;  // behind requests
+constexpr std::size_t kPlanQueue = 64;
+constexpr int kPlanNiceness = 7;  // behind beliefs and requests: nobody drives by it
 constexpr std::size_t kBulkQueue = 4;
 constexpr int kBulkNiceness = 10;  // as builds
 constexpr std::size_t kJournalQueue = 100'000;
@@ -90,6 +92,7 @@ struct App::Parts {
         workers(kRequestWorkers, kRequestQueue, kRequestNiceness),
         heavy(threads_of(config), kHeavyQueue),
         slow(1, kSlowQueue, kSlowNiceness),
+        on_plans(1, kPlanQueue, kPlanNiceness),
         bulk(1, kBulkQueue, kBulkNiceness),
         journal(1, kJournalQueue),
         access(config.allowed_hosts, config.trusted_proxies),
@@ -98,10 +101,11 @@ struct App::Parts {
         idempotency(*store, clock),
         tours(*store, clock),
         maps(*store, events, clock),
-        driving(*store, maps, events, heavy, journal, clock, config.longest_mission_s),
+        plans(*store, maps, events, clock),
+        plan_follower(*store, maps, plans, events, on_plans, journal, clock),
+        driving(*store, maps, plan_follower, events, heavy, journal, clock, config.longest_mission_s),
         drafts(*store, maps, events, clock),
         inspection(*store, maps),
-        plans(*store, maps, events, clock),
         jobs(*store, maps, drafts, events, clock, threads_of(config)),
         front({router, access, files, authenticator, idempotency, metrics, workers, heavy, slow, bulk, passwords,
                clock}) {
@@ -137,7 +141,9 @@ struct App::Parts {
     workers.stop();
     heavy.stop();
     slow.stop();
+    on_plans.stop();
     bulk.stop();
+    plan_follower.keep_what_is_left();
     driving.keep_what_is_left();
     journal.finish();
   }
@@ -211,6 +217,7 @@ struct App::Parts {
     workers.work_off();
     heavy.work_off();
     slow.work_off();
+    on_plans.work_off();  // what beliefs have given it
     bulk.work_off();
     journal.work_off();  // what the others have given it
     jobs.work_off();     // and what that has given them
@@ -223,6 +230,7 @@ struct App::Parts {
   WorkPool workers;
   WorkPool heavy;
   WorkPool slow;
+  WorkPool on_plans;
   WorkPool bulk;
   WorkPool journal;
   PasswordQueue passwords;
@@ -232,10 +240,11 @@ struct App::Parts {
   Idempotency idempotency;
   TourService tours;
   MapService maps;
+  PlanService plans;
+  PlanFollower plan_follower;
   Driving driving;
   DraftService drafts;
   InspectionService inspection;
-  PlanService plans;
   BuildJobs jobs;
   Router router;
   AppFront front;

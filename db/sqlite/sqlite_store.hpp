@@ -134,6 +134,9 @@ class SqliteStore final : public Store {
   Result<std::vector<wire::MissionView>> missions(const RobotId& robot, int limit) override;
   Result<wire::MissionView> mission(const MissionId& id) override;
 
+  Status add_plan_poses(const MissionId& mission, const std::vector<wire::PlanPoseView>& poses) override;
+  Result<std::vector<wire::PlanPoseView>> plan_poses(const MissionId& mission) override;
+
   // --- Its condition ---
   StoreCondition condition() override;
 

@@ -110,10 +110,12 @@ struct Driving::Look {
   std::optional<MapId> map;
   camera::CameraConfig camera;
   std::shared_ptr<AgentLink> link;
+  bool anew = false;  // what was seen before says nothing of where it is
   bool new_odometry = false;
   std::optional<wire::EstimateReport> estimate;
   std::vector<PlaceId> said_places;
   // What comes of it:
+  SeenPicture on_plan;
   PlaceId sure;
   double near_share = 0.0;
 
@@ -126,9 +128,10 @@ Driving::Look Driving::take_up(RobotUnit& unit) {
   look.began = now;
   look.frame = std::move(unit.waiting_frame);
   unit.waiting_frame.reset();
-  if (unit.restart_tracking) unit.tracking.reset();
-  unit.restart_tracking = false;
+  look.anew = std::exchange(unit.restart_tracking, false);
+  if (look.anew) unit.tracking.reset();
   look.tracking = unit.tracking;
+  if (unit.under_way) look.on_plan.mission = unit.mission->id;
   look.new_odometry = std::exchange(unit.restart_odometry, false);
   look.map = unit.map;
   look.camera = unit.hello.camera;
@@ -146,17 +149,19 @@ Result<wire::BeliefView> Driving::see(Look& look) {
   if (look.new_odometry) tracking.tracker.restart_odometry();
   if (!look.said_places.empty()) {
     tracking.tracker.start_at(look.said_places);
-    look.said_places.clear();
+    look.on_plan.said = std::exchange(look.said_places, {});
     tracking.by_word_alone = true;
   }
-  const auto picture = imageio::decode(look.frame->jpeg, "frame " + std::to_string(look.frame->seq));
-  if (!picture) return pass_on(picture);
-  auto belief = tracking.tracker.update(*picture, look.frame->odometry);
+  auto decoded = imageio::decode(look.frame->jpeg, "frame " + std::to_string(look.frame->seq));
+  if (!decoded) return pass_on(decoded);
+  look.on_plan.picture = std::make_shared<const Image>(std::move(*decoded));
+  auto belief = tracking.tracker.update(*look.on_plan.picture, look.frame->odometry);
   if (!belief) return pass_on(belief);
   if (look.estimate) belief = tracking.tracker.apply_estimate(look.estimate->place, look.estimate->probability);
   look.sure = pipeline::sure_place(*belief, {});
   if (!belief->lost) tracking.by_word_alone = false;
   look.near_share = tracking.by_word_alone ? std::min(kWordAlone, belief->near_share) : belief->near_share;
+  look.on_plan.belief = *belief;
   wire::BeliefView view = view_of(*belief);
   view.ms = std::chrono::duration<double, std::milli>(clock_.steady() - look.began).count();
   view.t_us = look.frame->t_us;
@@ -179,6 +184,23 @@ void Driving::keep_seen(const Unit& unit, const Look& look, const Result<wire::B
   go_on_after_looking(unit);
 }
 
+void Driving::follow_on_plan(const RobotId& robot, Look& look, bool seen) {
+  if (!seen) {
+    // It would miss that nothing of before counts.
+    if (look.anew || look.new_odometry) plans_.forget(robot);
+    return;
+  }
+  SeenPicture& picture = look.on_plan;
+  picture.robot = robot;
+  picture.map = *look.map;
+  picture.camera = look.camera;
+  picture.odometry = look.frame->odometry;
+  picture.t_us = look.frame->t_us;
+  picture.anew = look.anew;
+  picture.odometry_anew = look.new_odometry;
+  plans_.look(std::move(picture));
+}
+
 void Driving::look(const Unit& unit) {
   Look look = [&] {
     const std::scoped_lock lock(unit->mutex);
@@ -194,6 +216,7 @@ void Driving::look(const Unit& unit) {
     }
     if (!seen) spdlog::warn("robot {} cannot be localised: {}", unit->id.str(), seen.error().message);
   }
+  follow_on_plan(unit->id, look, seen.has_value());
   const std::scoped_lock lock(unit->mutex);
   unit->looking = false;
   unit->tracking = look.tracking;

@@ -8,6 +8,7 @@
 
 #include "db/store.hpp"
 #include "server/driving/mission_journal.hpp"
+#include "server/driving/plan_follower.hpp"
 #include "server/driving/robot_unit.hpp"
 #include "server/http/message.hpp"
 #include "server/services/maps.hpp"
@@ -21,12 +22,13 @@ namespace homeward::server {
 /// on the robot: a mission is a permit that is renewed every tick while link and lease live; whatever breaks, it stops.
 class Driving : public LinkListener {
  public:
-  /// `heavy` looks at pictures, `journal` (one worker) writes to the store what need not be waited for.
-  /// `longest_mission_s`: 0 for planning::longest_mission_s of its way.
-  Driving(db::Store& store, MapService& maps, EventHub& events, WorkPool& heavy, WorkPool& journal, const Clock& clock,
-          int longest_mission_s)
+  /// `heavy` looks at pictures, `journal` (one worker) writes to the store what need not be waited for. `plans` is
+  /// given each picture after that. `longest_mission_s`: 0 for planning::longest_mission_s of its way.
+  Driving(db::Store& store, MapService& maps, PlanFollower& plans, EventHub& events, WorkPool& heavy, WorkPool& journal,
+          const Clock& clock, int longest_mission_s)
       : store_(store),
         maps_(maps),
+        plans_(plans),
         events_(events),
         heavy_(heavy),
         journal_(journal),
@@ -171,6 +173,7 @@ class Driving : public LinkListener {
   Look take_up(RobotUnit& unit);
   Result<wire::BeliefView> see(Look& look);
   void keep_seen(const Unit& unit, const Look& look, const Result<wire::BeliefView>& seen);
+  void follow_on_plan(const RobotId& robot, Look& look, bool seen);
   Result<std::shared_ptr<Tracking>> tracking_for(std::shared_ptr<Tracking> present, const MapId& map,
                                                  const camera::CameraConfig& camera);
   Result<Plan> plan(const Unit& unit, const MissionRequest& request);
@@ -199,6 +202,7 @@ class Driving : public LinkListener {
 
   db::Store& store_;
   MapService& maps_;
+  PlanFollower& plans_;
   EventHub& events_;
   WorkPool& heavy_;
   WorkPool& journal_;

@@ -232,6 +232,7 @@ Result<std::string> Driving::stop(const RobotId& id, const std::string& by, cons
 void Driving::tick(SteadyTime now) {
   mission_journal_.try_again(now);
   close_silent_links(now);
+  plans_.tick(now);
   for (const Unit& found : units()) {
     RobotUnit& unit = *found;
     const std::scoped_lock lock(unit.mutex);

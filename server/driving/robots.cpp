@@ -112,6 +112,7 @@ Status Driving::remove(const RobotId& id) {
     const std::scoped_lock lock(mutex_);
     units_.erase(id);
   }
+  plans_.forget(id);
   const std::scoped_lock lock((*unit)->mutex);
   (*unit)->exploration.reset();
   if ((*unit)->under_way) stop_robot(**unit, "", {wire::ReasonCode::kRobotGone}, "server");  // it was sent off just now
@@ -152,6 +153,7 @@ Result<wire::RobotView> Driving::set_map(const RobotId& id, const std::optional<
     robot.map = map;
     robot.belief.reset();
     robot.forget_where();
+    plans_.forget(id);
   }
   tell(robot);
   return view(robot, clock_.steady());

@@ -9,7 +9,7 @@
 namespace homeward::server {
 namespace {
 
-RobotId robot_in(const Request& request) { return RobotId(request.parameter("robot")); }
+RobotId asked_robot(const Request& request) { return RobotId(request.parameter("robot")); }
 
 std::optional<double> limit_in(wire::ObjectReader& reader, const std::string& key, double least, double most) {
   return reader.has(key) ? std::optional(reader.number(key, least, most)) : std::nullopt;
@@ -30,12 +30,12 @@ Response start_exploration(Driving& driving, const Request& request) {
   asked.back_after_s = limit_in(reader, "back_after_s", 10.0, 1e6);
   if (const Status status = reader.finish(); !status) return problem_of(status);
   asked.by = request.caller.name;
-  const auto mission = driving.start_exploration(robot_in(request), asked);
+  const auto mission = driving.start_exploration(asked_robot(request), asked);
   return mission ? json_response(201, wire::mission_to_json(*mission)) : problem_of(mission);
 }
 
 Response get_exploration(Driving& driving, const Request& request) {
-  const auto report = driving.exploration(robot_in(request));
+  const auto report = driving.exploration(asked_robot(request));
   return report ? json_response(200, wire::exploration_to_json(**report)) : problem_of(report);
 }
 
@@ -47,7 +47,7 @@ Response set_fences(Driving& driving, const Request& request) {
   const std::vector<wire::Fence> fences_m =
       reader.take(wire::fences_from_json(reader.value("fences"), reader.path_of("fences")));
   if (const Status status = reader.finish(); !status) return problem_of(status);
-  const Status sent = driving.set_fences(robot_in(request), lease, fences_m);
+  const Status sent = driving.set_fences(asked_robot(request), lease, fences_m);
   return sent ? empty_response(202) : problem_of(sent);
 }
 
@@ -62,7 +62,7 @@ Response set_companion(Driving& driving, const Request& request) {
     if (other->empty()) reader.problem("robot", "The id of the other robot, or null.");
   }
   if (const Status status = reader.finish(); !status) return problem_of(status);
-  const Status sent = driving.set_companion(robot_in(request), lease, other);
+  const Status sent = driving.set_companion(asked_robot(request), lease, other);
   return sent ? empty_response(202) : problem_of(sent);
 }
 
@@ -72,7 +72,7 @@ Response finish_exploration(Driving& driving, const Request& request) {
   wire::ObjectReader reader(*body, "body");
   const std::string lease = reader.text("lease_id", 100);
   if (const Status status = reader.finish(); !status) return problem_of(status);
-  const Status sent = driving.finish_exploration(robot_in(request), lease);
+  const Status sent = driving.finish_exploration(asked_robot(request), lease);
   return sent ? empty_response(202) : problem_of(sent);
 }
 

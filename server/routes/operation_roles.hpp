@@ -14,16 +14,15 @@ inline constexpr std::size_t kMaxPlanBody = 16UL * 1024 * 1024;  // a drawn plan
 /// Every operation of proto/openapi.yaml, in its order: who may call it, where its handler runs, how large a body it
 /// takes, and whether its answer holds a secret. A contract test compares roles and paths with the file.
 inline constexpr std::array kOperations = [] {
-  using wire::Role;
   constexpr std::size_t kJson = kMaxJsonBody;
   constexpr AllowedRoles kAnyone = AllowedRoles::anyone();
-  constexpr AllowedRoles kViewer = AllowedRoles::at_least(Role::kViewer);
-  constexpr AllowedRoles kRider = AllowedRoles::at_least(Role::kRider);
-  constexpr AllowedRoles kInstaller = AllowedRoles::at_least(Role::kInstaller);
-  constexpr AllowedRoles kAdmin = AllowedRoles::at_least(Role::kAdmin);
-  constexpr AllowedRoles kRobot = AllowedRoles::at_least(Role::kRobot);
-  constexpr AllowedRoles kViewerOrRobot = AllowedRoles::at_least_or_robot(Role::kViewer);
-  constexpr AllowedRoles kInstallerOrRobot = AllowedRoles::at_least_or_robot(Role::kInstaller);
+  constexpr AllowedRoles kViewer = AllowedRoles::at_least(wire::Role::kViewer);
+  constexpr AllowedRoles kRider = AllowedRoles::at_least(wire::Role::kRider);
+  constexpr AllowedRoles kInstaller = AllowedRoles::at_least(wire::Role::kInstaller);
+  constexpr AllowedRoles kAdmin = AllowedRoles::at_least(wire::Role::kAdmin);
+  constexpr AllowedRoles kRobot = AllowedRoles::at_least(wire::Role::kRobot);
+  constexpr AllowedRoles kViewerOrRobot = AllowedRoles::at_least_or_robot(wire::Role::kViewer);
+  constexpr AllowedRoles kInstallerOrRobot = AllowedRoles::at_least_or_robot(wire::Role::kInstaller);
   return std::array{
       Operation{"get_setup", "GET", "/api/v1/setup", kAnyone, Lane::kWork},
       Operation{"set_up", "POST", "/api/v1/setup", kAnyone, Lane::kPassword, kMaxSecretBody, true},
@@ -121,6 +120,7 @@ inline constexpr std::array kOperations = [] {
       Operation{"finish_exploration", "POST", "/api/v1/robots/{robot}/exploration/finish", kInstaller, Lane::kWork,
                 kJson},
       Operation{"get_mission", "GET", "/api/v1/robots/{robot}/missions/{mission}", kViewer, Lane::kWork, kJson},
+      Operation{"get_mission_plan", "GET", "/api/v1/robots/{robot}/missions/{mission}/plan", kViewer, Lane::kWork},
       Operation{"answer_question", "POST", "/api/v1/robots/{robot}/missions/{mission}/answer", kRider, Lane::kWork,
                 kJson},
       Operation{"stop_robot", "POST", "/api/v1/robots/{robot}/stop", kViewer, Lane::kNow, 4096},

@@ -6,6 +6,7 @@
 #include "server/http/json_body.hpp"
 #include "server/routes/operation_roles.hpp"
 #include "wire/mission_json.hpp"
+#include "wire/plan_pose_json.hpp"
 #include "wire/robot_json.hpp"
 
 namespace homeward::server {
@@ -144,6 +145,13 @@ Response list_missions(Driving& driving, db::Store& store, const Request& reques
   return json_response(200, {{"missions", list}});
 }
 
+Response mission_plan(Driving& driving, db::Store& store, const Request& request) {
+  const MissionId id(request.parameter("mission"));
+  if (const auto mission = driving.mission(robot_in(request), id); !mission) return problem_of(mission);
+  const auto poses = store.plan_poses(id);
+  return poses ? json_response(200, wire::mission_plan_to_json(id, *poses)) : problem_of(poses);
+}
+
 // A stop that is asked for badly is still a stop: a body that cannot be read only loses its reason.
 Response stop(Driving& driving, const Request& request) {
   std::string reason;
@@ -188,6 +196,7 @@ void add_robot_routes(Router& router, Driving& driving, Authenticator& authentic
                 const auto mission = d->mission(robot_in(request), MissionId(request.parameter("mission")));
                 return mission ? json_response(200, wire::mission_to_json(*mission)) : problem_of(mission);
               }});
+  router.add({operation("get_mission_plan"), [d, db](Request& request) { return mission_plan(*d, *db, request); }});
   router.add({operation("answer_question"), [d](Request& request) { return answer(*d, request); }});
   router.add({operation("stop_robot"), [d](Request& request) { return stop(*d, request); }});
   router.add({operation("get_frame"), [d](Request& request) {

@@ -78,19 +78,23 @@ Result<wire::PlanVersionView> PlanService::version(const wire::PlanId& id, const
   return fail(ErrorCode::kNotFound, "The plan has no version " + std::to_string(*version) + ".", "plans/" + id.str());
 }
 
+Result<linemodel::Plan> PlanService::read(const wire::PlanId& id, const wire::PlanVersionView& version) {
+  const auto file = store_.plan_file(id, version.version);
+  if (!file) return pass_on(file);
+  auto plan =
+      read_upload({version.format, version.metres_per_unit, version.up, version.wall_height_m, version.by, *file});
+  if (plan) return plan;
+  return fail(ErrorCode::kCorruptFile, "The kept plan cannot be read: " + plan.error().message, "plans/" + id.str());
+}
+
 Result<PlanService::Lines> PlanService::lines_of(const wire::PlanId& id, const wire::PlanVersionView& version) {
   const auto same = [&](const Kept& one) { return one.plan == id && one.version == version.version; };
   {
     const std::scoped_lock lock(mutex_);
     if (const auto kept = std::ranges::find_if(kept_, same); kept != kept_.end()) return kept->lines;
   }
-  const auto file = store_.plan_file(id, version.version);
-  if (!file) return pass_on(file);
-  auto plan =
-      read_upload({version.format, version.metres_per_unit, version.up, version.wall_height_m, version.by, *file});
-  if (!plan) {
-    return fail(ErrorCode::kCorruptFile, "The kept plan cannot be read: " + plan.error().message, "plans/" + id.str());
-  }
+  auto plan = read(id, version);
+  if (!plan) return pass_on(plan);
   auto lines = std::make_shared<const std::vector<linemodel::PlanLine>>(std::move(plan->lines));
   const std::scoped_lock lock(mutex_);
   std::erase_if(kept_, same);

@@ -42,6 +42,8 @@ class PlanService {
   Result<wire::PlanView> add_version(const wire::PlanId& id, const PlanUpload& upload);
   /// The version, or the newest one. Errors: kNotFound (plan or version).
   Result<wire::PlanVersionView> version(const wire::PlanId& id, const std::optional<std::int64_t>& version);
+  /// All of it, read anew from what was uploaded. Errors: kNotFound, kCorruptFile.
+  Result<linemodel::Plan> read(const wire::PlanId& id, const wire::PlanVersionView& version);
   /// What it looks like from above. Errors: kNotFound (plan or version).
   Result<linemodel::PlanOutline> outline(const wire::PlanId& id, const wire::PlanVersionView& version,
                                          const linemodel::HeightRange& heights);

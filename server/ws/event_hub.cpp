@@ -19,6 +19,7 @@ std::string key_of(const wire::Event& event) {
     std::string operator()(const wire::DraftView& draft) const { return "draft/" + draft.id.str(); }
     std::string operator()(const wire::DraftGone& gone) const { return "draft/" + gone.draft.str(); }
     std::string operator()(const wire::ExplorationView& view) const { return "exploration/" + view.robot.str(); }
+    std::string operator()(const wire::PlanPoseTold& told) const { return "plan_pose/" + told.pose->robot.str(); }
     std::string operator()(const wire::Heartbeat&) const { return "heartbeat"; }
   };
   return std::visit(Key{}, event);

@@ -133,6 +133,12 @@ std::vector<JudgedLine> PlanTracker::judged(const Pose2& pose) {
   return judged;
 }
 
+void PlanTracker::restart_odometry() {
+  if (!last_odometry_) return;
+  places_.empty() ? monte_carlo_.spread(kWithoutOdometry_m) : places_.spread(kWithoutOdometry_m);
+  last_odometry_.reset();
+}
+
 double PlanTracker::move(const std::optional<Pose2>& odometry) {
   double driven_m = kNewSight_m;
   if (odometry && last_odometry_) {

@@ -101,6 +101,9 @@ class PlanTracker {
   /// It is about there. With a wide spread it is not yet known where.
   void start_at(const Pose2& pose, double spread_m, double spread_rad);
 
+  /// Odometry counts anew: until the next picture the robot is taken to have moved anywhere within half a metre.
+  void restart_odometry();
+
   /// The next picture, where odometry says it was taken (any frame, the same for all), and the sweep taken there.
   /// Without odometry the robot is taken to have moved anywhere within half a metre. Errors: those of detect_lines.
   Result<PlanEstimate> update(const Image& picture, const std::optional<Pose2>& odometry,

@@ -64,7 +64,9 @@ const VisibleLines::Indices& VisibleLines::from_corner(std::int32_t column, std:
   const std::int64_t key = key_of(column, row);
   if (const auto known = corners_.find(key); known != corners_.end()) return known->second;
   const Eigen::Vector3d eye_m(column * config_.cell_m, row * config_.cell_m, height_m_);
-  return corners_.emplace(key, look_from(eye_m.cast<float>())).first->second;
+  const Indices& seen = corners_.emplace(key, look_from(eye_m.cast<float>())).first->second;
+  kept_bytes_ += seen.capacity() * sizeof(Indices::value_type);
+  return seen;
 }
 
 std::vector<PlanLine> VisibleLines::joined(const Indices& pieces, const Eigen::Vector3f& eye_m) const {
@@ -91,6 +93,11 @@ std::span<const PlanLine> VisibleLines::around(const Eigen::Vector2d& point_m) {
   const auto row = static_cast<std::int32_t>(std::floor(point_m.y() / config_.cell_m));
   const std::int64_t key = key_of(column, row);
   if (const auto known = cells_.find(key); known != cells_.end()) return known->second;
+  if (kept_bytes_ > config_.most_kept_bytes) {
+    corners_.clear();
+    cells_.clear();
+    kept_bytes_ = 0;
+  }
   const Eigen::Vector3d middle_m((column + 0.5) * config_.cell_m, (row + 0.5) * config_.cell_m, height_m_);
   const Eigen::Vector3f eye_m = middle_m.cast<float>();
   std::optional<Indices> common;
@@ -106,7 +113,9 @@ std::span<const PlanLine> VisibleLines::around(const Eigen::Vector2d& point_m) {
     std::set_intersection(common->begin(), common->end(), seen.begin(), seen.end(), std::back_inserter(both));
     common = std::move(both);
   }
-  return cells_.emplace(key, joined(common.value_or(Indices()), eye_m)).first->second;
+  const std::vector<PlanLine>& lines = cells_.emplace(key, joined(common.value_or(Indices()), eye_m)).first->second;
+  kept_bytes_ += lines.capacity() * sizeof(PlanLine);
+  return lines;
 }
 
 }  // namespace homeward::linemodel

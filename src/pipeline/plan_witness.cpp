@@ -21,7 +21,17 @@ Result<PlanWitness> PlanWitness::create(linemodel::Plan plan, const camera::Came
 PlanWitness::PlanWitness(linemodel::PlanTracker tracker, const std::vector<map::PlacedOnPlan>& places,
                          const PlanWitnessConfig& config)
     : config_(config), tracker_(std::move(tracker)) {
+  set_places(places);
+}
+
+void PlanWitness::set_places(const std::vector<map::PlacedOnPlan>& places) {
+  plan_from_place_.clear();
   for (const map::PlacedOnPlan& place : places) plan_from_place_.emplace(place.place, place.plan_from_robot);
+}
+
+void PlanWitness::restart_odometry() {
+  tracker_.restart_odometry();
+  last_odometry_.reset();
 }
 
 void PlanWitness::start_anywhere() {

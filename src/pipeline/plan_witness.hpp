@@ -67,6 +67,11 @@ class PlanWitness {
   /// A person says that the robot is at one of these places; anywhere where none of them lies on the plan.
   void start_at(std::span<const PlaceId> places);
 
+  /// The map was changed: its places lie elsewhere, or are others. The particles stay.
+  void set_places(const std::vector<map::PlacedOnPlan>& places);
+  /// Odometry counts anew, see linemodel::PlanTracker::restart_odometry.
+  void restart_odometry();
+
   /// The next picture, see linemodel::PlanTracker::update; errors are its.
   Result<linemodel::PlanEstimate> update(const Image& picture, const std::optional<Pose2>& odometry,
                                          const std::optional<RangeSweep>& sweep = std::nullopt);

@@ -32,6 +32,7 @@ json body(const ExplorationView& view) {
   return {
       {"type", "exploration"}, {"robot", view.robot.str()}, {"exploration", exploration_to_json(*view.exploration)}};
 }
+json body(const PlanPoseTold& told) { return {{"type", "plan_pose"}, {"pose", plan_pose_to_json(*told.pose)}}; }
 json body(const Heartbeat&) { return {{"type", "heartbeat"}}; }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "wire/job_json.hpp"
 #include "wire/map_info_json.hpp"
 #include "wire/mission_json.hpp"
+#include "wire/plan_pose_json.hpp"
 #include "wire/robot_json.hpp"
 
 namespace homeward::wire {
@@ -33,11 +34,16 @@ struct ExplorationView {
   std::shared_ptr<const ExplorationReport> exploration;  // never null; large, and the same for all who hear of it
 };
 
+/// Where a robot is on the plan that its map lies on.
+struct PlanPoseTold {
+  std::shared_ptr<const PlanPoseView> pose;  // never null; large, and the same for all who hear of it
+};
+
 /// Says that the server lives, where nothing else is to be said.
 struct Heartbeat {};
 
 using Event = std::variant<Snapshot, RobotView, JobView, MapInfoView, MissionView, DraftView, DraftGone,
-                           ExplorationView, Heartbeat>;
+                           ExplorationView, PlanPoseTold, Heartbeat>;
 
 /// One message to dashboards (proto/schemas/event.schema.json): {type, v, seq, ...}. `seq` rises by one with each
 /// message of a running server.

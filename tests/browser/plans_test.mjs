@@ -3,6 +3,7 @@
 // Usage: node tests/browser/plans_test.mjs [FOLDER FOR SCREENSHOTS [WORDS]]     after web/build.sh
 import assert from 'node:assert/strict';
 import { runChecks } from './browser.mjs';
+import { tellOnPlan } from '../../web/dev/mock-plans.mjs';
 import { inEveryLook, pretendedHouses, screenshotFolder, tab } from './house.mjs';
 
 const out = screenshotFolder();
@@ -248,6 +249,43 @@ const checks = [
     ),
   ],
   [
+    'the plan says by itself where the chair is, and that it disagrees, while it says anything',
+    withPlan(
+      async (page, house) => {
+        const small = page.getByRole('region', { name: 'Floor plan' });
+        await small.getByRole('img', { name: /The chair is in the hall/ }).waitFor();
+        const cloud = paper(page).locator('.cloud');
+        const nothing = async () => [await cloud.count(), await sign(page, 'arrow').count()];
+        assert.deepEqual(await nothing(), [0, 0], 'nothing was told of it');
+        assert.equal(await small.getByRole('list', { name: 'Signs of the floor plan' }).count(), 0);
+        tellOnPlan(house, { x_m: 4, y_m: 6, theta_rad: 0, lost: 'searching' });
+        await small.getByText('Not found on the plan yet').waitFor();
+        await small.getByRole('img', { name: /Not found on the plan yet/ }).waitFor();
+        assert.deepEqual(await nothing(), [1, 0], 'no arrow of one that was not found');
+        assert.equal((await cloud.getAttribute('d')).split('M').length - 1, 200);
+        tellOnPlan(house, { x_m: 1.2, y_m: 7.5, theta_rad: Math.PI / 2, word: 'possible' });
+        await small.getByText('The walls of the plan agree').waitFor();
+        const chair = await shareOf(page, sign(page, 'chair'));
+        const arrow = await shareOf(page, sign(page, 'arrow'));
+        assert.ok(Math.hypot(chair.x - arrow.x, chair.y - arrow.y) < 0.01, JSON.stringify([chair, arrow]));
+        const turn = await sign(page, 'arrow').locator('path').getAttribute('transform');
+        assert.equal(turn, 'rotate(-90)', 'a chair that faces up is drawn so');
+        await small.getByText('Where the walls of the plan have it').waitFor();
+        tellOnPlan(house, { x_m: 12, y_m: 7.5, theta_rad: 0, word: 'impossible' });
+        await small.getByRole('status').getByText('The plan disagrees: by its walls').waitFor();
+        await small.getByText('the chair is not in the hall').waitFor();
+        assert.ok((await shareOf(page, sign(page, 'arrow'))).x - chair.x > 0.5);
+        await small.getByText('The plan disagrees').waitFor({ state: 'detached', timeout: 15_000 });
+        assert.deepEqual(await nothing(), [0, 0], 'what was told some seconds ago is not of now');
+        tellOnPlan(house, { x_m: 1.2, y_m: 7.5, theta_rad: 0, word: 'possible' });
+        await sign(page, 'arrow').waitFor();
+        house.steer({ do: 'robot', set: { online: false } });
+        await sign(page, 'arrow').waitFor({ state: 'detached' });
+      },
+      { name: 'vera' },
+    ),
+  ],
+  [
     'other windows follow when a map is laid on a plan or taken off it',
     withPlan(async (page, house, mock) => {
       await page.getByRole('region', { name: 'Floor plan' }).waitFor();
@@ -273,9 +311,34 @@ const checks = [
       await small.getByRole('img', { name: /It goes to Kitchen/ }).waitFor();
       await small.evaluate((one) => one.scrollIntoView({ block: 'center' }));
       await see('plan-go');
+      const told = async (what, words, name) => {
+        tellOnPlan(house, what);
+        await page.getByText(words).waitFor();
+        await see(name);
+      };
+      await told(
+        { x_m: 5, y_m: 7, theta_rad: 0, lost: 'ambiguous' },
+        /Not found on the plan/,
+        'plan-go-searching',
+      );
+      await told(
+        { x_m: 2.2, y_m: 7.6, theta_rad: 0.4, word: 'possible' },
+        /walls of the plan agree/,
+        'plan-go-agrees',
+      );
+      await told(
+        { x_m: 9.9, y_m: 12, theta_rad: 2, word: 'impossible' },
+        /The plan disagrees/,
+        'plan-go-disagrees',
+      );
       await page.goto('/map/m1/plan');
       await page.getByText('The chair is in the hall. It goes to Kitchen.').waitFor();
       await see('plan-map');
+      await told(
+        { x_m: 9.9, y_m: 12, theta_rad: 2, word: 'impossible' },
+        /The plan disagrees/,
+        'plan-map-disagrees',
+      );
       await page.getByRole('button', { name: 'Change where places lie' }).click();
       await page.getByRole('group', { name: 'Living room' }).waitFor();
       await page.getByRole('button', { name: 'Enlarge' }).click();

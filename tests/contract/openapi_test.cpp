@@ -113,7 +113,7 @@ TEST(OpenApi, RepeatsTheSchemasOfFilesAndMessages) {
       {"Marks", "tour"},         {"Lease", "lease"},          {"EditBatch", "edits"},
       {"ServerEvent", "event"},  {"Sweep", "sweep"},          {"Exploration", "exploration"},
       {"PlanInfo", "plan_info"}, {"PlanLines", "plan_lines"}, {"PlanTie", "plan_tie"},
-      {"MapPlan", "map_plan"}};
+      {"MapPlan", "map_plan"},   {"PlanPose", "plan_pose"},   {"MissionPlan", "mission_plan"}};
   for (const auto& [component, schema] : pairs) {
     ASSERT_TRUE(openapi()["components"]["schemas"].contains(component)) << component;
     const json differences =

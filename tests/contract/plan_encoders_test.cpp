@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "contract/schema_library.hpp"
+#include "wire/event_json.hpp"
 #include "wire/map_info_json.hpp"
 #include "wire/plan_json.hpp"
+#include "wire/plan_pose_json.hpp"
 
 namespace homeward::wire::plan_encoders_test {
 namespace {
@@ -82,6 +84,39 @@ TEST(PlanPins, ComeBackAsTheyWereKept) {
   EXPECT_FALSE((*back)[1].theta_rad);
   EXPECT_EQ(plan_pins_from_json(json::parse(R"([{"image":"t/1.jpg","x_m":1}])"), "pins").error().where, "pins/0/y_m");
   EXPECT_FALSE(plan_pins_from_json(json::object(), "pins"));
+}
+
+TEST(PlanEncoders, WritePosesOnPlansThatTheSchemaAccepts) {
+  PlanPoseView view;
+  view.robot = RobotId("r1");
+  view.map = MapId("house");
+  view.plan = PlanId("plan1");
+  view.pose = {1.25, -2.5, 0.75};
+  view.spread_m = 0.125;
+  view.place = PlaceId("p1");
+  view.word = PlaceOnPlan::kImpossible;
+  view.lines_expected = 31;
+  view.lines_confirmed = 24;
+  view.particles.assign(kMaxPlanParticles, Pose2{1.2345, -2.5, 3.14159});
+  const json known = plan_pose_to_json(view);
+  EXPECT_THAT(schemas().problems("plan_pose", known), IsEmpty());
+  EXPECT_EQ(known["x_m"], 1.25);
+  EXPECT_EQ(known["word"], "impossible");
+  EXPECT_EQ(known["particles"][0], json::parse(R"({"x_m":1.23,"y_m":-2.5,"theta_rad":3.14})"));
+  view.place.reset();
+  view.word = PlaceOnPlan::kSilent;
+  for (const PlanLoss loss : {PlanLoss::kSearching, PlanLoss::kAmbiguous, PlanLoss::kNotInPlan}) {
+    view.lost = loss;
+    const json lost = plan_pose_to_json(view);
+    EXPECT_THAT(schemas().problems("plan_pose", lost), IsEmpty());
+    EXPECT_TRUE(lost["x_m"].is_null() && lost["theta_rad"].is_null() && lost["spread_m"].is_null());
+  }
+  view.lost.reset();
+  const json kept = mission_plan_to_json(MissionId("m1"), {view, view});
+  EXPECT_THAT(schemas().problems("mission_plan", kept), IsEmpty());
+  EXPECT_EQ(kept["poses"].size(), 2U);
+  const json event = event_to_json(PlanPoseTold{std::make_shared<const PlanPoseView>(view)}, 7);
+  EXPECT_THAT(schemas().problems("event", event), IsEmpty());
 }
 
 }  // namespace

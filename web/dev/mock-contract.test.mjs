@@ -4,6 +4,7 @@ import { readdirSync, readFileSync } from 'node:fs';
 import Ajv from 'ajv';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { WebSocket } from 'ws';
+import { tellOnPlan } from './mock-plans.mjs';
 import { startMock } from './mock-server.mjs';
 
 const folder = new URL('../../proto/schemas/', import.meta.url);
@@ -164,6 +165,14 @@ describe('the mock server', () => {
     expect((await ask('PUT', 'maps/m1/plan', { plan: plan.id, pins: [pins[0]] })).status).toBe(422);
     const { body: tied } = await ask('PUT', 'maps/m1/plan', { plan: plan.id, version: 1, pins });
     expect([tied.newest_version, tied.places.length, problemsOf('map_plan', tied)]).toEqual([2, 13, []]);
+    const told = [];
+    const { tell } = mock.house;
+    mock.house.tell = (event) => told.push(event);
+    for (const lost of [null, 'searching'])
+      tellOnPlan(mock.house, { x_m: 1, y_m: 7.5, theta_rad: 0.5, lost, word: 'possible' });
+    mock.house.tell = tell;
+    expect(told.flatMap((one) => problemsOf('event', one))).toEqual([]);
+    expect([told.length, told[1].pose.x_m]).toEqual([2, null]);
     const { body: maps } = await ask('GET', 'maps');
     expect(maps.maps.flatMap((one) => problemsOf('map_info', one))).toEqual([]);
     expect((await ask('GET', `plans/${plan.id}`)).body.maps).toEqual(['m1']);

@@ -174,6 +174,42 @@ function untieMap(house, { args }) {
   return { status: 204 };
 }
 
+/** Tells dashboards where the plan has the first robot: a spot and what is said of it; particles lie around it. */
+export function tellOnPlan(house, { x_m, y_m, theta_rad, lost = null, word = 'silent' }) {
+  const [robot] = house.robots;
+  const map = house.find('maps', robot.map);
+  const around_m = lost ? 3 : 0.3;
+  const known = (value) => (lost ? null : value);
+  const particles = Array.from({ length: 200 }, (_, i) => {
+    const reach_m = around_m * Math.sqrt((i + 0.5) / 200);
+    const turn = 2.4 * i;
+    return {
+      x_m: round(x_m + reach_m * Math.cos(turn)),
+      y_m: round(y_m + reach_m * Math.sin(turn)),
+      theta_rad: lost ? round((turn % 6.28) - 3.14) : theta_rad,
+    };
+  });
+  const pose = {
+    robot: robot.id,
+    map: map.id,
+    plan: map.plan.id,
+    version: map.plan.version,
+    tied_us: map.plan.tied_us,
+    t_us: Date.now() * 1000,
+    x_m: known(x_m),
+    y_m: known(y_m),
+    theta_rad: known(theta_rad),
+    spread_m: known(0.12),
+    lost,
+    place: robot.belief?.place ?? null,
+    word,
+    lines_expected: 31,
+    lines_confirmed: 24,
+    particles,
+  };
+  house.tell({ type: 'plan_pose', v: 1, seq: (house.seq += 1), pose });
+}
+
 export const kPlanRoutes = [
   [/^GET plans$/, 'viewer', (house) => ({ body: { plans: house.plans.map((one) => shown(house, one)) } })],
   [/^POST plans$/, 'installer', addPlan],

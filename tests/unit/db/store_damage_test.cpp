@@ -41,6 +41,9 @@ class StoreDamage : public StoreTest {
       mission.arrival_probability = i % 2 == 0 ? 1.0 : 0.25;
       mission.state = wire::MissionState::kArrived;
       ASSERT_TRUE(store().update_mission(mission));
+      wire::PlanPoseView said;
+      said.plan = wire::PlanId("drawn");
+      ASSERT_TRUE(store().add_plan_poses(mission.id, {said}));
     }
     Tour tour;
     tour.id = TourId("t");

@@ -122,7 +122,7 @@ TEST_F(StoreDurability, AnEmptyFileBecomesADatabaseAndANewerOneIsRefused) {
   close();
   {
     SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
-    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 15);
+    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 16);
     EXPECT_EQ(database.execAndGet("PRAGMA journal_mode").getString(), "wal");
     database.exec("PRAGMA user_version = 999");
   }

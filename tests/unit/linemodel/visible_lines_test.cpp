@@ -57,5 +57,26 @@ TEST(VisibleLines, ShowAPlanOfLinesAloneAsIfItWereGlass) {
   EXPECT_TRUE(beyond);
 }
 
+TEST(VisibleLines, AreTheSameWhenLittleOfThemIsKept) {
+  const Plan plan = two_rooms();
+  VisibleLines all(plan, 1.2, {});
+  VisibilityConfig config;
+  config.most_kept_bytes = 1;
+  VisibleLines few(plan, 1.2, config);
+  std::size_t shown = 0;
+  for (int again = 0; again < 2; ++again) {
+    for (double x_m = 0.9; x_m < 12.0; x_m += 0.7) {
+      const std::span<const PlanLine> a = all.around({x_m, 2.9});
+      const std::span<const PlanLine> b = few.around({x_m, 2.9});
+      ASSERT_EQ(a.size(), b.size());
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_TRUE(a[i].from_m == b[i].from_m && a[i].to_m == b[i].to_m);
+      }
+      shown += a.size();
+    }
+  }
+  EXPECT_GT(shown, 500U);
+}
+
 }  // namespace
 }  // namespace homeward::linemodel

@@ -188,6 +188,30 @@ TEST_F(WitnessOfTwoRooms, BeginsAroundAllPlacesThatSomebodyMayMean) {
   EXPECT_GT(in_second_room, 500);
 }
 
+TEST_F(WitnessOfTwoRooms, GoesOnWhereOdometryIsBegunAnew) {
+  witness_->start_at(std::array{kFirstRoom});
+  drive_in_first();
+  ASSERT_LT(off_m(in_first(kBack)), 0.3);
+  witness_->restart_odometry();
+  const Pose2 elsewhere{-40.0, 7.0, 2.0};  // where the program that was started anew counts from
+  for (int i = kBack - 1; i >= 0; --i) {
+    look(in_first(i), elsewhere * in_first(i));
+    ASSERT_EQ(estimate_.lost, linemodel::PlanLost::kNo) << i;
+    EXPECT_LT(off_m(in_first(i)), 0.4) << i;
+  }
+  EXPECT_TRUE(witness_->trusted());
+}
+
+TEST_F(WitnessOfTwoRooms, KnowsThePlacesOfAMapThatWasChanged) {
+  witness_->start_at(std::array{kFirstRoom});
+  drive_in_first();
+  EXPECT_EQ(witness_->hear(sure_of(kElsewhere)), PlanWord::kSilent);
+  witness_->set_places({{kElsewhere, in_first(kBack), true, {}}, {kFirstRoom, {8.2, 2.2, 0.0}, true, {}}});
+  EXPECT_EQ(witness_->hear(sure_of(kElsewhere)), PlanWord::kPossible);
+  EXPECT_EQ(witness_->hear(sure_of(kFirstRoom)), PlanWord::kImpossible);
+  EXPECT_EQ(witness_->hear(sure_of(kSecondRoom)), PlanWord::kSilent) << "the map has it no more";
+}
+
 TEST_F(WitnessOfTwoRooms, TakesConfidenceOnlyFromWhatIsImpossible) {
   const localisation::Belief sure = sure_of(kFirstRoom);
   EXPECT_EQ(witness_->told(sure, PlanWord::kPossible).near_probability, sure.near_probability);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Draft, Exploration, ServerEvent, Job, MapInfo, Robot } from './types';
+import type { Draft, Exploration, ServerEvent, Job, MapInfo, PlanPose, Robot } from './types';
 
 /** Everything that the events tell, with when each robot was last heard of (this browser's clock). */
 export interface ServerState {
@@ -12,6 +12,13 @@ export interface ServerState {
   readonly since: number; // the number of the snapshot
   readonly drafts: Readonly<Record<string, Draft | null>>; // those that changed since the snapshot; null: gone
   readonly explorations: Readonly<Record<string, Exploration>>; // of each robot the newest since the snapshot
+  readonly plan_poses: Readonly<Record<string, HeardPose>>; // the same
+}
+
+/** Where a robot is on a plan, and when that was heard (this browser's clock). */
+export interface HeardPose {
+  readonly pose: PlanPose;
+  readonly heard_ms: number;
 }
 
 /**
@@ -34,6 +41,7 @@ export function applyEvent(
       since: event.seq,
       drafts: {},
       explorations: {},
+      plan_poses: {},
     };
   }
   if (state === null) return 'gap';
@@ -58,6 +66,11 @@ export function applyEvent(
       return { ...next, drafts: { ...state.drafts, [event.draft]: null } };
     case 'exploration':
       return { ...next, explorations: { ...state.explorations, [event.robot]: event.exploration } };
+    case 'plan_pose':
+      return {
+        ...next,
+        plan_poses: { ...state.plan_poses, [event.pose.robot]: { pose: event.pose, heard_ms: now_ms } },
+      };
     case 'heartbeat':
       return next;
     default:

@@ -21,6 +21,7 @@ export type PlanVersion = PlanInfo['versions'][number];
 export type PlanLines = Schemas['PlanLines'];
 export type PlanTie = Schemas['PlanTie'];
 export type MapPlan = Schemas['MapPlan'];
+export type PlanPose = Schemas['PlanPose'];
 export type Reason = Schemas['Reason'];
 export type Problem = Schemas['Problem'];
 export type Job = Schemas['Job'];

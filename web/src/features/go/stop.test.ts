@@ -114,6 +114,7 @@ describe('stop', () => {
       since: 1,
       drafts: {},
       explorations: {},
+      plan_poses: {},
     };
     connection.value = { state: 'live', server, last_message_ms: Date.now() };
     expect(stopState.value).toMatchObject({ kind: 'stands' });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useMemo, useState } from 'preact/hooks';
 import * as calls from '../../api/calls';
+import { connection, now_ms } from '../../api/server';
 import type { Graph, MapInfo, PlanInfo } from '../../api/types';
 import { Choice } from '../../components/field';
 import { Loading } from '../../components/loading';
@@ -10,11 +11,15 @@ import { chosen } from '../../lib/chosen';
 import { useCommand } from '../../lib/command';
 import { useLoaded } from '../../lib/loaded';
 import { follow } from '../../lib/router';
+import { whereabouts } from '../../lib/whereabouts';
+import { planSays } from '../../words/plan_pose';
 import { isActive } from '../go/journey';
 import { PinEditor } from './pin_editor';
 import { PinnedPlaces } from './pinned_places';
 import { PlanDrawing } from './plan_drawing';
 import { PlanLegend } from './plan_legend';
+import { PlanOpinion } from './plan_opinion';
+import { poseOn } from './plan_pose';
 import { chairPlace, chairWords, fitWords, marksOf, wayOn } from './plan_words';
 import { linesOf, useMapPlan, type MapOnPlan } from './use_map_plan';
 
@@ -77,16 +82,20 @@ function Placed({
   const marks = useMemo(() => marksOf(tie, graph, chair, goal), [tie, graph, chair, goal]);
   const ahead = mission ? mission.path.slice(Math.max(0, mission.path_index - 1)) : [];
   const words = robot ? chairWords(robot, graph, tie, goal) : 'No robot is on this map.';
+  const pose = poseOn(map, robot, connection.value.server?.plan_poses ?? {}, now_ms.value);
+  const believed = whereabouts(robot?.belief ?? null, graph)?.where ?? null;
   return (
     <>
       <p role="status">{words}</p>
+      {pose && <PlanOpinion pose={pose} believed={believed} />}
       <PlanDrawing
         lines={lines}
         marks={marks}
         way={wayOn(tie, ahead)}
-        words={`Floor plan with ${tie.places.length} places. ${words}`}
+        pose={pose}
+        words={`Floor plan with ${tie.places.length} places. ${words}${pose ? ` ${planSays(pose, believed).words}` : ''}`}
       />
-      <PlanLegend />
+      <PlanLegend seen={pose !== null} />
       <p class="soft">{fitWords(tie)}</p>
       <PinnedPlaces tie={tie} graph={graph} />
       {mayEdit && (

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useMemo, useState } from 'preact/hooks';
-import type { PlanLines } from '../../api/types';
+import type { PlanLines, PlanPose } from '../../api/types';
 import { boundsOf, dotPath, pressedAt, viewBoxOf, wallPath, wayPath, type Spot } from './plan_geometry';
+import { arrowOf } from './plan_pose';
 
 /** Something at a spot of the plan. */
 export interface Mark extends Spot {
@@ -14,6 +15,7 @@ interface Props {
   lines: PlanLines;
   marks: readonly Mark[];
   way?: readonly Spot[]; // that the chair drives
+  pose?: PlanPose | null; // where the plan has the chair
   words: string; // the same for those who do not see it
   small?: boolean;
   onPress?: (spot: Spot) => void;
@@ -27,7 +29,7 @@ const kSmall_px = 340; // high at most
 const isDot = ({ kind, label }: Mark) => kind === 'place' && label === '';
 
 /** A plan from above with what is on it. Signs and words keep their size however large the building is. */
-export function PlanDrawing({ lines, marks, way = [], words, small = false, onPress }: Props) {
+export function PlanDrawing({ lines, marks, way = [], pose = null, words, small = false, onPress }: Props) {
   const [zoom, setZoom] = useState(0);
   const walls = useMemo(() => wallPath(lines), [lines]);
   // Once for each set of places, so that nothing moves while the chair does.
@@ -37,6 +39,7 @@ export function PlanDrawing({ lines, marks, way = [], words, small = false, onPr
   const bounds = useMemo(() => boundsOf(lines, spots), [lines, extent]);
   // Thousands of places may have nothing to say but where they are: all of these are one stroke.
   const dots = dotPath(marks.filter(isDot));
+  const arrow = pose && arrowOf(pose);
   const width_m = bounds.right_m - bounds.left_m;
   const height_m = bounds.top_m - bounds.bottom_m;
   const press = (event: MouseEvent & { currentTarget: Element }) => {
@@ -71,6 +74,7 @@ export function PlanDrawing({ lines, marks, way = [], words, small = false, onPr
             class="floor-plan-walls"
           >
             <path class="walls" d={walls} />
+            {pose && <path class="cloud" d={dotPath(pose.particles)} />}
             {way.length > 1 && <path class="way" d={wayPath(way)} />}
             <path class="dots" d={dots} />
           </svg>
@@ -79,6 +83,7 @@ export function PlanDrawing({ lines, marks, way = [], words, small = false, onPr
             .map((one) => (
               <MarkSign key={one.key} mark={one} at={shares(one)} />
             ))}
+          {arrow && <Arrow theta_rad={arrow.theta_rad} at={shares(arrow)} />}
         </div>
       </div>
       {!small && (
@@ -109,6 +114,22 @@ export function PlanDrawing({ lines, marks, way = [], words, small = false, onPr
   function shares({ x_m, y_m }: Spot) {
     return { x: (x_m - bounds.left_m) / width_m, y: (bounds.top_m - y_m) / height_m };
   }
+}
+
+/** Where the plan has the chair, and how it faces. */
+function Arrow({ theta_rad, at }: { theta_rad: number; at: { x: number; y: number } }) {
+  return (
+    <svg
+      class="floor-plan-mark arrow"
+      style={{ left: `${100 * at.x}%`, top: `${100 * at.y}%` }}
+      width="1"
+      height="1"
+      aria-hidden="true"
+      data-kind="arrow"
+    >
+      <path d="M15 0L-9 9L-4 0L-9 -9Z" transform={`rotate(${Math.round((-180 * theta_rad) / Math.PI)})`} />
+    </svg>
+  );
 }
 
 /** A sign with its words, to the left of it where it is at the right edge. For the eyes alone: `words` tells the rest. */
