@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/angles.hpp"
-#include "shaded_room.hpp"
+#include "support/shaded_room.hpp"
 
 namespace homeward::linemodel::local_fit_test {
 namespace {

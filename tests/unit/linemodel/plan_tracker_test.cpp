@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/angles.hpp"
-#include "shaded_room.hpp"
+#include "support/shaded_room.hpp"
 
 namespace homeward::linemodel {
 namespace {

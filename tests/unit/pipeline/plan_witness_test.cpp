@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "core/angles.hpp"
-#include "unit/linemodel/shaded_room.hpp"
+#include "support/shaded_room.hpp"
 
 namespace homeward::pipeline::plan_witness_test {
 namespace {
