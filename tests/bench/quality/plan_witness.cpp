@@ -206,12 +206,12 @@ class Trial {
     if (told && !right) ++figures.wrong_told;
     if (!options_.list) return;
     std::array<char, 200> line{};
-    std::snprintf(line.data(), line.size(), "#,%s,%s,%d,%zu,%d,%d,%d,%.2f,%.2f,%d,%.2f,%.2f,%d,%.3f\n",
+    std::snprintf(line.data(), line.size(), "#,%s,%s,%d,%zu,%d,%d,%d,%.2f,%.2f,%d,%.2f,%.2f,%d,%.3f,%.2f\n",
                   drive.kind.c_str(), walk_.name.c_str(), static_cast<int>(drive.seed), k, sure ? 1 : 0, right ? 1 : 0,
                   told ? 1 : 0, apart_m(building_.truth.at(belief.top.front().place), truth),
                   apart_m(estimate.pose, truth), static_cast<int>(estimate.lost), estimate.log_odds, estimate.spread_m,
                   witness.trusted() ? 1 : 0,
-                  witness.odds_against_place().value_or(std::numeric_limits<double>::quiet_NaN()));
+                  witness.odds_against_place().value_or(std::numeric_limits<double>::quiet_NaN()), estimate.explained);
     figures.list += line.data();
   }
 
@@ -262,7 +262,7 @@ int main(int argc, char** argv) {
   program.add_flag(
       "--list", options.list,
       "A line for each belief too: kind, walk, drive, picture, confident, right, told as confident, metres "
-      "that place and plan are off, lost, log odds, spread (m), trusted, odds against the place");
+      "that place and plan are off, lost, log odds, spread (m), trusted, odds against the place, explained");
   CLI11_PARSE(program, argc, argv);
   try {
     homeward::measure(options);

@@ -104,6 +104,40 @@ TEST_F(DriveThroughTwoRooms, IsSearchedForBeforeItIsSaidNotToBeOnThePlan) {
   }
 }
 
+TEST_F(DriveThroughTwoRooms, IsSearchedForAnewOnThePlanOfAnotherBuildingAndStaysOffItMeanwhile) {
+  PlanTracker elsewhere = PlanTracker::create(hall(), config_, tracking_).value();
+  std::vector<Pose2> way = way_through();
+  for (int i = 0; i < 24; ++i) way.push_back({8.7 - 0.25 * i, 2.2 + 0.06 * i, 2.9});
+  bool said = false;
+  bool among_places = false;
+  bool anew = false;
+  for (const Pose2& robot : way) {
+    const PlanLost lost = elsewhere.update(picture(robot), robot, std::nullopt)->lost;
+    if (said) {
+      EXPECT_EQ(lost, PlanLost::kNotInPlan);
+    }
+    said = said || lost == PlanLost::kNotInPlan;
+    among_places = among_places || !elsewhere.places().empty();
+    anew = anew || (said && among_places && elsewhere.places().empty());
+  }
+  EXPECT_TRUE(said);
+  EXPECT_TRUE(anew);
+}
+
+TEST_F(DriveThroughTwoRooms, IsExplainedByThePlanWhereItIsAndNotByAnother) {
+  const Pose2 robot = way_through()[6];
+  PlanTracker here = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  here.start_at(robot, 0.1, 0.05);
+  const PlanEstimate said = here.update(picture(robot), robot, std::nullopt).value();
+  EXPECT_EQ(said.explained, here.explained(said.pose));
+  EXPECT_GT(here.explained(robot), 0.3);
+  EXPECT_LT(here.explained({9.0, 2.2, 0.2}), here.explained(robot) - 0.3);
+  PlanTracker elsewhere = PlanTracker::create(hall(), config_, tracking_).value();
+  elsewhere.start_at({7.0, 2.2, 0.2}, 0.1, 0.05);
+  ASSERT_TRUE(elsewhere.update(picture(robot), robot, std::nullopt));
+  EXPECT_LT(elsewhere.explained({7.0, 2.2, 0.2}), 0.0);
+}
+
 TEST_F(DriveThroughTwoRooms, IsFollowedFromAStartThatIsFarOffAsItsSpreadSays) {
   PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
   const std::vector<Pose2> way = way_through();
