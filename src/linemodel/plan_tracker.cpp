@@ -115,6 +115,7 @@ void PlanTracker::start_at(const Pose2& pose, double spread_m, double spread_rad
   jump_m_ = known_ ? kJump_m + 3.0 * spread_m : std::numeric_limits<double>::infinity();
   jump_rad_ = known_ ? kJump_rad + 3.0 * spread_rad : std::numeric_limits<double>::infinity();
   evidence_ = 1.5 * config_.least_evidence;  // somebody has said so
+  agreement_ = 1.5 * config_.least_agreement;
   wrong_pictures_ = 0;
 }
 
@@ -280,7 +281,8 @@ PlanEstimate PlanTracker::estimate(const PictureLines& lines, double driven_m) {
   keep_known(said, driven_m);
   follow_evidence(said.log_odds, said);
   said.evidence = evidence_;
-  of_this_plan_ = evidence_ >= (of_this_plan_ ? config_.still_evidence : config_.least_evidence);
+  of_this_plan_ = of_this_plan_ ? evidence_ >= config_.still_evidence || agreement_ >= config_.still_agreement
+                                : evidence_ >= config_.least_evidence;
   said.lost = !of_this_plan_        ? PlanLost::kNotInPlan
               : known_              ? PlanLost::kNo
               : said.others.empty() ? PlanLost::kSearching
@@ -340,7 +342,10 @@ void PlanTracker::follow(const PoseCluster& place, double evidence) {
 }
 
 void PlanTracker::follow_evidence(double log_odds, const PlanEstimate& said) {
-  if (said.lines_expected >= config_.doubtful_lines) evidence_ += config_.evidence_share * (log_odds - evidence_);
+  if (said.lines_expected >= config_.doubtful_lines) {
+    evidence_ += config_.evidence_share * (log_odds - evidence_);
+    agreement_ += config_.evidence_share * (log_odds + said.explained - agreement_);
+  }
   wrong_pictures_ = known_ && evidence_ < config_.wrong_evidence ? wrong_pictures_ + 1 : 0;
 }
 

@@ -45,7 +45,8 @@ struct PlanTrackerConfig {
   double least_search_m = 2.0;      // ... not before so much driving, and after
   double most_search_m = 8.0;       // so much however many they are
   double evidence_share = 0.07;     // by which the mean of the log odds at the estimate follows each picture
-  double still_evidence = 0.45;     // less than this mean: the robot is not said to be on this plan any more; ...
+  double still_evidence = 0.45;     // less than this mean, and of agreement than `still_agreement`: the robot is not
+                                    // said to be on this plan any more; ...
   double least_evidence = 0.55;     // ... to be so again it takes this
   double still_agreement = 0.9;     // of plan and pictures both ways, at the best place of several: less, and it is
   double least_judged_m = 3.0;      // another plan, after so much driving among them; to be this one again it takes
@@ -171,6 +172,7 @@ class PlanTracker {
   double jump_m_ = 0.0;  // so far from there is another place
   double jump_rad_ = 0.0;
   double evidence_ = 0.0;
+  double agreement_ = 0.0;  // of plan and pictures both ways at the estimate, mean of late
   int wrong_pictures_ = 0;
   std::vector<ImageLine> lines_;
   std::vector<HoughPoint> above_;  // of those that reach above the horizon

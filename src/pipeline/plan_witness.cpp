@@ -29,8 +29,8 @@ void PlanWitness::start_anywhere() {
   estimate_ = {};
   odds_.reset();
   expected_.reset();
-  disputed_pictures_ = pictures_off_plan_ = fitting_pictures_ = 0;
-  fits_ = true;
+  disputed_pictures_ = pictures_off_plan_ = 0;
+  agreement_.reset();
   may_be_carried_ = false;
   agreed_m_ = 0.0;
   trusted_ = false;
@@ -88,15 +88,18 @@ void PlanWitness::follow(const std::optional<Pose2>& odometry) {
 }
 
 void PlanWitness::look_for_misfit() {
-  fits_ = true;
   const bool judged = estimate_.lost == linemodel::PlanLost::kNo && estimate_.lines_expected >= config_.least_lines &&
                       estimate_.lines_seen >= config_.least_lines;
   if (!judged) return;
-  fits_ = may_be_carried_ ? estimate_.log_odds + estimate_.explained >= config_.agreement_again
-                          : std::max(estimate_.log_odds, estimate_.explained) >= config_.least_fit;
-  may_be_carried_ = may_be_carried_ || !fits_;
-  fitting_pictures_ = fits_ ? fitting_pictures_ + 1 : 0;
-  if (fitting_pictures_ >= config_.pictures_again) may_be_carried_ = false;
+  const double agreement = estimate_.log_odds + estimate_.explained;
+  const double before = agreement_.value_or(agreement);
+  agreement_ = before + config_.agreement_share * (agreement - before);
+  if (agreement < config_.least_agreement) {
+    may_be_carried_ = true;
+    agreement_ = std::min(*agreement_, agreement);
+  } else if (*agreement_ >= config_.agreement_again) {
+    may_be_carried_ = false;
+  }
 }
 
 bool PlanWitness::knows() const {
@@ -114,7 +117,7 @@ PlanWord PlanWitness::hear(const localisation::Belief& belief) {
   const bool off_plan = pictures_off_plan_ >= config_.beaten_pictures;
   if (off_plan || share_near(position_m(place->second)) < config_.least_share) return dispute(place->second);
   odds_.reset();
-  if (trusted_ && !fits_) return PlanWord::kImpossible;
+  if (trusted_ && may_be_carried_) return PlanWord::kImpossible;
   if (!knows()) return PlanWord::kSilent;
   agreed_m_ += step_m_;
   trusted_ = trusted_ || agreed_m_ >= config_.agreement_m;
@@ -135,8 +138,8 @@ PlanWord PlanWitness::dispute(const Pose2& place) {
     tracker_.start_at(place, config_.said_spread_m, kPi);
     return PlanWord::kSilent;
   }
-  return trusted_ && knows() && !may_be_carried_ && *odds_ >= config_.least_odds ? PlanWord::kImpossible
-                                                                                 : PlanWord::kSilent;
+  const bool sound = trusted_ && knows() && !may_be_carried_ && agreement_.value_or(0.0) >= config_.least_mean;
+  return sound && *odds_ >= config_.least_odds ? PlanWord::kImpossible : PlanWord::kSilent;
 }
 
 double PlanWitness::agreement_here() {

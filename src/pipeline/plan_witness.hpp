@@ -31,15 +31,16 @@ struct PlanWitnessConfig {
   int least_lines = 8;                 // expected in a picture: fewer say nothing
   double place_reach_m = 2.0;          // how far from a disputed place the robot is looked for
   double odds_share = 0.4;             // by which the mean of a dispute follows each picture
-  double least_odds = 0.3;             // of that mean, against the place: less, and they are silent
+  double least_odds = 0.0;             // of that mean, against the place: less, and they are silent
   double beaten_odds = -0.3;           // less than this after
   int beaten_pictures = 4;             // so many pictures of a dispute, and they begin anew at the place
-  int most_disputed = 8;    // pictures on end, and they do so too: a belief that stays sure so long is seldom wrong
-  double least_fit = 0.15;  // of what is drawn, and of what is seen above the horizon, where the particles are, as
-                            // mean log odds: both less, and the robot may have been carried off,
-  double agreement_again = 0.6;  // until their sum is this much
-  int pictures_again = 4;        // on so many pictures; meanwhile they begin anew at a place that is disputed
-  int carried_pictures = 2;      // for so many
+  int most_disputed = 8;  // pictures on end, and they do so too: a belief that stays sure so long is seldom wrong
+  double least_agreement = 0.15;  // of plan and picture where the particles are, both ways: less, and the robot may
+                                  // have been carried off, ...
+  double agreement_again = 1.0;  // ... until the mean of late is this much; meanwhile they begin anew at a place
+  int carried_pictures = 2;      // that is disputed for so many
+  double least_mean = 0.8;       // of that mean, to dispute a place
+  double agreement_share = 0.4;  // by which it follows each picture
   double most_jump_m = 1.5;      // of the particles, off what odometry says: they are trusted no longer
   int most_off_plan = 10;        // pictures on end of another building, it seems: they are trusted no longer
   double agreement_m = 5.0;      // driven side by side with sure beliefs: what was found from anywhere is trusted
@@ -112,10 +113,9 @@ class PlanWitness {
   linemodel::PlanEstimate estimate_;
   std::optional<double> odds_;  // against the places of a dispute, mean of late; nothing: there is none
   int disputed_pictures_ = 0;
-  int pictures_off_plan_ = 0;  // on end
-  bool fits_ = true;           // the last picture, where the particles are
+  int pictures_off_plan_ = 0;        // on end
+  std::optional<double> agreement_;  // of pictures where the particles were, mean of late
   bool may_be_carried_ = false;
-  int fitting_pictures_ = 0;  // on end
   std::optional<Pose2> last_odometry_;
   std::optional<Pose2> expected_;  // where the particles were known to be last, moved by odometry
   double step_m_ = 0.0;            // driven since the picture before

@@ -172,6 +172,20 @@ TEST_F(DriveThroughTwoRooms, IsOffThePlanBelowOneLimitAndOnItAgainAboveAHigherOn
   EXPECT_EQ(said.lost, PlanLost::kNo);
 }
 
+TEST_F(DriveThroughTwoRooms, IsOnThePlanWhileWhatIsSeenIsDrawnThoughLittleThatIsDrawnIsSeen) {
+  tracking_.still_evidence = 10.0;  // more than there ever is
+  PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  tracking_.still_agreement = 10.0;
+  PlanTracker doubter = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  const std::vector<Pose2> way = way_through();
+  for (PlanTracker* one : {&tracker, &doubter}) one->start_at(way[0], 0.3, 0.15);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Image seen = picture(way[i]);
+    EXPECT_NE(tracker.update(seen, way[i], std::nullopt)->lost, PlanLost::kNotInPlan);
+    EXPECT_EQ(doubter.update(seen, way[i], std::nullopt)->lost, PlanLost::kNotInPlan);
+  }
+}
+
 TEST_F(DriveThroughTwoRooms, IsLookedForAnewWhenItWasCarriedAway) {
   PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
   const std::vector<Pose2> way = way_through();
