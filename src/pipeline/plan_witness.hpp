@@ -37,14 +37,14 @@ struct PlanWitnessConfig {
   int most_disputed = 8;  // pictures on end, and they do so too: a belief that stays sure so long is seldom wrong
   double least_agreement = 0.15;  // of plan and picture where the particles are, both ways: less, and the robot may
                                   // have been carried off, ...
-  double agreement_again = 1.0;  // ... until the mean of late is this much; meanwhile they begin anew at a place
-  int carried_pictures = 2;      // that is disputed for so many
-  double least_mean = 0.8;       // of that mean, to dispute a place
-  double agreement_share = 0.4;  // by which it follows each picture
-  double most_jump_m = 1.5;      // of the particles, off what odometry says: they are trusted no longer
-  int most_off_plan = 10;        // pictures on end of another building, it seems: they are trusted no longer
-  double agreement_m = 5.0;      // driven side by side with sure beliefs: what was found from anywhere is trusted
-  double most_confidence = 0.5;  // that a belief keeps whose place is impossible: nobody drives on an even chance
+  double agreement_again = 1.0;   // ... until the mean of late is this much; meanwhile they begin anew at a place
+  int carried_pictures = 2;       // that is disputed for so many
+  double least_mean = 0.8;        // of that mean, to dispute a place
+  double agreement_share = 0.4;   // by which it follows each picture
+  double most_jump_m = 1.5;       // of the particles, off what odometry says: they are trusted no longer
+  int most_off_plan = 10;         // pictures on end of another building, it seems: they are trusted no longer
+  double agreement_m = 5.0;       // driven side by side with sure beliefs: what was found from anywhere is trusted
+  double most_confidence = 0.5;   // that a belief keeps whose place is impossible: nobody drives on an even chance
 };
 
 /// What the particles on a plan say of the place of a belief.
@@ -61,8 +61,8 @@ enum class PlanWord {
 /// where the robot is, and until it can be trusted: somebody said where the robot is, or, begun anywhere, the particles
 /// have agreed with sure beliefs for some metres, as in a building whose rooms look alike they may be found in the
 /// wrong one. Where the edges fit a disputed place better, the robot was carried there, and the particles begin anew at
-/// it. A place that the particles are at is impossible too while the picture fits it worse than by chance: the robot
-/// was carried off, and neither has noticed. Ours. Not thread-safe.
+/// it. A place that the particles are at is impossible too while pictures fit it hardly better than by chance: the
+/// robot was carried off, and neither has noticed. Ours. Not thread-safe.
 class PlanWitness {
  public:
   /// `places`: of map::lay_on_plan. Errors: those of PlanTracker::create.
