@@ -21,7 +21,7 @@ class PoseJudge {
   [[nodiscard]] LocalFit of(const Pose2& pose) const {
     const ExpectedView view = tracker_.expected(pose);
     const auto count = static_cast<double>(view.lines.size());
-    return {pose, count * lines_.log_odds(view) / (count + doubted_lines_)};
+    return {pose, count * lines_.log_odds(view) / (count + doubted_lines_), 0.0};
   }
 
  private:
@@ -66,7 +66,7 @@ std::vector<LocalFit> coarse_fits(PlanTracker& tracker, const Pose2& middle, dou
 LocalFit best_fit_near(PlanTracker& tracker, const Pose2& middle, double reach_m, double reach_rad,
                        const LocalFitConfig& config) {
   std::vector<LocalFit> fits = coarse_fits(tracker, middle, reach_m, reach_rad, config);
-  if (fits.empty()) return {middle, 0.0};
+  if (fits.empty()) return {middle};
   double scale = 1.0;
   for (int halving = 0; halving < config.halvings; ++halving) {
     keep_best(fits, config.best);
@@ -84,8 +84,10 @@ LocalFit best_fit_near(PlanTracker& tracker, const Pose2& middle, double reach_m
     }
     fits = std::move(finer);
   }
-  keep_best(fits, 1);
-  return fits.front();
+  keep_best(fits, config.best);
+  const auto seen = static_cast<double>(tracker.lines_above());
+  for (LocalFit& fit : fits) fit.explained = seen * tracker.explained(fit.pose) / (seen + config.doubted_lines);
+  return *std::ranges::max_element(fits, {}, [](const LocalFit& fit) { return fit.agreement(); });
 }
 
 }  // namespace homeward::linemodel

@@ -16,15 +16,18 @@ struct LocalFitConfig {
   double doubted_lines = 15.0;  // as if so many lines more were expected that say nothing: few lines say little
 };
 
-/// A pose, and how well the last picture of a tracker fits it: PictureLines::log_odds over the lines expected and
-/// those doubted.
+/// A pose, and how well the last picture of a tracker fits it.
 struct LocalFit {
   Pose2 pose;
-  double log_odds = 0.0;
+  double log_odds = 0.0;   // PictureLines::log_odds over the lines expected and those doubted
+  double explained = 0.0;  // PlanTracker::explained over the lines seen and as many doubted
+
+  [[nodiscard]] double agreement() const { return log_odds + explained; }
 };
 
 /// The pose within `reach_m` and `reach_rad` (pi: any heading) of another one that a tracker's last picture fits best,
-/// by a grid that is refined where it fits. Where the plan has no floor around there, `middle` itself. Ours.
+/// by a grid that is refined where its lines are seen; of the best few on the finest, the one that agrees best. Where
+/// the plan has no floor around there, `middle` itself. Ours.
 LocalFit best_fit_near(PlanTracker& tracker, const Pose2& middle, double reach_m, double reach_rad,
                        const LocalFitConfig& config = {});
 

@@ -17,16 +17,31 @@ constexpr double kAngleStep_rad = kPi / kAngles;
 
 }  // namespace
 
+std::vector<HoughPoint> hough_points(std::span<const ImageLine> lines, const HoughSpace& space) {
+  std::vector<HoughPoint> points;
+  points.reserve(lines.size());
+  for (const ImageLine& line : lines) {
+    if (const auto point = space.point(line.normal.cast<float>())) points.push_back(*point);
+  }
+  return points;
+}
+
 PictureLines::PictureLines(std::span<const ImageLine> lines, const HoughSpace& space, const MeasureConfig& config)
+    : PictureLines(hough_points(lines, space), space, config) {
+  config_.measure = config.measure;
+  if (config.measure == LineMeasure::kGridLengthMatch) add_lengths(lines, space);
+  if (config.measure == LineMeasure::kDistanceTransform) mark_nearness(lines);
+}
+
+PictureLines::PictureLines(std::span<const HoughPoint> points, const HoughSpace& space, const MeasureConfig& config)
     : config_(config), most_offset_(space.most_offset()), offset_per_rad_(space.offset_of_angle(0.01) / 0.01F) {
   const double across_rad = 2.0 * most_offset_ / offset_per_rad_;
   offsets_ = std::max(1, static_cast<int>(std::ceil(across_rad / kAngleStep_rad)));
   cell_angles_ = std::max(1, static_cast<int>(std::lround(kPi / config.cell_rad)));
   cell_offsets_ = std::max(1, static_cast<int>(std::lround(across_rad / config.cell_rad)));
-  mark_rectangles(lines, space);
+  if (config.measure != LineMeasure::kMatchOdds) config_.measure = LineMeasure::kCentredMatchCount;
+  mark_rectangles(points, space);
   weigh_odds();
-  if (config.measure == LineMeasure::kGridLengthMatch) add_lengths(lines, space);
-  if (config.measure == LineMeasure::kDistanceTransform) mark_nearness(lines);
 }
 
 std::size_t PictureLines::match_cell(const HoughPoint& point) const {
@@ -44,21 +59,19 @@ std::size_t PictureLines::length_cell(const HoughPoint& point) const {
   return at(column) * at(cell_offsets_) + at(row);
 }
 
-void PictureLines::mark_rectangles(std::span<const ImageLine> lines, const HoughSpace& space) {
+void PictureLines::mark_rectangles(std::span<const HoughPoint> points, const HoughSpace& space) {
   matches_.assign(at(kAngles) * at(offsets_), 0);
   const double step = 2.0 * most_offset_ / offsets_;  // of the offset
   const double half_offset = config_.tolerance_rad * offset_per_rad_;
-  for (const ImageLine& line : lines) {
-    const auto point = space.point(line.normal.cast<float>());
-    if (!point) continue;
+  for (const HoughPoint& point : points) {
     // Of normals near the vertical, azimuths that are far apart are nearly the same line.
-    const double narrow = space.of_pinhole() ? 1.0 : std::max(0.1, std::cos(static_cast<double>(point->offset)));
+    const double narrow = space.of_pinhole() ? 1.0 : std::max(0.1, std::cos(static_cast<double>(point.offset)));
     const int half_angle = static_cast<int>(std::lround(config_.tolerance_rad / narrow / kAngleStep_rad));
-    const int middle = static_cast<int>(point->angle_rad / kAngleStep_rad);
+    const int middle = static_cast<int>(point.angle_rad / kAngleStep_rad);
     for (int k = -half_angle; k <= half_angle; ++k) {
       const int around = middle + k;
       const bool flipped = around < 0 || around >= kAngles;  // past an end of [0, pi) the offset changes its sign
-      const double offset = flipped ? -point->offset : point->offset;
+      const double offset = flipped ? -point.offset : point.offset;
       const int column = (around % kAngles + kAngles) % kAngles;
       const int least = static_cast<int>(std::floor((offset - half_offset + most_offset_) / step));
       const int most = static_cast<int>(std::floor((offset + half_offset + most_offset_) / step));
@@ -160,6 +173,12 @@ double PictureLines::log_odds(const ExpectedView& view) const {
   double sum = 0.0;
   for (const ExpectedLine& line : view.lines) sum += log_odds_[match_cell(line.point)];
   return view.lines.empty() ? 0.0 : sum / static_cast<double>(view.lines.size());
+}
+
+double PictureLines::log_odds(std::span<const HoughPoint> points) const {
+  double sum = 0.0;
+  for (const HoughPoint& point : points) sum += log_odds_[match_cell(point)];
+  return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
 }
 
 double PictureLines::grid_length_match(const ExpectedView& view) const {

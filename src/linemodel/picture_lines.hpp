@@ -28,10 +28,16 @@ struct MeasureConfig {
   double around_rad = 0.2;       // half a side of the square of Hough space whose fullness is the probability by chance
 };
 
+/// Where these lines are in Hough space; those that it has no point for are left out.
+std::vector<HoughPoint> hough_points(std::span<const ImageLine> lines, const HoughSpace& space);
+
 /// The lines of one picture, made ready to be asked by many poses what they confirm.
 class PictureLines {
  public:
   PictureLines(std::span<const ImageLine> lines, const HoughSpace& space, const MeasureConfig& config);
+  /// Lines of which no more is known than this, such as those that a plan lets expect: scored by the match count or by
+  /// its odds alone, as they have no length to match and nothing to be near to.
+  PictureLines(std::span<const HoughPoint> points, const HoughSpace& space, const MeasureConfig& config);
 
   /// 0 (nothing of what is expected is seen) to 1; 0 where nothing is expected. Of the match odds it is `log_odds`.
   [[nodiscard]] double score(const ExpectedView& view) const;
@@ -39,6 +45,8 @@ class PictureLines {
   /// it is there than by chance, which in a busy part of Hough space is great; 0 where nothing is expected. Ours:
   /// whether the robot is on this plan at all cannot be told by counts, as a full room confirms much of any plan.
   [[nodiscard]] double log_odds(const ExpectedView& view) const;
+  /// The same of lines of which no more is known than their points.
+  [[nodiscard]] double log_odds(std::span<const HoughPoint> points) const;
   /// Whether an expected line has one of the picture within the rectangle around it, whatever the measure.
   [[nodiscard]] bool confirmed(const ExpectedLine& line) const;
   [[nodiscard]] int confirmed_count(const ExpectedView& view) const;
@@ -47,7 +55,7 @@ class PictureLines {
   [[nodiscard]] double grid_length_match(const ExpectedView& view) const;
   [[nodiscard]] double nearness(const ExpectedView& view) const;
 
-  void mark_rectangles(std::span<const ImageLine> lines, const HoughSpace& space);
+  void mark_rectangles(std::span<const HoughPoint> points, const HoughSpace& space);
   void add_lengths(std::span<const ImageLine> lines, const HoughSpace& space);
   void mark_nearness(std::span<const ImageLine> lines);
   void weigh_odds();

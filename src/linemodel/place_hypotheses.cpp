@@ -64,6 +64,7 @@ void PlaceHypotheses::weigh(const MonteCarlo::Weigh& weigh, const Look& look, do
     const Evidence evidence = look(place.at.pose);
     square.all_m += driven_m * evidence.all;
     square.built_m += driven_m * evidence.built;
+    square.both_m += driven_m * (evidence.all + evidence.explained);
     square.driven_m += driven_m;
   }
   sort_out();
@@ -90,7 +91,10 @@ double PlaceHypotheses::least_lead(const Place& one, double Square::*sum) const 
 
 void PlaceHypotheses::sort_out() {
   std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < places_.size(); ++i) order.emplace_back(-least_lead(places_[i], &Square::built_m), i);
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const double built = least_lead(places_[i], &Square::built_m);
+    order.emplace_back(agrees_alone(places_[i]) ? -std::numeric_limits<double>::infinity() : -built, i);
+  }
   std::sort(order.begin(), order.end());
   std::vector<Place> kept;
   for (const auto& [unused, index] : order) {
@@ -111,9 +115,15 @@ std::vector<PlaceHypothesis> PlaceHypotheses::places() const {
   std::vector<PlaceHypothesis> said;
   double all = 0.0;
   for (const Place& one : places_) {
-    PlaceHypothesis place{one.at, 0.0, lead(places_.front(), one, &Square::built_m)};
-    for (const auto& [unused, square] : one.squares) place.evidence += square.all_m;
-    if (driven_m_ > 0.0) place.evidence /= driven_m_;
+    PlaceHypothesis place{one.at, 0.0, 0.0, lead(places_.front(), one, &Square::built_m)};
+    for (const auto& [unused, square] : one.squares) {
+      place.evidence += square.all_m;
+      place.agreement += square.both_m;
+    }
+    if (driven_m_ > 0.0) {
+      place.evidence /= driven_m_;
+      place.agreement /= driven_m_;
+    }
     place.at.share = std::exp(-kShareOfLead * place.behind / config_.lead);
     all += place.at.share;
     said.push_back(place);
@@ -122,10 +132,16 @@ std::vector<PlaceHypothesis> PlaceHypotheses::places() const {
   return said;
 }
 
+bool PlaceHypotheses::agrees_alone(const Place& one) const {
+  return least_lead(one, &Square::built_m) >= -config_.built_behind &&
+         least_lead(one, &Square::both_m) >= config_.both_lead;
+}
+
 bool PlaceHypotheses::decided() const {
-  return !places_.empty() && driven_m_ >= config_.least_m &&
-         least_lead(places_.front(), &Square::built_m) >= config_.lead &&
-         least_lead(places_.front(), &Square::all_m) >= 0.0;
+  if (places_.empty() || driven_m_ < config_.least_m) return false;
+  const Place& first = places_.front();
+  return agrees_alone(first) ||
+         (least_lead(first, &Square::built_m) >= config_.lead && least_lead(first, &Square::all_m) >= 0.0);
 }
 
 void PlaceHypotheses::gather_particles() {

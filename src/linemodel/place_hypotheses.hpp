@@ -27,13 +27,16 @@ struct PlaceConfig {
   double drop_lead = 0.70;  // behind the first by so much, or by
   double drop_all = 1.20;   // so much of what all lines tell: given up
   double least_m = 2.0;     // driven before anything is decided
+  double both_lead = 0.9;   // before every other place by so much of what all lines tell both ways: the robot is there
+  double built_behind = 0.1;  // all the same, if it is no more than this behind in what is built
 };
 
 /// A place where the robot may be.
 struct PlaceHypothesis {
-  PoseCluster at;         // its share is what the leads make of it
-  double evidence = 0.0;  // of all lines, mean over the way
-  double behind = 0.0;    // the first, in evidence of what is built, summed over the squares of the way
+  PoseCluster at;          // its share is what the leads make of it
+  double evidence = 0.0;   // of all lines, mean over the way
+  double agreement = 0.0;  // of plan and pictures both ways, the same
+  double behind = 0.0;     // the first, in evidence of what is built, summed over the squares of the way
 };
 
 /// Several places that look alike, each followed by particles of its own so that none dies out by chance (clustered
@@ -45,8 +48,9 @@ class PlaceHypotheses {
  public:
   /// How much likelier what is seen is from a pose than by chance, as a logarithm.
   struct Evidence {
-    double all = 0.0;    // lines
-    double built = 0.0;  // those of what cannot be moved
+    double all = 0.0;        // lines that are drawn, of being seen
+    double built = 0.0;      // those of what cannot be moved
+    double explained = 0.0;  // lines that are seen, of being drawn
   };
   using Look = std::function<Evidence(const Pose2&)>;
 
@@ -66,7 +70,8 @@ class PlaceHypotheses {
 
   /// Most probable first.
   [[nodiscard]] std::vector<PlaceHypothesis> places() const;
-  /// Whether the first is so far before all others that the robot is there, and furniture does not speak against it.
+  /// Whether the first is so far before all others in what is built that the robot is there, and furniture does not
+  /// speak against it; or so far before them in all that is drawn and seen.
   [[nodiscard]] bool decided() const;
   [[nodiscard]] double driven_m() const { return driven_m_; }
   /// Those of all places, as probable as these are.
@@ -76,6 +81,7 @@ class PlaceHypotheses {
   struct Square {
     double all_m = 0.0;    // evidence summed over metres driven
     double built_m = 0.0;  // the same
+    double both_m = 0.0;   // the same of all lines, both ways
     double driven_m = 0.0;
   };
   struct Place {
@@ -87,6 +93,8 @@ class PlaceHypotheses {
   /// Of one place over another, by one of the sums of their squares.
   [[nodiscard]] double lead(const Place& one, const Place& other, double Square::*sum) const;
   [[nodiscard]] double least_lead(const Place& one, double Square::*sum) const;
+  /// Whether one is so far before all others in all that is drawn and seen, and hardly behind them in what is built.
+  [[nodiscard]] bool agrees_alone(const Place& one) const;
   void sort_out();
   void gather_particles();
 

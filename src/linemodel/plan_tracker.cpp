@@ -27,6 +27,7 @@ constexpr double kLeastSpread_rad = 0.05;
 constexpr double kJump_m = 1.5;  // from where the robot was known to be: another place
 constexpr double kJump_rad = 0.8;
 constexpr double kFacesAbout_rad = 0.5;  // a start with a wider spread of headings does not say where the robot faces
+constexpr double kAbove = 0.1;           // sine of an elevation: what reaches above it is no pattern of a floor
 constexpr int kBeams = 60;
 constexpr double kBeamSpread_m = 0.12;
 constexpr double kBeamRandom = 0.15;  // share of ranges to what no plan shows
@@ -114,6 +115,7 @@ void PlanTracker::start_at(const Pose2& pose, double spread_m, double spread_rad
   jump_m_ = known_ ? kJump_m + 3.0 * spread_m : std::numeric_limits<double>::infinity();
   jump_rad_ = known_ ? kJump_rad + 3.0 * spread_rad : std::numeric_limits<double>::infinity();
   evidence_ = 1.5 * config_.least_evidence;  // somebody has said so
+  agreement_ = 1.5 * config_.least_agreement;
   wrong_pictures_ = 0;
 }
 
@@ -189,6 +191,7 @@ Result<PlanEstimate> PlanTracker::update(const Image& picture, const std::option
   auto lines = detect_lines(picture, views_, config_.detection);
   if (!lines) return pass_on(lines);
   lines_ = std::move(*lines);
+  look_above();
   const double driven_m = move(odometry);
   const RangeSweep* ranges = sweep ? &*sweep : nullptr;
   const PictureLines seen(lines_, expectation_.space(), config_.measure);
@@ -198,6 +201,14 @@ Result<PlanEstimate> PlanTracker::update(const Image& picture, const std::option
   }
   weigh_everywhere(driven_m, ranges);
   return estimate(seen, driven_m);
+}
+
+void PlanTracker::look_above() {
+  std::vector<ImageLine> above;
+  for (const ImageLine& line : lines_) {
+    if (std::max(line.from.z(), line.to.z()) > kAbove) above.push_back(line);
+  }
+  above_ = hough_points(above, expectation_.space());
 }
 
 void PlanTracker::weigh_everywhere(double driven_m, const RangeSweep* sweep) {
@@ -215,23 +226,34 @@ void PlanTracker::weigh_everywhere(double driven_m, const RangeSweep* sweep) {
 
 void PlanTracker::weigh_places(const PictureLines& lines, double driven_m, const RangeSweep* sweep) {
   const double gain = config_.gain * std::min(1.0, driven_m / config_.independent_m);
-  const auto weigh = [&](const Pose2& pose) { return fit(lines, gain, sweep, pose); };
-  const auto look = [&](const Pose2& pose) {
-    const std::span<const PlanLine> around = visible_.around(expectation_.eye_m(pose).head<2>());
-    ExpectedView view = expected(pose);
-    PlaceHypotheses::Evidence evidence{lines.log_odds(view), 0.0};
-    std::erase_if(view.lines, [&](const ExpectedLine& line) {
-      const PlanLine& drawn = around[static_cast<std::size_t>(line.index)];
-      return std::max(drawn.from_m.z(), drawn.to_m.z()) < built_height_m_;
-    });
-    evidence.built = lines.log_odds(view);
-    if (!floor_.free(position_m(pose))) {
-      evidence.all *= config_.in_wall_evidence;
-      evidence.built *= config_.in_wall_evidence;
-    }
-    return evidence;
-  };
-  places_.weigh(weigh, look, driven_m);
+  places_.weigh([&](const Pose2& pose) { return fit(lines, gain, sweep, pose); },
+                [&](const Pose2& pose) { return evidence_at(pose, lines); }, driven_m);
+}
+
+double PlanTracker::explained(const ExpectedView& view) const {
+  std::vector<HoughPoint> drawn;
+  for (const ExpectedLine& line : view.lines) drawn.push_back(line.point);
+  return PictureLines(drawn, expectation_.space(), config_.measure).log_odds(above_);
+}
+
+double PlanTracker::explained(const Pose2& pose) { return explained(expected(pose)); }
+
+PlaceHypotheses::Evidence PlanTracker::evidence_at(const Pose2& pose, const PictureLines& lines) {
+  const std::span<const PlanLine> around = visible_.around(expectation_.eye_m(pose).head<2>());
+  ExpectedView view = expected(pose);
+  PlaceHypotheses::Evidence evidence;
+  evidence.all = lines.log_odds(view);
+  evidence.explained = explained(view);
+  std::erase_if(view.lines, [&](const ExpectedLine& line) {
+    const PlanLine& of_plan = around[static_cast<std::size_t>(line.index)];
+    return std::max(of_plan.from_m.z(), of_plan.to_m.z()) < built_height_m_;
+  });
+  evidence.built = lines.log_odds(view);
+  if (!floor_.free(position_m(pose))) {
+    evidence.all *= config_.in_wall_evidence;
+    evidence.built *= config_.in_wall_evidence;
+  }
+  return evidence;
 }
 
 PlanEstimate PlanTracker::said_of(std::span<const PoseCluster> places, double least_share, const PictureLines& lines) {
@@ -250,6 +272,7 @@ PlanEstimate PlanTracker::said_of(std::span<const PoseCluster> places, double le
   said.lines_expected = static_cast<int>(view.lines.size());
   said.lines_confirmed = lines.confirmed_count(view);
   said.log_odds = lines.log_odds(view);
+  said.explained = explained(view);
   return said;
 }
 
@@ -264,7 +287,8 @@ PlanEstimate PlanTracker::estimate(const PictureLines& lines, double driven_m) {
   keep_known(said, driven_m);
   follow_evidence(said.log_odds, said);
   said.evidence = evidence_;
-  of_this_plan_ = evidence_ >= (of_this_plan_ ? config_.still_evidence : config_.least_evidence);
+  of_this_plan_ = of_this_plan_ ? evidence_ >= config_.still_evidence || agreement_ >= config_.still_agreement
+                                : evidence_ >= config_.least_evidence;
   said.lost = !of_this_plan_        ? PlanLost::kNotInPlan
               : known_              ? PlanLost::kNo
               : said.others.empty() ? PlanLost::kSearching
@@ -297,14 +321,19 @@ void PlanTracker::take_up_places(double driven_m) {
 }
 
 PlanEstimate PlanTracker::estimate_places(const PictureLines& lines) {
+  const std::vector<PlaceHypothesis> places = places_.places();
   std::vector<PoseCluster> at;
-  for (const PlaceHypothesis& place : places_.places()) at.push_back(place.at);
+  double agreement = places.front().agreement;
+  for (const PlaceHypothesis& place : places) {
+    at.push_back(place.at);
+    agreement = std::max(agreement, place.agreement);
+  }
   PlanEstimate said = said_of(at, kOther, lines);
-  said.evidence = places_.places().front().evidence;
+  said.evidence = places.front().evidence;
   const bool judged = places_.driven_m() >= config_.least_judged_m;
-  if (judged) of_this_plan_ = said.evidence >= config_.least_place_evidence;
+  if (judged) of_this_plan_ = agreement >= (of_this_plan_ ? config_.still_agreement : config_.least_agreement);
   said.lost = !of_this_plan_ ? PlanLost::kNotInPlan : at.size() > 1 ? PlanLost::kAmbiguous : PlanLost::kSearching;
-  if (said.evidence < config_.wrong_evidence && places_.driven_m() >= config_.most_search_m) {
+  if (!of_this_plan_ && places_.driven_m() >= config_.most_unlike_m) {
     look_everywhere();
   } else if (of_this_plan_ && judged && places_.decided()) {
     said.lost = PlanLost::kNo;
@@ -319,7 +348,10 @@ void PlanTracker::follow(const PoseCluster& place, double evidence) {
 }
 
 void PlanTracker::follow_evidence(double log_odds, const PlanEstimate& said) {
-  if (said.lines_expected >= config_.doubtful_lines) evidence_ += config_.evidence_share * (log_odds - evidence_);
+  if (said.lines_expected >= config_.doubtful_lines) {
+    evidence_ += config_.evidence_share * (log_odds - evidence_);
+    agreement_ += config_.evidence_share * (log_odds + said.explained - agreement_);
+  }
   wrong_pictures_ = known_ && evidence_ < config_.wrong_evidence ? wrong_pictures_ + 1 : 0;
 }
 

@@ -28,32 +28,35 @@ struct PlanTrackerConfig {
   VisibilityConfig visibility;
   MonteCarloConfig monte_carlo;
   PlaceConfig places;
-  double gain = 20.0;                 // of the score in a weight's logarithm
-  double independent_m = 0.3;         // after so much driving a picture counts as much; before, in proportion
-  double wide_gain = 9.0;             // the same while it is not known where the robot is, ...
-  double wide_independent_m = 0.6;    // ... as neighbouring pictures err alike where furniture is not where it is drawn
-  double wide = 2.5;                  // times as tolerant is the measure meanwhile
-  double doubted_lines = 15.0;        // a score counts as if so many lines more were expected, ...
-  double doubted_score = 0.5;         // ... confirmed by this share: few lines say little
-  double known_spread_m = 0.6;        // less spread than this: it is known where the robot is
-  double still_share = 0.6;           // of the weight at one place keeps it known; to become so again it takes
-  double known_share = 0.9;           // of the weight there, not far from where it was known to be
-  double most_doubted_m = 3.0;        // driven without that: it is looked for everywhere;
-  double most_unfound_m = 12.0;       // so much after a start so wide that it was not known at first
-  std::size_t most_places = 40;       // that are told apart ...
-  double places_share = 0.75;         // ... once particles that were everywhere are so many in them, ...
-  double least_search_m = 2.0;        // ... not before so much driving, and after
-  double most_search_m = 8.0;         // so much however many they are
-  double evidence_share = 0.07;       // by which the mean of the log odds at the estimate follows each picture
-  double still_evidence = 0.45;       // less than this mean: the robot is not said to be on this plan any more; ...
-  double least_evidence = 0.55;       // ... to be so again it takes this
-  double least_place_evidence = 0.5;  // the same of a place among others, over all the way since they were taken up
-  double least_judged_m = 3.0;        // driven among places before that is said of all of them
-  double in_wall_evidence = 0.3;      // times that of a place where a robot cannot be
-  double wrong_evidence = 0.4;        // less, though it seems known where it is: it is looked for anew
-  int most_wrong_pictures = 20;       // before that
-  int doubtful_lines = 8;             // fewer expected lines say nothing of whether it is this plan
-  double sweep_height_m = 0.3;        // of the range sensor over the floor
+  double gain = 20.0;               // of the score in a weight's logarithm
+  double independent_m = 0.3;       // after so much driving a picture counts as much; before, in proportion
+  double wide_gain = 9.0;           // the same while it is not known where the robot is, ...
+  double wide_independent_m = 0.6;  // ... as neighbouring pictures err alike where furniture is not where it is drawn
+  double wide = 2.5;                // times as tolerant is the measure meanwhile
+  double doubted_lines = 15.0;      // a score counts as if so many lines more were expected, ...
+  double doubted_score = 0.5;       // ... confirmed by this share: few lines say little
+  double known_spread_m = 0.6;      // less spread than this: it is known where the robot is
+  double still_share = 0.6;         // of the weight at one place keeps it known; to become so again it takes
+  double known_share = 0.9;         // of the weight there, not far from where it was known to be
+  double most_doubted_m = 3.0;      // driven without that: it is looked for everywhere;
+  double most_unfound_m = 12.0;     // so much after a start so wide that it was not known at first
+  std::size_t most_places = 40;     // that are told apart ...
+  double places_share = 0.75;       // ... once particles that were everywhere are so many in them, ...
+  double least_search_m = 2.0;      // ... not before so much driving, and after
+  double most_search_m = 8.0;       // so much however many they are
+  double evidence_share = 0.07;     // by which the mean of the log odds at the estimate follows each picture
+  double still_evidence = 0.45;     // less than this mean, and of agreement than `still_agreement`: the robot is not
+                                    // said to be on this plan any more; ...
+  double least_evidence = 0.55;     // ... to be so again it takes this
+  double still_agreement = 0.9;     // of plan and pictures both ways, at the best place of several: less, and it is
+  double least_judged_m = 3.0;      // another plan, after so much driving among them; to be this one again it takes
+  double least_agreement = 1.0;
+  double most_unlike_m = 4.5;     // after so much on another plan other places are looked for
+  double in_wall_evidence = 0.3;  // times that of a place where a robot cannot be
+  double wrong_evidence = 0.4;    // less, though it seems known where it is: it is looked for anew
+  int most_wrong_pictures = 20;   // before that
+  int doubtful_lines = 8;         // fewer expected lines say nothing of whether it is this plan
+  double sweep_height_m = 0.3;    // of the range sensor over the floor
 };
 
 /// Settings for one measure, by which gains its scores tell poses apart best (docs/experiments/plan_localisation.md).
@@ -76,6 +79,7 @@ struct PlanEstimate {
   double log_odds = 0.0;    // of the picture at `pose` (PictureLines::log_odds)
   double evidence = 0.0;    // their mean of late: whether it is this plan at all; 0 until
                             // places are told apart
+  double explained = 0.0;   // of the picture's lines at `pose`, of being drawn (PlanTracker::explained)
   PlanLost lost = PlanLost::kSearching;
 };
 
@@ -116,10 +120,17 @@ class PlanTracker {
   [[nodiscard]] const PlaceHypotheses& places() const { return places_; }
   /// The lines of the last picture, and those expected from a pose.
   [[nodiscard]] const std::vector<ImageLine>& picture_lines() const { return lines_; }
+  /// How many of them reach above the horizon.
+  [[nodiscard]] std::size_t lines_above() const { return above_.size(); }
   /// What should be in the last picture if it was taken at `pose`.
   std::vector<JudgedLine> judged(const Pose2& pose);
   [[nodiscard]] const Expectation& expectation() const { return expectation_; }
   ExpectedView expected(const Pose2& pose);
+  /// The other way about: the mean over the lines of the last picture that reach above the horizon of the logarithm of
+  /// how much likelier it is that each is drawn, or is not, if it was taken at `pose` than by chance; 0 where there is
+  /// none. On the plan of another building enough of what is drawn is met by chance, but little of what is seen is
+  /// drawn. Of floors no plan shows the pattern. Ours.
+  double explained(const Pose2& pose);
   [[nodiscard]] const PlanFloor& floor() const { return floor_; }
 
  private:
@@ -132,6 +143,9 @@ class PlanTracker {
   void look_everywhere();
   void weigh_everywhere(double driven_m, const RangeSweep* sweep);
   void weigh_places(const PictureLines& lines, double driven_m, const RangeSweep* sweep);
+  void look_above();
+  [[nodiscard]] double explained(const ExpectedView& view) const;
+  [[nodiscard]] PlaceHypotheses::Evidence evidence_at(const Pose2& pose, const PictureLines& lines);
   [[nodiscard]] PlanEstimate estimate(const PictureLines& lines, double driven_m);
   [[nodiscard]] PlanEstimate estimate_places(const PictureLines& lines);
   /// What is said of the first of these places, and of the others that are believed.
@@ -161,8 +175,10 @@ class PlanTracker {
   double jump_m_ = 0.0;  // so far from there is another place
   double jump_rad_ = 0.0;
   double evidence_ = 0.0;
+  double agreement_ = 0.0;  // of plan and pictures both ways at the estimate, mean of late
   int wrong_pictures_ = 0;
   std::vector<ImageLine> lines_;
+  std::vector<HoughPoint> above_;  // of those that reach above the horizon
   ExpectedView view_;
 };
 

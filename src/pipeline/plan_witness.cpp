@@ -40,6 +40,8 @@ void PlanWitness::start_anywhere() {
   odds_.reset();
   expected_.reset();
   disputed_pictures_ = pictures_off_plan_ = 0;
+  agreement_.reset();
+  may_be_carried_ = false;
   agreed_m_ = 0.0;
   trusted_ = false;
 }
@@ -68,6 +70,7 @@ Result<linemodel::PlanEstimate> PlanWitness::update(const Image& picture, const 
   if (!estimate) return pass_on(estimate);
   estimate_ = std::move(*estimate);
   follow(odometry);
+  look_for_misfit();
   pictures_off_plan_ = estimate_.lost == linemodel::PlanLost::kNotInPlan ? pictures_off_plan_ + 1 : 0;
   if (pictures_off_plan_ > config_.most_off_plan) {
     trusted_ = false;
@@ -94,6 +97,21 @@ void PlanWitness::follow(const std::optional<Pose2>& odometry) {
   expected_ = estimate_.pose;
 }
 
+void PlanWitness::look_for_misfit() {
+  const bool judged = estimate_.lost == linemodel::PlanLost::kNo && estimate_.lines_expected >= config_.least_lines &&
+                      estimate_.lines_seen >= config_.least_lines;
+  if (!judged) return;
+  const double agreement = estimate_.log_odds + estimate_.explained;
+  const double before = agreement_.value_or(agreement);
+  agreement_ = before + config_.agreement_share * (agreement - before);
+  if (agreement < config_.least_agreement) {
+    may_be_carried_ = true;
+    agreement_ = std::min(*agreement_, agreement);
+  } else if (*agreement_ >= config_.agreement_again) {
+    may_be_carried_ = false;
+  }
+}
+
 bool PlanWitness::knows() const {
   return estimate_.lost == linemodel::PlanLost::kNo && estimate_.lines_expected >= config_.least_lines &&
          estimate_.log_odds >= config_.least_log_odds;
@@ -109,6 +127,7 @@ PlanWord PlanWitness::hear(const localisation::Belief& belief) {
   const bool off_plan = pictures_off_plan_ >= config_.beaten_pictures;
   if (off_plan || share_near(position_m(place->second)) < config_.least_share) return dispute(place->second);
   odds_.reset();
+  if (trusted_ && may_be_carried_) return PlanWord::kImpossible;
   if (!knows()) return PlanWord::kSilent;
   agreed_m_ += step_m_;
   trusted_ = trusted_ || agreed_m_ >= config_.agreement_m;
@@ -118,26 +137,28 @@ PlanWord PlanWitness::hear(const localisation::Belief& belief) {
 PlanWord PlanWitness::dispute(const Pose2& place) {
   agreed_m_ = 0.0;
   const linemodel::LocalFit there = linemodel::best_fit_near(tracker_, place, config_.place_reach_m, kPi);
-  const double odds = log_odds_here() - there.log_odds;
+  const double odds = agreement_here() - there.agreement();
   disputed_pictures_ = odds_ ? disputed_pictures_ + 1 : 1;
   odds_ = odds_.value_or(odds) + config_.odds_share * (odds - odds_.value_or(odds));
   const bool fits = there.log_odds >= config_.least_log_odds;
   const bool beaten = fits && *odds_ < config_.beaten_odds && disputed_pictures_ >= config_.beaten_pictures;
-  if (beaten || disputed_pictures_ >= config_.most_disputed) {
+  const bool carried = may_be_carried_ && disputed_pictures_ >= config_.carried_pictures;
+  if (beaten || carried || disputed_pictures_ >= config_.most_disputed) {
     start_anywhere();
     tracker_.start_at(place, config_.said_spread_m, kPi);
     return PlanWord::kSilent;
   }
-  return trusted_ && knows() && *odds_ >= config_.least_odds ? PlanWord::kImpossible : PlanWord::kSilent;
+  const bool sound = trusted_ && knows() && !may_be_carried_ && agreement_.value_or(0.0) >= config_.least_mean;
+  return sound && *odds_ >= config_.least_odds ? PlanWord::kImpossible : PlanWord::kSilent;
 }
 
-double PlanWitness::log_odds_here() {
+double PlanWitness::agreement_here() {
   linemodel::LocalFitConfig fine;
   fine.step_m = 0.1;
   fine.step_rad = 0.05;
   fine.coarse_rad = 0.05;
   fine.halvings = 1;
-  return linemodel::best_fit_near(tracker_, estimate_.pose, 0.2, 0.1, fine).log_odds;
+  return linemodel::best_fit_near(tracker_, estimate_.pose, 0.2, 0.1, fine).agreement();
 }
 
 double PlanWitness::share_near(const Eigen::Vector2d& place_m) const {

@@ -31,21 +31,27 @@ struct PlanWitnessConfig {
   int least_lines = 8;                 // expected in a picture: fewer say nothing
   double place_reach_m = 2.0;          // how far from a disputed place the robot is looked for
   double odds_share = 0.4;             // by which the mean of a dispute follows each picture
-  double least_odds = -0.15;           // of that mean, against the place: less, and they are silent
-  double beaten_odds = -0.25;          // less than this after
+  double least_odds = 0.0;             // of that mean, against the place: less, and they are silent
+  double beaten_odds = -0.3;           // less than this after
   int beaten_pictures = 4;             // so many pictures of a dispute, and they begin anew at the place
-  int most_disputed = 8;     // pictures on end, and they do so too: a belief that stays sure so long is seldom wrong
-  double most_jump_m = 1.5;  // of the particles, off what odometry says: they are trusted no longer
-  int most_off_plan = 10;    // pictures on end of another building, it seems: they are trusted no longer
-  double agreement_m = 5.0;  // driven side by side with sure beliefs: what was found from anywhere is trusted
-  double most_confidence = 0.5;  // that a belief keeps whose place is impossible: nobody drives on an even chance
+  int most_disputed = 8;  // pictures on end, and they do so too: a belief that stays sure so long is seldom wrong
+  double least_agreement = 0.15;  // of plan and picture where the particles are, both ways: less, and the robot may
+                                  // have been carried off, ...
+  double agreement_again = 1.0;   // ... until the mean of late is this much; meanwhile they begin anew at a place
+  int carried_pictures = 2;       // that is disputed for so many
+  double least_mean = 0.8;        // of that mean, to dispute a place
+  double agreement_share = 0.4;   // by which it follows each picture
+  double most_jump_m = 1.5;       // of the particles, off what odometry says: they are trusted no longer
+  int most_off_plan = 10;         // pictures on end of another building, it seems: they are trusted no longer
+  double agreement_m = 5.0;       // driven side by side with sure beliefs: what was found from anywhere is trusted
+  double most_confidence = 0.5;   // that a belief keeps whose place is impossible: nobody drives on an even chance
 };
 
 /// What the particles on a plan say of the place of a belief.
 enum class PlanWord {
   kSilent,      // they do not know where the robot is, or not surely enough, or not where the place is
   kPossible,    // some are there
-  kImpossible,  // they know where the robot is, and it is not there
+  kImpossible,  // they know where the robot is, and it is not there; or all were there, and what is seen is not
 };
 
 /// A witness for the belief over the places of a map that lies on a drawn plan: particles on the plan (PlanTracker),
@@ -55,7 +61,8 @@ enum class PlanWord {
 /// where the robot is, and until it can be trusted: somebody said where the robot is, or, begun anywhere, the particles
 /// have agreed with sure beliefs for some metres, as in a building whose rooms look alike they may be found in the
 /// wrong one. Where the edges fit a disputed place better, the robot was carried there, and the particles begin anew at
-/// it. Ours. Not thread-safe.
+/// it. A place that the particles are at is impossible too while pictures fit it hardly better than by chance: the
+/// robot was carried off, and neither has noticed. Ours. Not thread-safe.
 class PlanWitness {
  public:
   /// `places`: of map::lay_on_plan. Errors: those of PlanTracker::create.
@@ -83,8 +90,10 @@ class PlanWitness {
 
   /// Whether what the particles say counts.
   [[nodiscard]] bool trusted() const { return trusted_; }
+  /// Whether a picture did not fit where the particles were, and they have not been confirmed since.
+  [[nodiscard]] bool may_be_carried() const { return may_be_carried_; }
   /// By how much better the edges of late fit where the particles are than around the place that they dispute, as mean
-  /// log odds of a line; nothing: they dispute none.
+  /// log odds of a line both ways (linemodel::LocalFit::agreement); nothing: they dispute none.
   [[nodiscard]] const std::optional<double>& odds_against_place() const { return odds_; }
   [[nodiscard]] const linemodel::PlanTracker& tracker() const { return tracker_; }
 
@@ -96,8 +105,10 @@ class PlanWitness {
   [[nodiscard]] bool knows() const;
   /// Whether the particles have gone where odometry did.
   void follow(const std::optional<Pose2>& odometry);
-  /// How well the last picture fits where the particles are.
-  [[nodiscard]] double log_odds_here();
+  /// Whether the last picture fits where the particles are at all.
+  void look_for_misfit();
+  /// How well it fits there.
+  [[nodiscard]] double agreement_here();
   /// No particle is near the place of a sure belief.
   PlanWord dispute(const Pose2& place);
 
@@ -107,7 +118,9 @@ class PlanWitness {
   linemodel::PlanEstimate estimate_;
   std::optional<double> odds_;  // against the places of a dispute, mean of late; nothing: there is none
   int disputed_pictures_ = 0;
-  int pictures_off_plan_ = 0;  // on end
+  int pictures_off_plan_ = 0;        // on end
+  std::optional<double> agreement_;  // of pictures where the particles were, mean of late
+  bool may_be_carried_ = false;
   std::optional<Pose2> last_odometry_;
   std::optional<Pose2> expected_;  // where the particles were known to be last, moved by odometry
   double step_m_ = 0.0;            // driven since the picture before

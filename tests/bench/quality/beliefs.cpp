@@ -8,38 +8,14 @@
 #include <iostream>
 
 #include "db/map_file.hpp"
-#include "files/tour_folder.hpp"
 #include "localisation/localiser.hpp"
 #include "mapping/parallel.hpp"
-#include "truth.hpp"
+#include "walk.hpp"
 
 namespace homeward {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string file_of(const ImageId& id) { return id.str().substr(id.str().rfind('/') + 1); }
-
-struct Walk {
-  std::vector<features::Appearance> seen;
-  std::vector<std::optional<Pose2>> odometry;
-  std::vector<Pose> truth;
-};
-
-Walk see(const fs::path& folder, const map::TopologicalMap& map, int threads) {
-  const files::TourFolder source = or_die(files::TourFolder::open(folder));
-  const auto poses = read_poses(folder / "poses.csv");
-  const auto eye = or_die(pipeline::Eye::create(map.camera, map.feature_config));
-  Walk walk;
-  for (const TourImage& image : source.images()) {
-    walk.odometry.push_back(image.odometry);
-    walk.truth.push_back(poses.at(file_of(image.id)));
-  }
-  walk.seen.resize(source.images().size());
-  const auto look = [&](std::size_t i) { walk.seen[i] = or_die(eye.look(or_die(source.read(i)))); };
-  mapping::parallel_for(walk.seen.size(), threads, look, [](std::size_t) {}, {});
-  return walk;
-}
 
 /// Where prototypes were taken. As the developers' judge of beliefs counts: near is the closest prototype, one within
 /// 1 m of being it, or one within 2.5 m; a lost belief is near nothing.
@@ -47,24 +23,25 @@ class Judge {
  public:
   Judge(const map::TopologicalMap& map, const fs::path& poses_file) {
     const auto poses = read_poses(poses_file);
-    for (const map::Place& place : map.places) prototypes_.emplace(place.id, poses.at(file_of(place.prototype)));
+    for (const map::Place& place : map.places)
+      prototypes_.emplace(place.id, pose2_of(poses.at(file_of(place.prototype))));
   }
-  [[nodiscard]] double closest_m(const Pose& truth) const {
+  [[nodiscard]] double closest_m(const Pose2& truth) const {
     double least_m = std::numeric_limits<double>::infinity();
-    for (const auto& [place, pose] : prototypes_) least_m = std::min(least_m, distance_m(pose, truth));
+    for (const auto& [place, pose] : prototypes_) least_m = std::min(least_m, apart_m(pose, truth));
     return least_m;
   }
-  [[nodiscard]] bool exact(const localisation::Belief& belief, const Pose& truth) const {
-    return distance_m(prototypes_.at(belief.top.front().place), truth) <= closest_m(truth);
+  [[nodiscard]] bool exact(const localisation::Belief& belief, const Pose2& truth) const {
+    return apart_m(prototypes_.at(belief.top.front().place), truth) <= closest_m(truth);
   }
-  [[nodiscard]] bool near(const localisation::Belief& belief, const Pose& truth) const {
+  [[nodiscard]] bool near(const localisation::Belief& belief, const Pose2& truth) const {
     constexpr double kNear_m = 2.5;
-    const double found_m = distance_m(prototypes_.at(belief.top.front().place), truth);
+    const double found_m = apart_m(prototypes_.at(belief.top.front().place), truth);
     return !belief.lost && found_m <= std::max(kNear_m, closest_m(truth) + 1.0);
   }
 
  private:
-  std::map<PlaceId, Pose> prototypes_;
+  std::map<PlaceId, Pose2> prototypes_;
 };
 
 struct Figures {
@@ -129,7 +106,7 @@ std::vector<Figures> localise(const localisation::Localiser& fresh, const Walk& 
   mapping::parallel_for(starts.size(), options.threads, drive, [](std::size_t) {}, {});
   for (std::size_t s = 0; s < starts.size(); ++s) {
     for (std::size_t u = 0; u < after.size(); ++u) {
-      const Pose& truth = walk.truth[starts[s] + u * static_cast<std::size_t>(every)];
+      const Pose2& truth = walk.truth[starts[s] + u * static_cast<std::size_t>(every)];
       after[u].add(beliefs[s][u], judge.near(beliefs[s][u], truth), judge.exact(beliefs[s][u], truth));
     }
   }
@@ -142,7 +119,7 @@ void measure(const Options& options) {
   const localisation::Localiser localiser(map, {});
   std::cout << "walk,every,odometry,update,beliefs,near,exact,lost,sure_and_wrong,calibration_error\n";
   for (const fs::path& folder : options.walks) {
-    const Walk walk = see(folder, *map, options.threads);
+    const Walk walk = see(folder, *map, options.threads, false);
     for (const int every : options.every) {
       for (const bool with_odometry : {false, true}) {
         const std::vector<Figures> after = localise(localiser, walk, judge, options, every, with_odometry);

@@ -13,7 +13,6 @@
 
 #include "core/pose2.hpp"
 #include "db/map_file.hpp"
-#include "files/tour_folder.hpp"
 #include "linemodel/read_plan.hpp"
 #include "localisation/localiser.hpp"
 #include "map/metric_layout.hpp"
@@ -21,7 +20,7 @@
 #include "mapping/parallel.hpp"
 #include "matching/visual_distance.hpp"
 #include "pipeline/plan_witness.hpp"
-#include "truth.hpp"
+#include "walk.hpp"
 
 namespace homeward {
 namespace {
@@ -52,39 +51,6 @@ struct Options {
   bool list = false;
 };
 
-double apart_m(const Pose2& a, const Pose2& b) { return (position_m(a) - position_m(b)).norm(); }
-
-std::string file_of(const ImageId& id) { return id.str().substr(id.str().rfind('/') + 1); }
-
-struct Walk {
-  std::string name;
-  std::vector<Image> pictures;
-  std::vector<features::Appearance> seen;
-  std::vector<Pose2> odometry;
-  std::vector<Pose2> truth;
-};
-
-Walk see(const fs::path& folder, const map::TopologicalMap& map, int threads) {
-  const files::TourFolder source = or_die(files::TourFolder::open(folder));
-  const auto poses = read_poses(folder / "poses.csv");
-  const auto eye = or_die(pipeline::Eye::create(map.camera, map.feature_config));
-  Walk walk;
-  walk.name = folder.filename().string();
-  for (const TourImage& image : source.images()) {
-    const Pose& truth = poses.at(file_of(image.id));
-    walk.odometry.push_back(image.odometry.value());
-    walk.truth.push_back({truth.x_m, truth.y_m, truth.theta_rad});
-  }
-  walk.seen.resize(source.images().size());
-  walk.pictures.resize(source.images().size());
-  const auto look = [&](std::size_t i) {
-    walk.pictures[i] = or_die(source.read(i));
-    walk.seen[i] = or_die(eye.look(walk.pictures[i]));
-  };
-  mapping::parallel_for(walk.seen.size(), threads, look, [](std::size_t) {}, {});
-  return walk;
-}
-
 /// The map, its plan, where it lies on it by pins that are somewhat off, and where its places truly are.
 struct Building {
   std::shared_ptr<const map::TopologicalMap> map;
@@ -108,8 +74,7 @@ Building building_of(const Options& options) {
   building.plan = or_die(linemodel::read_plan(plan, "wrl", {}, options.plan.string()));
   const auto poses = read_poses(options.poses);
   for (const map::Place& place : building.map->places) {
-    const Pose& truth = poses.at(file_of(place.prototype));
-    building.truth.emplace(place.id, Pose2{truth.x_m, truth.y_m, truth.theta_rad});
+    building.truth.emplace(place.id, pose2_of(poses.at(file_of(place.prototype))));
   }
   std::mt19937_64 random(options.seed);
   std::normal_distribution<double> off_m(0.0, options.pin_spread_m);
@@ -210,7 +175,7 @@ class Trial {
     for (std::size_t k = 0; k < drive.pictures.size(); ++k) {
       const std::size_t i = drive.pictures[k];
       if (k > 0 && (drive.carried == 0 || k != drive.carried)) {
-        odometry = odometry * (inverse(walk_.odometry[drive.pictures[k - 1]]) * walk_.odometry[i]);
+        odometry = odometry * (inverse(walk_.odometry[drive.pictures[k - 1]].value()) * walk_.odometry[i].value());
       }
       if (drive.kind == "forgetful" && k > 0 && k % static_cast<std::size_t>(options_.forget_every) == 0) {
         localiser.restart();
@@ -241,12 +206,12 @@ class Trial {
     if (told && !right) ++figures.wrong_told;
     if (!options_.list) return;
     std::array<char, 200> line{};
-    std::snprintf(line.data(), line.size(), "#,%s,%s,%d,%zu,%d,%d,%d,%.2f,%.2f,%d,%.2f,%.2f,%d,%.3f\n",
+    std::snprintf(line.data(), line.size(), "#,%s,%s,%d,%zu,%d,%d,%d,%.2f,%.2f,%d,%.2f,%.2f,%d,%.3f,%.2f\n",
                   drive.kind.c_str(), walk_.name.c_str(), static_cast<int>(drive.seed), k, sure ? 1 : 0, right ? 1 : 0,
                   told ? 1 : 0, apart_m(building_.truth.at(belief.top.front().place), truth),
                   apart_m(estimate.pose, truth), static_cast<int>(estimate.lost), estimate.log_odds, estimate.spread_m,
                   witness.trusted() ? 1 : 0,
-                  witness.odds_against_place().value_or(std::numeric_limits<double>::quiet_NaN()));
+                  witness.odds_against_place().value_or(std::numeric_limits<double>::quiet_NaN()), estimate.explained);
     figures.list += line.data();
   }
 
@@ -262,7 +227,7 @@ void measure(const Options& options) {
             << " on the plan, pins off by " << building.tie.rms_m.value_or(0.0) << " m\n";
   std::cout << "kind,walk,drives,beliefs,wrong,wrong_told,right,right_lost,spoken" << std::endl;
   for (const fs::path& folder : options.walks) {
-    const Walk walk = see(folder, *building.map, options.threads);
+    const Walk walk = see(folder, *building.map, options.threads, true);
     const Trial trial(options, building, walk);
     for (const std::string& kind : options.kinds) {
       const std::vector<Drive> drives = drives_of(options, kind, walk);
@@ -297,7 +262,7 @@ int main(int argc, char** argv) {
   program.add_flag(
       "--list", options.list,
       "A line for each belief too: kind, walk, drive, picture, confident, right, told as confident, metres "
-      "that place and plan are off, lost, log odds, spread (m), trusted, odds against the place");
+      "that place and plan are off, lost, log odds, spread (m), trusted, odds against the place, explained");
   CLI11_PARSE(program, argc, argv);
   try {
     homeward::measure(options);

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "shaded_room.hpp"
+#include "support/shaded_room.hpp"
 
 namespace homeward::linemodel {
 namespace {

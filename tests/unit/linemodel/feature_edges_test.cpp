@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "sim/generate/worlds.hpp"
-#include "unit/linemodel/mesh_of_boxes.hpp"
+#include "support/mesh_of_boxes.hpp"
 
 namespace homeward::linemodel::feature_edges_test {
 namespace {

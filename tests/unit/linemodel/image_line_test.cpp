@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/angles.hpp"
-#include "shaded_room.hpp"
+#include "support/shaded_room.hpp"
 
 namespace homeward::linemodel {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/angles.hpp"
-#include "shaded_room.hpp"
+#include "support/shaded_room.hpp"
 
 namespace homeward::linemodel::local_fit_test {
 namespace {
@@ -40,6 +40,8 @@ TEST_F(FitOfOnePicture, IsWorseInAnotherRoom) {
   const LocalFit here = best_fit_near(*tracker_, kRobot, 0.5, 0.2);
   const LocalFit there = best_fit_near(*tracker_, {9.0, 2.0, 0.0}, 1.5, kPi);
   EXPECT_GT(here.log_odds, there.log_odds + 0.1);
+  EXPECT_GT(here.explained, there.explained + 0.1);
+  EXPECT_EQ(here.agreement(), here.log_odds + here.explained);
   EXPECT_LT((position_m(there.pose) - Eigen::Vector2d(9.0, 2.0)).norm(), 2.5);
 }
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/angles.hpp"
-#include "shaded_room.hpp"
+#include "support/shaded_room.hpp"
 
 namespace homeward::linemodel {
 namespace {
@@ -88,6 +88,23 @@ TEST_F(LinesOfAPicture, CountALineByHowUnlikelyItIsByChance) {
   };
   EXPECT_GT(lines.log_odds(view_of(alone.normal)), lines.log_odds(view_of(fan[15].normal)) + 0.3);
   EXPECT_LT(lines.log_odds(view_of(Eigen::Vector3d(0.3, 0.3, 0.8).normalized())), 0.0);
+}
+
+TEST_F(LinesOfAPicture, OfPointsAloneConfirmTheSame) {
+  const auto lines = detect_lines(shaded_picture(plan_, rays_, *camera_, robot_), LineViews(*camera_), {}).value();
+  const std::vector<HoughPoint> points = hough_points(lines, expectation_.space());
+  ASSERT_EQ(points.size(), lines.size());
+  const ExpectedView view = expected(robot_);
+  MeasureConfig by_length;  // which points have not
+  by_length.measure = LineMeasure::kGridLengthMatch;
+  const PictureLines of_points(points, expectation_.space(), by_length);
+  const PictureLines of_lines = picture_lines(LineMeasure::kCentredMatchCount);
+  EXPECT_EQ(of_points.score(view), of_lines.score(view));
+  EXPECT_EQ(of_points.log_odds(view), of_lines.log_odds(view));
+  std::vector<HoughPoint> drawn;
+  for (const ExpectedLine& line : view.lines) drawn.push_back(line.point);
+  EXPECT_EQ(of_lines.log_odds(drawn), of_lines.log_odds(view));
+  EXPECT_EQ(of_lines.log_odds(std::vector<HoughPoint>()), 0.0);
 }
 
 }  // namespace

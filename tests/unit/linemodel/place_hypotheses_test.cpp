@@ -36,7 +36,7 @@ class RobotBetweenTwins : public ::testing::Test {
   }
   /// One step, and a picture that fits both places, of the true one by so much more.
   void step(const Pose2& moved, double more) { step(moved, more, more); }
-  void step(const Pose2& moved, double more, double more_built) {
+  void step(const Pose2& moved, double more, double more_built, double explained = -0.3) {
     truth_ = truth_ * moved;
     places_.move(moved);
     const auto fit = [this](const Pose2& pose) {
@@ -46,8 +46,8 @@ class RobotBetweenTwins : public ::testing::Test {
       return MonteCarlo::Fit{score, std::exp(5.0 * score)};
     };
     const auto look = [&](const Pose2& pose) {
-      return at(pose, truth_) ? PlaceHypotheses::Evidence{0.7 + more, 0.7 + more_built}
-                              : PlaceHypotheses::Evidence{0.7, 0.7};
+      return at(pose, truth_) ? PlaceHypotheses::Evidence{0.7 + more, 0.7 + more_built, explained}
+                              : PlaceHypotheses::Evidence{0.7, 0.7, -0.3};
     };
     places_.weigh(fit, look, std::hypot(moved.x_m, moved.y_m));
   }
@@ -103,6 +103,21 @@ TEST_F(RobotBetweenTwins, IsNotFoundAgainstWhatFurnitureTells) {
   for (int i = 0; i < 24; ++i) step({0.25, 0.0, 0.0}, -0.1, 0.3);
   EXPECT_FALSE(places_.decided());
   EXPECT_TRUE(at(places_.places().front().at.pose, truth_));
+}
+
+TEST_F(RobotBetweenTwins, IsFoundByAllThatIsDrawnAndSeenTogether) {
+  for (int i = 0; i < 6; ++i) step({0.25, 0.0, 0.0}, 0.2, 0.0, 0.0);
+  EXPECT_FALSE(places_.decided());  // one corner is not enough
+  for (int i = 0; i < 30; ++i) step({0.25, 0.0, 0.0}, 0.2, -0.01, 0.0);
+  EXPECT_TRUE(places_.decided());
+  EXPECT_TRUE(at(places_.places().front().at.pose, truth_));  // hardly behind in what is built
+  EXPECT_NEAR(places_.places().front().agreement, 0.9, 1e-6);
+}
+
+TEST_F(RobotBetweenTwins, IsNotFoundByThatAgainstWhatIsBuilt) {
+  for (int i = 0; i < 30; ++i) step({0.25, 0.0, 0.0}, 0.2, -0.1, 0.0);
+  EXPECT_FALSE(places_.decided());
+  EXPECT_TRUE(at(places_.places().front().at.pose, twin()));
 }
 
 TEST_F(RobotBetweenTwins, IsNotWhereNothingSpeaksForIt) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "shaded_room.hpp"
+#include "support/shaded_room.hpp"
 
 namespace homeward::linemodel {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/angles.hpp"
-#include "shaded_room.hpp"
+#include "support/shaded_room.hpp"
 
 namespace homeward::linemodel {
 namespace {
@@ -104,6 +104,40 @@ TEST_F(DriveThroughTwoRooms, IsSearchedForBeforeItIsSaidNotToBeOnThePlan) {
   }
 }
 
+TEST_F(DriveThroughTwoRooms, IsSearchedForAnewOnThePlanOfAnotherBuildingAndStaysOffItMeanwhile) {
+  PlanTracker elsewhere = PlanTracker::create(hall(), config_, tracking_).value();
+  std::vector<Pose2> way = way_through();
+  for (int i = 0; i < 24; ++i) way.push_back({8.7 - 0.25 * i, 2.2 + 0.06 * i, 2.9});
+  bool said = false;
+  bool among_places = false;
+  bool anew = false;
+  for (const Pose2& robot : way) {
+    const PlanLost lost = elsewhere.update(picture(robot), robot, std::nullopt)->lost;
+    if (said) {
+      EXPECT_EQ(lost, PlanLost::kNotInPlan);
+    }
+    said = said || lost == PlanLost::kNotInPlan;
+    among_places = among_places || !elsewhere.places().empty();
+    anew = anew || (said && among_places && elsewhere.places().empty());
+  }
+  EXPECT_TRUE(said);
+  EXPECT_TRUE(anew);
+}
+
+TEST_F(DriveThroughTwoRooms, IsExplainedByThePlanWhereItIsAndNotByAnother) {
+  const Pose2 robot = way_through()[6];
+  PlanTracker here = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  here.start_at(robot, 0.1, 0.05);
+  const PlanEstimate said = here.update(picture(robot), robot, std::nullopt).value();
+  EXPECT_EQ(said.explained, here.explained(said.pose));
+  EXPECT_GT(here.explained(robot), 0.3);
+  EXPECT_LT(here.explained({9.0, 2.2, 0.2}), here.explained(robot) - 0.3);
+  PlanTracker elsewhere = PlanTracker::create(hall(), config_, tracking_).value();
+  elsewhere.start_at({7.0, 2.2, 0.2}, 0.1, 0.05);
+  ASSERT_TRUE(elsewhere.update(picture(robot), robot, std::nullopt));
+  EXPECT_LT(elsewhere.explained({7.0, 2.2, 0.2}), 0.0);
+}
+
 TEST_F(DriveThroughTwoRooms, IsFollowedFromAStartThatIsFarOffAsItsSpreadSays) {
   PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
   const std::vector<Pose2> way = way_through();
@@ -136,6 +170,22 @@ TEST_F(DriveThroughTwoRooms, IsOffThePlanBelowOneLimitAndOnItAgainAboveAHigherOn
   }
   EXPECT_FALSE(dark);
   EXPECT_EQ(said.lost, PlanLost::kNo);
+}
+
+TEST_F(DriveThroughTwoRooms, IsOnThePlanWhileWhatIsSeenIsDrawnThoughLittleThatIsDrawnIsSeen) {
+  tracking_.still_evidence = 10.0;  // more than there ever is
+  PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  tracking_.still_agreement = 10.0;
+  PlanTracker doubter = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  const std::vector<Pose2> way = way_through();
+  for (PlanTracker* one : {&tracker, &doubter}) one->start_at(way[0], 0.3, 0.15);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Image seen = picture(way[i]);
+    EXPECT_NE(tracker.update(seen, way[i], std::nullopt)->lost, PlanLost::kNotInPlan);
+    if (i == 0) {
+      EXPECT_EQ(doubter.update(seen, way[i], std::nullopt)->lost, PlanLost::kNotInPlan);
+    }
+  }
 }
 
 TEST_F(DriveThroughTwoRooms, IsLookedForAnewWhenItWasCarriedAway) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "unit/linemodel/mesh_of_boxes.hpp"
+#include "support/mesh_of_boxes.hpp"
 
 namespace homeward::linemodel::rim_edges_test {
 namespace {

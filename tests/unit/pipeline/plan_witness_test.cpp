@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "core/angles.hpp"
-#include "unit/linemodel/shaded_room.hpp"
+#include "support/shaded_room.hpp"
 
 namespace homeward::pipeline::plan_witness_test {
 namespace {
@@ -157,6 +157,42 @@ TEST_F(WitnessOfTwoRooms, GivesInToBeliefsThatStaySureOfAnotherPlace) {
   for (const linemodel::Particle& particle : witness_->tracker().particles()) {
     EXPECT_LT((position_m(particle.pose) - Eigen::Vector2d(8.2, 2.2)).norm(), 6.0);  // they begin anew there
   }
+}
+
+TEST_F(WitnessOfTwoRooms, FindsThePlaceImpossibleThatAllBelieveInWhenAPictureDoesNotFitIt) {
+  witness_->start_at(std::array{kFirstRoom});
+  drive_in_first();
+  ASSERT_FALSE(witness_->may_be_carried());
+  ASSERT_EQ(witness_->hear(sure_of(kFirstRoom)), PlanWord::kPossible);
+  look(in_second(4), in_first(kBack));  // carried off between two pictures
+  EXPECT_TRUE(witness_->may_be_carried());
+  EXPECT_EQ(witness_->hear(sure_of(kFirstRoom)), PlanWord::kImpossible);
+}
+
+TEST_F(WitnessOfTwoRooms, GivesInSoonerAfterAPictureThatDidNotFit) {
+  witness_->start_at(std::array{kFirstRoom});
+  drive_in_first();
+  look(in_second(4), in_first(kBack));
+  ASSERT_TRUE(witness_->may_be_carried());
+  for (int i = 0; i < PlanWitnessConfig{}.carried_pictures; ++i) {
+    EXPECT_TRUE(witness_->trusted());
+    EXPECT_EQ(witness_->hear(sure_of(kSecondRoom)), PlanWord::kSilent);
+  }
+  EXPECT_FALSE(witness_->trusted());
+  EXPECT_FALSE(witness_->may_be_carried());
+}
+
+TEST_F(WitnessOfTwoRooms, BelievesThatNobodyCarriedItOnceSomePicturesFitAgain) {
+  witness_->start_at(std::array{kFirstRoom});
+  drive_in_first();
+  look(in_second(4), in_first(kBack));
+  ASSERT_TRUE(witness_->may_be_carried());
+  int pictures = 0;
+  for (; pictures < 20 && witness_->may_be_carried(); ++pictures) look(in_first(kBack), in_first(kBack));
+  EXPECT_GE(pictures, 2);
+  EXPECT_LT(pictures, 20);
+  EXPECT_EQ(witness_->hear(sure_of(kFirstRoom)), PlanWord::kPossible);
+  EXPECT_EQ(witness_->hear(sure_of(kSecondRoom)), PlanWord::kImpossible);
 }
 
 TEST_F(WitnessOfTwoRooms, CountsDisputesOnEndAlone) {

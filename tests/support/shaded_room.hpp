@@ -10,8 +10,8 @@
 #include "core/pose2.hpp"
 #include "linemodel/feature_edges.hpp"
 #include "linemodel/plan.hpp"
-#include "mesh_of_boxes.hpp"
 #include "raycast/ray_scene.hpp"
+#include "support/mesh_of_boxes.hpp"
 
 namespace homeward::linemodel {
 
