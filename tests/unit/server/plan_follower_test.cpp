@@ -10,7 +10,7 @@
 #include "support/moved_clock.hpp"
 #include "support/sample_map.hpp"
 #include "support/scratch_folder.hpp"
-#include "unit/linemodel/shaded_room.hpp"
+#include "support/shaded_room.hpp"
 
 namespace homeward::server::plan_follower_test {
 namespace {
