@@ -8,37 +8,21 @@
 #include <memory>
 
 #include "core/angles.hpp"
-#include "support/shaded_room.hpp"
+#include "support/seen_rooms.hpp"
 
 namespace homeward::pipeline::plan_witness_test {
 namespace {
+
+using testing::seen_rooms;
+using testing::sure_of;
 
 const PlaceId kFirstRoom{"p1"};
 const PlaceId kSecondRoom{"p2"};
 const PlaceId kElsewhere{"p3"};  // of a part of the map that does not lie on the plan
 
-localisation::Belief sure_of(const PlaceId& place) {
-  localisation::Belief belief;
-  belief.updates = 5;
-  belief.top = {{place, 0.95}};
-  belief.near_share = belief.near_probability = 0.99;
-  return belief;
-}
-
 /// Two rooms with a place in each, and drives through them.
 class WitnessOfTwoRooms : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    world_ = std::make_unique<linemodel::Plan>(linemodel::two_rooms());
-    rays_ = std::make_unique<raycast::RayScene>(world_->vertices_m, world_->triangles);
-    camera_ = camera::Camera::create(linemodel::small_panorama()).value();
-  }
-  static void TearDownTestSuite() {
-    camera_.reset();
-    rays_.reset();
-    world_.reset();
-  }
-
   WitnessOfTwoRooms() {
     PlanWitnessConfig config;
     config.tracker.monte_carlo.first_particles = 5'000;
@@ -53,7 +37,7 @@ class WitnessOfTwoRooms : public ::testing::Test {
   }
 
   void look(const Pose2& robot, const Pose2& odometry) {
-    estimate_ = witness_->update(linemodel::shaded_picture(*world_, *rays_, *camera_, robot), odometry).value();
+    estimate_ = witness_->update(seen_rooms().from(robot), odometry).value();
   }
   /// To the end of the way through the first room, and back to picture kBack of it.
   void drive_in_first() {
@@ -73,9 +57,6 @@ class WitnessOfTwoRooms : public ::testing::Test {
   static constexpr int kEnd = 11;
   static constexpr int kBack = 4;
 
-  static inline std::unique_ptr<linemodel::Plan> world_;
-  static inline std::unique_ptr<raycast::RayScene> rays_;
-  static inline std::shared_ptr<const camera::Camera> camera_;
   std::unique_ptr<PlanWitness> witness_;
   linemodel::PlanEstimate estimate_;
 };
@@ -109,7 +90,8 @@ TEST_F(WitnessOfTwoRooms, HasNothingToSayOfBeliefsThatAreNotSureOrNotOnThePlan) 
 TEST_F(WitnessOfTwoRooms, IsSilentInTheDark) {
   witness_->start_at(std::array{kFirstRoom});
   drive_in_first();
-  const Image dark(camera_->config().width_px, camera_->config().height_px, 3);
+  const camera::CameraConfig camera = linemodel::small_panorama();
+  const Image dark(camera.width_px, camera.height_px, 3);
   ASSERT_TRUE(witness_->update(dark, in_first(kBack)));
   EXPECT_EQ(witness_->hear(sure_of(kSecondRoom)), PlanWord::kSilent);
 }

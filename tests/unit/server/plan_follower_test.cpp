@@ -10,7 +10,7 @@
 #include "support/moved_clock.hpp"
 #include "support/sample_map.hpp"
 #include "support/scratch_folder.hpp"
-#include "support/shaded_room.hpp"
+#include "support/seen_rooms.hpp"
 
 namespace homeward::server::plan_follower_test {
 namespace {
@@ -18,6 +18,8 @@ namespace {
 using nlohmann::json;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using testing::seen_rooms;
+using testing::sure_of;
 
 const RobotId kRobot{"r1"};
 const PlaceId kFirstRoom{"p1"};
@@ -27,28 +29,9 @@ const Pose2 kSecondPose{8.2, 2.2, 0.0};
 
 std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
-localisation::Belief sure_of(const PlaceId& place) {
-  localisation::Belief belief;
-  belief.updates = 5;
-  belief.top = {{place, 0.95}};
-  belief.near_share = belief.near_probability = 0.99;
-  return belief;
-}
-
 /// Two rooms with a place in each, drawn and mapped, and what dashboards are told of a robot in them.
 class PlanFollowerTest : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    world_ = std::make_unique<linemodel::Plan>(linemodel::two_rooms());
-    rays_ = std::make_unique<raycast::RayScene>(world_->vertices_m, world_->triangles);
-    camera_ = camera::Camera::create(linemodel::small_panorama()).value();
-  }
-  static void TearDownTestSuite() {
-    camera_.reset();
-    rays_.reset();
-    world_.reset();
-  }
-
   void SetUp() override {
     clock_.stand();
     store_ = db::open_sqlite_store(folder_.path()).value();
@@ -109,7 +92,7 @@ class PlanFollowerTest : public ::testing::Test {
     seen.robot = kRobot;
     seen.map = map_;
     seen.camera = linemodel::small_panorama();
-    seen.picture = std::make_shared<const Image>(linemodel::shaded_picture(*world_, *rays_, *camera_, robot));
+    seen.picture = std::make_shared<const Image>(seen_rooms().from(robot));
     seen.odometry = robot;
     seen.t_us = ++t_us_;
     seen.belief = sure_of(kFirstRoom);
@@ -156,10 +139,6 @@ class PlanFollowerTest : public ::testing::Test {
   static constexpr int kEnd = 11;
   static constexpr int kBack = 4;
 
-  static inline std::unique_ptr<linemodel::Plan> world_;
-  static inline std::unique_ptr<raycast::RayScene> rays_;
-  static inline std::shared_ptr<const camera::Camera> camera_;
-
   testing::ScratchFolder folder_;
   testing::MovedClock clock_;
   EventHub events_;
@@ -177,7 +156,7 @@ class PlanFollowerTest : public ::testing::Test {
 };
 
 TEST_F(PlanFollowerTest, FindsARobotWhereItIsAndSaysWhatThatIsWorth) {
-  tie(add_plan(*world_));
+  tie(add_plan(seen_rooms().plan()));
   drive_in_first();
   const std::vector<json> told = heard();
   ASSERT_EQ(told.size(), 1U) << "only the newest is kept for who does not read";
@@ -202,7 +181,7 @@ TEST_F(PlanFollowerTest, FindsARobotWhereItIsAndSaysWhatThatIsWorth) {
 }
 
 TEST_F(PlanFollowerTest, ANewerPictureTakesThePlaceOfTheOneThatWaits) {
-  tie(add_plan(*world_));
+  tie(add_plan(seen_rooms().plan()));
   std::promise<void> blocked;
   ASSERT_TRUE(pool_.try_run([&] { blocked.get_future().wait(); }));
   SeenPicture first = seen_at(in_first(0));
@@ -227,7 +206,7 @@ TEST_F(PlanFollowerTest, ANewerPictureTakesThePlaceOfTheOneThatWaits) {
 }
 
 TEST_F(PlanFollowerTest, WhatWasSaidBeforeARobotWasLiftedCountsNoMore) {
-  tie(add_plan(*world_));
+  tie(add_plan(seen_rooms().plan()));
   std::promise<void> blocked;
   ASSERT_TRUE(pool_.try_run([&] { blocked.get_future().wait(); }));
   SeenPicture before = seen_at(in_first(0));
@@ -245,7 +224,7 @@ TEST_F(PlanFollowerTest, WhatWasSaidBeforeARobotWasLiftedCountsNoMore) {
 }
 
 TEST_F(PlanFollowerTest, TellsAtMostTwiceASecond) {
-  tie(add_plan(*world_));
+  tie(add_plan(seen_rooms().plan()));
   SeenPicture first = seen_at(in_first(0));
   first.said = {kFirstRoom};
   look(std::move(first));
@@ -264,7 +243,7 @@ TEST_F(PlanFollowerTest, TellsAtMostTwiceASecond) {
 }
 
 TEST_F(PlanFollowerTest, LooksAtWhatAStandingRobotSeesOnceInAWhile) {
-  tie(add_plan(*world_));
+  tie(add_plan(seen_rooms().plan()));
   SeenPicture seen = seen_at(in_first(0));
   seen.said = {kFirstRoom};
   look(std::move(seen));
@@ -285,7 +264,7 @@ TEST_F(PlanFollowerTest, LooksAtWhatAStandingRobotSeesOnceInAWhile) {
 }
 
 TEST_F(PlanFollowerTest, KeepsWhatWasSaidOfThePicturesOfMissions) {
-  tie(add_plan(*world_));
+  tie(add_plan(seen_rooms().plan()));
   db::RobotRecord robot;
   robot.id = kRobot;
   robot.name = "chair";
@@ -326,7 +305,7 @@ TEST_F(PlanFollowerTest, KeepsWhatWasSaidOfThePicturesOfMissions) {
 TEST_F(PlanFollowerTest, FollowsNobodyWhereNobodyTiedAPlanOrNobodyDoesAnyMore) {
   look(seen_at(in_first(0)));
   EXPECT_TRUE(heard().empty());
-  const wire::PlanId plan = add_plan(*world_);
+  const wire::PlanId plan = add_plan(seen_rooms().plan());
   tie(plan);
   SeenPicture seen = seen_at(in_first(0));
   seen.said = {kFirstRoom};
@@ -338,7 +317,7 @@ TEST_F(PlanFollowerTest, FollowsNobodyWhereNobodyTiedAPlanOrNobodyDoesAnyMore) {
 }
 
 TEST_F(PlanFollowerTest, BeginsAnewOnAnotherVersionOrTie) {
-  const wire::PlanId plan = add_plan(*world_);
+  const wire::PlanId plan = add_plan(seen_rooms().plan());
   tie(plan);
   SeenPicture seen = seen_at(in_first(0));
   seen.said = {kFirstRoom};
@@ -346,7 +325,7 @@ TEST_F(PlanFollowerTest, BeginsAnewOnAnotherVersionOrTie) {
   const json before = newest();
   EXPECT_EQ(before.at("version"), 1);
   EXPECT_TRUE(begun_in_first_room(before));
-  const auto file = bytes_of(linemodel::write_vrml(*world_));
+  const auto file = bytes_of(linemodel::write_vrml(seen_rooms().plan()));
   ASSERT_TRUE(plans_->add_version(plan, {"wrl", {}, wire::PlanUp::kZ, 2.5, "anna", file}));
   tie(plan, 2);
   look(seen_at(in_first(0)));
@@ -362,7 +341,7 @@ TEST_F(PlanFollowerTest, WhatCannotBeFollowedHoldsUpNothingAndIsTriedOnAnotherTi
   tie(add_plan(wide));
   for (int i = 0; i < 3; ++i) look(seen_at(in_first(i)));
   EXPECT_TRUE(heard().empty());
-  const wire::PlanId plan = add_plan(*world_);
+  const wire::PlanId plan = add_plan(seen_rooms().plan());
   tie(plan);
   SeenPicture blind = seen_at(in_first(0));
   blind.camera.robot_from_camera_translation_m.z() = 0.0;
@@ -380,7 +359,7 @@ TEST_F(PlanFollowerTest, WhatCannotBeFollowedHoldsUpNothingAndIsTriedOnAnotherTi
 }
 
 TEST_F(PlanFollowerTest, ForgetsRobotsThatAreGone) {
-  tie(add_plan(*world_));
+  tie(add_plan(seen_rooms().plan()));
   SeenPicture seen = seen_at(in_first(0));
   seen.said = {kFirstRoom};
   look(seen);
@@ -398,7 +377,7 @@ TEST_F(PlanFollowerTest, ForgetsRobotsThatAreGone) {
 }
 
 TEST_F(PlanFollowerTest, FollowsAsManyAsMayBeAndTheNextOnceOneIsGone) {
-  tie(add_plan(*world_));
+  tie(add_plan(seen_rooms().plan()));
   const auto look_of = [&](int robot) {
     SeenPicture seen = seen_at(in_first(0));
     seen.robot = RobotId("robot" + std::to_string(robot));
@@ -413,7 +392,7 @@ TEST_F(PlanFollowerTest, FollowsAsManyAsMayBeAndTheNextOnceOneIsGone) {
 }
 
 TEST_F(PlanFollowerTest, PlacesOfAnEditedMapAreItsOwnAndTheParticlesStay) {
-  tie(add_plan(*world_));
+  tie(add_plan(seen_rooms().plan()));
   drive_in_first();
   EXPECT_EQ(newest().at("word"), "possible");
   auto edited = store_->load_map_contents(map_).value().map;

@@ -19,8 +19,8 @@ interface Props {
   journey: Journey | null;
 }
 
-/** Where the chair is on the building's plan, where the plan itself has it, and where it goes. Nothing while it is loading, or where it fails: the page
- *  says the same in words. */
+/** Where the chair is on the building's plan, where the plan itself has it, and where it goes. Nothing while it is
+ *  loading, or where it fails: the page says the same in words. */
 export function SmallPlan({ map, graph, robot, journey }: Props) {
   const { value } = useMapPlan(map);
   const under_way = journey && isActive(journey.phase) && !journey.explores ? journey : null;
