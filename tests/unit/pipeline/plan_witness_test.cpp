@@ -37,7 +37,7 @@ class WitnessOfTwoRooms : public ::testing::Test {
   }
 
   void look(const Pose2& robot, const Pose2& odometry) {
-    estimate_ = witness_->update(seen_rooms().from(robot), odometry).value();
+    estimate_ = witness_->update(*seen_rooms().from(robot), odometry).value();
   }
   /// To the end of the way through the first room, and back to picture kBack of it.
   void drive_in_first() {

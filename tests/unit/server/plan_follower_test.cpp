@@ -92,7 +92,7 @@ class PlanFollowerTest : public ::testing::Test {
     seen.robot = kRobot;
     seen.map = map_;
     seen.camera = linemodel::small_panorama();
-    seen.picture = std::make_shared<const Image>(seen_rooms().from(robot));
+    seen.picture = seen_rooms().from(robot);
     seen.odometry = robot;
     seen.t_us = ++t_us_;
     seen.belief = sure_of(kFirstRoom);
@@ -188,6 +188,8 @@ TEST_F(PlanFollowerTest, ANewerPictureTakesThePlaceOfTheOneThatWaits) {
   first.said = {kSecondRoom};
   first.anew = true;
   SeenPicture second = seen_at(in_first(1));
+  first.picture = std::make_shared<const Image>(*first.picture);  // nobody else's
+  second.picture = std::make_shared<const Image>(*second.picture);
   const std::weak_ptr<const Image> first_picture = first.picture;
   const std::weak_ptr<const Image> second_picture = second.picture;
   follower_->look(std::move(first));
