@@ -105,6 +105,15 @@ class PlanFollowerTest : public ::testing::Test {
     follower_->look(std::move(seen));
     pool_.work_off();
   }
+  /// The pool's one worker waits from now on, and nothing else waits in the queue.
+  void keep_busy_until(std::future<void> end) {
+    std::promise<void> begun;
+    ASSERT_TRUE(pool_.try_run([&, end = end.share()] {
+      begun.set_value();
+      end.wait();
+    }));
+    begun.get_future().wait();
+  }
   /// The poses that dashboards were told since this was asked last.
   std::vector<json> heard() {
     std::vector<json> poses;
@@ -183,7 +192,7 @@ TEST_F(PlanFollowerTest, FindsARobotWhereItIsAndSaysWhatThatIsWorth) {
 TEST_F(PlanFollowerTest, ANewerPictureTakesThePlaceOfTheOneThatWaits) {
   tie(add_plan(seen_rooms().plan()));
   std::promise<void> blocked;
-  ASSERT_TRUE(pool_.try_run([&] { blocked.get_future().wait(); }));
+  keep_busy_until(blocked.get_future());
   SeenPicture first = seen_at(in_first(0));
   first.said = {kSecondRoom};
   first.anew = true;
@@ -210,7 +219,7 @@ TEST_F(PlanFollowerTest, ANewerPictureTakesThePlaceOfTheOneThatWaits) {
 TEST_F(PlanFollowerTest, WhatWasSaidBeforeARobotWasLiftedCountsNoMore) {
   tie(add_plan(seen_rooms().plan()));
   std::promise<void> blocked;
-  ASSERT_TRUE(pool_.try_run([&] { blocked.get_future().wait(); }));
+  keep_busy_until(blocked.get_future());
   SeenPicture before = seen_at(in_first(0));
   before.said = {kSecondRoom};
   SeenPicture lifted = seen_at(in_first(0));
