@@ -6,4 +6,4 @@ for argument in "$@"; do
     --) break ;;
   esac
 done
-exec clang-tidy --quiet --extra-arg=-Wno-unknown-warning-option "$@"
+exec clang-tidy --quiet --extra-arg=-Wno-unknown-warning-option --extra-arg=-Wno-unused-command-line-argument "$@"

@@ -57,7 +57,7 @@ Eigen::Matrix3d level_turn(const Eigen::Matrix3d& turn) {
 }
 
 /// Of a motion and the one in the opposite direction the one whose rays meet.
-ViewMotion in_front(ViewMotion motion, std::span<const PointPair> pairs, double most_px) {
+ViewMotion in_front(const ViewMotion& motion, std::span<const PointPair> pairs, double most_px) {
   ViewMotion back = motion;
   back.target_in_current = -motion.target_in_current;
   return cost(back, pairs, most_px) < cost(motion, pairs, most_px) ? back : motion;
@@ -225,6 +225,7 @@ bool is_likelier(const TurnAlone& turn, const ErrorMixture& across_lines, const 
 /// At most kFarOff_px, as a point over a right angle off, which a wide lens may show, is off by no number of pixels.
 double upper_quarter(const std::vector<int>& of, const std::vector<double>& values) {
   std::vector<double> chosen;
+  chosen.reserve(of.size());
   for (const int i : of) chosen.push_back(values[static_cast<std::size_t>(i)]);
   if (chosen.empty()) return 0.0;
   const auto at = chosen.begin() + static_cast<std::ptrdiff_t>(3 * chosen.size() / 4);

@@ -124,7 +124,8 @@ Result<std::vector<Corner>> harris_corners(const ImagePyramid& picture, const Ha
     if (static_cast<int>(chosen.size()) >= config.most) break;
     const int across = static_cast<int>(corner.pixel_px.x() * config.cells_across / picture.width_px());
     const int down = static_cast<int>(corner.pixel_px.y() * config.cells_down / picture.height_px());
-    int& count = in_cell[static_cast<std::size_t>(down * config.cells_across + across)];
+    int& count = in_cell[static_cast<std::size_t>(down) * static_cast<std::size_t>(config.cells_across) +
+                         static_cast<std::size_t>(across)];
     if (count >= most_in_cell || taken.is_near(corner.pixel_px)) continue;
     taken.add(corner.pixel_px);
     chosen.push_back(corner);

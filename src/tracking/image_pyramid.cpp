@@ -66,7 +66,7 @@ GreyLevel halved(const cv::Mat& blurred) {
   for (int v = 0; v < level.height_px; ++v) {
     const float* from = blurred.ptr<float>(2 * v);
     float* to = level.row(v);
-    for (int u = 0; u < level.width_px; ++u) to[u] = from[2 * u];
+    for (int u = 0; u < level.width_px; ++u) to[u] = from[2 * static_cast<std::ptrdiff_t>(u)];
   }
   return level;
 }

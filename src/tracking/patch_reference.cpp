@@ -28,6 +28,11 @@ Matrix5 inverse_of(const Matrix5& normal, int first, int end) {
   return inverse;
 }
 
+/// Where a pixel is in a plane of a patch.
+std::size_t at_pixel(int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(kPatchStride) + static_cast<std::size_t>(x);
+}
+
 }  // namespace
 
 std::optional<PatchReference> PatchReference::make(const GreyLevel& level, const Eigen::Vector2d& centre_px, int side,
@@ -48,8 +53,8 @@ std::optional<PatchReference> PatchReference::make(const GreyLevel& level, const
   double sum = 0.0;
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      const float* at = around.data() + (y + kMargin_px) * kStride + x + kMargin_px;
-      const auto to = static_cast<std::size_t>(y * kPatchStride + x);
+      const float* at = around.data() + static_cast<std::ptrdiff_t>(y + kMargin_px) * kStride + x + kMargin_px;
+      const std::size_t to = at_pixel(x, y);
       reference.planes_[to] = at[0];
       reference.planes_[plane + to] = 0.5F * (at[1] - at[-1]);
       reference.planes_[2 * plane + to] = 0.5F * (at[kStride] - at[-kStride]);
@@ -58,7 +63,7 @@ std::optional<PatchReference> PatchReference::make(const GreyLevel& level, const
   }
   reference.mean_ = static_cast<float>(sum / (side * side));
   for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) reference.planes_[static_cast<std::size_t>(y * kPatchStride + x)] -= reference.mean_;
+    for (int x = 0; x < side; ++x) reference.planes_[at_pixel(x, y)] -= reference.mean_;
   }
   if (!reference.prepare(least_texture)) return std::nullopt;
   return reference;

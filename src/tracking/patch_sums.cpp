@@ -52,12 +52,13 @@ struct Columns {
   HWY_ALIGN float x[kPatchStride];
 
   Columns(int side, const PatchPlace& place) : first(static_cast<int>(std::floor(place.first_u_px))) {
+    const int middle = side / 2;
     for (int i = 0; i < kPatchStride; ++i) {
       const double at = place.first_u_px + place.step_px * std::min(i, side - 1) - first;
       left[i] = static_cast<std::int32_t>(at);
       share[i] = static_cast<float>(at - left[i]);
       counts[i] = i < side ? 1.0F : 0.0F;
-      x[i] = static_cast<float>(i - side / 2);
+      x[i] = static_cast<float>(i - middle);
     }
   }
 };
@@ -77,6 +78,7 @@ PatchSums patch_sums(const GreyLevel& level, const PatchView& patch, const Patch
     one[r] = square[r] = grey[r] = du[r] = dv[r] = zoom[r] = hn::Zero(f);
   }
   const auto mean = hn::Set(f, patch.mean);
+  const int middle = patch.side / 2;
   for (int row = 0; row < patch.side; ++row) {
     const double at = place.first_v_px + place.step_px * row;
     const int above = static_cast<int>(std::floor(at));
@@ -87,10 +89,11 @@ PatchSums patch_sums(const GreyLevel& level, const PatchView& patch, const Patch
       const auto high = hn::LoadU(f, upper + i);
       hn::Store(high + share * (hn::LoadU(f, lower + i) - high), f, between + i);
     }
-    const auto y = hn::Set(f, static_cast<float>(row - patch.side / 2));
-    const float* const own = patch.grey + row * kPatchStride;
-    const float* const own_du = patch.du + row * kPatchStride;
-    const float* const own_dv = patch.dv + row * kPatchStride;
+    const auto y = hn::Set(f, static_cast<float>(row - middle));
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * kPatchStride;
+    const float* const own = patch.grey + first;
+    const float* const own_du = patch.du + first;
+    const float* const own_dv = patch.dv + first;
     for (int r = 0; r < kRegisters; ++r) {
       const int i = r * kLanes;
       const auto where = hn::Load(n, columns.left + i);
