@@ -41,7 +41,7 @@ void PlanWitness::start_anywhere() {
   expected_.reset();
   disputed_pictures_ = pictures_off_plan_ = 0;
   agreement_.reset();
-  may_be_carried_ = false;
+  may_be_carried_ = was_suspected_ = false;
   agreed_m_ = 0.0;
   trusted_ = false;
 }
@@ -99,13 +99,14 @@ void PlanWitness::follow(const std::optional<Pose2>& odometry) {
 
 void PlanWitness::look_for_misfit() {
   const bool judged = estimate_.lost == linemodel::PlanLost::kNo && estimate_.lines_expected >= config_.least_lines &&
-                      estimate_.lines_seen >= config_.least_lines;
+                      estimate_.lines_seen >= config_.least_lines && estimate_.spread_m <= config_.most_spread_m;
   if (!judged) return;
   const double agreement = estimate_.log_odds + estimate_.explained;
   const double before = agreement_.value_or(agreement);
   agreement_ = before + config_.agreement_share * (agreement - before);
   if (agreement < config_.least_agreement) {
-    may_be_carried_ = true;
+    may_be_carried_ = was_suspected_ = true;
+    agreed_m_ = 0.0;
     agreement_ = std::min(*agreement_, agreement);
   } else if (*agreement_ >= config_.agreement_again) {
     may_be_carried_ = false;
@@ -125,12 +126,18 @@ PlanWord PlanWitness::hear(const localisation::Belief& belief) {
     return PlanWord::kSilent;
   }
   const bool off_plan = pictures_off_plan_ >= config_.beaten_pictures;
-  if (off_plan || share_near(position_m(place->second)) < config_.least_share) return dispute(place->second);
+  const double share = share_near(position_m(place->second));
+  if (off_plan || share < config_.least_share) return dispute(place->second);
   odds_.reset();
-  if (trusted_ && may_be_carried_) return PlanWord::kImpossible;
+  if (may_be_carried_) {
+    return trusted_ && share >= config_.most_share ? PlanWord::kImpossible : PlanWord::kSilent;
+  }
   if (!knows()) return PlanWord::kSilent;
   agreed_m_ += step_m_;
-  trusted_ = trusted_ || agreed_m_ >= config_.agreement_m;
+  if (agreed_m_ >= config_.agreement_m) {
+    trusted_ = true;
+    was_suspected_ = false;
+  }
   return trusted_ ? PlanWord::kPossible : PlanWord::kSilent;
 }
 
@@ -142,13 +149,13 @@ PlanWord PlanWitness::dispute(const Pose2& place) {
   odds_ = odds_.value_or(odds) + config_.odds_share * (odds - odds_.value_or(odds));
   const bool fits = there.log_odds >= config_.least_log_odds;
   const bool beaten = fits && *odds_ < config_.beaten_odds && disputed_pictures_ >= config_.beaten_pictures;
-  const bool carried = may_be_carried_ && disputed_pictures_ >= config_.carried_pictures;
+  const bool carried = was_suspected_ && disputed_pictures_ >= config_.carried_pictures;
   if (beaten || carried || disputed_pictures_ >= config_.most_disputed) {
     start_anywhere();
     tracker_.start_at(place, config_.said_spread_m, kPi);
     return PlanWord::kSilent;
   }
-  const bool sound = trusted_ && knows() && !may_be_carried_ && agreement_.value_or(0.0) >= config_.least_mean;
+  const bool sound = trusted_ && knows() && !was_suspected_ && agreement_.value_or(0.0) >= config_.least_mean;
   return sound && *odds_ >= config_.least_odds ? PlanWord::kImpossible : PlanWord::kSilent;
 }
 

@@ -26,6 +26,7 @@ struct PlanWitnessConfig {
   double reach_m = 3.0;                // a place may be the robot's if it is within so much of a particle,
   double beyond_nearest_m = 1.5;       // or farther off than the nearest place by no more than this
   double least_share = 0.02;           // of the particles, for a place to be possible
+  double most_share = 0.5;             // and so many are there for it to be impossible by what is seen there
   double confident = 0.9;              // probability of a belief from where on it is looked into
   double least_log_odds = 0.3;         // of a picture where the particles are: less, and they are silent
   int least_lines = 8;                 // expected in a picture: fewer say nothing
@@ -37,14 +38,16 @@ struct PlanWitnessConfig {
   int most_disputed = 8;  // pictures on end, and they do so too: a belief that stays sure so long is seldom wrong
   double least_agreement = 0.15;  // of plan and picture where the particles are, both ways: less, and the robot may
                                   // have been carried off, ...
-  double agreement_again = 1.0;   // ... until the mean of late is this much; meanwhile they begin anew at a place
-  int carried_pictures = 2;       // that is disputed for so many
-  double least_mean = 0.8;        // of that mean, to dispute a place
-  double agreement_share = 0.4;   // by which it follows each picture
-  double most_jump_m = 1.5;       // of the particles, off what odometry says: they are trusted no longer
-  int most_off_plan = 10;         // pictures on end of another building, it seems: they are trusted no longer
-  double agreement_m = 5.0;       // driven side by side with sure beliefs: what was found from anywhere is trusted
-  double most_confidence = 0.5;   // that a belief keeps whose place is impossible: nobody drives on an even chance
+  double most_spread_m = 0.15;    // of particles: more, and a picture does not fit as their mean is off
+  double agreement_again = 1.0;  // ... until the mean of late is this much; and until they have agreed with beliefs for
+  int carried_pictures = 2;      // `agreement_m`, they begin anew at a place that is disputed for so many pictures
+  double least_mean = 0.8;       // of that mean, to dispute a place
+  double agreement_share = 0.4;  // by which it follows each picture
+  double most_jump_m = 1.5;      // of the particles, off what odometry says: they are trusted no longer
+  int most_off_plan = 10;        // pictures on end of another building, it seems: they are trusted no longer
+  double agreement_m = 5.0;      // driven side by side with sure beliefs: what was found from anywhere is trusted,
+                                 // and nobody carried the robot off
+  double most_confidence = 0.5;  // that a belief keeps whose place is impossible: nobody drives on an even chance
 };
 
 /// What the particles on a plan say of the place of a belief.
@@ -61,8 +64,9 @@ enum class PlanWord {
 /// where the robot is, and until it can be trusted: somebody said where the robot is, or, begun anywhere, the particles
 /// have agreed with sure beliefs for some metres, as in a building whose rooms look alike they may be found in the
 /// wrong one. Where the edges fit a disputed place better, the robot was carried there, and the particles begin anew at
-/// it. A place that the particles are at is impossible too while pictures fit it hardly better than by chance: the
-/// robot was carried off, and neither has noticed. Ours. Not thread-safe.
+/// it. A place that most particles are at is impossible too while pictures fit it hardly better than by chance: the
+/// robot was carried off, and neither has noticed; or both have come to look alike again, so that it disputes nothing
+/// until they have agreed for some metres. Ours. Not thread-safe.
 class PlanWitness {
  public:
   /// `places`: of map::lay_on_plan. Errors: those of PlanTracker::create.
@@ -90,7 +94,7 @@ class PlanWitness {
 
   /// Whether what the particles say counts.
   [[nodiscard]] bool trusted() const { return trusted_; }
-  /// Whether a picture did not fit where the particles were, and they have not been confirmed since.
+  /// Whether a picture did not fit where the particles were, and those of late do not fit well again.
   [[nodiscard]] bool may_be_carried() const { return may_be_carried_; }
   /// By how much better the edges of late fit where the particles are than around the place that they dispute, as mean
   /// log odds of a line both ways (linemodel::LocalFit::agreement); nothing: they dispute none.
@@ -121,6 +125,7 @@ class PlanWitness {
   int pictures_off_plan_ = 0;        // on end
   std::optional<double> agreement_;  // of pictures where the particles were, mean of late
   bool may_be_carried_ = false;
+  bool was_suspected_ = false;  // of being carried, and beliefs have not agreed for long enough since
   std::optional<Pose2> last_odometry_;
   std::optional<Pose2> expected_;  // where the particles were known to be last, moved by odometry
   double step_m_ = 0.0;            // driven since the picture before

@@ -23,8 +23,9 @@ const PlaceId kElsewhere{"p3"};  // of a part of the map that does not lie on th
 /// Two rooms with a place in each, and drives through them.
 class WitnessOfTwoRooms : public ::testing::Test {
  protected:
-  WitnessOfTwoRooms() {
-    PlanWitnessConfig config;
+  WitnessOfTwoRooms() { make({}); }
+
+  void make(PlanWitnessConfig config) {
     config.tracker.monte_carlo.first_particles = 5'000;
     config.tracker.monte_carlo.kld.least = 300;
     config.reach_m = 2.6;
@@ -174,7 +175,46 @@ TEST_F(WitnessOfTwoRooms, BelievesThatNobodyCarriedItOnceSomePicturesFitAgain) {
   EXPECT_GE(pictures, 2);
   EXPECT_LT(pictures, 20);
   EXPECT_EQ(witness_->hear(sure_of(kFirstRoom)), PlanWord::kPossible);
+}
+
+TEST_F(WitnessOfTwoRooms, DisputesNothingAfterAPictureThatDidNotFitUntilItHasAgreedForSomeMetres) {
+  witness_->start_at(std::array{kFirstRoom});
+  drive_in_first();
+  look(in_second(4), in_first(kBack));
+  for (int k = 0; k < 20 && witness_->may_be_carried(); ++k) look(in_first(kBack), in_first(kBack));
+  ASSERT_FALSE(witness_->may_be_carried());
+  EXPECT_EQ(witness_->hear(sure_of(kSecondRoom)), PlanWord::kSilent);
+  for (int i = kBack + 1; i <= kEnd; ++i) {
+    look(in_first(i), in_first(i));
+    EXPECT_EQ(witness_->hear(sure_of(kFirstRoom)), PlanWord::kPossible) << i;
+  }
+  for (int i = kEnd - 1; i >= 0; --i) {
+    look(in_first(i), in_first(i));
+    EXPECT_EQ(witness_->hear(sure_of(kFirstRoom)), PlanWord::kPossible) << i;
+  }
   EXPECT_EQ(witness_->hear(sure_of(kSecondRoom)), PlanWord::kImpossible);
+}
+
+TEST_F(WitnessOfTwoRooms, SuspectsNothingByAPictureWhileItsParticlesAreFarApart) {
+  PlanWitnessConfig config;
+  config.most_spread_m = 0.001;
+  make(config);
+  witness_->start_at(std::array{kFirstRoom});
+  drive_in_first();
+  look(in_second(4), in_first(kBack));
+  EXPECT_FALSE(witness_->may_be_carried());
+  EXPECT_NE(witness_->hear(sure_of(kFirstRoom)), PlanWord::kImpossible);
+}
+
+TEST_F(WitnessOfTwoRooms, FindsNoPlaceImpossibleByAPictureWhenTooFewOfItsParticlesAreThere) {
+  PlanWitnessConfig config;
+  config.most_share = 1.1;
+  make(config);
+  witness_->start_at(std::array{kFirstRoom});
+  drive_in_first();
+  look(in_second(4), in_first(kBack));
+  ASSERT_TRUE(witness_->may_be_carried());
+  EXPECT_EQ(witness_->hear(sure_of(kFirstRoom)), PlanWord::kSilent);
 }
 
 TEST_F(WitnessOfTwoRooms, CountsDisputesOnEndAlone) {
