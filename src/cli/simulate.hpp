@@ -9,6 +9,7 @@
 #include "camera/camera.hpp"
 #include "core/result.hpp"
 #include "sim/renderer.hpp"
+#include "sim/tour_people.hpp"
 
 namespace homeward::cli {
 
@@ -38,8 +39,10 @@ class TourWriter {
   ~TourWriter();
 
   [[nodiscard]] const sim::World& world() const;
-  /// Renders and writes the picture at a pose. `odometry`: what the wheels said there.
-  Status add(const Pose2& pose, const std::string& room, const Pose2* odometry);
+  /// Renders and writes the picture at a pose. `odometry`: what the wheels said there. `moment`: who is about, in
+  /// picture and sweep, and how long the way there took; without it nobody, and as long as it takes alone. Errors: kIo.
+  Status add(const Pose2& pose, const std::string& room, const Pose2* odometry,
+             const sim::TourMoment* moment = nullptr);
   /// The name of the picture written last.
   [[nodiscard]] const std::string& last_name() const;
   /// Writes poses.csv, odometry.csv, times.csv, scans.csv, scans.json, camera.json and, with marks, tour.json.

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-
 #include "cli/simulate.hpp"
 #include "cli/tour_files.hpp"
 #include "core/angles.hpp"
@@ -10,13 +8,13 @@
 #include "scenario/usual_cameras.hpp"
 #include "scenario/world_folder.hpp"
 #include "sim/laser.hpp"
+#include "sim/tour_people.hpp"
 
 namespace homeward::cli {
 
 namespace {
 
 constexpr int kQuality = 92;
-constexpr double kSpeed_mps = 0.5;  // of whoever leads the tour
 
 }  // namespace
 
@@ -56,17 +54,17 @@ Result<TourWriter> TourWriter::open(const StageOptions& options) {
 const sim::World& TourWriter::world() const { return parts_->world.world(); }
 const std::string& TourWriter::last_name() const { return parts_->files.last_name(); }
 
-Status TourWriter::add(const Pose2& pose, const std::string& room, const Pose2* odometry) {
+Status TourWriter::add(const Pose2& pose, const std::string& room, const Pose2* odometry,
+                       const sim::TourMoment* moment) {
   Parts& p = *parts_;
   if (p.count > 0) {
-    constexpr double kTurn_radps = 0.8;
-    const double seconds = std::max(std::hypot(pose.x_m - p.last.x_m, pose.y_m - p.last.y_m) / kSpeed_mps,
-                                    std::abs(wrap_angle(pose.theta_rad - p.last.theta_rad)) / kTurn_radps);
-    p.t_us += static_cast<std::int64_t>(1e6 * std::max(0.1, seconds));
+    const double seconds = moment != nullptr ? moment->seconds : sim::tour_seconds(p.last, pose);
+    p.t_us += static_cast<std::int64_t>(1e6 * seconds);
   }
+  const std::vector<sim::Person> people = moment != nullptr ? moment->people : std::vector<sim::Person>{};
   const std::uint64_t noise_seed = p.seed * 1'000'003 + static_cast<std::uint64_t>(p.count);
   SimulatedPicture picture;
-  picture.jpeg = imageio::encode_jpeg(p.renderer->render(pose, {}, noise_seed), kQuality);
+  picture.jpeg = imageio::encode_jpeg(p.renderer->render(pose, people, noise_seed), kQuality);
   picture.truth = pose;
   picture.room = room;
   if (odometry != nullptr) picture.odometry = *odometry;
@@ -75,7 +73,7 @@ Status TourWriter::add(const Pose2& pose, const std::string& room, const Pose2* 
   const sim::LaserConfig laser = scenario::safety_scanner();
   picture.sweep.angle_step_rad = 2.0 * kPi / laser.rays;
   picture.sweep.range_max_m = laser.range_max_m;
-  picture.sweep.ranges_m = sim::scan(p.world.rays(), pose, {}, laser, noise_seed);
+  picture.sweep.ranges_m = sim::scan(p.world.rays(), pose, people, laser, noise_seed);
   if (Status added = p.files.add(picture); !added) return added;
   p.last = pose;
   ++p.count;

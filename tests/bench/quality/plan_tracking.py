@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """How well pictures are placed on a drawn plan that is out of date: tours of generated worlds, odometry with 5 % drift.
 
-usage: plan_tracking.py HOMEWARD WORLD... [--runs N] [--light L] [--camera C] [--step-m M] [--measure M] [--scans] [--anywhere]
-       [--plan OTHER_WORLD] [--after-m M] [--pictures N] [--missing S] [--moved S] [--keep DIR]
+usage: plan_tracking.py HOMEWARD WORLD... [--runs N] [--light L] [--camera C] [--step-m M] [--people N] [--measure M] [--scans]
+       [--anywhere] [--plan OTHER_WORLD] [--after-m M] [--pictures N] [--missing S] [--moved S] [--keep DIR]
 
 For each WORLD (house:SEED, offices:SEED or a folder of pictures with poses.csv and camera.json and, after a comma, its
 world.json) and each run: another drift of the odometry, another plan (20 % of the objects missing, 10 % moved), another seed
@@ -136,6 +136,7 @@ def main():
     parser.add_argument("--light", default="day")
     parser.add_argument("--camera", default="hyperbolic_mirror")
     parser.add_argument("--step-m", type=float, default=0.3)
+    parser.add_argument("--people", type=int, default=0)
     parser.add_argument("--pictures", type=int, default=120)
     parser.add_argument("--measure", default="count")
     parser.add_argument("--scans", action="store_true")
@@ -153,10 +154,11 @@ def main():
         if "," in world:
             folder, source = map(Path, world.split(","))
         else:
-            source, folder = world, (options.keep or work) / f"{world.replace(':', '_')}.{options.camera}.{options.light}"
+            among = f".people_{options.people}" * (options.people > 0)
+            source, folder = world, (options.keep or work) / f"{world.replace(':', '_')}.{options.camera}.{options.light}{among}"
             if not folder.exists():
                 run(options.homeward, "simulate", "tour", "--world", world, "--rooms", "all", "--step-m", options.step_m, "--light",
-                    options.light, "--camera", options.camera, "--seed", 17, "--out", folder)
+                    options.light, "--camera", options.camera, "--people", options.people, "--seed", 17, "--out", folder)
         print(row(world, [one_run(options, folder, source, number, work) for number in range(options.runs)]), flush=True)
         shutil.rmtree(work)
 
