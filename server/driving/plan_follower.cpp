@@ -252,7 +252,7 @@ PlanFollower::Witness PlanFollower::new_witness(const SeenPicture& seen, const d
   if (!plan) return pass_on(plan);
   pipeline::PlanWitnessConfig config;
   config.tracker.visibility.most_kept_bytes = kMostKept_bytes;
-  auto made = pipeline::PlanWitness::create(std::move(*plan), seen.camera, places, config);
+  auto made = pipeline::PlanWitness::create(*plan, seen.camera, places, config);
   if (!made) return pass_on(made);
   auto witness = std::make_shared<pipeline::PlanWitness>(std::move(*made));
   const std::scoped_lock lock(mutex_);

@@ -38,8 +38,7 @@ Result<pipeline::PlanWitness> witness_on_plan(const map::TopologicalMap& map, co
   if (const Status fits = map::check_pins(map, layout, *by_picture, pins + "/pins"); !fits) return pass_on(fits);
   auto plan = read_plan_file(file);
   if (!plan) return pass_on(plan);
-  auto witness =
-      pipeline::PlanWitness::create(std::move(*plan), camera, map::lay_on_plan(map, layout, *by_picture).places);
+  auto witness = pipeline::PlanWitness::create(*plan, camera, map::lay_on_plan(map, layout, *by_picture).places);
   if (!witness && witness.error().where.empty()) {
     return fail(witness.error().code, witness.error().message, file.path);
   }

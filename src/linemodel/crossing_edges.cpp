@@ -131,6 +131,7 @@ std::vector<RimEdge> crossing_edges(WeldedMesh& mesh, float crease_rad) {
     }
   }
   std::vector<RimEdge> list;
+  list.reserve(edges.size());
   for (auto& [ends, edge] : edges) list.push_back(std::move(edge));
   return list;
 }

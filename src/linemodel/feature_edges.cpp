@@ -107,7 +107,7 @@ class Judge {
 
   [[nodiscard]] bool shows(const Eigen::Vector3f& at_m, const Eigen::Vector3f& axis,
                            const std::vector<Eigen::Vector3f>& faces) const {
-    const Eigen::Vector3f x = faces.front();
+    const Eigen::Vector3f& x = faces.front();
     const Eigen::Vector3f y = axis.cross(x);
     std::vector<float> angles_rad;
     for (const Eigen::Vector3f& face : faces) {

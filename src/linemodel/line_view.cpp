@@ -90,6 +90,7 @@ std::vector<LineView> views_of(const camera::Camera& camera, int count) {
   const int width_px = static_cast<int>(std::ceil(2.0 * focal_px * std::tan(half_around) / std::cos(half_around)));
   const int height_px = static_cast<int>(std::ceil(2.0 * focal_px * std::tan(half_up)));
   std::vector<LineView> views;
+  views.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     views.push_back(view_towards(2.0 * kPi * i / count, middle, focal_px, width_px, height_px));
   }

@@ -76,9 +76,12 @@ LocalFit best_fit_near(PlanTracker& tracker, const Pose2& middle, double reach_m
     std::vector<LocalFit> finer;
     for (const LocalFit& around : fits) {
       for (int n = 0; n < 27; ++n) {
-        const Pose2 pose{around.pose.x_m + (n % 3 - 1) * scale * config.step_m,
-                         around.pose.y_m + (n / 3 % 3 - 1) * scale * config.step_m,
-                         wrap_angle(around.pose.theta_rad + (n / 9 - 1) * scale * config.step_rad)};
+        const int along_x = n % 3 - 1;
+        const int along_y = n / 3 % 3 - 1;
+        const int turns = n / 9 - 1;
+        const Pose2 pose{around.pose.x_m + along_x * scale * config.step_m,
+                         around.pose.y_m + along_y * scale * config.step_m,
+                         wrap_angle(around.pose.theta_rad + turns * scale * config.step_rad)};
         if (n == 13 || tracker.floor().free(position_m(pose))) finer.push_back(judge.of(pose));
       }
     }

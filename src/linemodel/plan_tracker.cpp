@@ -56,7 +56,7 @@ PlanTrackerConfig tracker_config(LineMeasure measure) {
   return config;
 }
 
-Result<PlanTracker> PlanTracker::create(Plan plan, const camera::CameraConfig& config,
+Result<PlanTracker> PlanTracker::create(const Plan& plan, const camera::CameraConfig& config,
                                         const PlanTrackerConfig& tracking) {
   const auto camera = camera::Camera::create(config);
   if (!camera) return pass_on(camera);
@@ -71,12 +71,13 @@ Result<PlanTracker> PlanTracker::create(Plan plan, const camera::CameraConfig& c
   if (floor->free_points_m().empty()) {
     return fail(ErrorCode::kEmptyInput, "The plan has no floor that a robot could stand on.");
   }
-  PlanTracker tracker(std::move(plan), **camera, std::move(*floor), tracking);
+  PlanTracker tracker(plan, **camera, std::move(*floor), tracking);
   tracker.start_anywhere();
   return tracker;
 }
 
-PlanTracker::PlanTracker(Plan plan, const camera::Camera& camera, PlanFloor floor, const PlanTrackerConfig& config)
+PlanTracker::PlanTracker(const Plan& plan, const camera::Camera& camera, PlanFloor floor,
+                         const PlanTrackerConfig& config)
     : config_(config),
       views_(camera),
       expectation_(camera),

@@ -98,7 +98,8 @@ class PlanTracker {
  public:
   /// Errors: kEmptyInput (a plan without lines, or without floor to be on), kInvalidInput (a camera that is not above
   /// the floor), those of Camera::create and PlanFloor::of.
-  static Result<PlanTracker> create(Plan plan, const camera::CameraConfig& camera, const PlanTrackerConfig& config);
+  static Result<PlanTracker> create(const Plan& plan, const camera::CameraConfig& camera,
+                                    const PlanTrackerConfig& config);
 
   /// It may be anywhere on the plan. This is how it begins.
   void start_anywhere();
@@ -134,7 +135,7 @@ class PlanTracker {
   [[nodiscard]] const PlanFloor& floor() const { return floor_; }
 
  private:
-  PlanTracker(Plan plan, const camera::Camera& camera, PlanFloor floor, const PlanTrackerConfig& config);
+  PlanTracker(const Plan& plan, const camera::Camera& camera, PlanFloor floor, const PlanTrackerConfig& config);
 
   /// Moves the particles; how far the robot drove and turned since the last picture, as metres.
   double move(const std::optional<Pose2>& odometry);

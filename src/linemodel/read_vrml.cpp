@@ -207,7 +207,8 @@ class PlanOfTree {
         continue;
       }
       const double index = indices[i];
-      if (!(index >= 0.0 && index < static_cast<double>(points->size() / 3)) || index != std::floor(index)) {
+      const std::size_t count = points->size() / 3;
+      if (!(index >= 0.0 && index < static_cast<double>(count)) || index != std::floor(index)) {
         return fail(ErrorCode::kInvalidInput,
                     "The field \"coordIndex\" names a point that is not there (entry " + std::to_string(i) + " of " +
                         std::to_string(indices.size()) + "; there are " + std::to_string(points->size() / 3) +

@@ -126,6 +126,7 @@ class LookAlikes {
       chosen.assign(far.begin(), far.begin() + static_cast<std::ptrdiff_t>(std::min(far.size(), most_)));
     }
     std::vector<matching::SeenPlace> seen;
+    seen.reserve(chosen.size());
     for (const int place : chosen) seen.push_back(seen_at(map_.places[at(place)]));
     return seen;
   }

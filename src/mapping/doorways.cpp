@@ -34,7 +34,7 @@ class Lines {
       most = std::max(most, normal.dot(point));
     }
     if (points_m.empty()) return;
-    bins_.resize(static_cast<std::size_t>(bin(most) - first_ + 1));
+    bins_.resize(static_cast<std::size_t>(bin(most) - first_) + 1);
     for (const Eigen::Vector2d& point : points_m)
       bins_[static_cast<std::size_t>(bin(normal.dot(point)) - first_)].push_back(along.dot(point));
   }

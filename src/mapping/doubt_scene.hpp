@@ -50,14 +50,14 @@ class DoubtScene {
   [[nodiscard]] int place_of(const ImageId& image) const;
   /// Index into map.images; -1: the tours do not have it.
   [[nodiscard]] int number_of(const ImageId& image) const;
-  [[nodiscard]] const std::vector<PlaceVisit>& visits(int place) const { return visits_[at_(place)]; }
+  [[nodiscard]] const std::vector<PlaceVisit>& visits(int place) const { return visits_[at(place)]; }
   [[nodiscard]] const std::map<PlaceIndices, WayFacts>& ways() const { return ways_; }
   /// Null where there is none.
   [[nodiscard]] const WayFacts* way(int a, int b) const;
-  [[nodiscard]] const std::vector<int>& beside(int place) const { return beside_[at_(place)]; }
+  [[nodiscard]] const std::vector<int>& beside(int place) const { return beside_[at(place)]; }
 
   /// Hypotheses whose two pictures are in this place, by index into the map's.
-  [[nodiscard]] const std::vector<std::size_t>& hypotheses_within(int place) const { return within_[at_(place)]; }
+  [[nodiscard]] const std::vector<std::size_t>& hypotheses_within(int place) const { return within_[at(place)]; }
 
   // What people said by edits that stand.
   [[nodiscard]] bool parted_by_a_person(int a, int b) const { return parted_.contains(std::minmax(a, b)); }
@@ -78,7 +78,7 @@ class DoubtScene {
                              std::optional<PlaceIndices> closed, double most_m) const;
 
  private:
-  static std::size_t at_(int index) { return static_cast<std::size_t>(index); }
+  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   void find_visits();
   void find_ways();
   void find_hypotheses();

@@ -9,11 +9,11 @@
 #include "core/angles.hpp"
 
 namespace homeward::pipeline {
-Result<PlanWitness> PlanWitness::create(linemodel::Plan plan, const camera::CameraConfig& camera,
+Result<PlanWitness> PlanWitness::create(const linemodel::Plan& plan, const camera::CameraConfig& camera,
                                         const std::vector<map::PlacedOnPlan>& places, const PlanWitnessConfig& config) {
   linemodel::PlanTrackerConfig tracking = config.tracker;
   tracking.monte_carlo.start_particles = config.said_particles;
-  auto tracker = linemodel::PlanTracker::create(std::move(plan), camera, tracking);
+  auto tracker = linemodel::PlanTracker::create(plan, camera, tracking);
   if (!tracker) return pass_on(tracker);
   return PlanWitness(std::move(*tracker), places, config);
 }

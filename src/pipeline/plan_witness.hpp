@@ -70,7 +70,7 @@ enum class PlanWord {
 class PlanWitness {
  public:
   /// `places`: of map::lay_on_plan. Errors: those of PlanTracker::create.
-  static Result<PlanWitness> create(linemodel::Plan plan, const camera::CameraConfig& camera,
+  static Result<PlanWitness> create(const linemodel::Plan& plan, const camera::CameraConfig& camera,
                                     const std::vector<map::PlacedOnPlan>& places, const PlanWitnessConfig& config = {});
 
   /// Nothing is known of where the robot is. This is how it begins.

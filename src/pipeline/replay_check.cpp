@@ -68,6 +68,7 @@ class Places {
 /// A picture that no place holds any more counts for the next one of its tour that one does.
 std::vector<PlaceId> truths(const Places& places, const std::vector<KeptPicture>& pictures) {
   std::vector<PlaceId> truth;
+  truth.reserve(pictures.size());
   for (const KeptPicture& picture : pictures) truth.push_back(places.of(picture.image));
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     if (!truth[i].empty()) continue;

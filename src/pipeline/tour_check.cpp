@@ -61,7 +61,7 @@ bool driven_again(const mapping::PairTable& pairs, std::span<const int> tour_of,
   if (!std::isfinite(still)) return false;  // they have nothing in common
   const auto stands = [&](int from) {
     return from >= 0 && from + 1 < pairs.images() &&
-           tour_of[static_cast<std::size_t>(from)] == tour_of[static_cast<std::size_t>(from + 1)] &&
+           tour_of[static_cast<std::size_t>(from)] == tour_of[static_cast<std::size_t>(from) + 1] &&
            pairs.distance(from, from + 1) < still;
   };
   int last = image + 1;

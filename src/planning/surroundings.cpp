@@ -39,6 +39,7 @@ std::vector<const map::Place*> beside(const map::TopologicalMap& map, const std:
   std::ranges::stable_sort(near, {}, [](const auto& one) { return one.first; });
   if (near.size() > config.most_beside) near.resize(config.most_beside);
   std::vector<const map::Place*> places;
+  places.reserve(near.size());
   for (const auto& [distance_m, place] : near) places.push_back(place);
   return places;
 }
@@ -68,6 +69,7 @@ std::vector<const map::Place*> alike(const map::TopologicalMap& map, const std::
   if (!index || route.empty()) return places;
   const std::size_t enough = taken.size() + config.most_alike + 1;  // among so many one is still free
   std::vector<std::vector<matching::Candidate>> like;
+  like.reserve(route.size());
   for (const map::Place* step : route) like.push_back(index->query(step->appearances.front().sift, enough));
   std::vector<std::size_t> next(route.size(), 0);
   const auto add_next = [&](std::size_t step) {

@@ -62,6 +62,7 @@ std::optional<NodeScale> node_scale(const Arc& before, const Arc& after, int few
   if (evidence.empty() || static_cast<int>(evidence.size()) < fewest) return std::nullopt;
   const double middle = weighted_median(evidence);
   std::vector<double> off;
+  off.reserve(evidence.size());
   for (const Evidence& e : evidence) off.push_back(std::abs(e.log_ratio - middle));
   return NodeScale{std::exp(middle), static_cast<int>(evidence.size()), 1.4826 * median(std::move(off))};
 }

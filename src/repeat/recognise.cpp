@@ -2,6 +2,7 @@
 // The part of Repeater that finds its place without any expectation.
 #include <algorithm>
 #include <cstdlib>
+#include <numeric>
 #include <utility>
 
 #include "core/index.hpp"
@@ -15,8 +16,8 @@ int Repeater::arc_at(int key) const { return path_->arc_from(key).value_or(path_
 
 /// Some key images, from the last place on to both sides and further with each picture that is lost, then over again.
 std::vector<int> Repeater::keys_to_compare() const {
-  std::vector<int> keys;
-  for (int key = 0; key < gallery_->size(); ++key) keys.push_back(key);
+  std::vector<int> keys(static_cast<std::size_t>(gallery_->size()));
+  std::iota(keys.begin(), keys.end(), 0);
   const int last = around_ ? arc_of(around_->arc).from : 0;
   std::ranges::stable_sort(keys, {}, [&](int key) { return std::abs(key - last); });
   const int most = config_.recognition->most_compared;

@@ -72,6 +72,7 @@ std::optional<WideMatch> wide_match(const DescribedPicture& first, const Describ
                                     const geometry::TwoViewConfig& geometry, std::uint64_t seed) {
   const std::vector<DescribedMatch> matches = distinct_matches(first, second, config.ratio);
   std::vector<geometry::PointPair> pairs;
+  pairs.reserve(matches.size());
   for (const DescribedMatch& match : matches) {
     pairs.push_back({first.seen[at(match.first)], second.seen[at(match.second)]});
   }

@@ -148,8 +148,10 @@ World generate_circuit(std::uint64_t seed) {
   for (const Space& space : plan.spaces) build_shell(scene, space, plan.openings, random);
   world.doors = build_linings(scene, plan.openings, random);
   const CorridorMaterials materials = corridor_materials(scene, random);
+  constexpr int kRugs = 4;
   std::vector<int> rugs;
-  for (int i = 0; i < 4; ++i) rugs.push_back(scene.add_material("rug", paint_rug(random)));
+  rugs.reserve(kRugs);
+  for (int i = 0; i < kRugs; ++i) rugs.push_back(scene.add_material("rug", paint_rug(random)));
   for (const Doorway& doorway : plan.openings) {
     if (doorway.width_m == kNarrow_m) build_open_leaf(scene, doorway, materials, random);
   }

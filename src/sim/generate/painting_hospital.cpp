@@ -110,7 +110,8 @@ Image paint_ceiling_panels(Random& random, double width_m, double height_m, Rgb 
   const int detector = (vent + 1 + pick(random, columns * rows - 1)) % (columns * rows);
   for (int i = 0; i < columns * rows; ++i) {
     const double u = wide * (i % columns);
-    const double v = high * (i / columns);
+    const int row = i / columns;
+    const double v = high * row;
     const Rgb tone = varied(random, base, 6);
     canvas.rectangle(u, v, u + wide, v + high, tone);
     for (int hole = 0; hole < 50; ++hole) {

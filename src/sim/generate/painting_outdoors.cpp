@@ -158,7 +158,8 @@ Image paint_slabs(Random& random, Rgb base) {
   const double side = static_cast<double>(kGround_px) / kSlabs;
   for (int i = 0; i < kSlabs * kSlabs; ++i) {
     const double u = side * (i % kSlabs);
-    const double v = side * (i / kSlabs);
+    const int row = i / kSlabs;
+    const double v = side * row;
     canvas.rectangle(u + 1.5, v + 1.5, u + side - 1.5, v + side - 1.5, varied(random, base, 18));
   }
   canvas.clouds(random, 8.0);

@@ -132,7 +132,6 @@ double depth_of(StreetThing thing) {
     case StreetThing::kBench:
       return 0.65;
     case StreetThing::kStall:
-      return 0.95;
     case StreetThing::kColumn:
       return 0.95;
     default:
