@@ -130,7 +130,7 @@ PlanWord PlanWitness::hear(const localisation::Belief& belief) {
   if (off_plan || share < config_.least_share) return dispute(place->second);
   odds_.reset();
   if (may_be_carried_) {
-    return trusted_ && share >= config_.most_share ? PlanWord::kImpossible : PlanWord::kSilent;
+    return trusted_ && share >= config_.all_there_share ? PlanWord::kImpossible : PlanWord::kSilent;
   }
   if (!knows()) return PlanWord::kSilent;
   agreed_m_ += step_m_;

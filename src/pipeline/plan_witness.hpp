@@ -26,7 +26,7 @@ struct PlanWitnessConfig {
   double reach_m = 3.0;                // a place may be the robot's if it is within so much of a particle,
   double beyond_nearest_m = 1.5;       // or farther off than the nearest place by no more than this
   double least_share = 0.02;           // of the particles, for a place to be possible
-  double most_share = 0.5;             // and so many are there for it to be impossible by what is seen there
+  double all_there_share = 0.5;        // of them, for it to be impossible by what is seen there
   double confident = 0.9;              // probability of a belief from where on it is looked into
   double least_log_odds = 0.3;         // of a picture where the particles are: less, and they are silent
   int least_lines = 8;                 // expected in a picture: fewer say nothing
@@ -35,10 +35,10 @@ struct PlanWitnessConfig {
   double least_odds = 0.0;             // of that mean, against the place: less, and they are silent
   double beaten_odds = -0.3;           // less than this after
   int beaten_pictures = 4;             // so many pictures of a dispute, and they begin anew at the place
-  int most_disputed = 8;  // pictures on end, and they do so too: a belief that stays sure so long is seldom wrong
+  int most_disputed = 8;        // pictures on end, and they do so too: a belief that stays sure so long is seldom wrong
+  double most_spread_m = 0.15;  // of particles, for a picture to be judged by: farther apart their mean is off
   double least_agreement = 0.15;  // of plan and picture where the particles are, both ways: less, and the robot may
                                   // have been carried off, ...
-  double most_spread_m = 0.15;    // of particles: more, and a picture does not fit as their mean is off
   double agreement_again = 1.0;  // ... until the mean of late is this much; and until they have agreed with beliefs for
   int carried_pictures = 2;      // `agreement_m`, they begin anew at a place that is disputed for so many pictures
   double least_mean = 0.8;       // of that mean, to dispute a place
@@ -54,7 +54,7 @@ struct PlanWitnessConfig {
 enum class PlanWord {
   kSilent,      // they do not know where the robot is, or not surely enough, or not where the place is
   kPossible,    // some are there
-  kImpossible,  // they know where the robot is, and it is not there; or all were there, and what is seen is not
+  kImpossible,  // they know where the robot is, and it is not there; or most were there, and what is seen is not
 };
 
 /// A witness for the belief over the places of a map that lies on a drawn plan: particles on the plan (PlanTracker),

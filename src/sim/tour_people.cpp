@@ -84,9 +84,11 @@ Result<std::vector<TourMoment>> people_along(const World& world, const std::vect
       return std::move(*moments);
     }
   }
-  return fail(ErrorCode::kConflict,
-              "With " + std::to_string(count) + " people about, the tour is blocked by somebody who cannot make room.",
-              world.name);
+  return fail(
+      ErrorCode::kConflict,
+      "With " + std::to_string(count) +
+          " people about, the tour is blocked by somebody who cannot make room. Ask for fewer, or for another seed.",
+      world.name);
 }
 
 }  // namespace homeward::sim

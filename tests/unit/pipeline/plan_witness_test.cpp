@@ -45,6 +45,12 @@ class WitnessOfTwoRooms : public ::testing::Test {
     for (int i = 0; i <= kEnd; ++i) look(in_first(i), in_first(i));
     for (int i = kEnd - 1; i >= kBack; --i) look(in_first(i), in_first(i));
   }
+  /// The same from a place that was said, and then it is carried off to the other room between two pictures.
+  void carry_off() {
+    witness_->start_at(std::array{kFirstRoom});
+    drive_in_first();
+    look(in_second(4), in_first(kBack));
+  }
   [[nodiscard]] double off_m(const Pose2& robot) const {
     return (position_m(estimate_.pose) - position_m(robot)).norm();
   }
@@ -153,9 +159,7 @@ TEST_F(WitnessOfTwoRooms, FindsThePlaceImpossibleThatAllBelieveInWhenAPictureDoe
 }
 
 TEST_F(WitnessOfTwoRooms, GivesInSoonerAfterAPictureThatDidNotFit) {
-  witness_->start_at(std::array{kFirstRoom});
-  drive_in_first();
-  look(in_second(4), in_first(kBack));
+  carry_off();
   ASSERT_TRUE(witness_->may_be_carried());
   for (int i = 0; i < PlanWitnessConfig{}.carried_pictures; ++i) {
     EXPECT_TRUE(witness_->trusted());
@@ -166,9 +170,7 @@ TEST_F(WitnessOfTwoRooms, GivesInSoonerAfterAPictureThatDidNotFit) {
 }
 
 TEST_F(WitnessOfTwoRooms, BelievesThatNobodyCarriedItOnceSomePicturesFitAgain) {
-  witness_->start_at(std::array{kFirstRoom});
-  drive_in_first();
-  look(in_second(4), in_first(kBack));
+  carry_off();
   ASSERT_TRUE(witness_->may_be_carried());
   int pictures = 0;
   for (; pictures < 20 && witness_->may_be_carried(); ++pictures) look(in_first(kBack), in_first(kBack));
@@ -178,9 +180,7 @@ TEST_F(WitnessOfTwoRooms, BelievesThatNobodyCarriedItOnceSomePicturesFitAgain) {
 }
 
 TEST_F(WitnessOfTwoRooms, DisputesNothingAfterAPictureThatDidNotFitUntilItHasAgreedForSomeMetres) {
-  witness_->start_at(std::array{kFirstRoom});
-  drive_in_first();
-  look(in_second(4), in_first(kBack));
+  carry_off();
   for (int k = 0; k < 20 && witness_->may_be_carried(); ++k) look(in_first(kBack), in_first(kBack));
   ASSERT_FALSE(witness_->may_be_carried());
   EXPECT_EQ(witness_->hear(sure_of(kSecondRoom)), PlanWord::kSilent);
@@ -199,20 +199,16 @@ TEST_F(WitnessOfTwoRooms, SuspectsNothingByAPictureWhileItsParticlesAreFarApart)
   PlanWitnessConfig config;
   config.most_spread_m = 0.001;
   make(config);
-  witness_->start_at(std::array{kFirstRoom});
-  drive_in_first();
-  look(in_second(4), in_first(kBack));
+  carry_off();
   EXPECT_FALSE(witness_->may_be_carried());
   EXPECT_NE(witness_->hear(sure_of(kFirstRoom)), PlanWord::kImpossible);
 }
 
 TEST_F(WitnessOfTwoRooms, FindsNoPlaceImpossibleByAPictureWhenTooFewOfItsParticlesAreThere) {
   PlanWitnessConfig config;
-  config.most_share = 1.1;
+  config.all_there_share = 1.1;
   make(config);
-  witness_->start_at(std::array{kFirstRoom});
-  drive_in_first();
-  look(in_second(4), in_first(kBack));
+  carry_off();
   ASSERT_TRUE(witness_->may_be_carried());
   EXPECT_EQ(witness_->hear(sure_of(kFirstRoom)), PlanWord::kSilent);
 }
