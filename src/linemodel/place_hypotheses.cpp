@@ -13,6 +13,12 @@ namespace {
 
 constexpr double kWithin_m = 0.75;  // of one place: its particles around their middle
 constexpr double kWithin_rad = 0.5;
+
+bool near(const Pose2& one, const Pose2& other, double reach_m, double reach_rad) {
+  return (position_m(one) - position_m(other)).norm() < reach_m &&
+         std::abs(wrap_angle(one.theta_rad - other.theta_rad)) < reach_rad;
+}
+
 constexpr double kShareOfLead = 3.0;  // a place behind by what decides has e^-3 of the belief of the first
 
 }  // namespace
@@ -22,24 +28,39 @@ void PlaceHypotheses::clear() {
   particles_.clear();
   way_ = {};
   driven_m_ = 0.0;
+  taken_up_ = 0;
 }
 
 void PlaceHypotheses::begin(const MonteCarlo& floor, const MonteCarloConfig& particles,
                             std::span<const PoseCluster> places) {
   clear();
+  for (const PoseCluster& place : places) take_up(floor, particles, place);
+  gather_particles();
+}
+
+void PlaceHypotheses::join(const MonteCarlo& floor, const MonteCarloConfig& particles,
+                           std::span<const PoseCluster> places) {
+  const std::size_t before = places_.size();
   for (const PoseCluster& place : places) {
-    MonteCarloConfig config = particles;
-    config.start_particles = config_.particles;
-    config.kld.least = config_.least_particles;
-    config.kld.most = config_.particles;
-    config.most_injected = 0.0;
-    config.seed = particles.seed + 1 + places_.size();
-    Place one{floor.sibling(config), place, {}};
-    one.monte_carlo.start_at(place.pose, std::max(config_.spread_m, place.spread_m / std::sqrt(2.0)),
-                             std::max(config_.spread_rad, place.spread_rad));
-    places_.push_back(std::move(one));
+    const bool known =
+        std::any_of(places_.begin(), places_.begin() + static_cast<std::ptrdiff_t>(before),
+                    [&](const Place& one) { return near(one.at.pose, place.pose, kWithin_m, kWithin_rad); });
+    if (!known) take_up(floor, particles, place);
   }
   gather_particles();
+}
+
+void PlaceHypotheses::take_up(const MonteCarlo& floor, const MonteCarloConfig& particles, const PoseCluster& place) {
+  MonteCarloConfig config = particles;
+  config.start_particles = config_.particles;
+  config.kld.least = config_.least_particles;
+  config.kld.most = config_.particles;
+  config.most_injected = 0.0;
+  config.seed = particles.seed + ++taken_up_;
+  Place one{floor.sibling(config), place, {}};
+  one.monte_carlo.start_at(place.pose, std::max(config_.spread_m, place.spread_m / std::sqrt(2.0)),
+                           std::max(config_.spread_rad, place.spread_rad));
+  places_.push_back(std::move(one));
 }
 
 void PlaceHypotheses::move(const Pose2& moved) {
@@ -73,10 +94,14 @@ void PlaceHypotheses::weigh(const MonteCarlo::Weigh& weigh, const Look& look, do
 
 double PlaceHypotheses::lead(const Place& one, const Place& other, double Square::*sum) const {
   double lead = 0.0;
-  for (const auto& [where, its] : one.squares) {  // both have been in the same squares for as long
-    if (!(its.driven_m > 0.0)) continue;
-    const double more = (its.*sum - other.squares.at(where).*sum) / its.driven_m;
-    lead += std::min(1.0, its.driven_m / config_.whole_m) * std::clamp(more, -config_.most_lead, config_.most_lead);
+  for (const auto& [where, its] : one.squares) {
+    const auto there = other.squares.find(where);  // where it was not taken up yet nothing is known of it
+    if (there == other.squares.end()) continue;
+    const Square& others = there->second;
+    const double both_m = std::min(its.driven_m, others.driven_m);
+    if (!(both_m > 0.0)) continue;
+    const double more = its.*sum / its.driven_m - others.*sum / others.driven_m;
+    lead += std::min(1.0, both_m / config_.whole_m) * std::clamp(more, -config_.most_lead, config_.most_lead);
   }
   return lead;
 }
@@ -100,8 +125,7 @@ void PlaceHypotheses::sort_out() {
   for (const auto& [unused, index] : order) {
     Place& one = places_[index];
     const bool known = std::any_of(kept.begin(), kept.end(), [&](const Place& better) {
-      return (position_m(better.at.pose) - position_m(one.at.pose)).norm() < config_.same_m &&
-             std::abs(wrap_angle(better.at.pose.theta_rad - one.at.pose.theta_rad)) < config_.same_rad;
+      return near(better.at.pose, one.at.pose, config_.same_m, config_.same_rad);
     });
     const bool behind = !kept.empty() && (lead(kept.front(), one, &Square::built_m) >= config_.drop_lead ||
                                           lead(kept.front(), one, &Square::all_m) >= config_.drop_all);
@@ -115,14 +139,15 @@ std::vector<PlaceHypothesis> PlaceHypotheses::places() const {
   std::vector<PlaceHypothesis> said;
   double all = 0.0;
   for (const Place& one : places_) {
-    PlaceHypothesis place{one.at, 0.0, 0.0, lead(places_.front(), one, &Square::built_m)};
+    PlaceHypothesis place{one.at, 0.0, 0.0, lead(places_.front(), one, &Square::built_m), 0.0};
     for (const auto& [unused, square] : one.squares) {
       place.evidence += square.all_m;
       place.agreement += square.both_m;
+      place.driven_m += square.driven_m;
     }
-    if (driven_m_ > 0.0) {
-      place.evidence /= driven_m_;
-      place.agreement /= driven_m_;
+    if (place.driven_m > 0.0) {
+      place.evidence /= place.driven_m;
+      place.agreement /= place.driven_m;
     }
     place.at.share = std::exp(-kShareOfLead * place.behind / config_.lead);
     all += place.at.share;

@@ -37,6 +37,7 @@ struct PlaceHypothesis {
   double evidence = 0.0;   // of all lines, mean over the way
   double agreement = 0.0;  // of plan and pictures both ways, the same
   double behind = 0.0;     // the first, in evidence of what is built, summed over the squares of the way
+  double driven_m = 0.0;   // since it was taken up
 };
 
 /// Several places that look alike, each followed by particles of its own so that none dies out by chance (clustered
@@ -58,6 +59,8 @@ class PlaceHypotheses {
 
   /// Takes these places up, and forgets all others. `floor`: whose siblings their particles are.
   void begin(const MonteCarlo& floor, const MonteCarloConfig& particles, std::span<const PoseCluster> places);
+  /// Takes further places up, but for those that are followed already. They are compared where they are from now on.
+  void join(const MonteCarlo& floor, const MonteCarloConfig& particles, std::span<const PoseCluster> places);
   void clear();
   [[nodiscard]] bool empty() const { return places_.empty(); }
 
@@ -95,6 +98,7 @@ class PlaceHypotheses {
   [[nodiscard]] double least_lead(const Place& one, double Square::*sum) const;
   /// Whether one is so far before all others in all that is drawn and seen, and hardly behind them in what is built.
   [[nodiscard]] bool agrees_alone(const Place& one) const;
+  void take_up(const MonteCarlo& floor, const MonteCarloConfig& particles, const PoseCluster& place);
   void sort_out();
   void gather_particles();
 
@@ -102,6 +106,7 @@ class PlaceHypotheses {
   std::vector<Place> places_;  // most probable first
   Pose2 way_;                  // since they were taken up, by odometry
   double driven_m_ = 0.0;
+  std::size_t taken_up_ = 0;
   std::vector<Particle> particles_;
 };
 

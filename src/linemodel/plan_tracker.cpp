@@ -96,6 +96,7 @@ void PlanTracker::start_anywhere() {
 void PlanTracker::look_everywhere() {
   monte_carlo_.start_anywhere();
   places_.clear();
+  searches_left_ = 0;
   searching_ = true;
   unknown_m_ = 0.0;
   known_ = false;
@@ -106,6 +107,7 @@ void PlanTracker::look_everywhere() {
 void PlanTracker::start_at(const Pose2& pose, double spread_m, double spread_rad) {
   monte_carlo_.start_at(pose, spread_m, spread_rad);
   places_.clear();
+  searches_left_ = 0;
   searching_ = false;
   of_this_plan_ = true;
   unknown_m_ = 0.0;
@@ -138,8 +140,13 @@ std::vector<JudgedLine> PlanTracker::judged(const Pose2& pose) {
 
 void PlanTracker::restart_odometry() {
   if (!last_odometry_) return;
-  places_.empty() ? monte_carlo_.spread(kWithoutOdometry_m) : places_.spread(kWithoutOdometry_m);
+  spread_particles();
   last_odometry_.reset();
+}
+
+void PlanTracker::spread_particles() {
+  if (places_.empty() || searches_left_ > 0) monte_carlo_.spread(kWithoutOdometry_m);
+  if (!places_.empty()) places_.spread(kWithoutOdometry_m);
 }
 
 double PlanTracker::move(const std::optional<Pose2>& odometry) {
@@ -147,10 +154,11 @@ double PlanTracker::move(const std::optional<Pose2>& odometry) {
   if (odometry && last_odometry_) {
     const Pose2 moved = inverse(*last_odometry_) * *odometry;
     driven_m = std::hypot(moved.x_m, moved.y_m) + kMetresPerTurn * std::abs(moved.theta_rad);
-    places_.empty() ? monte_carlo_.move(moved) : places_.move(moved);
+    if (places_.empty() || searches_left_ > 0) monte_carlo_.move(moved);
+    if (!places_.empty()) places_.move(moved);
     known_at_ = known_at_ * moved;
   } else if (!odometry) {
-    places_.empty() ? monte_carlo_.spread(kWithoutOdometry_m) : places_.spread(kWithoutOdometry_m);
+    spread_particles();
   }
   last_odometry_ = odometry;
   return driven_m;
@@ -198,7 +206,8 @@ Result<PlanEstimate> PlanTracker::update(const Image& picture, const std::option
   const PictureLines seen(lines_, expectation_.space(), config_.measure);
   if (!places_.empty()) {
     weigh_places(seen, driven_m, ranges);
-    return estimate_places(seen);
+    if (searches_left_ > 0) weigh_everywhere(driven_m, ranges);
+    return estimate_places(seen, driven_m);
   }
   weigh_everywhere(driven_m, ranges);
   return estimate(seen, driven_m);
@@ -311,34 +320,57 @@ void PlanTracker::keep_known(const PlanEstimate& said, double driven_m) {
   jump_rad_ = kJump_rad;
 }
 
-void PlanTracker::take_up_places(double driven_m) {
-  unknown_m_ += driven_m;
-  const bool must = unknown_m_ >= config_.most_search_m;
-  if (!must && (unknown_m_ < config_.least_search_m || monte_carlo_.particles().size() > kFewParticles)) return;
-  const std::vector<PoseCluster> places = monte_carlo_.clusters(kPlaceReach_m, kPlaceReach_rad, config_.most_places);
+std::vector<PoseCluster> PlanTracker::places_to_take_up(double searched_m) const {
+  const bool must = searched_m >= config_.most_search_m;
+  if (!must && (searched_m < config_.least_search_m || monte_carlo_.particles().size() > kFewParticles)) return {};
+  std::vector<PoseCluster> places = monte_carlo_.clusters(kPlaceReach_m, kPlaceReach_rad, config_.most_places);
   double share = 0.0;
   for (const PoseCluster& place : places) share += place.share;
-  if (must || share >= config_.places_share) places_.begin(monte_carlo_, config_.monte_carlo, places);
+  if (!must && share < config_.places_share) places.clear();
+  return places;
 }
 
-PlanEstimate PlanTracker::estimate_places(const PictureLines& lines) {
+void PlanTracker::take_up_places(double driven_m) {
+  unknown_m_ += driven_m;
+  const std::vector<PoseCluster> places = places_to_take_up(unknown_m_);
+  if (places.empty()) return;
+  places_.begin(monte_carlo_, config_.monte_carlo, places);
+  searches_left_ = config_.most_searches;
+  searched_m_ = 0.0;
+  if (searches_left_ > 0) monte_carlo_.start_anywhere();
+}
+
+void PlanTracker::search_beside(double driven_m) {
+  if (searches_left_ == 0) return;
+  searched_m_ += driven_m;
+  const std::vector<PoseCluster> places = places_to_take_up(searched_m_);
+  if (places.empty()) return;
+  places_.join(monte_carlo_, config_.monte_carlo, places);
+  searched_m_ = 0.0;
+  --searches_left_;
+  if (searches_left_ > 0) monte_carlo_.start_anywhere();
+}
+
+PlanEstimate PlanTracker::estimate_places(const PictureLines& lines, double driven_m) {
   const std::vector<PlaceHypothesis> places = places_.places();
   std::vector<PoseCluster> at;
-  double agreement = places.front().agreement;
+  std::optional<double> agreement;  // of those that have been looked at for long enough
   for (const PlaceHypothesis& place : places) {
     at.push_back(place.at);
-    agreement = std::max(agreement, place.agreement);
+    if (place.driven_m < config_.least_judged_m) continue;
+    agreement = std::max(agreement.value_or(place.agreement), place.agreement);
   }
   PlanEstimate said = said_of(at, kOther, lines);
   said.evidence = places.front().evidence;
-  const bool judged = places_.driven_m() >= config_.least_judged_m;
-  if (judged) of_this_plan_ = agreement >= (of_this_plan_ ? config_.still_agreement : config_.least_agreement);
+  if (agreement) of_this_plan_ = *agreement >= (of_this_plan_ ? config_.still_agreement : config_.least_agreement);
   said.lost = !of_this_plan_ ? PlanLost::kNotInPlan : at.size() > 1 ? PlanLost::kAmbiguous : PlanLost::kSearching;
-  if (!of_this_plan_ && places_.driven_m() >= config_.most_unlike_m) {
+  if (!of_this_plan_ && searches_left_ == 0 && places_.driven_m() >= config_.most_unlike_m) {
     look_everywhere();
-  } else if (of_this_plan_ && judged && places_.decided()) {
+  } else if (of_this_plan_ && agreement && places_.decided()) {
     said.lost = PlanLost::kNo;
     follow(at.front(), said.evidence);
+  } else {
+    search_beside(driven_m);
   }
   return said;
 }

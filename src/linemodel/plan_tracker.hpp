@@ -51,6 +51,7 @@ struct PlanTrackerConfig {
   double still_agreement = 0.9;     // of plan and pictures both ways, at the best place of several: less, and it is
   double least_judged_m = 3.0;      // another plan, after so much driving among them; to be this one again it takes
   double least_agreement = 1.0;
+  int most_searches = 3;          // beside places that are told apart, for places that are not among them
   double most_unlike_m = 4.5;     // after so much on another plan other places are looked for
   double in_wall_evidence = 0.3;  // times that of a place where a robot cannot be
   double wrong_evidence = 0.4;    // less, though it seems known where it is: it is looked for anew
@@ -139,6 +140,8 @@ class PlanTracker {
 
   /// Moves the particles; how far the robot drove and turned since the last picture, as metres.
   double move(const std::optional<Pose2>& odometry);
+  /// It may have moved anywhere within half a metre.
+  void spread_particles();
   [[nodiscard]] MonteCarlo::Fit fit(const PictureLines& lines, double gain, const RangeSweep* sweep, const Pose2& pose);
   [[nodiscard]] double sweep_log_weight(const RangeSweep& sweep, const Pose2& pose) const;
   void look_everywhere();
@@ -148,11 +151,14 @@ class PlanTracker {
   [[nodiscard]] double explained(const ExpectedView& view) const;
   [[nodiscard]] PlaceHypotheses::Evidence evidence_at(const Pose2& pose, const PictureLines& lines);
   [[nodiscard]] PlanEstimate estimate(const PictureLines& lines, double driven_m);
-  [[nodiscard]] PlanEstimate estimate_places(const PictureLines& lines);
+  [[nodiscard]] PlanEstimate estimate_places(const PictureLines& lines, double driven_m);
   /// What is said of the first of these places, and of the others that are believed.
   [[nodiscard]] PlanEstimate said_of(std::span<const PoseCluster> places, double least_share,
                                      const PictureLines& lines);
   void take_up_places(double driven_m);
+  /// The places to which particles that were everywhere have come down; none yet where they have not.
+  [[nodiscard]] std::vector<PoseCluster> places_to_take_up(double searched_m) const;
+  void search_beside(double driven_m);
   void follow(const PoseCluster& place, double evidence);
   void keep_known(const PlanEstimate& said, double driven_m);
   void follow_evidence(double log_odds, const PlanEstimate& said);
@@ -169,6 +175,8 @@ class PlanTracker {
   std::optional<Pose2> last_odometry_;
   bool searching_ = true;        // particles were everywhere, or are at places told apart
   bool of_this_plan_ = true;     // as far as has been seen
+  int searches_left_ = 0;        // beside the places
+  double searched_m_ = 0.0;      // driven in this one
   double unknown_m_ = 0.0;       // driven since it was known where the robot is
   double most_unknown_m_ = 0.0;  // of it; then it is looked for everywhere
   bool known_ = false;
