@@ -113,6 +113,13 @@ void MonteCarlo::spread(double spread_m) {
   }
 }
 
+void MonteCarlo::scatter(double share, double spread_m, double spread_rad) {
+  for (Particle& particle : particles_) {
+    if (uniform() >= share) continue;
+    particle.pose = moved_by(particle.pose, {gaussian(spread_m), gaussian(spread_m), gaussian(spread_rad)});
+  }
+}
+
 void MonteCarlo::follow_scores(double mean_score) {
   const bool first = slow_score_ == 0.0;
   slow_score_ = first ? mean_score : slow_score_ + config_.slow_share * (mean_score - slow_score_);

@@ -70,6 +70,9 @@ class MonteCarlo {
   void move(const Pose2& moved);
   /// It has moved somehow, by about so much, and turned anyhow a little.
   void spread(double spread_m);
+  /// This share of the particles, drawn by chance, is moved by about so much, so that a better pose nearby is found
+  /// though none of them is there.
+  void scatter(double share, double spread_m, double spread_rad);
   /// What is sensed now weighs the particles, and draws new ones where their weights have become uneven.
   void weigh(const Weigh& weigh);
 

@@ -77,7 +77,9 @@ void PlaceHypotheses::weigh(const MonteCarlo::Weigh& weigh, const Look& look, do
   driven_m_ += driven_m;
   const std::array<int, 2> here{static_cast<int>(std::floor(way_.x_m / config_.square_m + 0.5)),
                                 static_cast<int>(std::floor(way_.y_m / config_.square_m + 0.5))};
+  const double scattered = config_.scatter_share * std::min(1.0, driven_m / config_.scatter_each_m);
   for (Place& place : places_) {
+    place.monte_carlo.scatter(scattered, config_.scatter_m, config_.scatter_rad);
     place.monte_carlo.weigh(weigh);
     const auto middle = place.monte_carlo.clusters(kWithin_m, kWithin_rad, 1);
     if (!middle.empty()) place.at = middle.front();
@@ -90,6 +92,12 @@ void PlaceHypotheses::weigh(const MonteCarlo::Weigh& weigh, const Look& look, do
   }
   sort_out();
   gather_particles();
+}
+
+double PlaceHypotheses::followed_m(const Place& place) {
+  double followed_m = 0.0;
+  for (const auto& [unused, square] : place.squares) followed_m += square.driven_m;
+  return followed_m;
 }
 
 double PlaceHypotheses::lead(const Place& one, const Place& other, double Square::*sum) const {
@@ -124,12 +132,13 @@ void PlaceHypotheses::sort_out() {
   std::vector<Place> kept;
   for (const auto& [unused, index] : order) {
     Place& one = places_[index];
-    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Place& better) {
+    const auto same = std::find_if(kept.begin(), kept.end(), [&](const Place& better) {
       return near(better.at.pose, one.at.pose, config_.same_m, config_.same_rad);
     });
+    if (same != kept.end() && followed_m(one) > followed_m(*same)) same->squares = std::move(one.squares);
     const bool behind = !kept.empty() && (lead(kept.front(), one, &Square::built_m) >= config_.drop_lead ||
                                           lead(kept.front(), one, &Square::all_m) >= config_.drop_all);
-    if (known || behind) continue;
+    if (same != kept.end() || behind) continue;
     kept.push_back(std::move(one));
   }
   places_ = std::move(kept);
@@ -139,15 +148,14 @@ std::vector<PlaceHypothesis> PlaceHypotheses::places() const {
   std::vector<PlaceHypothesis> said;
   double all = 0.0;
   for (const Place& one : places_) {
-    PlaceHypothesis place{one.at, 0.0, 0.0, lead(places_.front(), one, &Square::built_m), 0.0};
+    PlaceHypothesis place{one.at, 0.0, 0.0, lead(places_.front(), one, &Square::built_m), followed_m(one)};
     for (const auto& [unused, square] : one.squares) {
       place.evidence += square.all_m;
       place.agreement += square.both_m;
-      place.driven_m += square.driven_m;
     }
-    if (place.driven_m > 0.0) {
-      place.evidence /= place.driven_m;
-      place.agreement /= place.driven_m;
+    if (place.followed_m > 0.0) {
+      place.evidence /= place.followed_m;
+      place.agreement /= place.followed_m;
     }
     place.at.share = std::exp(-kShareOfLead * place.behind / config_.lead);
     all += place.at.share;

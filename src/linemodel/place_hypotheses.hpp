@@ -18,11 +18,15 @@ struct PlaceConfig {
   std::size_t least_particles = 200;  // ... and later
   double spread_m = 0.25;             // of them, at least, when it is taken up
   double spread_rad = 0.10;
+  double scatter_share = 0.15;  // of its particles are moved ...
+  double scatter_each_m = 0.3;  // ... each time so much is driven, by about ...
+  double scatter_m = 0.3;       // ... so much, as furniture that was moved holds them at a wrong pose nearby
+  double scatter_rad = 0.1;
   double same_m = 0.4;  // two places nearer than this, whose headings are alike, are one
   double same_rad = 0.25;
   double square_m = 3.0;    // side of the squares of the way driven: what is seen in one counts once, ...
   double whole_m = 3.0;     // ... in full after so much driving in it, ...
-  double most_lead = 0.5;   // ... and puts one place before another by no more than this
+  double most_lead = 0.8;   // ... and puts one place before another by no more than this
   double lead = 0.35;       // before every other place by so much: the robot is there
   double drop_lead = 0.70;  // behind the first by so much, or by
   double drop_all = 1.20;   // so much of what all lines tell: given up
@@ -33,11 +37,11 @@ struct PlaceConfig {
 
 /// A place where the robot may be.
 struct PlaceHypothesis {
-  PoseCluster at;          // its share is what the leads make of it
-  double evidence = 0.0;   // of all lines, mean over the way
-  double agreement = 0.0;  // of plan and pictures both ways, the same
-  double behind = 0.0;     // the first, in evidence of what is built, summed over the squares of the way
-  double driven_m = 0.0;   // since it was taken up
+  PoseCluster at;           // its share is what the leads make of it
+  double evidence = 0.0;    // of all lines, mean over the way
+  double agreement = 0.0;   // of plan and pictures both ways, the same
+  double behind = 0.0;      // the first, in evidence of what is built, summed over the squares of the way
+  double followed_m = 0.0;  // so far, since it was taken up
 };
 
 /// Several places that look alike, each followed by particles of its own so that none dies out by chance (clustered
@@ -93,6 +97,7 @@ class PlaceHypotheses {
     std::map<std::array<int, 2>, Square> squares;
   };
 
+  [[nodiscard]] static double followed_m(const Place& place);
   /// Of one place over another, by one of the sums of their squares.
   [[nodiscard]] double lead(const Place& one, const Place& other, double Square::*sum) const;
   [[nodiscard]] double least_lead(const Place& one, double Square::*sum) const;

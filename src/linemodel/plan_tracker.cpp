@@ -90,13 +90,9 @@ PlanTracker::PlanTracker(const Plan& plan, const camera::Camera& camera, PlanFlo
 
 void PlanTracker::start_anywhere() {
   of_this_plan_ = true;
-  look_everywhere();
-}
-
-void PlanTracker::look_everywhere() {
   monte_carlo_.start_anywhere();
   places_.clear();
-  searches_left_ = 0;
+  beside_ = false;
   searching_ = true;
   unknown_m_ = 0.0;
   known_ = false;
@@ -107,7 +103,7 @@ void PlanTracker::look_everywhere() {
 void PlanTracker::start_at(const Pose2& pose, double spread_m, double spread_rad) {
   monte_carlo_.start_at(pose, spread_m, spread_rad);
   places_.clear();
-  searches_left_ = 0;
+  beside_ = false;
   searching_ = false;
   of_this_plan_ = true;
   unknown_m_ = 0.0;
@@ -145,7 +141,7 @@ void PlanTracker::restart_odometry() {
 }
 
 void PlanTracker::spread_particles() {
-  if (places_.empty() || searches_left_ > 0) monte_carlo_.spread(kWithoutOdometry_m);
+  if (places_.empty() || beside_) monte_carlo_.spread(kWithoutOdometry_m);
   if (!places_.empty()) places_.spread(kWithoutOdometry_m);
 }
 
@@ -154,7 +150,7 @@ double PlanTracker::move(const std::optional<Pose2>& odometry) {
   if (odometry && last_odometry_) {
     const Pose2 moved = inverse(*last_odometry_) * *odometry;
     driven_m = std::hypot(moved.x_m, moved.y_m) + kMetresPerTurn * std::abs(moved.theta_rad);
-    if (places_.empty() || searches_left_ > 0) monte_carlo_.move(moved);
+    if (places_.empty() || beside_) monte_carlo_.move(moved);
     if (!places_.empty()) places_.move(moved);
     known_at_ = known_at_ * moved;
   } else if (!odometry) {
@@ -206,7 +202,7 @@ Result<PlanEstimate> PlanTracker::update(const Image& picture, const std::option
   const PictureLines seen(lines_, expectation_.space(), config_.measure);
   if (!places_.empty()) {
     weigh_places(seen, driven_m, ranges);
-    if (searches_left_ > 0) weigh_everywhere(driven_m, ranges);
+    if (beside_) weigh_everywhere(driven_m, ranges);
     return estimate_places(seen, driven_m);
   }
   weigh_everywhere(driven_m, ranges);
@@ -333,44 +329,43 @@ std::vector<PoseCluster> PlanTracker::places_to_take_up(double searched_m) const
 void PlanTracker::take_up_places(double driven_m) {
   unknown_m_ += driven_m;
   const std::vector<PoseCluster> places = places_to_take_up(unknown_m_);
-  if (places.empty()) return;
-  places_.begin(monte_carlo_, config_.monte_carlo, places);
-  searches_left_ = config_.most_searches;
-  searched_m_ = 0.0;
-  if (searches_left_ > 0) monte_carlo_.start_anywhere();
+  if (!places.empty()) places_.begin(monte_carlo_, config_.monte_carlo, places);
 }
 
 void PlanTracker::search_beside(double driven_m) {
-  if (searches_left_ == 0) return;
   searched_m_ += driven_m;
-  const std::vector<PoseCluster> places = places_to_take_up(searched_m_);
-  if (places.empty()) return;
-  places_.join(monte_carlo_, config_.monte_carlo, places);
+  if (beside_) {
+    const std::vector<PoseCluster> places = places_to_take_up(searched_m_);
+    if (places.empty()) return;
+    places_.join(monte_carlo_, config_.monte_carlo, places);
+  }
+  monte_carlo_.start_anywhere();
+  beside_ = true;
   searched_m_ = 0.0;
-  --searches_left_;
-  if (searches_left_ > 0) monte_carlo_.start_anywhere();
 }
 
 PlanEstimate PlanTracker::estimate_places(const PictureLines& lines, double driven_m) {
   const std::vector<PlaceHypothesis> places = places_.places();
   std::vector<PoseCluster> at;
-  std::optional<double> agreement;  // of those that have been looked at for long enough
+  const PlaceHypothesis& first = places.front();
+  std::optional<double> agreement;  // the best of those that have been looked at for long enough
   for (const PlaceHypothesis& place : places) {
     at.push_back(place.at);
-    if (place.driven_m < config_.least_judged_m) continue;
+    if (place.followed_m < config_.least_judged_m) continue;
     agreement = std::max(agreement.value_or(place.agreement), place.agreement);
   }
   PlanEstimate said = said_of(at, kOther, lines);
-  said.evidence = places.front().evidence;
+  said.evidence = first.evidence;
   if (agreement) of_this_plan_ = *agreement >= (of_this_plan_ ? config_.still_agreement : config_.least_agreement);
   said.lost = !of_this_plan_ ? PlanLost::kNotInPlan : at.size() > 1 ? PlanLost::kAmbiguous : PlanLost::kSearching;
-  if (!of_this_plan_ && searches_left_ == 0 && places_.driven_m() >= config_.most_unlike_m) {
-    look_everywhere();
-  } else if (of_this_plan_ && agreement && places_.decided()) {
+  const bool agrees = first.followed_m >= config_.least_judged_m && first.agreement >= config_.still_agreement;
+  if (of_this_plan_ && agrees && places_.decided()) {
     said.lost = PlanLost::kNo;
     follow(at.front(), said.evidence);
+  } else if (agreement.value_or(0.0) < config_.least_agreement) {
+    search_beside(driven_m);  // it may be at a place that is not among these
   } else {
-    search_beside(driven_m);
+    beside_ = false;
   }
   return said;
 }

@@ -51,8 +51,6 @@ struct PlanTrackerConfig {
   double still_agreement = 0.9;     // of plan and pictures both ways, at the best place of several: less, and it is
   double least_judged_m = 3.0;      // another plan, after so much driving among them; to be this one again it takes
   double least_agreement = 1.0;
-  int most_searches = 3;          // beside places that are told apart, for places that are not among them
-  double most_unlike_m = 4.5;     // after so much on another plan other places are looked for
   double in_wall_evidence = 0.3;  // times that of a place where a robot cannot be
   double wrong_evidence = 0.4;    // less, though it seems known where it is: it is looked for anew
   int most_wrong_pictures = 20;   // before that
@@ -94,7 +92,8 @@ struct JudgedLine {
 /// particles are weighed by how well the lines of the picture confirm those that the plan lets expect, and by a sweep
 /// of ranges where there is one (likelihood field; Thrun, Burgard & Fox 2005, section 6.4). Started anywhere, particles
 /// come down to some places first, which are then followed apart until one is ahead of all others
-/// (PlaceHypotheses). Not thread-safe.
+/// (PlaceHypotheses); while none of them agrees with what is seen, searches go on beside them, and what these find
+/// joins them. Not thread-safe.
 class PlanTracker {
  public:
   /// Errors: kEmptyInput (a plan without lines, or without floor to be on), kInvalidInput (a camera that is not above
@@ -144,7 +143,6 @@ class PlanTracker {
   void spread_particles();
   [[nodiscard]] MonteCarlo::Fit fit(const PictureLines& lines, double gain, const RangeSweep* sweep, const Pose2& pose);
   [[nodiscard]] double sweep_log_weight(const RangeSweep& sweep, const Pose2& pose) const;
-  void look_everywhere();
   void weigh_everywhere(double driven_m, const RangeSweep* sweep);
   void weigh_places(const PictureLines& lines, double driven_m, const RangeSweep* sweep);
   void look_above();
@@ -158,6 +156,7 @@ class PlanTracker {
   void take_up_places(double driven_m);
   /// The places to which particles that were everywhere have come down; none yet where they have not.
   [[nodiscard]] std::vector<PoseCluster> places_to_take_up(double searched_m) const;
+  /// Goes on with a search beside the places; what it finds joins them.
   void search_beside(double driven_m);
   void follow(const PoseCluster& place, double evidence);
   void keep_known(const PlanEstimate& said, double driven_m);
@@ -175,8 +174,8 @@ class PlanTracker {
   std::optional<Pose2> last_odometry_;
   bool searching_ = true;        // particles were everywhere, or are at places told apart
   bool of_this_plan_ = true;     // as far as has been seen
-  int searches_left_ = 0;        // beside the places
-  double searched_m_ = 0.0;      // driven in this one
+  bool beside_ = false;          // a search goes on beside the places that are told apart
+  double searched_m_ = 0.0;      // driven since it began
   double unknown_m_ = 0.0;       // driven since it was known where the robot is
   double most_unknown_m_ = 0.0;  // of it; then it is looked for everywhere
   bool known_ = false;

@@ -76,6 +76,21 @@ TEST_F(RobotAmongPosts, IsFoundAgainAfterItWasCarriedAway) {
   EXPECT_LT(off_m(drive(60)), 0.2);
 }
 
+TEST_F(RobotAmongPosts, IsScatteredInTheShareThatIsAskedAndNoFurther) {
+  filter_.start_at(truth_, 0.0, 0.0);
+  filter_.scatter(0.2, 0.3, 0.1);
+  double moved = 0.0;
+  double square_m2 = 0.0;
+  for (const Particle& one : filter_.particles()) {
+    const double off_m = (position_m(one.pose) - position_m(truth_)).norm();
+    moved += off_m > 0.0;
+    square_m2 += off_m * off_m;
+    EXPECT_EQ(one.weight, filter_.particles().front().weight);
+  }
+  EXPECT_NEAR(moved / static_cast<double>(filter_.particles().size()), 0.2, 0.03);
+  EXPECT_NEAR(std::sqrt(square_m2 / moved), 0.3 * std::sqrt(2.0), 0.04);
+}
+
 TEST_F(RobotAmongPosts, IsHeldToOneSeedBitForBit) {
   MonteCarlo twin(floor_of_ten_by_ten(), 0.25, small_config());
   for (MonteCarlo* one : {&filter_, &twin}) {

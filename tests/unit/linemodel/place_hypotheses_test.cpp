@@ -23,14 +23,18 @@ class RobotBetweenTwins : public ::testing::Test {
  protected:
   RobotBetweenTwins() { begin({truth_, twin()}); }
 
-  void begin(const std::vector<Pose2>& poses) {
+  void begin(const std::vector<Pose2>& poses) { places_.begin(floor_, {}, clusters_at(poses)); }
+  void join(const std::vector<Pose2>& poses) { places_.join(floor_, {}, clusters_at(poses)); }
+  [[nodiscard]] static std::vector<PoseCluster> clusters_at(const std::vector<Pose2>& poses) {
     std::vector<PoseCluster> clusters;
     for (const Pose2& pose : poses) clusters.push_back({pose, 0.5, 0.1, 0.05});
-    places_.begin(floor_, {}, clusters);
+    return clusters;
   }
   [[nodiscard]] Pose2 twin() const {
     return {12.0 - truth_.x_m, 12.0 - truth_.y_m, wrap_angle(truth_.theta_rad + kPi)};
   }
+  /// A pose beside the true one that fits too, by `decoy_` as well.
+  [[nodiscard]] Pose2 decoy() const { return truth_ * Pose2{0.0, 0.8, 0.0}; }
   [[nodiscard]] static bool at(const Pose2& pose, const Pose2& where) {
     return (position_m(pose) - position_m(where)).norm() < 0.5;
   }
@@ -42,7 +46,9 @@ class RobotBetweenTwins : public ::testing::Test {
     const auto fit = [this](const Pose2& pose) {
       const double off_m =
           std::min((position_m(pose) - position_m(truth_)).norm(), (position_m(pose) - position_m(twin())).norm());
-      const double score = std::exp(-off_m * off_m / 0.05);
+      const double off_decoy_m = (position_m(pose) - position_m(decoy())).norm();
+      const double score =
+          std::max(std::exp(-off_m * off_m / 0.05), decoy_ * std::exp(-off_decoy_m * off_decoy_m / 0.02));
       return MonteCarlo::Fit{score, std::exp(5.0 * score)};
     };
     const auto look = [&](const Pose2& pose) {
@@ -53,6 +59,7 @@ class RobotBetweenTwins : public ::testing::Test {
   }
 
   Pose2 truth_{2.0, 2.5, 0.0};
+  double decoy_ = 0.0;
   MonteCarlo floor_{floor_of_twelve_by_twelve(), 0.25, {}};
   PlaceHypotheses places_{{}};
 };
@@ -131,6 +138,61 @@ TEST_F(RobotBetweenTwins, HasOneHypothesisWhereTwoHaveMet) {
   begin({truth_, truth_ * Pose2{0.3, 0.0, 0.05}, twin()});
   for (int i = 0; i < 6; ++i) step({0.25, 0.0, 0.0}, 0.0);
   EXPECT_EQ(places_.places().size(), 2U);
+}
+
+TEST_F(RobotBetweenTwins, IsFoundAtAPlaceThatJoinsLater) {
+  begin({twin()});
+  for (int i = 0; i < 8; ++i) step({0.25, 0.0, 0.0}, 0.5);
+  join({truth_});
+  ASSERT_EQ(places_.places().size(), 2U);
+  EXPECT_EQ(places_.places().back().followed_m, 0.0);
+  EXPECT_EQ(places_.places().back().behind, 0.0);  // nothing is known of it yet
+  for (int i = 0; i < 4; ++i) step({0.25, 0.0, 0.0}, 0.5);
+  EXPECT_FALSE(places_.decided());  // by what it saw since alone
+  for (int i = 0; i < 8; ++i) step({0.25, 0.0, 0.0}, 0.5);
+  EXPECT_TRUE(places_.decided());
+  const PlaceHypothesis first = places_.places().front();
+  EXPECT_TRUE(at(first.at.pose, truth_));
+  EXPECT_NEAR(first.followed_m, 3.0, 1e-9);
+  EXPECT_NEAR(first.evidence, 1.2, 1e-6);  // over the metres that it was followed
+}
+
+TEST_F(RobotBetweenTwins, IsNotTakenUpTwiceWhereItIsFollowedAlready) {
+  for (int i = 0; i < 8; ++i) step({0.25, 0.0, 0.0}, 0.0);
+  join({truth_ * Pose2{0.3, 0.0, 0.1}, twin() * Pose2{0.0, -0.3, 0.0}, {6.0, 9.0, 1.0}});
+  EXPECT_EQ(places_.places().size(), 3U);
+  std::size_t anew = 0;
+  for (const PlaceHypothesis& place : places_.places()) anew += place.followed_m == 0.0;
+  EXPECT_EQ(anew, 1U);
+}
+
+TEST_F(RobotBetweenTwins, KeepsTheLongerHistoryWhereTwoHaveMet) {
+  for (int i = 0; i < 8; ++i) step({0.25, 0.0, 0.0}, 0.3);
+  join({truth_ * Pose2{0.9, 0.0, 0.0}});  // beside it; its particles come to where it fits
+  for (int i = 0; i < 12; ++i) step({0.25, 0.0, 0.0}, 0.3);
+  ASSERT_EQ(places_.places().size(), 2U);
+  for (const PlaceHypothesis& place : places_.places()) EXPECT_NEAR(place.followed_m, 5.0, 1e-9);
+}
+
+TEST_F(RobotBetweenTwins, LeavesAPoseNearbyThatFitsSomewhatForTheTrueOne) {
+  decoy_ = 0.7;
+  PlaceConfig narrow;
+  narrow.spread_m = 0.05;
+  PlaceConfig narrow_and_held = narrow;
+  narrow_and_held.scatter_share = 0.0;
+  for (const PlaceConfig& config : {narrow, narrow_and_held}) {
+    places_ = PlaceHypotheses(config);
+    truth_ = {2.0, 2.5, 0.0};
+    places_.begin(floor_, {}, std::vector<PoseCluster>{{decoy(), 1.0, 0.05, 0.02}});
+    for (int i = 0; i < 20; ++i) step({0.25, 0.0, 0.0}, 0.0);
+    const double off_m = (position_m(places_.places().front().at.pose) - position_m(truth_)).norm();
+    EXPECT_EQ(off_m<0.15, config.scatter_share> 0.0) << off_m;
+  }
+}
+
+TEST_F(RobotBetweenTwins, IsNotScatteredWhileItStands) {
+  for (int i = 0; i < 200; ++i) step({0.0, 0.0, 0.0}, 0.0);
+  for (const PlaceHypothesis& place : places_.places()) EXPECT_LT(place.at.spread_m, 0.3);
 }
 
 TEST_F(RobotBetweenTwins, HasParticlesAtBothPlaces) {

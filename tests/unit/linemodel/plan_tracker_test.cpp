@@ -40,6 +40,7 @@ class DriveThroughTwoRooms : public ::testing::Test {
       : world_(std::move(world)), config_(config), camera_(camera::Camera::create(config).value()) {
     tracking_.monte_carlo.first_particles = 5'000;
     tracking_.monte_carlo.kld.least = 300;
+    tracking_.most_places = 20;
   }
 
   [[nodiscard]] Image picture(const Pose2& robot) const { return shaded_picture(world_, rays_, *camera_, robot); }
@@ -104,24 +105,41 @@ TEST_F(DriveThroughTwoRooms, IsSearchedForBeforeItIsSaidNotToBeOnThePlan) {
   }
 }
 
-TEST_F(DriveThroughTwoRooms, IsSearchedForAnewOnThePlanOfAnotherBuildingAndStaysOffItMeanwhile) {
+TEST_F(DriveThroughTwoRooms, IsSearchedForBesideThePlacesWhileNoneAgreesAndStaysOffThePlanMeanwhile) {
   PlanTracker elsewhere = PlanTracker::create(hall(), config_, tracking_).value();
   std::vector<Pose2> way = way_through();
   for (int i = 0; i < 24; ++i) way.push_back({8.7 - 0.25 * i, 2.2 + 0.06 * i, 2.9});
   bool said = false;
-  bool among_places = false;
-  bool anew = false;
+  std::size_t followed = 0;
+  bool joined = false;
   for (const Pose2& robot : way) {
     const PlanLost lost = elsewhere.update(picture(robot), robot, std::nullopt)->lost;
     if (said) {
       EXPECT_EQ(lost, PlanLost::kNotInPlan);
     }
     said = said || lost == PlanLost::kNotInPlan;
-    among_places = among_places || !elsewhere.places().empty();
-    anew = anew || (said && among_places && elsewhere.places().empty());
+    const std::size_t now = elsewhere.places().places().size();
+    joined = joined || (followed > 0 && now > followed);  // otherwise they only become fewer
+    if (followed > 0) {
+      EXPECT_GT(now, 0U);  // none is given up for nothing
+    }
+    followed = now;
   }
   EXPECT_TRUE(said);
-  EXPECT_TRUE(anew);
+  EXPECT_TRUE(joined);
+}
+
+TEST_F(DriveThroughTwoRooms, IsFollowedAtNoMorePlacesThanAreAskedFor) {
+  tracking_.most_places = 3;
+  PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  std::size_t most = 0;
+  for (const Pose2& robot : way_through()) {
+    ASSERT_TRUE(tracker.update(picture(robot), robot, std::nullopt));
+    if (tracker.places().empty()) continue;
+    most = tracker.places().places().size();
+    break;
+  }
+  EXPECT_EQ(most, 3U);
 }
 
 TEST_F(DriveThroughTwoRooms, IsExplainedByThePlanWhereItIsAndNotByAnother) {
