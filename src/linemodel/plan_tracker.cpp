@@ -27,6 +27,7 @@ constexpr double kLeastSpread_rad = 0.05;
 constexpr double kJump_m = 1.5;  // from where the robot was known to be: another place
 constexpr double kJump_rad = 0.8;
 constexpr double kFacesAbout_rad = 0.5;  // a start with a wider spread of headings does not say where the robot faces
+constexpr double kSaidAgreement = 1.5;   // of plan and pictures, of a start
 constexpr double kAbove = 0.1;           // sine of an elevation: what reaches above it is no pattern of a floor
 constexpr int kBeams = 60;
 constexpr double kBeamSpread_m = 0.12;
@@ -114,7 +115,7 @@ void PlanTracker::start_at(const Pose2& pose, double spread_m, double spread_rad
   jump_m_ = known_ ? kJump_m + 3.0 * spread_m : std::numeric_limits<double>::infinity();
   jump_rad_ = known_ ? kJump_rad + 3.0 * spread_rad : std::numeric_limits<double>::infinity();
   evidence_ = 1.5 * config_.least_evidence;  // somebody has said so
-  agreement_ = 1.5 * config_.least_agreement;
+  agreement_ = kSaidAgreement;
   wrong_pictures_ = 0;
 }
 
@@ -356,13 +357,13 @@ PlanEstimate PlanTracker::estimate_places(const PictureLines& lines, double driv
   }
   PlanEstimate said = said_of(at, kOther, lines);
   said.evidence = first.evidence;
-  if (agreement) of_this_plan_ = *agreement >= (of_this_plan_ ? config_.still_agreement : config_.least_agreement);
+  if (agreement) of_this_plan_ = *agreement >= (of_this_plan_ ? config_.still_at_places : config_.least_at_places);
   said.lost = !of_this_plan_ ? PlanLost::kNotInPlan : at.size() > 1 ? PlanLost::kAmbiguous : PlanLost::kSearching;
-  const bool agrees = first.followed_m >= config_.least_judged_m && first.agreement >= config_.still_agreement;
+  const bool agrees = first.followed_m >= config_.least_judged_m && first.agreement >= config_.least_at_places;
   if (of_this_plan_ && agrees && places_.decided()) {
     said.lost = PlanLost::kNo;
     follow(at.front(), said.evidence);
-  } else if (agreement.value_or(0.0) < config_.least_agreement) {
+  } else if (agreement.value_or(0.0) < config_.still_at_places) {
     search_beside(driven_m);  // it may be at a place that is not among these
   } else {
     beside_ = false;

@@ -48,14 +48,15 @@ struct PlanTrackerConfig {
   double still_evidence = 0.45;     // less than this mean, and of agreement than `still_agreement`: the robot is not
                                     // said to be on this plan any more; ...
   double least_evidence = 0.55;     // ... to be so again it takes this
-  double still_agreement = 0.9;     // of plan and pictures both ways, at the best place of several: less, and it is
-  double least_judged_m = 3.0;      // another plan, after so much driving among them; to be this one again it takes
-  double least_agreement = 1.0;
-  double in_wall_evidence = 0.3;  // times that of a place where a robot cannot be
-  double wrong_evidence = 0.4;    // less, though it seems known where it is: it is looked for anew
-  int most_wrong_pictures = 20;   // before that
-  int doubtful_lines = 8;         // fewer expected lines say nothing of whether it is this plan
-  double sweep_height_m = 0.3;    // of the range sensor over the floor
+  double still_agreement = 0.9;     // of plan and pictures both ways
+  double least_judged_m = 3.0;      // driven at the best of several places with less agreement than ...
+  double still_at_places = 1.05;    // ... this: it is another plan, and further places are looked for;
+  double least_at_places = 1.1;     // to be this one again, and the robot at a place, it takes
+  double in_wall_evidence = 0.3;    // times that of a place where a robot cannot be
+  double wrong_evidence = 0.4;      // less, though it seems known where it is: it is looked for anew
+  int most_wrong_pictures = 20;     // before that
+  int doubtful_lines = 8;           // fewer expected lines say nothing of whether it is this plan
+  double sweep_height_m = 0.3;      // of the range sensor over the floor
 };
 
 /// Settings for one measure, by which gains its scores tell poses apart best (docs/experiments/plan_localisation.md).
