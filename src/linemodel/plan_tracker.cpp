@@ -44,6 +44,15 @@ float built_height_m(const Plan& plan) {
   return std::min(kAboveFurniture_m, kOfHighest * highest_m);
 }
 
+/// Of the places that were followed for so much, the best agreement; nothing where there is none.
+std::optional<double> best_agreement(std::span<const PlaceHypothesis> places, double least_m) {
+  std::optional<double> best;
+  for (const PlaceHypothesis& place : places) {
+    if (place.followed_m >= least_m) best = std::max(best.value_or(place.agreement), place.agreement);
+  }
+  return best;
+}
+
 }  // namespace
 
 PlanTrackerConfig tracker_config(LineMeasure measure) {
@@ -347,23 +356,23 @@ void PlanTracker::search_beside(double driven_m) {
 
 PlanEstimate PlanTracker::estimate_places(const PictureLines& lines, double driven_m) {
   const std::vector<PlaceHypothesis> places = places_.places();
-  std::vector<PoseCluster> at;
   const PlaceHypothesis& first = places.front();
-  std::optional<double> agreement;  // the best of those that have been looked at for long enough
-  for (const PlaceHypothesis& place : places) {
-    at.push_back(place.at);
-    if (place.followed_m < config_.least_judged_m) continue;
-    agreement = std::max(agreement.value_or(place.agreement), place.agreement);
-  }
+  std::vector<PoseCluster> at;
+  for (const PlaceHypothesis& place : places) at.push_back(place.at);
   PlanEstimate said = said_of(at, kOther, lines);
   said.evidence = first.evidence;
-  if (agreement) of_this_plan_ = *agreement >= (of_this_plan_ ? config_.still_at_places : config_.least_at_places);
+  if (of_this_plan_) {
+    const auto agreement = best_agreement(places, config_.least_judged_m);
+    of_this_plan_ = !agreement || *agreement >= config_.still_at_places;
+  } else {
+    of_this_plan_ = best_agreement(places, config_.least_again_m).value_or(0.0) >= config_.least_at_places;
+  }
   said.lost = !of_this_plan_ ? PlanLost::kNotInPlan : at.size() > 1 ? PlanLost::kAmbiguous : PlanLost::kSearching;
-  const bool agrees = first.followed_m >= config_.least_judged_m && first.agreement >= config_.least_at_places;
-  if (of_this_plan_ && agrees && places_.decided()) {
+  const bool agrees = first.followed_m >= config_.least_judged_m && first.agreement >= config_.least_at_place;
+  if (agrees && places_.decided()) {
     said.lost = PlanLost::kNo;
     follow(at.front(), said.evidence);
-  } else if (agreement.value_or(0.0) < config_.still_at_places) {
+  } else if (best_agreement(places, config_.least_judged_m).value_or(0.0) < config_.least_at_place) {
     search_beside(driven_m);  // it may be at a place that is not among these
   } else {
     beside_ = false;

@@ -50,8 +50,10 @@ struct PlanTrackerConfig {
   double least_evidence = 0.55;     // ... to be so again it takes this
   double still_agreement = 0.9;     // of plan and pictures both ways
   double least_judged_m = 3.0;      // driven at the best of several places with less agreement than ...
-  double still_at_places = 1.05;    // ... this: it is another plan, and further places are looked for;
-  double least_at_places = 1.1;     // to be this one again, and the robot at a place, it takes
+  double still_at_places = 1.05;    // ... this: it is said to be another plan; to be this one again takes a place
+  double least_at_places = 1.1;     // with so much, ...
+  double least_again_m = 6.0;       // ... after so much driving, or one that is ahead of all others;
+  double least_at_place = 1.0;      // for that, it has to agree so itself; with less at the best, others are looked for
   double in_wall_evidence = 0.3;    // times that of a place where a robot cannot be
   double wrong_evidence = 0.4;      // less, though it seems known where it is: it is looked for anew
   int most_wrong_pictures = 20;     // before that
