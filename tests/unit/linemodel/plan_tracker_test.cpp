@@ -129,6 +129,32 @@ TEST_F(DriveThroughTwoRooms, IsSearchedForBesideThePlacesWhileNoneAgreesAndStays
   EXPECT_TRUE(joined);
 }
 
+TEST_F(DriveThroughTwoRooms, IsSaidToBeOnThePlanAgainOnlyByAPlaceThatWasFollowedForLong) {
+  tracking_.still_at_places = 10.0;  // more than there ever is, so that it is said to be another plan at first
+  tracking_.least_at_places = 0.3;
+  tracking_.least_at_place = 10.0;  // and never to be at a place
+  tracking_.monte_carlo.first_particles = 1'000;
+  tracking_.most_places = 5;
+  PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
+  std::vector<Pose2> way = way_through();
+  for (int i = 0; i < 24; ++i) way.push_back({8.7 - 0.25 * i, 2.2 + 0.06 * i, 2.9});
+  bool said = false;
+  bool again = false;
+  for (const Pose2& robot : way) {
+    const PlanLost lost = tracker.update(picture(robot), robot, std::nullopt)->lost;
+    ASSERT_NE(lost, PlanLost::kNo);
+    double followed_m = 0.0;
+    for (const PlaceHypothesis& place : tracker.places().places()) followed_m = std::max(followed_m, place.followed_m);
+    if (said && lost != PlanLost::kNotInPlan) {
+      again = true;
+      EXPECT_GE(followed_m, tracking_.least_again_m);
+    }
+    said = said || lost == PlanLost::kNotInPlan;
+  }
+  EXPECT_TRUE(said);
+  EXPECT_TRUE(again);
+}
+
 TEST_F(DriveThroughTwoRooms, IsFollowedAtNoMorePlacesThanAreAskedFor) {
   tracking_.most_places = 3;
   PlanTracker tracker = PlanTracker::create(two_rooms(), config_, tracking_).value();
