@@ -13,13 +13,12 @@ namespace {
 
 constexpr double kWithin_m = 0.75;  // of one place: its particles around their middle
 constexpr double kWithin_rad = 0.5;
+constexpr double kShareOfLead = 3.0;  // a place behind by what decides has e^-3 of the belief of the first
 
 bool near(const Pose2& one, const Pose2& other, double reach_m, double reach_rad) {
   return (position_m(one) - position_m(other)).norm() < reach_m &&
          std::abs(wrap_angle(one.theta_rad - other.theta_rad)) < reach_rad;
 }
-
-constexpr double kShareOfLead = 3.0;  // a place behind by what decides has e^-3 of the belief of the first
 
 }  // namespace
 
@@ -135,11 +134,13 @@ void PlaceHypotheses::sort_out() {
     const auto same = std::find_if(kept.begin(), kept.end(), [&](const Place& better) {
       return near(better.at.pose, one.at.pose, config_.same_m, config_.same_rad);
     });
-    if (same != kept.end() && followed_m(one) > followed_m(*same)) same->squares = std::move(one.squares);
+    if (same != kept.end()) {
+      if (followed_m(one) > followed_m(*same)) same->squares = std::move(one.squares);
+      continue;
+    }
     const bool behind = !kept.empty() && (lead(kept.front(), one, &Square::built_m) >= config_.drop_lead ||
                                           lead(kept.front(), one, &Square::all_m) >= config_.drop_all);
-    if (same != kept.end() || behind) continue;
-    kept.push_back(std::move(one));
+    if (!behind) kept.push_back(std::move(one));
   }
   places_ = std::move(kept);
 }

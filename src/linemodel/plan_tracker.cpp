@@ -102,7 +102,7 @@ void PlanTracker::start_anywhere() {
   of_this_plan_ = true;
   monte_carlo_.start_anywhere();
   places_.clear();
-  beside_ = false;
+  searching_beside_ = false;
   searching_ = true;
   unknown_m_ = 0.0;
   known_ = false;
@@ -113,7 +113,7 @@ void PlanTracker::start_anywhere() {
 void PlanTracker::start_at(const Pose2& pose, double spread_m, double spread_rad) {
   monte_carlo_.start_at(pose, spread_m, spread_rad);
   places_.clear();
-  beside_ = false;
+  searching_beside_ = false;
   searching_ = false;
   of_this_plan_ = true;
   unknown_m_ = 0.0;
@@ -151,7 +151,7 @@ void PlanTracker::restart_odometry() {
 }
 
 void PlanTracker::spread_particles() {
-  if (places_.empty() || beside_) monte_carlo_.spread(kWithoutOdometry_m);
+  if (places_.empty() || searching_beside_) monte_carlo_.spread(kWithoutOdometry_m);
   if (!places_.empty()) places_.spread(kWithoutOdometry_m);
 }
 
@@ -160,7 +160,7 @@ double PlanTracker::move(const std::optional<Pose2>& odometry) {
   if (odometry && last_odometry_) {
     const Pose2 moved = inverse(*last_odometry_) * *odometry;
     driven_m = std::hypot(moved.x_m, moved.y_m) + kMetresPerTurn * std::abs(moved.theta_rad);
-    if (places_.empty() || beside_) monte_carlo_.move(moved);
+    if (places_.empty() || searching_beside_) monte_carlo_.move(moved);
     if (!places_.empty()) places_.move(moved);
     known_at_ = known_at_ * moved;
   } else if (!odometry) {
@@ -212,7 +212,7 @@ Result<PlanEstimate> PlanTracker::update(const Image& picture, const std::option
   const PictureLines seen(lines_, expectation_.space(), config_.measure);
   if (!places_.empty()) {
     weigh_places(seen, driven_m, ranges);
-    if (beside_) weigh_everywhere(driven_m, ranges);
+    if (searching_beside_) weigh_everywhere(driven_m, ranges);
     return estimate_places(seen, driven_m);
   }
   weigh_everywhere(driven_m, ranges);
@@ -344,13 +344,13 @@ void PlanTracker::take_up_places(double driven_m) {
 
 void PlanTracker::search_beside(double driven_m) {
   searched_m_ += driven_m;
-  if (beside_) {
+  if (searching_beside_) {
     const std::vector<PoseCluster> places = places_to_take_up(searched_m_);
     if (places.empty()) return;
     places_.join(monte_carlo_, config_.monte_carlo, places);
   }
   monte_carlo_.start_anywhere();
-  beside_ = true;
+  searching_beside_ = true;
   searched_m_ = 0.0;
 }
 
@@ -375,7 +375,7 @@ PlanEstimate PlanTracker::estimate_places(const PictureLines& lines, double driv
   } else if (best_agreement(places, config_.least_judged_m).value_or(0.0) < config_.least_at_place) {
     search_beside(driven_m);  // it may be at a place that is not among these
   } else {
-    beside_ = false;
+    searching_beside_ = false;
   }
   return said;
 }

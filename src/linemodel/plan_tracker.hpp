@@ -175,12 +175,12 @@ class PlanTracker {
   PlaceHypotheses places_;
   float built_height_m_;
   std::optional<Pose2> last_odometry_;
-  bool searching_ = true;        // particles were everywhere, or are at places told apart
-  bool of_this_plan_ = true;     // as far as has been seen
-  bool beside_ = false;          // a search goes on beside the places that are told apart
-  double searched_m_ = 0.0;      // driven since it began
-  double unknown_m_ = 0.0;       // driven since it was known where the robot is
-  double most_unknown_m_ = 0.0;  // of it; then it is looked for everywhere
+  bool searching_ = true;          // particles were everywhere, or are at places told apart
+  bool of_this_plan_ = true;       // as far as has been seen
+  bool searching_beside_ = false;  // a search goes on beside the places that are told apart
+  double searched_m_ = 0.0;        // driven since it began
+  double unknown_m_ = 0.0;         // driven since it was known where the robot is
+  double most_unknown_m_ = 0.0;    // of it; then it is looked for everywhere
   bool known_ = false;
   Pose2 known_at_;       // there it was when that was known last, and moved since
   double jump_m_ = 0.0;  // so far from there is another place
